@@ -1,0 +1,446 @@
+//! Behaviors, strategies, overlays and missions: their declarations, and what each kind may hold.
+
+use super::facts;
+use super::{Checker, Scope, Setting, Temporal, body};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
+use crate::suggest;
+use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
+use crate::types::Type;
+use albacore_program::Channel;
+
+/// The parts of an activity, gathered clause by clause.
+#[derive(Default)]
+struct Parts {
+    decls: Vec<Decl>,
+    aborts: Vec<(Vec<hir::TextPart>, Expr)>,
+    reactions: Vec<(Expr, hir::Block)>,
+    mission: Mission,
+}
+
+impl<'t> Checker<'t> {
+    pub(super) fn check_activity(&mut self, m: usize, id: usize, a: &'t tree::Activity) {
+        let signature = self.activity_signatures[id].clone();
+        let scope = Scope::new(m, Setting::Body);
+        let ((mut activity, params), scope) = self.within(scope, |c| {
+            c.declare_params(&a.params, &signature.params);
+            let params = c.scope.vars.len();
+            (c.activity(id, a, None), params)
+        });
+        activity.name = a.name.node.clone();
+        activity.full_name = signature.name.clone();
+        activity.vars = scope.vars;
+        activity.params = params;
+        activity.defaults = signature.params.into_iter().map(|p| p.default).collect();
+        self.hir.activities[id] = activity;
+    }
+
+    /// An activity whose parameters are declared; `owner` is the strategy in which a behavior is nested.
+    pub(super) fn activity(&mut self, id: usize, a: &'t tree::Activity, owner: Option<usize>) -> hir::Activity {
+        let kind = self.kind(a);
+        let result = match owner {
+            Some(_) => None,
+            None => self.activity_signatures[id].result.clone(),
+        };
+        self.scope.finish = match kind {
+            Kind::Behavior | Kind::Mission => Some(result.clone()),
+            _ => None,
+        };
+        let (declarations, statements) = split(&a.body.clauses);
+        let mut parts = Parts::default();
+        for clause in declarations {
+            self.declaration(clause, kind, &mut parts);
+        }
+        let is_table = statements
+            .iter()
+            .any(|c| matches!(c.kind, ClauseKind::Rule(_) | ClauseKind::Start(_) | ClauseKind::Behavior(_)))
+            || kind == Kind::Strategy;
+        let body = match kind {
+            Kind::AmendsCourse => self.amend(a, &statements),
+            _ if is_table => self.table(id, a, kind, result.as_ref(), &statements),
+            _ => {
+                let block = tree::Block { clauses: statements.into_iter().cloned().collect(), span: a.body.span };
+                let block = self.in_block(|c| c.block(&block));
+                self.sequence_ends(a, kind, result.as_ref(), &block);
+                Body::Sequence(block)
+            }
+        };
+        if kind == Kind::Mission {
+            self.mission_header(a, &mut parts.mission);
+        }
+        hir::Activity {
+            kind,
+            span: a.name.span,
+            owner,
+            result,
+            decls: parts.decls,
+            aborts: parts.aborts,
+            reactions: parts.reactions,
+            body,
+            mission: (kind == Kind::Mission).then_some(parts.mission),
+            ..hir::Activity::empty(&a.name.node, a.name.span)
+        }
+    }
+
+    fn kind(&mut self, a: &tree::Activity) -> Kind {
+        match &a.kind {
+            ActivityKind::Behavior => Kind::Behavior,
+            ActivityKind::Strategy => Kind::Strategy,
+            ActivityKind::Mission { .. } => Kind::Mission,
+            ActivityKind::Overlay { verb, channel } => match (verb.node.as_str(), channel.node.as_str()) {
+                ("amends", "course") => Kind::AmendsCourse,
+                ("sets", "vertical") => Kind::Sets(Channel::Depth),
+                ("sets", "speed") => Kind::Sets(Channel::Speed),
+                _ => {
+                    self.report(
+                        Diagnostic::error(
+                            "channels::unknown",
+                            channel.span,
+                            format!("an overlay cannot {} `{}`", verb.node.trim_end_matches('s'), channel.node),
+                        )
+                        .help("overlays `amends course`, `sets vertical` or `sets speed`"),
+                    );
+                    Kind::AmendsCourse
+                }
+            },
+        }
+    }
+
+    fn declaration(&mut self, clause: &'t Clause, kind: Kind, parts: &mut Parts) {
+        let span = clause.span;
+        let mission_only = matches!(
+            clause.kind,
+            ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. }
+        );
+        if mission_only && kind != Kind::Mission {
+            self.misplaced(
+                span,
+                "this stands in a mission only",
+                "move it to the mission; behaviors take what they need as parameters",
+            );
+            return;
+        }
+        match &clause.kind {
+            ClauseKind::With(items) => {
+                let with = self.with_setting(Setting::Instant, |c| c.with_items(items));
+                parts.decls.push(Decl::With(with));
+            }
+            ClauseKind::Signal { name, ty, value } => {
+                let value = self.instant(Temporal::Yes, |c| match ty {
+                    Some(ty) => {
+                        let ty = c.written_type(c.scope.module, ty);
+                        c.expr_as(value, &ty, &format!("`{}`", name.node))
+                    }
+                    None => c.expr(value, None),
+                });
+                if value.ty == Type::None {
+                    self.report(Diagnostic::error("types::none", value.span, "this signal is always absent"));
+                }
+                let id = self.declare(name, VarKind::Signal, value.ty.clone());
+                parts.decls.push(Decl::Signal(id, value));
+            }
+            ClauseKind::Memory { name, ty, init } => {
+                let written = self.written_type(self.scope.module, ty);
+                let init = init.as_ref().map(|e| {
+                    let what = format!("`{}`", name.node);
+                    self.instant(Temporal::No, |c| c.expr_as(e, &written, &what))
+                });
+                let empty_is_plain = matches!(written, Type::List(..) | Type::Optional(_) | Type::Unknown);
+                if init.is_none() && !empty_is_plain {
+                    self.report(
+                        Diagnostic::error("types::memory", name.span, format!("with what does `{}` begin?", name.node))
+                            .help("write `= VALUE`; only lists begin empty and optionals absent"),
+                    );
+                }
+                let id = self.declare(name, VarKind::Memory, written);
+                self.list_order(id, ty);
+                parts.decls.push(Decl::Memory(id, init));
+            }
+            ClauseKind::Area { name, value } => {
+                let value = self.instant(Temporal::No, |c| c.expr_as(value, &Type::Area, "the operating area"));
+                if let Some(earlier) = parts.mission.area {
+                    let place = self.scope.vars[earlier].span;
+                    self.report(
+                        Diagnostic::error("missions::twice", span, "a mission has one operating area")
+                            .label(place, "the first"),
+                    );
+                }
+                let id = self.declare(name, VarKind::Area, Type::Area);
+                parts.mission.area = Some(id);
+                parts.decls.push(Decl::Area(id, value));
+            }
+            ClauseKind::Reaction { on, block } => {
+                let condition = self.instant(Temporal::Yes, |c| c.condition(on));
+                let facts = facts::shown(&condition, true);
+                let block = self.with_setting(Setting::Instant, |c| {
+                    c.in_block(|c| {
+                        c.scope.facts.learn(facts);
+                        c.block(block)
+                    })
+                });
+                parts.reactions.push((condition, block));
+            }
+            ClauseKind::Abort { why, on: Some(on) } => {
+                let condition = self.instant(Temporal::Yes, |c| c.condition(on));
+                let why = self.literal_text(why);
+                parts.aborts.push((why, condition));
+            }
+            ClauseKind::Limits(limits) => {
+                for limit in limits {
+                    self.limit(limit, &mut parts.mission);
+                }
+            }
+            ClauseKind::Requires(requires) => {
+                for require in requires {
+                    self.require(require, &mut parts.mission);
+                }
+            }
+            ClauseKind::Recovery { within, block } => {
+                if parts.mission.recovery.is_some() {
+                    self.report(Diagnostic::error("missions::twice", span, "a mission has one recovery"));
+                }
+                let within = within.as_ref().map(|e| self.duration(e, "the time of the recovery"));
+                let finish = self.scope.finish.take();
+                let block = self.in_block(|c| c.block(block));
+                self.scope.finish = finish;
+                parts.mission.recovery = Some((within, block));
+            }
+            _ => {}
+        }
+    }
+
+    /// Works where code is instantaneous.
+    fn instant<T>(&mut self, temporal: Temporal, work: impl FnOnce(&mut Self) -> T) -> T {
+        self.with_setting(Setting::Instant, |c| c.with_temporal(temporal, work))
+    }
+
+    /// `altitude >= 1.5 m`.
+    fn limit(&mut self, limit: &tree::Expr, mission: &mut Mission) {
+        let help = "for example `altitude >= 1.5 m`, `depth <= 30 m` or `speed <= 2.6 m/s`";
+        let tree::ExprKind::Binary(op, left, right) = &limit.kind else {
+            self.report(Diagnostic::error("missions::limit", limit.span, "a limit is a comparison").help(help));
+            return;
+        };
+        let channel = match &left.kind {
+            tree::ExprKind::Name(name) if name == "altitude" => (Channel::Altitude, Type::Altitude),
+            tree::ExprKind::Name(name) if name == "depth" => (Channel::Depth, Type::Depth),
+            tree::ExprKind::Name(name) if name == "speed" => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
+            _ => {
+                self.report(
+                    Diagnostic::error("missions::limit", left.span, "limits hold `altitude`, `depth` and `speed`")
+                        .help(help),
+                );
+                return;
+            }
+        };
+        let least = match op.node {
+            tree::Binary::Ge => true,
+            tree::Binary::Le => false,
+            _ => {
+                self.report(
+                    Diagnostic::error(
+                        "missions::limit",
+                        op.span,
+                        "a limit is `>=` the least or `<=` the greatest value",
+                    )
+                    .help(help),
+                );
+                return;
+            }
+        };
+        let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
+        if mission.limits.iter().any(|(c, l, _)| *c == channel.0 && *l == least) {
+            self.report(Diagnostic::error("missions::twice", limit.span, "this limit is set twice"));
+        }
+        mission.limits.push((channel.0, least, value));
+    }
+
+    fn require(&mut self, require: &tree::Require, mission: &mut Mission) {
+        let fresh = self.duration(&require.fresh, "the time after `fresh`");
+        let hold_for = require.hold_for.as_ref().map(|e| self.duration(e, "the time after `hold for`"));
+        for name in &require.inputs {
+            let input = match self.lookup(self.scope.module, &name.node) {
+                Some(super::Def::Input(id)) => *id,
+                other => {
+                    let finding = match other {
+                        Some(def) => Diagnostic::error(
+                            "missions::requires",
+                            name.span,
+                            format!("`{}` is {}, no input", name.node, def.what()),
+                        ),
+                        None => Diagnostic::error(
+                            "missions::requires",
+                            name.span,
+                            format!("there is no input `{}`", name.node),
+                        ),
+                    };
+                    let known: Vec<String> = self.hir.inputs.iter().map(|i| i.name.clone()).collect();
+                    let finding = match suggest::nearest(&name.node, known.iter().map(String::as_str)) {
+                        Some(near) => finding.help(format!("did you mean `{near}`?")),
+                        None => finding,
+                    };
+                    self.report(finding);
+                    continue;
+                }
+            };
+            if mission.requires.iter().any(|r| r.input == input) {
+                self.report(Diagnostic::error(
+                    "missions::twice",
+                    name.span,
+                    format!("`{}` is required twice", name.node),
+                ));
+            }
+            let ty = self.hir.inputs[input].ty.clone();
+            let at_first = require
+                .at_first
+                .as_ref()
+                .map(|e| self.instant(Temporal::No, |c| c.expr_as(e, &ty, "the value at first")));
+            let (fresh, hold_for) = (fresh.clone(), hold_for.clone());
+            mission.requires.push(Require { input, fresh, at_first, hold_for });
+        }
+    }
+
+    fn mission_header(&mut self, a: &tree::Activity, mission: &mut Mission) {
+        let ActivityKind::Mission { scenario, within } = &a.kind else { return };
+        mission.within = within.as_ref().map(|e| self.duration(e, "the mission's time limit"));
+        if let Some(path) = scenario {
+            mission.scenario = Some(path.text());
+            self.scenario_named(path);
+        }
+        let missing = [
+            (mission.within.is_none(), "missions::within", "a time limit", "write `within 2 h` after its name"),
+            (mission.area.is_none(), "missions::area", "an operating area", "write `area op = rectangle(…)`"),
+            (
+                mission.recovery.is_none(),
+                "missions::recovery",
+                "a recovery",
+                "write `recovery within 10 min { goto … }`: what the vehicle does after an abort",
+            ),
+        ];
+        for (is_missing, code, what, help) in missing {
+            if is_missing {
+                let message = format!(
+                    "the mission `{}` has no {}",
+                    a.name.node,
+                    what.trim_start_matches("a ").trim_start_matches("an ")
+                );
+                self.report(Diagnostic::warning(code, a.name.span, message).help(help));
+            }
+        }
+    }
+
+    /// A body's end: what must finish does, and what ends says so.
+    fn sequence_ends(&mut self, a: &tree::Activity, kind: Kind, result: Option<&Type>, block: &hir::Block) {
+        if let Some(result) = result
+            && !body::leaves(block)
+        {
+            let ty = self.type_name(result);
+            self.report(
+                Diagnostic::error(
+                    "flow::result",
+                    a.name.span,
+                    format!("`{}` can end without its result, a `{ty}`", a.name.node),
+                )
+                .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
+            );
+        }
+        if matches!(kind, Kind::Sets(_)) && !body::leaves(block) {
+            self.report(
+                Diagnostic::error(
+                    "channels::ends",
+                    a.name.span,
+                    format!("`{}` ends and leaves its channel to nobody", a.name.node),
+                )
+                .help("write its statements in a `loop { … }`"),
+            );
+        }
+    }
+
+    fn amend(&mut self, a: &'t tree::Activity, statements: &[&'t Clause]) -> Body {
+        let asked_name = tree::Name { node: "asked".to_string(), span: a.name.span };
+        let mut found = None;
+        for clause in statements {
+            match &clause.kind {
+                ClauseKind::Amend(block) if found.is_none() => found = Some((block, clause.span)),
+                ClauseKind::Amend(_) => {
+                    self.report(Diagnostic::error("syntax::misplaced", clause.span, "an overlay has one `amend`"));
+                }
+                _ => self.misplaced(
+                    clause.span,
+                    "an overlay that amends the course has no body",
+                    "write it inside `amend { … }`",
+                ),
+            }
+        }
+        let Some((block, span)) = found else {
+            self.report(
+                Diagnostic::error("channels::amend", a.name.span, format!("`{}` amends nothing", a.name.node))
+                    .help("write `amend { … }`: its value is the new course, `asked` the one asked for"),
+            );
+            return Body::Sequence(hir::Block::default());
+        };
+        let (asked, block) = self.in_block(|c| {
+            let asked = c.declare(&asked_name, VarKind::Let, Type::Heading);
+            let block = c.with_setting(Setting::Instant, |c| {
+                let mut block = c.value_block(block, Some(&Type::Heading));
+                match block.value.take() {
+                    Some(value) => block.value = Some(Box::new(c.coerce(*value, &Type::Heading, "the amended course"))),
+                    None => c.report(
+                        Diagnostic::error("channels::amend", span, "`amend` must end in a course")
+                            .help("end it with a heading; `asked` leaves the course as it is"),
+                    ),
+                }
+                block
+            });
+            (asked, block)
+        });
+        Body::Amend { asked, block }
+    }
+
+    /// A condition of a rule, in whose context `done` may stand.
+    pub(super) fn rule_condition(&mut self, e: &tree::Expr) -> Expr {
+        self.instant(Temporal::Rule, |c| c.condition(e))
+    }
+
+    /// `not X`, for the checks of the table.
+    pub(super) fn is_just_done(guard: &Expr) -> bool {
+        match &guard.kind {
+            ExprKind::Done => true,
+            ExprKind::Do(Builtin::Or, operands) => operands.iter().any(Self::is_just_done),
+            _ => false,
+        }
+    }
+}
+
+/// Declarations, and the statements or the table after them.
+fn split(clauses: &[Clause]) -> (Vec<&Clause>, Vec<&Clause>) {
+    let is_declaration = |kind: &ClauseKind| {
+        matches!(
+            kind,
+            ClauseKind::Signal { .. }
+                | ClauseKind::Memory { .. }
+                | ClauseKind::Reaction { .. }
+                | ClauseKind::Abort { on: Some(_), .. }
+                | ClauseKind::Area { .. }
+                | ClauseKind::Limits(_)
+                | ClauseKind::Requires(_)
+                | ClauseKind::Recovery { .. }
+        )
+    };
+    // `with` is a declaration until the first statement: later it holds for the rest of its block only.
+    let first = clauses
+        .iter()
+        .position(|c| !is_declaration(&c.kind) && !matches!(c.kind, ClauseKind::With(_)))
+        .unwrap_or(clauses.len());
+    let mut declarations = Vec::new();
+    let mut statements = Vec::new();
+    for (i, clause) in clauses.iter().enumerate() {
+        if is_declaration(&clause.kind) || (i < first && matches!(clause.kind, ClauseKind::With(_))) {
+            declarations.push(clause);
+        } else {
+            statements.push(clause);
+        }
+    }
+    (declarations, statements)
+}

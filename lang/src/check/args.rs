@@ -1,0 +1,385 @@
+//! Arguments: by position or by label, defaults for the rest; and the functions that every script knows.
+
+use super::expr::article;
+use super::{Checker, Def, ParamInfo};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{Builtin, Expr, ExprKind, Interval};
+use crate::source::Span;
+use crate::suggest;
+use crate::syntax::tree;
+use crate::types::Type;
+
+const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
+const NUMBER: Type = Type::Quantity(Dimension::NONE);
+
+/// The functions that every script knows.
+const BUILTINS: [&str; 17] = [
+    "point",
+    "vector",
+    "line",
+    "rectangle",
+    "polygon",
+    "distance",
+    "abs",
+    "min",
+    "max",
+    "clamp",
+    "sqrt",
+    "floor",
+    "ceil",
+    "round",
+    "sin",
+    "cos",
+    "number",
+];
+
+impl<'t> Checker<'t> {
+    /// Puts arguments in the order of the parameters. `None` when that failed and has been reported.
+    pub(super) fn arguments(
+        &mut self,
+        what: &str,
+        params: &[ParamInfo],
+        args: &[tree::Arg],
+        span: Span,
+        declared: Option<Span>,
+    ) -> Option<Vec<Expr>> {
+        let mut given: Vec<Option<&tree::Expr>> = vec![None; params.len()];
+        let mut failed = false;
+        let mut next = 0;
+        for arg in args {
+            let index = match &arg.label {
+                Some(label) => params.iter().position(|p| p.name == label.node),
+                None => {
+                    let index = (next < params.len()).then_some(next);
+                    next += 1;
+                    index
+                }
+            };
+            match (index, &arg.label) {
+                (Some(i), _) if given[i].is_some() => {
+                    failed = true;
+                    self.report(Diagnostic::error(
+                        "args::twice",
+                        arg.value.span,
+                        format!("`{}` of `{what}` is given twice", params[i].name),
+                    ));
+                }
+                (Some(i), _) => given[i] = Some(&arg.value),
+                (None, Some(label)) => {
+                    failed = true;
+                    let finding = Diagnostic::error(
+                        "args::label",
+                        label.span,
+                        format!("`{what}` has no parameter `{}`", label.node),
+                    );
+                    let finding = match suggest::help(&label.node, params.iter().map(|p| p.name.as_str())) {
+                        Some(help) => finding.help(help),
+                        None => finding,
+                    };
+                    self.report(finding);
+                }
+                (None, None) => {
+                    failed = true;
+                    let finding = Diagnostic::error(
+                        "args::many",
+                        arg.value.span,
+                        format!("`{what}` takes {}, not {}", count(params.len()), args.len()),
+                    );
+                    self.report(finding);
+                    break;
+                }
+            }
+        }
+        let mut values = Vec::new();
+        for (param, given) in params.iter().zip(given) {
+            match (given, &param.default) {
+                (Some(written), _) => {
+                    let value = self.expr_as(written, &param.ty, &format!("`{}` of `{what}`", param.name));
+                    if let Some(range) = param.range {
+                        self.in_range(&value, range, &param.name, param.span);
+                    }
+                    values.push(value);
+                }
+                (None, Some(default)) => values.push(default.clone()),
+                (None, None) => {
+                    failed = true;
+                    let ty = self.type_name(&param.ty);
+                    let finding = Diagnostic::error(
+                        "args::missing",
+                        span,
+                        format!("`{what}` needs `{}`, {}", param.name, article(&ty)),
+                    )
+                    .help(format!("write `{}: …`", param.name));
+                    let finding = match declared {
+                        Some(_) => finding.label(param.span, "declared here"),
+                        None => finding,
+                    };
+                    self.report(finding);
+                }
+            }
+        }
+        (!failed).then_some(values)
+    }
+
+    /// Arguments of a built-in method or function, all needed.
+    pub(super) fn simple_args(
+        &mut self,
+        what: &str,
+        params: &[(&str, Type)],
+        args: &[tree::Arg],
+        span: Span,
+    ) -> Option<Vec<Expr>> {
+        let infos: Vec<ParamInfo> = params
+            .iter()
+            .map(|(name, ty)| ParamInfo { name: (*name).to_string(), ty: ty.clone(), default: None, range: None, span })
+            .collect();
+        self.arguments(what, &infos, args, span, None)
+    }
+
+    /// So many arguments without labels, unchecked as yet.
+    pub(super) fn positional<const N: usize>(
+        &mut self,
+        what: &str,
+        args: &[tree::Arg],
+        span: Span,
+    ) -> Option<[tree::Expr; N]> {
+        let values: Vec<tree::Expr> = args.iter().map(|a| a.value.clone()).collect();
+        match values.try_into() {
+            Ok(array) => Some(array),
+            Err(_) => {
+                self.report(Diagnostic::error(
+                    "args::many",
+                    span,
+                    format!("`{what}` takes {}, not {}", count(N), args.len()),
+                ));
+                None
+            }
+        }
+    }
+
+    /// A call of something declared.
+    pub(super) fn call_def(&mut self, def: &Def, callee: &tree::Expr, args: &[tree::Arg], span: Span) -> Expr {
+        match def {
+            Def::Fn(id) => {
+                let signature = self.fn_signatures[*id].clone();
+                match self.arguments(&signature.name, &signature.params, args, span, Some(signature.span)) {
+                    Some(values) => {
+                        let ty = signature.result.unwrap_or(Type::Unknown);
+                        self.make(ExprKind::Call(*id, values), ty, span)
+                    }
+                    None => self.unknown(span),
+                }
+            }
+            Def::Record(id) => {
+                let record = self.types.records[*id].clone();
+                let params: Vec<(&str, Type)> = record.fields.iter().map(|(n, t)| (n.as_str(), t.clone())).collect();
+                match self.simple_args(&record.name, &params, args, span) {
+                    Some(values) => self.make(ExprKind::Record(values), Type::Record(*id), span),
+                    None => self.unknown(span),
+                }
+            }
+            Def::Activity(id) => {
+                let name = self.activity_signatures[*id].name.clone();
+                self.report(
+                    Diagnostic::error("time::call", callee.span, format!("`{name}` takes time: it is no value"))
+                        .help(format!("call it as a statement, `{name}(…)`, or `let x = {name}(…)`")),
+                );
+                self.unknown(span)
+            }
+            other => {
+                self.report(Diagnostic::error(
+                    "names::call",
+                    callee.span,
+                    format!("this is {} and cannot be called", other.what()),
+                ));
+                self.unknown(span)
+            }
+        }
+    }
+
+    /// A call of a function that every script knows.
+    pub(super) fn call_builtin(
+        &mut self,
+        name: &str,
+        name_span: Span,
+        args: &[tree::Arg],
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expr {
+        let simple = |c: &mut Self, params: &[(&str, Type)], op: Builtin, ty: Type| match c
+            .simple_args(name, params, args, span)
+        {
+            Some(values) => c.operation(op, values, ty, span),
+            None => c.unknown(span),
+        };
+        match name {
+            "point" => simple(self, &[("north", LENGTH), ("east", LENGTH)], Builtin::Pair, Type::Point),
+            "vector" => {
+                let d = match expected.map(Type::present) {
+                    Some(Type::Vector(d)) => *d,
+                    _ => Dimension::LENGTH,
+                };
+                simple(
+                    self,
+                    &[("north", Type::Quantity(d)), ("east", Type::Quantity(d))],
+                    Builtin::Pair,
+                    Type::Vector(d),
+                )
+            }
+            "line" => simple(self, &[("start", Type::Point), ("end", Type::Point)], Builtin::Line, Type::Line),
+            "rectangle" => {
+                let params = [("center", Type::Point), ("along", Type::Heading), ("length", LENGTH), ("width", LENGTH)];
+                let Some(values) = self.simple_args(name, &params, args, span) else { return self.unknown(span) };
+                for side in &values[2..] {
+                    if side.range.low <= 0.0 {
+                        self.report(
+                            Diagnostic::error(
+                                "ranges::side",
+                                side.span,
+                                "a rectangle's sides must be longer than nothing",
+                            )
+                            .help("use a positive constant, or a parameter with a range such as `in 1 m..10 km`"),
+                        );
+                    }
+                }
+                self.operation(Builtin::Rectangle, values, Type::Area, span)
+            }
+            "polygon" => {
+                let corners = Type::List(Box::new(Type::Point), albacore_geometry::AREA_CORNERS_MAX as u32);
+                simple(self, &[("corners", corners)], Builtin::Polygon, Type::Area.optional())
+            }
+            "distance" => {
+                let Some(values) = self.simple_args(name, &[("from", Type::Point), ("to", Type::Point)], args, span)
+                else {
+                    return self.unknown(span);
+                };
+                let vector = self.operation(Builtin::SubVector, values, Type::Vector(Dimension::LENGTH), span);
+                self.operation(Builtin::Length, vec![vector], LENGTH, span)
+            }
+            "sin" | "cos" => {
+                let op = if name == "sin" { Builtin::Sin } else { Builtin::Cos };
+                simple(self, &[("angle", Type::Quantity(Dimension::ANGLE))], op, NUMBER)
+            }
+            "number" => {
+                // An angle or a ratio as a plain number: for formulas that need radians.
+                simple(self, &[("angle", Type::Quantity(Dimension::ANGLE))], Builtin::Add, NUMBER)
+            }
+            "floor" | "ceil" | "round" => {
+                let op = match name {
+                    "floor" => Builtin::Floor,
+                    "ceil" => Builtin::Ceil,
+                    _ => Builtin::Round,
+                };
+                simple(self, &[("x", NUMBER)], op, Type::Int)
+            }
+            "sqrt" => self.square_root(args, span),
+            "abs" | "min" | "max" | "clamp" => self.ordered(name, args, span),
+            _ => {
+                let finding =
+                    Diagnostic::error("names::unknown", name_span, format!("nothing named `{name}` can be called"));
+                let mut known: Vec<String> = BUILTINS.iter().map(|b| (*b).to_string()).collect();
+                for m in (0..self.modules.len()).filter(|&m| m == self.scope.module || self.modules[m].prelude) {
+                    let callable = self.names[m]
+                        .iter()
+                        .filter(|(_, d)| matches!(d, Def::Fn(_) | Def::Record(_) | Def::Activity(_)));
+                    known.extend(callable.map(|(n, _)| n.clone()));
+                }
+                let finding = match suggest::nearest(name, known.iter().map(String::as_str)) {
+                    Some(near) => finding.help(format!("did you mean `{near}`?")),
+                    None => finding
+                        .help("functions, behaviors and strategies of other modules are written `module.name(…)`"),
+                };
+                self.report(finding);
+                for arg in args {
+                    self.expr(&arg.value, None);
+                }
+                self.unknown(span)
+            }
+        }
+    }
+
+    fn square_root(&mut self, args: &[tree::Arg], span: Span) -> Expr {
+        let Some([x]) = self.positional::<1>("sqrt", args, span) else { return self.unknown(span) };
+        let x = self.expr(&x, None);
+        let Some(root) = x.ty.dimension().and_then(|d| d.power(0.5)) else {
+            if x.ty != Type::Unknown {
+                let name = self.type_name(&x.ty);
+                self.report(Diagnostic::error(
+                    "types::mismatch",
+                    x.span,
+                    format!("{} has no square root", article(&name)),
+                ));
+            }
+            return self.unknown(span);
+        };
+        if x.range.low < 0.0 {
+            self.report(
+                Diagnostic::error("ranges::negative", x.span, "this may be negative, and then it has no square root")
+                    .help("write `sqrt(max(x, 0))`, or `sqrt(abs(x))`"),
+            );
+        }
+        self.operation(Builtin::Sqrt, vec![x], Type::Quantity(root), span)
+    }
+
+    /// `abs`, `min`, `max`, `clamp`: of anything that has an order.
+    fn ordered(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Expr {
+        let wanted = match name {
+            "abs" => 1,
+            "clamp" => 3,
+            _ => 2,
+        };
+        if args.len() != wanted {
+            self.report(Diagnostic::error(
+                "args::many",
+                span,
+                format!("`{name}` takes {}, not {}", count(wanted), args.len()),
+            ));
+            return self.unknown(span);
+        }
+        let first = self.expr(&args[0].value, None);
+        let ordered = matches!(first.ty, Type::Int | Type::Sign | Type::Quantity(_))
+            || name != "abs" && matches!(first.ty, Type::Depth | Type::Altitude);
+        if !ordered {
+            if first.ty != Type::Unknown {
+                let ty = self.type_name(&first.ty);
+                self.report(Diagnostic::error(
+                    "types::mismatch",
+                    first.span,
+                    format!("`{name}` takes numbers and quantities, this is {}", article(&ty)),
+                ));
+            }
+            return self.unknown(span);
+        }
+        let mut ty = if first.ty == Type::Sign { Type::Int } else { first.ty.clone() };
+        let mut values = vec![first];
+        for arg in &args[1..] {
+            let value = self.expr(&arg.value, Some(&ty));
+            if ty == Type::Int && value.ty == NUMBER {
+                ty = NUMBER;
+            }
+            let value = self.coerce(value, &ty, &format!("the first argument of `{name}`"));
+            values.push(value);
+        }
+        match name {
+            "abs" => self.operation(Builtin::Abs, values, ty, span),
+            "min" => self.operation(Builtin::Min, values, ty, span),
+            "max" => self.operation(Builtin::Max, values, ty, span),
+            _ => {
+                let high = values.pop().unwrap_or_else(|| self.unknown(span));
+                let range = Interval::new(values[1].range.low, high.range.high);
+                let low = self.operation(Builtin::Max, values, ty.clone(), span);
+                let held = self.operation(Builtin::Min, vec![low, high], ty, span);
+                if range.low <= range.high { Expr { range, ..held } } else { held }
+            }
+        }
+    }
+}
+
+fn count(n: usize) -> String {
+    match n {
+        0 => "no arguments".to_string(),
+        1 => "one argument".to_string(),
+        n => format!("{n} arguments"),
+    }
+}

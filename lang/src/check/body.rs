@@ -1,0 +1,719 @@
+//! Blocks and the statements in them.
+
+use super::facts;
+use super::{Checker, Setting, Temporal};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{self, Block, Expr, ExprKind, Interval, Order, Stmt, StmtKind, VarKind};
+use crate::source::Span;
+use crate::syntax::tree::{self, Action, Clause, ClauseKind, Condition, ForOver, TyKind};
+use crate::types::Type;
+
+impl<'t> Checker<'t> {
+    pub(super) fn check_fn(&mut self, m: usize, f: &'t tree::Function) {
+        let Some(&super::Def::Fn(id)) = self.names[m].get(&f.name.node) else { return };
+        let signature = self.fn_signatures[id].clone();
+        let scope = super::Scope::new(m, Setting::Function);
+        let result = signature.result.clone().unwrap_or(Type::Unknown);
+        let (body, scope) = self.within(scope, |c| {
+            c.declare_params(&f.params, &signature.params);
+            let mut body = c.value_block(&f.body, Some(&result));
+            match body.value.take() {
+                Some(value) => {
+                    let what = format!("the result of `{}`", f.name.node);
+                    body.value = Some(Box::new(c.coerce(*value, &result, &what)));
+                }
+                None => c.report(
+                    Diagnostic::error("types::result", f.name.span, format!("`{}` ends without a value", f.name.node))
+                        .help("end its body with an expression: that is its result"),
+                ),
+            }
+            body
+        });
+        let function = &mut self.hir.fns[id];
+        function.vars = scope.vars;
+        function.params = signature.params.len();
+        function.result = result;
+        function.body = body;
+    }
+
+    pub(super) fn declare_params(&mut self, params: &[tree::Param], infos: &[super::ParamInfo]) {
+        for (param, info) in params.iter().zip(infos) {
+            let id = self.declare(&param.name, VarKind::Param, info.ty.clone());
+            self.scope.vars[id].range = info.range.unwrap_or(Interval::ANY);
+            self.list_order(id, &param.ty);
+        }
+    }
+
+    /// `[Point; 6] by most KEY`: the key is a function of `it`.
+    pub(super) fn list_order(&mut self, id: usize, ty: &tree::Ty) {
+        let TyKind::List { order: Some((most, key)), .. } = &ty.kind else { return };
+        let Type::List(inner, _) = self.scope.vars[id].ty.clone() else { return };
+        let span = key.span;
+        let (it, key) = self.in_block(|c| {
+            let it = c.declare_hidden("it".to_string(), VarKind::Let, *inner, span);
+            let key = c.expr(key, None);
+            (it, key)
+        });
+        if !matches!(key.ty, Type::Int | Type::Quantity(_) | Type::Depth | Type::Altitude | Type::Unknown) {
+            let name = self.type_name(&key.ty);
+            self.report(
+                Diagnostic::error("types::key", span, format!("a list is ordered by a number, not by a `{name}`"))
+                    .help("for example `by most it.along(upflow)`"),
+            );
+        }
+        self.scope.vars[id].order = Some(Order { most: *most, it, key: Box::new(key) });
+    }
+
+    /// A block of statements.
+    pub(super) fn block(&mut self, block: &tree::Block) -> Block {
+        let stmts = self.stmts(&block.clauses);
+        Block { stmts, value: None }
+    }
+
+    /// A block whose last expression is its value.
+    pub(super) fn value_block(&mut self, block: &tree::Block, expected: Option<&Type>) -> Block {
+        let (last, before) = match block.clauses.split_last() {
+            Some((Clause { kind: ClauseKind::Timed(timed), .. }, before)) if !timed.is_modified() => {
+                (Some(timed), before)
+            }
+            _ => (None, &block.clauses[..]),
+        };
+        let mut stmts = self.stmts(before);
+        let value = match last.map(|timed| &timed.action) {
+            Some(Action::Expr(e)) => Some(Box::new(self.expr(e, expected))),
+            Some(_) => {
+                stmts.extend(block.clauses.last().into_iter().flat_map(|c| self.stmt(c)));
+                None
+            }
+            None => None,
+        };
+        Block { stmts, value }
+    }
+
+    fn stmts(&mut self, clauses: &[Clause]) -> Vec<Stmt> {
+        let mut stmts = Vec::new();
+        let mut left_at: Option<Span> = None;
+        for (i, clause) in clauses.iter().enumerate() {
+            if let Some(span) = left_at.take() {
+                self.report(
+                    Diagnostic::error("flow::unreachable", clause.span, "this is never reached")
+                        .label(span, "nothing goes on after this"),
+                );
+            }
+            if matches!(clause.kind, ClauseKind::Finish(_) | ClauseKind::Abort { on: None, .. }) {
+                left_at = Some(clause.span);
+            }
+            if let ClauseKind::With(items) = &clause.kind {
+                // `with` holds to the end of its block: the rest of it is its own.
+                let with = self.with_items(items);
+                if self.scope.setting != Setting::Body {
+                    self.report(
+                        Diagnostic::error(
+                            "time::with",
+                            clause.span,
+                            "`with` holds while time goes by, and here none does",
+                        )
+                        .help("write it in a body or beside the declarations"),
+                    );
+                }
+                let rest = self.in_block(|c| c.stmts(&clauses[i + 1..]));
+                let body = Block { stmts: rest, value: None };
+                stmts.push(Stmt { kind: StmtKind::With(with, body), span: clause.span });
+                break;
+            }
+            stmts.extend(self.stmt(clause));
+        }
+        stmts
+    }
+
+    fn stmt(&mut self, clause: &Clause) -> Option<Stmt> {
+        let span = clause.span;
+        let kind = match &clause.kind {
+            ClauseKind::Let { name, ty, value } => return self.let_stmt(name, ty.as_ref(), value, span),
+            ClauseKind::Var { name, ty, value } => {
+                let value = match ty {
+                    Some(ty) => {
+                        let ty = self.written_type(self.scope.module, ty);
+                        self.expr_as(value, &ty, &format!("`{}`", name.node))
+                    }
+                    None => {
+                        let value = self.expr(value, None);
+                        self.definite(value, &name.node)
+                    }
+                };
+                if self.scope.setting == Setting::Body {
+                    self.report(
+                        Diagnostic::error("time::var", span, "a `var` lives in instantaneous code only")
+                            .help("declare a `memory` of the behavior: it is kept while time goes by"),
+                    );
+                }
+                let id = self.declare(name, VarKind::Var, value.ty.clone());
+                if let Some(ty) = ty {
+                    self.list_order(id, ty);
+                }
+                StmtKind::Set(id, value)
+            }
+            ClauseKind::Assign { name, value } => {
+                let id = self.assignable(name);
+                let ty = id.map_or(Type::Unknown, |id| self.scope.vars[id].ty.clone());
+                let value = self.expr_as(value, &ty, &format!("`{}`", name.node));
+                let id = id?;
+                self.scope.facts.forget(id);
+                StmtKind::Set(id, value)
+            }
+            ClauseKind::For { name, over, block } => return self.for_stmt(name, over, block, span),
+            ClauseKind::While { condition, block } => return self.while_stmt(condition, block, span),
+            ClauseKind::Loop(block) => {
+                self.enter_loop();
+                let body = self.in_block(|c| c.block(block));
+                self.loop_takes_time(&body, span, "loop");
+                StmtKind::Loop(body)
+            }
+            ClauseKind::Timed(timed) => return self.timed_stmt(timed, None, span),
+            ClauseKind::Finish(value) => return self.finish(value.as_ref(), span),
+            ClauseKind::Abort { why, on: None } => {
+                self.body_only(span, "`abort`");
+                StmtKind::Abort(self.literal_text(why))
+            }
+            ClauseKind::Report { name, value, fields } => {
+                let mut checked = vec![(String::new(), self.expr(value, None))];
+                for (label, value) in fields {
+                    checked.push((label.node.clone(), self.expr(value, None)));
+                }
+                for (_, value) in &mut checked {
+                    if value.ty.is_optional() {
+                        let finding = self.absent(value);
+                        self.report(finding);
+                    }
+                }
+                self.effects_allowed(span, "`report`");
+                StmtKind::Report { name: self.plain_text(name), fields: checked }
+            }
+            ClauseKind::Log(text) => {
+                self.effects_allowed(span, "`log`");
+                StmtKind::Log(self.literal_text(text))
+            }
+            ClauseKind::Memory { name, .. } | ClauseKind::Signal { name, .. } => {
+                self.misplaced(
+                    span,
+                    &format!("`{}` is declared too late", name.node),
+                    "declarations stand at the top of a behavior, strategy, overlay or mission, outside other blocks",
+                );
+                return None;
+            }
+            ClauseKind::Rule(_) | ClauseKind::Start(_) => {
+                self.misplaced(
+                    span,
+                    "a switching table stands in a strategy or a mission",
+                    "move the rule out of this block",
+                );
+                return None;
+            }
+            ClauseKind::Behavior(_) => {
+                self.misplaced(
+                    span,
+                    "a behavior is declared in a file, a strategy or a mission",
+                    "move it out of this block",
+                );
+                return None;
+            }
+            ClauseKind::Reaction { .. } | ClauseKind::Abort { .. } => {
+                self.misplaced(
+                    span,
+                    "a reaction stands beside the declarations",
+                    "move it out of this block, to the top of the behavior",
+                );
+                return None;
+            }
+            ClauseKind::Amend(_) => {
+                self.misplaced(
+                    span,
+                    "`amend` stands in an overlay that amends the course",
+                    "write `overlay NAME amends course { amend { … } }`",
+                );
+                return None;
+            }
+            ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. } => {
+                self.misplaced(
+                    span,
+                    "this stands in a mission only, beside its declarations",
+                    "move it to the top of the mission",
+                );
+                return None;
+            }
+            ClauseKind::With(_) => return None,
+        };
+        Some(Stmt { kind, span })
+    }
+
+    pub(super) fn misplaced(&mut self, span: Span, message: &str, help: &str) {
+        self.report(Diagnostic::error("syntax::misplaced", span, message).help(help));
+    }
+
+    fn effects_allowed(&mut self, span: Span, what: &str) {
+        if self.scope.setting == Setting::Function {
+            self.report(
+                Diagnostic::error("functions::pure", span, format!("a function is pure: {what} cannot stand in it"))
+                    .help("return what the caller needs to say it"),
+            );
+        }
+    }
+
+    fn body_only(&mut self, span: Span, what: &str) {
+        if self.scope.setting != Setting::Body {
+            self.report(
+                Diagnostic::error("time::body", span, format!("{what} stands in the body of a behavior or mission"))
+                    .help("in a switching table write `A -> abort \"why\" on X`; beside declarations `abort \"why\" on X`"),
+            );
+        }
+    }
+
+    /// A text without holes.
+    pub(super) fn plain_text(&mut self, text: &tree::Expr) -> String {
+        match &text.kind {
+            tree::ExprKind::Text(parts) => {
+                let mut plain = String::new();
+                for part in parts {
+                    match part {
+                        tree::TextPart::Literal(literal) => plain.push_str(literal),
+                        tree::TextPart::Hole(hole) => {
+                            let span = hole.span;
+                            self.report(
+                                Diagnostic::error("types::name", span, "a name cannot have holes")
+                                    .help("tests and tables look for it: write it out"),
+                            );
+                        }
+                    }
+                }
+                plain
+            }
+            _ => String::new(),
+        }
+    }
+
+    pub(super) fn literal_text(&mut self, text: &tree::Expr) -> Vec<hir::TextPart> {
+        match &text.kind {
+            tree::ExprKind::Text(parts) => self.text(parts),
+            _ => {
+                let value = self.expr(text, None);
+                vec![hir::TextPart::Hole(value)]
+            }
+        }
+    }
+
+    fn let_stmt(&mut self, name: &tree::Name, ty: Option<&tree::Ty>, timed: &tree::Timed, span: Span) -> Option<Stmt> {
+        let takes_time = match &timed.action {
+            Action::Expr(e) => self.called_activity(e).is_some(),
+            _ => true,
+        };
+        if takes_time {
+            return self.timed_stmt(timed, Some((name, ty)), span);
+        }
+        let Action::Expr(e) = &timed.action else { return None };
+        if timed.is_modified() {
+            self.report(
+                Diagnostic::error("time::modifier", timed.span, "this takes no time: nothing to end or to cut off")
+                    .help("`for`, `until`, `within` and `at` belong to statements that take time"),
+            );
+        }
+        let value = match ty {
+            Some(ty) => {
+                let ty = self.written_type(self.scope.module, ty);
+                self.expr_as(e, &ty, &format!("`{}`", name.node))
+            }
+            None => {
+                let value = self.expr(e, None);
+                self.definite(value, &name.node)
+            }
+        };
+        let range = value.range;
+        let id = self.declare(name, VarKind::Let, value.ty.clone());
+        self.scope.vars[id].range = range;
+        Some(Stmt { kind: StmtKind::Set(id, value), span })
+    }
+
+    /// A value whose type is settled: `none` alone is of every optional type.
+    fn definite(&mut self, value: Expr, name: &str) -> Expr {
+        if value.ty == Type::None {
+            self.report(
+                Diagnostic::error("types::none", value.span, format!("of what type is `{name}` when it is present?"))
+                    .help(format!("write it: `{name}: Point? = none`")),
+            );
+            return Expr { ty: Type::Unknown, ..value };
+        }
+        value
+    }
+
+    fn for_stmt(&mut self, name: &tree::Name, over: &ForOver, block: &tree::Block, span: Span) -> Option<Stmt> {
+        if let ForOver::Range(range) = over {
+            let first = self.expr_as(&range.first, &Type::Int, "the beginning of the range");
+            let last = self.expr_as(&range.last, &Type::Int, "the end of the range");
+            self.enter_loop();
+            let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
+            let (var, body) = self.in_block(|c| {
+                let var = c.declare(name, VarKind::Loop, Type::Int);
+                c.scope.vars[var].range = Interval::new(first.range.low, end);
+                (var, c.block(block))
+            });
+            if !end.is_finite() || !first.range.low.is_finite() {
+                self.bounded_or_takes_time(&body, range.last.span, span);
+            }
+            let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };
+            return Some(Stmt { kind, span });
+        }
+        let ForOver::List(written) = over else { return None };
+        // `area.edges` is walked without being made a list.
+        if let tree::ExprKind::Member(base, member) = &written.kind
+            && member.node == "edges"
+            && self.module_named(base).is_none()
+        {
+            let area = self.expr(base, None);
+            if area.ty == Type::Area {
+                self.enter_loop();
+                let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, Type::Edge), c.block(block)));
+                return Some(Stmt { kind: StmtKind::ForEdges { var, area, body }, span });
+            }
+        }
+        let list = self.expr(written, None);
+        let element = match &list.ty {
+            Type::List(inner, _) => (**inner).clone(),
+            Type::Unknown => Type::Unknown,
+            other => {
+                let ty = self.type_name(other);
+                self.report(
+                    Diagnostic::error(
+                        "types::for",
+                        written.span,
+                        format!("`for` walks a list or a range, this is a `{ty}`"),
+                    )
+                    .help("ranges are `0..<n` and `1..n`"),
+                );
+                Type::Unknown
+            }
+        };
+        self.enter_loop();
+        let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, element), c.block(block)));
+        Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
+    }
+
+    fn while_stmt(&mut self, condition: &Condition, block: &tree::Block, span: Span) -> Option<Stmt> {
+        self.enter_loop();
+        let (condition, bind, body) = match condition {
+            Condition::Holds(e) => {
+                let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
+                let facts = facts::shown(&condition, true);
+                let body = self.in_block(|c| {
+                    c.scope.facts.learn(facts);
+                    c.block(block)
+                });
+                (condition, None, body)
+            }
+            Condition::Let { name, value } => {
+                let value = self.expr(value, None);
+                let (bind, body) = self.in_block(|c| {
+                    let bind = c.bind_present(name, &value);
+                    (bind, c.block(block))
+                });
+                (value, Some(bind), body)
+            }
+        };
+        self.loop_takes_time(&body, span, "while");
+        Some(Stmt { kind: StmtKind::While { condition, bind, body }, span })
+    }
+
+    /// The name of `if let` and `while let`.
+    fn bind_present(&mut self, name: &tree::Name, value: &Expr) -> usize {
+        let ty = match &value.ty {
+            Type::Optional(inner) => (**inner).clone(),
+            Type::Unknown => Type::Unknown,
+            other => {
+                let ty = self.type_name(other);
+                self.report(
+                    Diagnostic::error("absent::let", value.span, format!("this is never absent: it is a `{ty}`"))
+                        .help("name it with a plain `let`"),
+                );
+                Type::Unknown
+            }
+        };
+        self.declare(name, VarKind::Let, ty)
+    }
+
+    /// In a loop nothing holds of what its body may change.
+    fn enter_loop(&mut self) {
+        let vars = std::mem::take(&mut self.scope.vars);
+        self.scope.facts.forget_changeable(&vars);
+        self.scope.vars = vars;
+    }
+
+    /// Time goes by: memory, signals and inputs may have changed.
+    pub(super) fn time_passes(&mut self) {
+        self.enter_loop();
+    }
+
+    fn loop_takes_time(&mut self, body: &Block, span: Span, word: &str) {
+        if !takes_time(body) {
+            self.report(
+                Diagnostic::error("time::instant_loop", span, format!("this `{word}` can go round without taking time"))
+                    .here("every tick must end")
+                    .help("put a statement that takes time on every path through it, such as `wait for 1 s`, or walk a list or a range with `for`"),
+            );
+        }
+    }
+
+    fn bounded_or_takes_time(&mut self, body: &Block, range: Span, span: Span) {
+        if !takes_time(body) {
+            self.report(
+                Diagnostic::error("time::instant_loop", span, "this `for` has no bound and takes no time")
+                    .label(range, "how large can this be?")
+                    .help("give it a range, such as a parameter `n: Int in 1..10`, or hold it with `min(n, 10)`"),
+            );
+        }
+    }
+
+    fn finish(&mut self, value: Option<&tree::Expr>, span: Span) -> Option<Stmt> {
+        self.body_only(span, "`finish`");
+        let wanted = self.scope.finish.clone();
+        let value = match (wanted, value) {
+            (None, _) => {
+                self.report(
+                    Diagnostic::error("flow::finish", span, "nothing can be finished here")
+                        .help("`finish` ends a behavior or a strategy"),
+                );
+                return None;
+            }
+            (Some(Some(ty)), Some(value)) => Some(self.expr_as(value, &ty, "the result")),
+            (Some(None), Some(value)) => {
+                self.report(
+                    Diagnostic::error("flow::result", value.span, "this finishes with a value, and none is declared")
+                        .help("declare it: `behavior NAME(…) -> TYPE { … }`"),
+                );
+                return None;
+            }
+            (Some(Some(ty)), None) => {
+                let ty = self.type_name(&ty);
+                self.report(
+                    Diagnostic::error("flow::result", span, format!("this finishes without its result, a `{ty}`"))
+                        .help("write `finish VALUE`"),
+                );
+                return None;
+            }
+            (Some(None), None) => None,
+        };
+        Some(Stmt { kind: StmtKind::Finish(value), span })
+    }
+
+    /// `if` and `match` as statements, and calls that change a list.
+    pub(super) fn expr_stmt(&mut self, e: &tree::Expr, span: Span) -> Option<Stmt> {
+        use tree::ExprKind as K;
+        let kind = match &e.kind {
+            K::If { condition, then, otherwise } => return self.if_stmt(condition, then, otherwise.as_ref(), span),
+            K::Match { on, arms } => {
+                let (on, arms, otherwise) = self.match_arms(on, arms, None, false, span);
+                self.time_may_pass(arms.iter().map(|(_, b)| b).chain(&otherwise));
+                StmtKind::Match(on, arms, otherwise)
+            }
+            K::Call(callee, args) => match &callee.kind {
+                K::Member(base, member) if matches!(member.node.as_str(), "insert" | "remove" | "clear") => {
+                    return self.list_change(base, &member.node, args, span);
+                }
+                _ => {
+                    let value = self.expr(e, None);
+                    if value.ty != Type::Unknown {
+                        self.unused(span);
+                    }
+                    return None;
+                }
+            },
+            _ => {
+                let value = self.expr(e, None);
+                if value.ty != Type::Unknown {
+                    self.unused(span);
+                }
+                return None;
+            }
+        };
+        Some(Stmt { kind, span })
+    }
+
+    fn unused(&mut self, span: Span) {
+        self.report(
+            Diagnostic::error("flow::unused", span, "this computes a value that nobody reads")
+                .help("name it with `let`, or remove it"),
+        );
+    }
+
+    fn if_stmt(
+        &mut self,
+        condition: &Condition,
+        then: &tree::Block,
+        otherwise: Option<&tree::Block>,
+        span: Span,
+    ) -> Option<Stmt> {
+        match condition {
+            Condition::Holds(e) => {
+                let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
+                let known = |c: &mut Self, holds: bool, block: &tree::Block| {
+                    let facts = facts::shown(&condition, holds);
+                    c.in_block(|c| {
+                        c.scope.facts.learn(facts);
+                        c.block(block)
+                    })
+                };
+                let then = known(self, true, then);
+                let otherwise = otherwise.map(|b| known(self, false, b)).unwrap_or_default();
+                self.time_may_pass([&then, &otherwise].into_iter());
+                // After `if not x { finish }` x is known.
+                if leaves(&then) {
+                    self.scope.facts.learn(facts::shown(&condition, false));
+                } else if leaves(&otherwise) {
+                    self.scope.facts.learn(facts::shown(&condition, true));
+                }
+                Some(Stmt { kind: StmtKind::If(condition, then, otherwise), span })
+            }
+            Condition::Let { name, value } => {
+                let value = self.expr(value, None);
+                let present = self.truth(value.clone());
+                let then = self.in_block(|c| {
+                    let bind = c.bind_present(name, &value);
+                    let ty = c.scope.vars[bind].ty.clone();
+                    let unwrapped = c.make(ExprKind::Unwrap(Box::new(value)), ty, span);
+                    let mut block = c.block(then);
+                    block.stmts.insert(0, Stmt { kind: StmtKind::Set(bind, unwrapped), span });
+                    block
+                });
+                let otherwise = otherwise.map(|b| self.in_block(|c| c.block(b))).unwrap_or_default();
+                self.time_may_pass([&then, &otherwise].into_iter());
+                Some(Stmt { kind: StmtKind::If(present, then, otherwise), span })
+            }
+        }
+    }
+
+    fn time_may_pass<'a>(&mut self, blocks: impl Iterator<Item = &'a Block>) {
+        let mut assigned = Vec::new();
+        for block in blocks {
+            if may_take_time(block) {
+                self.time_passes();
+            }
+            assigned_in(block, &mut assigned);
+        }
+        for var in assigned {
+            self.scope.facts.forget(var);
+        }
+    }
+
+    fn list_change(&mut self, base: &tree::Expr, what: &str, args: &[tree::Arg], span: Span) -> Option<Stmt> {
+        let tree::ExprKind::Name(name) = &base.kind else {
+            self.report(
+                Diagnostic::error("names::assign", base.span, "only a list that has a name can be changed")
+                    .help("keep it in a `memory`"),
+            );
+            return None;
+        };
+        let name = tree::Name { node: name.clone(), span: base.span };
+        let id = self.assignable(&name)?;
+        let Type::List(inner, _) = self.scope.vars[id].ty.clone() else {
+            let ty = self.type_name(&self.scope.vars[id].ty.clone());
+            self.report(Diagnostic::error(
+                "types::list",
+                base.span,
+                format!("`{what}` changes a list, this is a `{ty}`"),
+            ));
+            return None;
+        };
+        self.scope.facts.forget(id);
+        let kind = if what == "clear" {
+            self.positional::<0>("clear", args, span)?;
+            StmtKind::Clear(id)
+        } else {
+            let [item] = self.positional::<1>(what, args, span)?;
+            let item = self.expr_as(&item, &inner, "an element of this list");
+            if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
+        };
+        Some(Stmt { kind, span })
+    }
+
+    /// The duration of `for T` and `within T`.
+    pub(super) fn duration(&mut self, e: &tree::Expr, what: &str) -> Expr {
+        let value = self.expr_as(e, &Type::Quantity(Dimension::TIME), what);
+        if value.range.high < 0.0 {
+            self.report(Diagnostic::error("ranges::negative", value.span, format!("{what} is negative")));
+        }
+        value
+    }
+}
+
+/// Whether every path through a block takes time, or leaves it for good.
+pub(super) fn takes_time(block: &Block) -> bool {
+    block.stmts.iter().any(|stmt| match &stmt.kind {
+        StmtKind::Timed(_) | StmtKind::Loop(_) | StmtKind::Finish(_) | StmtKind::Abort(_) => true,
+        StmtKind::If(_, a, b) => takes_time(a) && takes_time(b),
+        StmtKind::Match(_, arms, otherwise) => {
+            arms.iter().all(|(_, b)| takes_time(b)) && otherwise.as_ref().is_none_or(takes_time) && !arms.is_empty()
+        }
+        StmtKind::With(_, body) => takes_time(body),
+        // A range that holds at least one number goes round at least once.
+        StmtKind::ForRange { first, last, inclusive, body, .. } => {
+            let least = last.range.low - first.range.high + if *inclusive { 1.0 } else { 0.0 };
+            least >= 1.0 && takes_time(body)
+        }
+        StmtKind::ForEdges { body, .. } => takes_time(body),
+        _ => false,
+    })
+}
+
+/// Whether some path through a block takes time.
+pub(super) fn may_take_time(block: &Block) -> bool {
+    block.stmts.iter().any(|stmt| match &stmt.kind {
+        StmtKind::Timed(_) | StmtKind::Loop(_) => true,
+        StmtKind::If(_, a, b) => may_take_time(a) || may_take_time(b),
+        StmtKind::Match(_, arms, otherwise) => {
+            arms.iter().any(|(_, b)| may_take_time(b)) || otherwise.as_ref().is_some_and(may_take_time)
+        }
+        StmtKind::With(_, body)
+        | StmtKind::ForRange { body, .. }
+        | StmtKind::ForList { body, .. }
+        | StmtKind::ForEdges { body, .. }
+        | StmtKind::While { body, .. } => may_take_time(body),
+        _ => false,
+    })
+}
+
+/// Whether a block never comes to its end.
+pub(super) fn leaves(block: &Block) -> bool {
+    block.stmts.last().is_some_and(|stmt| match &stmt.kind {
+        StmtKind::Finish(_) | StmtKind::Abort(_) | StmtKind::Loop(_) => true,
+        StmtKind::If(_, a, b) => leaves(a) && leaves(b),
+        StmtKind::With(_, body) => leaves(body),
+        StmtKind::Match(_, arms, otherwise) => {
+            !arms.is_empty() && arms.iter().all(|(_, b)| leaves(b)) && otherwise.as_ref().is_none_or(leaves)
+        }
+        _ => false,
+    })
+}
+
+fn assigned_in(block: &Block, out: &mut Vec<usize>) {
+    for stmt in &block.stmts {
+        match &stmt.kind {
+            StmtKind::Set(var, _) | StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) => {
+                out.push(*var)
+            }
+            StmtKind::If(_, a, b) => {
+                assigned_in(a, out);
+                assigned_in(b, out);
+            }
+            StmtKind::Match(_, arms, otherwise) => {
+                for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
+                    assigned_in(block, out);
+                }
+            }
+            StmtKind::With(_, body)
+            | StmtKind::Loop(body)
+            | StmtKind::ForRange { body, .. }
+            | StmtKind::ForList { body, .. }
+            | StmtKind::ForEdges { body, .. }
+            | StmtKind::While { body, .. } => assigned_in(body, out),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,354 @@
+//! Fields and methods of values: what stands after a dot.
+
+use super::Checker;
+use super::expr::{Found, article};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
+use crate::source::Span;
+use crate::suggest;
+use crate::syntax::tree;
+use crate::types::Type;
+
+const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
+const VECTOR: Type = Type::Vector(Dimension::LENGTH);
+/// `hits` counts at most this many samples back.
+const HITS_MAX: f64 = 1000.0;
+
+/// A method: its name, its parameters with labels, what the machine does.
+struct Method {
+    name: &'static str,
+    params: &'static [(&'static str, Type)],
+    op: Builtin,
+    result: Type,
+}
+
+const HEADING_PARAM: &[(&str, Type)] = &[("heading", Type::Heading)];
+const POINT_PARAM: &[(&str, Type)] = &[("point", Type::Point)];
+
+/// The methods of a type.
+fn methods(ty: &Type) -> Vec<Method> {
+    let method = |name, params, op, result| Method { name, params, op, result };
+    match ty {
+        Type::Point => vec![method("along", HEADING_PARAM, Builtin::Along, LENGTH)],
+        Type::Vector(d) => vec![method("along", HEADING_PARAM, Builtin::Along, Type::Quantity(*d))],
+        Type::Area => vec![
+            method("gap", POINT_PARAM, Builtin::Gap, LENGTH),
+            method("nearest_edge", POINT_PARAM, Builtin::NearestEdge, Type::Edge),
+            method("exit", &[("point", Type::Point), ("toward", Type::Heading)], Builtin::Exit, Type::Point),
+        ],
+        Type::Edge => vec![
+            method("gap", POINT_PARAM, Builtin::EdgeGap, LENGTH),
+            method("tangent", &[("nearest", Type::Heading)], Builtin::EdgeTangent, Type::Heading),
+        ],
+        _ => Vec::new(),
+    }
+}
+
+/// The names after a dot, for suggestions.
+fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
+    let mut names: Vec<String> = methods(ty).iter().map(|m| m.name.to_string()).collect();
+    let more: &[&str] = match ty {
+        Type::Point => &["north", "east"],
+        Type::Vector(_) => &["north", "east", "length", "toward", "dot"],
+        Type::Area => &["center", "edges", "corner", "contains", "run"],
+        Type::Edge => &["normal", "line"],
+        Type::Line => &["start", "end", "length", "heading"],
+        Type::List(..) => &["count", "first", "top", "spread", "insert", "remove", "clear"],
+        Type::Record(id) => {
+            names.extend(checker.types.records[*id].fields.iter().map(|(n, _)| n.clone()));
+            &[]
+        }
+        _ => &[],
+    };
+    names.extend(more.iter().map(|n| (*n).to_string()));
+    names
+}
+
+impl<'t> Checker<'t> {
+    pub(super) fn member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Expr {
+        if let Some(module) = self.module_named(base) {
+            return match self.names[module].get(&member.node).cloned() {
+                Some(def) => self.def_value(&def, &member.node, span),
+                None => {
+                    self.no_such_name(module, member);
+                    self.unknown(span)
+                }
+            };
+        }
+        let value = self.expr(base, None);
+        if let Some(part) = self.input_part(&value, member, span) {
+            return part;
+        }
+        if value.ty == Type::Unknown {
+            return value;
+        }
+        let part = |c: &Self, value: Expr, at: u32, ty: Type| c.make(ExprKind::Part(Box::new(value), at), ty, span);
+        match (value.ty.clone(), member.node.as_str()) {
+            (Type::Point, "north") => part(self, value, 0, LENGTH),
+            (Type::Point, "east") => part(self, value, 1, LENGTH),
+            (Type::Vector(d), "north") => part(self, value, 0, Type::Quantity(d)),
+            (Type::Vector(d), "east") => part(self, value, 1, Type::Quantity(d)),
+            (Type::Vector(d), "length") => {
+                let length = self.operation(Builtin::Length, vec![value], Type::Quantity(d), span);
+                Expr { range: Interval { low: 0.0, high: f64::INFINITY, not_zero: false }, ..length }
+            }
+            (Type::Vector(_), "toward") => self.operation(Builtin::Direction, vec![value], Type::Heading, span),
+            (Type::Area, "center") => self.operation(Builtin::Center, vec![value], Type::Point, span),
+            (Type::Area, "edges") => {
+                self.report(
+                    Diagnostic::error("types::edges", span, "`edges` can only be walked")
+                        .help("write `for edge in area.edges { … }`"),
+                );
+                self.unknown(span)
+            }
+            (Type::Edge, "line") => part(self, value, 0, Type::Line),
+            (Type::Edge, "normal") => part(self, value, 4, Type::Vector(Dimension::NONE)),
+            (Type::Line, "start") => part(self, value, 0, Type::Point),
+            (Type::Line, "end") => part(self, value, 2, Type::Point),
+            (Type::Line, "heading" | "length") => {
+                let start = part(self, value.clone(), 0, Type::Point);
+                let end = part(self, value, 2, Type::Point);
+                let along = self.operation(Builtin::SubVector, vec![end, start], VECTOR, span);
+                let (op, ty) = if member.node == "heading" {
+                    (Builtin::Direction, Type::Heading)
+                } else {
+                    (Builtin::Length, LENGTH)
+                };
+                self.operation(op, vec![along], ty, span)
+            }
+            (Type::List(_, n), "count") => {
+                let count = part(self, value, 0, Type::Int);
+                Expr { range: Interval::new(0.0, f64::from(n)), ..count }
+            }
+            (Type::List(inner, _), "first") => {
+                let zero = self.make(ExprKind::Number(0.0), Type::Int, span);
+                self.operation(Builtin::At, vec![value, zero], inner.optional(), span)
+            }
+            (Type::Record(id), field) => {
+                let fields = self.types.records[id].fields.clone();
+                let mut at = 0;
+                for (name, ty) in fields {
+                    if name == field {
+                        return part(self, value, at, ty);
+                    }
+                    at += self.types.words(&ty);
+                }
+                self.no_such_member(&value, member);
+                self.unknown(span)
+            }
+            (Type::Optional(_), _) => {
+                let finding = self.absent(&value);
+                self.report(finding);
+                self.unknown(span)
+            }
+            _ => {
+                self.no_such_member(&value, member);
+                self.unknown(span)
+            }
+        }
+    }
+
+    /// `x.age`, `x.peak` and the fields of inputs.
+    fn input_part(&mut self, value: &Expr, member: &tree::Name, span: Span) -> Option<Expr> {
+        let ExprKind::Input(id, InputPart::Value) = value.kind else { return None };
+        let input = self.hir.inputs[id].clone();
+        let read =
+            |part: InputPart, ty: Type| Some(Expr { kind: ExprKind::Input(id, part), ty, span, range: Interval::ANY });
+        match member.node.as_str() {
+            "age" => {
+                return Some(Expr {
+                    range: Interval { low: 0.0, high: f64::INFINITY, not_zero: false },
+                    ..read(InputPart::Age, Type::Quantity(Dimension::TIME))?
+                });
+            }
+            "peak" if matches!(input.ty, Type::Quantity(_)) => return read(InputPart::Peak, input.ty),
+            _ => {}
+        }
+        let mut at = self.types.words(&input.ty);
+        for (name, ty) in input.fields {
+            if name == member.node {
+                return read(InputPart::Field(at), ty);
+            }
+            at += self.types.words(&ty);
+        }
+        None
+    }
+
+    pub(super) fn no_such_name(&mut self, module: usize, name: &tree::Name) {
+        let finding = Diagnostic::error(
+            "names::unknown",
+            name.span,
+            format!("the module `{}` has no `{}`", self.modules[module].name, name.node),
+        );
+        let names: Vec<String> = self.names[module].keys().cloned().collect();
+        let finding = match suggest::help(&name.node, names.iter().map(String::as_str)) {
+            Some(help) => finding.help(help),
+            None => finding,
+        };
+        self.report(finding);
+    }
+
+    fn no_such_member(&mut self, value: &Expr, member: &tree::Name) {
+        let ty = self.type_name(&value.ty);
+        let finding =
+            Diagnostic::error("names::member", member.span, format!("{} has no `{}`", article(&ty), member.node))
+                .label(value.span, format!("`{ty}`"));
+        let names = member_names(self, &value.ty);
+        let finding = match suggest::help(&member.node, names.iter().map(String::as_str)) {
+            Some(help) => finding.help(help),
+            None => finding,
+        };
+        self.report(finding);
+    }
+
+    /// A call of whatever stands before the parentheses.
+    pub(super) fn call(
+        &mut self,
+        callee: &tree::Expr,
+        args: &[tree::Arg],
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expr {
+        if let tree::ExprKind::Member(base, member) = &callee.kind
+            && self.module_named(base).is_none()
+        {
+            return self.method(base, member, args, span);
+        }
+        let found = self.find(callee);
+        match found {
+            Found::Def(def) => self.call_def(&def, callee, args, span),
+            Found::Nothing => match &callee.kind {
+                tree::ExprKind::Name(name) => self.call_builtin(name, callee.span, args, span, expected),
+                tree::ExprKind::Member(base, member) => {
+                    if let Some(module) = self.module_named(base) {
+                        self.no_such_name(module, member);
+                    }
+                    self.unknown(span)
+                }
+                _ => {
+                    self.report(Diagnostic::error("names::call", callee.span, "this cannot be called"));
+                    self.unknown(span)
+                }
+            },
+        }
+    }
+
+    fn method(&mut self, base: &tree::Expr, member: &tree::Name, args: &[tree::Arg], span: Span) -> Expr {
+        let value = self.expr(base, None);
+        if value.ty == Type::Unknown {
+            for arg in args {
+                self.expr(&arg.value, None);
+            }
+            return value;
+        }
+        if let (ExprKind::Input(id, InputPart::Value), "hits") = (&value.kind, member.node.as_str()) {
+            return self.hits(*id, &value.ty.clone(), args, span);
+        }
+        if let Some(method) = methods(&value.ty).into_iter().find(|m| m.name == member.node) {
+            let mut operands = vec![value];
+            let Some(given) = self.simple_args(method.name, method.params, args, span) else {
+                return self.unknown(span);
+            };
+            operands.extend(given);
+            return self.operation(method.op, operands, method.result, span);
+        }
+        match (value.ty.clone(), member.node.as_str()) {
+            (Type::Vector(d), "dot") => {
+                let Some([arg]) = self.positional::<1>("dot", args, span) else { return self.unknown(span) };
+                let other = self.expr(&arg, None);
+                match other.ty {
+                    Type::Vector(e) => self.operation(Builtin::Dot, vec![value, other], Type::Quantity(d * e), span),
+                    Type::Unknown => other,
+                    _ => {
+                        let name = self.type_name(&other.ty);
+                        self.report(Diagnostic::error(
+                            "types::mismatch",
+                            other.span,
+                            format!("`dot` takes another vector, this is {}", article(&name)),
+                        ));
+                        self.unknown(span)
+                    }
+                }
+            }
+            (Type::Area, "contains") => {
+                let Some(point) = self.simple_args("contains", POINT_PARAM, args, span) else {
+                    return self.unknown(span);
+                };
+                let gap = self.operation(Builtin::Gap, [vec![value], point].concat(), LENGTH, span);
+                let zero = self.make(ExprKind::Number(0.0), LENGTH, span);
+                Expr { kind: ExprKind::Do(Builtin::Le, vec![zero, gap]), ty: Type::Bool, span, range: Interval::ANY }
+            }
+            (Type::Area, "run") => {
+                // How far one can go in a direction before the edge.
+                let params = &[("point", Type::Point), ("toward", Type::Heading)];
+                let Some(given) = self.simple_args("run", params, args, span) else { return self.unknown(span) };
+                let from = given[0].clone();
+                let exit = self.operation(Builtin::Exit, [vec![value], given].concat(), Type::Point, span);
+                let run = self.operation(Builtin::SubVector, vec![exit, from], VECTOR, span);
+                self.operation(Builtin::Length, vec![run], LENGTH, span)
+            }
+            (Type::Area, "corner") => {
+                let params = &[("toward", Type::Heading), ("near", Type::Point)];
+                let with_center;
+                let given = if args.len() < 2 {
+                    let Some(given) = self.simple_args("corner", &params[..1], args, span) else {
+                        return self.unknown(span);
+                    };
+                    with_center = self.operation(Builtin::Center, vec![value.clone()], Type::Point, span);
+                    [given, vec![with_center]].concat()
+                } else {
+                    let Some(given) = self.simple_args("corner", params, args, span) else { return self.unknown(span) };
+                    given
+                };
+                self.operation(Builtin::Corner, [vec![value], given].concat(), Type::Point, span)
+            }
+            (Type::List(inner, n), "top") => {
+                let Some([count]) = self.positional::<1>("top", args, span) else { return self.unknown(span) };
+                let count = self.expr_as(&count, &Type::Int, "the argument of `top`");
+                self.operation(Builtin::Top, vec![value, count], Type::List(inner, n), span)
+            }
+            (Type::List(inner, _), "spread") if *inner == Type::Point => {
+                let Some(given) = self.simple_args("spread", HEADING_PARAM, args, span) else {
+                    return self.unknown(span);
+                };
+                self.operation(Builtin::Spread, [vec![value], given].concat(), LENGTH, span)
+            }
+            (Type::List(..), "insert" | "remove" | "clear") => {
+                self.report(
+                    Diagnostic::error("types::statement", span, format!("`{}` is a statement, no value", member.node))
+                        .help("write it on a line of its own"),
+                );
+                self.unknown(span)
+            }
+            (Type::Optional(_), _) => {
+                let finding = self.absent(&value);
+                self.report(finding);
+                self.unknown(span)
+            }
+            _ => {
+                self.no_such_member(&value, member);
+                self.unknown(span)
+            }
+        }
+    }
+
+    /// `chemical.hits(4 %, of: 10)`.
+    fn hits(&mut self, input: usize, ty: &Type, args: &[tree::Arg], span: Span) -> Expr {
+        let params = &[("limit", ty.clone()), ("of", Type::Int)];
+        let Some(given) = self.simple_args("hits", params, args, span) else { return self.unknown(span) };
+        let [limit, of] = given.as_slice() else { return self.unknown(span) };
+        let count = match of.range.constant() {
+            Some(n) if (1.0..=HITS_MAX).contains(&n) => n as u32,
+            _ => {
+                self.report(
+                    Diagnostic::error("types::hits", of.span, "how many samples are counted must be a constant")
+                        .help(format!("a whole number from 1 to {HITS_MAX}")),
+                );
+                return self.unknown(span);
+            }
+        };
+        let part = InputPart::Hits(Box::new(limit.clone()), count);
+        Expr { kind: ExprKind::Input(input, part), ty: Type::Int, span, range: Interval::new(0.0, f64::from(count)) }
+    }
+}

@@ -1,0 +1,297 @@
+//! Names, types, dimensions and frames: from trees to the checked program, with every mistake of every file.
+
+mod activity;
+mod args;
+mod body;
+mod constant;
+mod declare;
+mod expr;
+mod facts;
+mod members;
+mod operators;
+mod scenario;
+mod table;
+mod timed;
+
+pub use declare::Override;
+
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Unit;
+use crate::hir::{self, Hir, Interval, VarId, VarKind};
+use crate::source::Span;
+use crate::syntax::tree;
+use crate::types::{EnumId, RecordId, Type, TypeTable};
+use facts::Facts;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A file with the name by which others import it.
+#[derive(Clone, Debug)]
+pub struct Module {
+    /// `cpt`, or empty for the file that is run.
+    pub name: String,
+    /// Its tree.
+    pub tree: tree::File,
+    /// Where each imported name leads: index into the modules.
+    pub imports: BTreeMap<String, usize>,
+    /// Its names are known everywhere without being imported.
+    pub prelude: bool,
+}
+
+/// What a name of a module stands for.
+#[derive(Clone, Debug)]
+enum Def {
+    Const(usize),
+    Enum(EnumId),
+    Variant(EnumId, usize),
+    Record(RecordId),
+    Unit(Unit),
+    Input(usize),
+    Clause(usize),
+    Fn(usize),
+    Signal(usize),
+    Activity(usize),
+    Scenario(usize),
+}
+
+impl Def {
+    fn can_be_called(&self) -> bool {
+        matches!(self, Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_))
+    }
+
+    fn what(&self) -> &'static str {
+        match self {
+            Def::Const(_) => "a constant",
+            Def::Enum(_) => "an enum",
+            Def::Variant(..) => "a variant",
+            Def::Record(_) => "a record",
+            Def::Unit(_) => "a unit",
+            Def::Input(_) => "an input",
+            Def::Clause(_) => "a clause of scenarios",
+            Def::Fn(_) => "a function",
+            Def::Signal(_) => "a signal",
+            Def::Activity(_) => "a behavior, strategy, overlay or mission",
+            Def::Scenario(_) => "a scenario",
+        }
+    }
+}
+
+/// A constant or a module's signal: checked when first needed.
+enum Lazy<'t> {
+    Unchecked { module: usize, name: &'t tree::Name, ty: Option<&'t tree::Ty>, value: &'t tree::Expr },
+    InProgress,
+    Done(hir::Expr),
+}
+
+/// What a parameter of anything callable is.
+#[derive(Clone, Debug)]
+struct ParamInfo {
+    name: String,
+    ty: Type,
+    default: Option<hir::Expr>,
+    range: Option<Interval>,
+    span: Span,
+}
+
+/// What is known of a callable before its body is looked at.
+#[derive(Clone, Debug)]
+struct Signature {
+    name: String,
+    span: Span,
+    params: Vec<ParamInfo>,
+    result: Option<Type>,
+}
+
+/// A clause that scenarios may hold.
+struct ClauseInfo {
+    signature: Signature,
+    /// For each parameter the kind of clause that is its value, when it takes a clause.
+    nested: Vec<Option<String>>,
+    /// A clause of a kind is the value of another clause's parameter, not a clause of its own.
+    kind: Option<String>,
+}
+
+/// Where code stands, which tells what it may do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Setting {
+    /// Constants, defaults: nothing of a vehicle.
+    Constant,
+    /// A function: its parameters and its own variables.
+    Function,
+    /// Reactions, `do`, `amend`: may assign memory, takes no time.
+    Instant,
+    /// A body: statements may take time.
+    Body,
+}
+
+/// Which temporal operators may stand here.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Temporal {
+    /// None.
+    No,
+    /// `X for T`, `becomes`, `after`.
+    Yes,
+    /// These and `done`.
+    Rule,
+}
+
+/// The names that code can see.
+struct Scope {
+    module: usize,
+    setting: Setting,
+    temporal: Temporal,
+    vars: Vec<hir::Var>,
+    visible: Vec<(String, VarId)>,
+    facts: Facts,
+    /// What `finish` must give: none where it cannot stand.
+    finish: Option<Option<Type>>,
+}
+
+impl Scope {
+    fn new(module: usize, setting: Setting) -> Self {
+        Scope {
+            module,
+            setting,
+            temporal: Temporal::No,
+            vars: Vec::new(),
+            visible: Vec::new(),
+            facts: Facts::default(),
+            finish: None,
+        }
+    }
+}
+
+/// Checks modules. Imported modules come before those that import them.
+pub struct Checker<'t> {
+    modules: &'t [Module],
+    names: Vec<BTreeMap<String, Def>>,
+    consts: Vec<Lazy<'t>>,
+    signals: Vec<Lazy<'t>>,
+    clauses: Vec<ClauseInfo>,
+    fn_signatures: Vec<Signature>,
+    activity_signatures: Vec<Signature>,
+    overlay_ids: BTreeSet<usize>,
+    mission_ids: BTreeSet<usize>,
+    overrides: Vec<Override>,
+    types: TypeTable,
+    hir: Hir,
+    scope: Scope,
+    findings: Vec<Diagnostic>,
+}
+
+/// What checking gives.
+pub struct Checked {
+    /// The program, as far as it could be understood.
+    pub hir: Hir,
+    /// Its declared types.
+    pub types: TypeTable,
+    /// What is wrong with it.
+    pub findings: Vec<Diagnostic>,
+}
+
+/// Checks all modules.
+pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
+    let mut checker = Checker {
+        modules,
+        names: modules.iter().map(|_| BTreeMap::new()).collect(),
+        consts: Vec::new(),
+        signals: Vec::new(),
+        clauses: Vec::new(),
+        fn_signatures: Vec::new(),
+        activity_signatures: Vec::new(),
+        overlay_ids: BTreeSet::new(),
+        mission_ids: BTreeSet::new(),
+        overrides,
+        types: TypeTable::default(),
+        hir: Hir::default(),
+        scope: Scope::new(0, Setting::Constant),
+        findings: Vec::new(),
+    };
+    checker.run();
+    Checked { hir: checker.hir, types: checker.types, findings: checker.findings }
+}
+
+impl<'t> Checker<'t> {
+    fn report(&mut self, finding: Diagnostic) {
+        self.findings.push(finding);
+    }
+
+    fn type_name(&self, ty: &Type) -> String {
+        self.types.name(ty)
+    }
+
+    /// Works in another scope, and comes back.
+    fn within<T>(&mut self, scope: Scope, work: impl FnOnce(&mut Self) -> T) -> (T, Scope) {
+        let outer = std::mem::replace(&mut self.scope, scope);
+        let result = work(self);
+        (result, std::mem::replace(&mut self.scope, outer))
+    }
+
+    /// Works in a block: its names and what it learns are forgotten at its end.
+    fn in_block<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+        let (visible, facts) = (self.scope.visible.len(), self.scope.facts.clone());
+        let result = work(self);
+        self.scope.visible.truncate(visible);
+        self.scope.facts = facts;
+        result
+    }
+
+    /// Works where other temporal operators are allowed.
+    fn with_temporal<T>(&mut self, temporal: Temporal, work: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.scope.temporal, temporal);
+        let result = work(self);
+        self.scope.temporal = outer;
+        result
+    }
+
+    /// Works in another setting.
+    fn with_setting<T>(&mut self, setting: Setting, work: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.scope.setting, setting);
+        let result = work(self);
+        self.scope.setting = outer;
+        result
+    }
+
+    /// A name that a module defines, or that everyone knows.
+    fn lookup(&self, module: usize, name: &str) -> Option<&Def> {
+        self.lookup_if(module, name, |_| true)
+    }
+
+    /// The same among the definitions of some kind: a name before `(` is looked up among what can be called.
+    fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
+        let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
+        std::iter::once(module).chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
+    }
+
+    fn local(&self, name: &str) -> Option<VarId> {
+        self.scope.visible.iter().rev().find(|(n, _)| n == name).map(|&(_, id)| id)
+    }
+
+    /// Makes a variable known from here on.
+    fn declare(&mut self, name: &tree::Name, kind: VarKind, ty: Type) -> VarId {
+        let earlier = self.local(&name.node).map(|id| self.scope.vars[id].span);
+        let finding = |what: &str| {
+            Diagnostic::error("names::shadowed", name.span, format!("`{}` is the name of {what} already", name.node))
+                .here("nothing can be shadowed")
+                .help("choose another name")
+        };
+        if let Some(span) = earlier {
+            self.report(finding("something").label(span, "declared here"));
+        } else if let Some(def) = self.lookup(self.scope.module, &name.node) {
+            let callable =
+                matches!(def, Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_) | Def::Scenario(_));
+            // A name before `(` is looked up among what can be called, any other among values.
+            if !callable {
+                let finding = finding(def.what());
+                self.report(finding);
+            }
+        }
+        self.declare_hidden(name.node.clone(), kind, ty, name.span)
+    }
+
+    fn declare_hidden(&mut self, name: String, kind: VarKind, ty: Type, span: Span) -> VarId {
+        let id = self.scope.vars.len();
+        self.scope.vars.push(hir::Var { name: name.clone(), kind, ty, span, range: Interval::ANY, order: None });
+        self.scope.visible.push((name, id));
+        id
+    }
+}

@@ -1,0 +1,398 @@
+//! Operators between two operands: the whole table of what can be calculated with what.
+
+use super::Checker;
+use super::expr::article;
+use super::facts;
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{Builtin, Expr, ExprKind, Interval};
+use crate::source::{Span, Spanned};
+use crate::syntax::tree::{self, Binary};
+use crate::types::Type;
+
+const ANGLE: Type = Type::Quantity(Dimension::ANGLE);
+const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
+const VECTOR: Type = Type::Vector(Dimension::LENGTH);
+
+impl<'t> Checker<'t> {
+    pub(super) fn binary(
+        &mut self,
+        op: &Spanned<Binary>,
+        left: &tree::Expr,
+        right: &tree::Expr,
+        expected: Option<&Type>,
+        span: Span,
+    ) -> Expr {
+        match op.node {
+            Binary::And | Binary::Or => self.logical(op, left, right, span),
+            Binary::Else => self.otherwise(left, right, expected, span),
+            _ => {
+                self.no_chain(op, left);
+                let (a, b) = (self.expr(left, None), self.expr(right, None));
+                if a.ty == Type::Unknown || b.ty == Type::Unknown {
+                    return self.unknown(span);
+                }
+                if op.node != Binary::Eq
+                    && op.node != Binary::Ne
+                    && let Some(absent) = [&a, &b].into_iter().find(|e| e.ty.is_optional())
+                {
+                    let finding = self.absent(absent);
+                    self.report(finding);
+                    return self.unknown(span);
+                }
+                match op.node {
+                    Binary::Add => self.sum(op, a, b, span),
+                    Binary::Sub => self.difference(op, a, b, span),
+                    Binary::Mul => self.product(op, a, b, span),
+                    Binary::Div => self.quotient(op, a, b, span),
+                    Binary::Pow => self.power(op, a, b, span),
+                    Binary::Toward => self.toward(op, a, b, span),
+                    _ => self.comparison(op, a, b, span),
+                }
+            }
+        }
+    }
+
+    /// `a < b < c` reads like mathematics and means something else.
+    fn no_chain(&mut self, op: &Spanned<Binary>, left: &tree::Expr) {
+        if let tree::ExprKind::Binary(inner, ..) = &left.kind
+            && op.node.compares()
+            && inner.node.compares()
+        {
+            self.report(
+                Diagnostic::error("syntax::chain", op.span, "comparisons cannot be chained")
+                    .label(inner.span, "the first comparison")
+                    .help("write `a < b and b < c`"),
+            );
+        }
+    }
+
+    pub(super) fn absent(&self, value: &Expr) -> Diagnostic {
+        let name = self.type_name(&value.ty);
+        let why = match &value.kind {
+            ExprKind::Do(Builtin::Div, _) => "the divisor may be zero, and then there is no quotient",
+            ExprKind::Do(Builtin::At, _) => "the list may be shorter",
+            _ => "it may be absent",
+        };
+        Diagnostic::error("absent::used", value.span, format!("this is {}: {why}", article(&name)))
+            .here(format!("`{name}`"))
+            .help("write `… else VALUE`, or test it first: `let x = …` then `if x { … }`")
+    }
+
+    fn logical(&mut self, op: &Spanned<Binary>, left: &tree::Expr, right: &tree::Expr, span: Span) -> Expr {
+        for side in [left, right] {
+            // `becomes a or b` could mean either: rule 14 asks for parentheses.
+            if let tree::ExprKind::Unary(word, _) = &side.kind
+                && word.node == tree::Unary::Becomes
+            {
+                self.report(
+                    Diagnostic::error(
+                        "time::ambiguous",
+                        side.span,
+                        format!("`becomes` beside `{}` needs parentheses", op.node.symbol()),
+                    )
+                    .help(format!("write `(becomes …) {0} …`, or `becomes (… {0} …)`", op.node.symbol())),
+                );
+            }
+        }
+        let a = self.condition(left);
+        let before = self.scope.facts.clone();
+        self.scope.facts.learn(facts::shown(&a, op.node == Binary::And));
+        let b = self.condition(right);
+        self.scope.facts = before;
+        let builtin = if op.node == Binary::And { Builtin::And } else { Builtin::Or };
+        self.operation(builtin, vec![a, b], Type::Bool, span)
+    }
+
+    fn otherwise(&mut self, left: &tree::Expr, right: &tree::Expr, expected: Option<&Type>, span: Span) -> Expr {
+        let a = self.expr(left, expected);
+        let inner = match &a.ty {
+            Type::Optional(inner) => (**inner).clone(),
+            Type::Unknown => {
+                self.expr(right, expected);
+                return self.unknown(span);
+            }
+            _ => {
+                let name = self.type_name(&a.ty);
+                self.report(
+                    Diagnostic::error(
+                        "absent::else",
+                        a.span,
+                        format!("this is never absent: it is {}", article(&name)),
+                    )
+                    .help("leave out `else …`"),
+                );
+                self.expr(right, expected);
+                return a;
+            }
+        };
+        let b = self.expr(right, Some(&inner));
+        let ty = if b.ty.is_optional() { a.ty.clone() } else { inner };
+        let b = self.coerce(b, &ty, "what comes before `else`");
+        self.make(ExprKind::Else(Box::new(a), Box::new(b)), ty, span)
+    }
+
+    fn sum(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
+        use Type::*;
+        let (op_, ty) = match (&a.ty, &b.ty) {
+            (Int | Sign, Int | Sign) => (Builtin::Add, Int),
+            (Heading, t) | (t, Heading) if *t == ANGLE => {
+                let sum = self.operation(Builtin::Add, vec![a, b], ANGLE, span);
+                return self.operation(Builtin::Heading, vec![sum], Heading, span);
+            }
+            (Depth, t) | (t, Depth) if *t == LENGTH => (Builtin::Add, Depth),
+            (Altitude, t) | (t, Altitude) if *t == LENGTH => (Builtin::Add, Altitude),
+            (Point, t) | (t, Point) if *t == VECTOR => (Builtin::AddVector, Point),
+            (Vector(x), Vector(y)) if x == y => (Builtin::AddVector, Vector(*x)),
+            (x, y) => match (x.dimension(), y.dimension()) {
+                (Some(d), Some(e)) if d == e => (Builtin::Add, Quantity(d)),
+                _ => return self.no_such(op, &a, &b, span),
+            },
+        };
+        self.operation(op_, vec![a, b], ty, span)
+    }
+
+    fn difference(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
+        use Type::*;
+        let (op_, ty) = match (&a.ty, &b.ty) {
+            (Int | Sign, Int | Sign) => (Builtin::Sub, Int),
+            (Heading, Heading) => {
+                let difference = self.operation(Builtin::Sub, vec![a, b], ANGLE, span);
+                return self.operation(Builtin::Angle, vec![difference], ANGLE, span);
+            }
+            (Heading, t) if *t == ANGLE => {
+                let difference = self.operation(Builtin::Sub, vec![a, b], ANGLE, span);
+                return self.operation(Builtin::Heading, vec![difference], Heading, span);
+            }
+            (Depth, Depth) | (Altitude, Altitude) => (Builtin::Sub, LENGTH),
+            (Depth, t) if *t == LENGTH => (Builtin::Sub, Depth),
+            (Altitude, t) if *t == LENGTH => (Builtin::Sub, Altitude),
+            (Point, Point) => (Builtin::SubVector, VECTOR),
+            (Point, t) if *t == VECTOR => (Builtin::SubVector, Point),
+            (Vector(x), Vector(y)) if x == y => (Builtin::SubVector, Vector(*x)),
+            (x, y) => match (x.dimension(), y.dimension()) {
+                (Some(d), Some(e)) if d == e => (Builtin::Sub, Quantity(d)),
+                _ => return self.no_such(op, &a, &b, span),
+            },
+        };
+        self.operation(op_, vec![a, b], ty, span)
+    }
+
+    fn product(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
+        match (&a.ty, &b.ty) {
+            (Type::Int | Type::Sign, Type::Int | Type::Sign) => {
+                self.operation(Builtin::Mul, vec![a, b], Type::Int, span)
+            }
+            (Type::Vector(v), t) if t.dimension().is_some() => {
+                let ty = Type::Vector(*v * t.dimension().unwrap_or_default());
+                self.operation(Builtin::Scale, vec![a, b], ty, span)
+            }
+            (t, Type::Vector(v)) if t.dimension().is_some() => {
+                let ty = Type::Vector(*v * t.dimension().unwrap_or_default());
+                self.operation(Builtin::Scale, vec![b, a], ty, span)
+            }
+            (x, y) => match (x.dimension(), y.dimension()) {
+                (Some(d), Some(e)) => self.operation(Builtin::Mul, vec![a, b], Type::Quantity(d * e), span),
+                _ => self.no_such(op, &a, &b, span),
+            },
+        }
+    }
+
+    /// Division: by what may be zero it may have no result.
+    fn quotient(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
+        let Some(divisor) = b.ty.dimension() else { return self.no_such(op, &a, &b, span) };
+        if b.range.constant() == Some(0.0) {
+            self.report(Diagnostic::error("ranges::zero", b.span, "this divides by zero"));
+            return self.unknown(span);
+        }
+        let proved = b.range.excludes_zero() || b.ty == Type::Sign;
+        let (ty, quotient) = match &a.ty {
+            Type::Vector(v) => {
+                let one = self.make(ExprKind::Number(1.0), Type::Int, span);
+                let inverse = self.operation(Builtin::Div, vec![one, b.clone()], Type::Quantity(Dimension::NONE), span);
+                let ty = Type::Vector(*v / divisor);
+                (ty.clone(), self.operation(Builtin::Scale, vec![a, inverse], ty, span))
+            }
+            t => match t.dimension() {
+                Some(d) => {
+                    let ty = Type::Quantity(d / divisor);
+                    (ty.clone(), self.operation(Builtin::Div, vec![a, b.clone()], ty, span))
+                }
+                None => return self.no_such(op, &a, &b, span),
+            },
+        };
+        if proved {
+            return quotient;
+        }
+        // Present when the divisor is not zero: `if divisor != 0 { quotient } else { none }`.
+        let zero = self.make(ExprKind::Number(0.0), b.ty.clone(), span);
+        let is_zero =
+            Expr { kind: ExprKind::Do(Builtin::Eq, vec![b, zero]), ty: Type::Bool, span, range: Interval::ANY };
+        let not_zero = self.operation(Builtin::Not, vec![is_zero], Type::Bool, span);
+        let ty = ty.optional();
+        let present = self.make(ExprKind::Present(Box::new(quotient)), ty.clone(), span);
+        let absent = Expr { kind: ExprKind::None, ty: ty.clone(), span, range: Interval::ANY };
+        let block = |value: Expr| crate::hir::Block { stmts: Vec::new(), value: Some(Box::new(value)) };
+        Expr { kind: ExprKind::If(Box::new(not_zero), block(present), block(absent)), ty, span, range: Interval::ANY }
+    }
+
+    fn power(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
+        let (Some(d), Some(Dimension::NONE)) = (a.ty.dimension(), b.ty.dimension()) else {
+            return self.no_such(op, &a, &b, span);
+        };
+        let Some(power) = b.range.constant() else {
+            self.report(
+                Diagnostic::error("types::power", b.span, "a power must be a constant")
+                    .help("the dimension of the result depends on it"),
+            );
+            return self.unknown(span);
+        };
+        if power < 0.0 || power.fract() != 0.0 && a.range.low < 0.0 {
+            self.report(
+                Diagnostic::error("types::power", b.span, "this power has no value for some bases")
+                    .help("use a positive whole power, `sqrt(x)`, or divide"),
+            );
+            return self.unknown(span);
+        }
+        match d.power(power) {
+            Some(d) => self.operation(Builtin::Pow, vec![a, b], Type::Quantity(d), span),
+            None => {
+                self.report(Diagnostic::error("types::power", span, "the dimension of this power cannot be written"));
+                self.unknown(span)
+            }
+        }
+    }
+
+    fn toward(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
+        let Some(d) = a.ty.dimension() else { return self.no_such(op, &a, &b, span) };
+        let b = self.coerce(b, &Type::Heading, "the direction after `toward`");
+        self.operation(Builtin::Toward, vec![a, b], Type::Vector(d), span)
+    }
+
+    fn comparison(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
+        use Type::*;
+        let equality = matches!(op.node, Binary::Eq | Binary::Ne);
+        let comparable = match (&a.ty, &b.ty) {
+            (x, y) if x == y => match x {
+                Quantity(_) | Int | Depth | Altitude => true,
+                Heading => {
+                    if !equality {
+                        self.report(
+                            Diagnostic::error(
+                                "types::order",
+                                op.span,
+                                "headings have no order: 350 deg is just left of 10 deg",
+                            )
+                            .help("compare the angle between them: `HEADING - HEADING > 0 deg`"),
+                        );
+                        return self.unknown(span);
+                    }
+                    true
+                }
+                _ => equality,
+            },
+            (Depth | Altitude, t) if *t == LENGTH => b.range.constant().is_some(),
+            (t, Depth | Altitude) if *t == LENGTH => a.range.constant().is_some(),
+            (Heading, t) if *t == ANGLE && equality => b.range.constant().is_some(),
+            (Optional(x), y) | (y, Optional(x)) if **x == *y && equality => true,
+            (Optional(_), None) | (None, Optional(_)) if equality => true,
+            (x, y) => matches!((x.dimension(), y.dimension()), (Some(d), Some(e)) if d == e),
+        };
+        if !comparable {
+            return self.no_such(op, &a, &b, span);
+        }
+        let (a, b) = match (a.ty.is_optional(), b.ty.is_optional()) {
+            (true, false) => {
+                let ty = a.ty.clone();
+                let b = self.coerce(b, &ty, "the other side");
+                (a, b)
+            }
+            (false, true) => {
+                let ty = b.ty.clone();
+                let a = self.coerce(a, &ty, "the other side");
+                (a, b)
+            }
+            _ => (a, b),
+        };
+        let (builtin, operands, negate) = match op.node {
+            Binary::Lt => (Builtin::Lt, vec![a, b], false),
+            Binary::Le => (Builtin::Le, vec![a, b], false),
+            Binary::Gt => (Builtin::Lt, vec![b, a], false),
+            Binary::Ge => (Builtin::Le, vec![b, a], false),
+            Binary::Ne => (Builtin::Eq, vec![a, b], true),
+            _ => (Builtin::Eq, vec![a, b], false),
+        };
+        let compared = Expr { kind: ExprKind::Do(builtin, operands), ty: Bool, span, range: Interval::ANY };
+        if negate { self.operation(Builtin::Not, vec![compared], Bool, span) } else { compared }
+    }
+
+    /// Two operands that an operator does not take: each is labelled with what it is.
+    fn no_such(&mut self, op: &Spanned<Binary>, a: &Expr, b: &Expr, span: Span) -> Expr {
+        let (left, right) = (self.type_name(&a.ty), self.type_name(&b.ty));
+        let symbol = op.node.symbol();
+        let (code, verb) = match op.node {
+            Binary::Add => ("types::sum", "cannot be added"),
+            Binary::Sub => ("types::difference", "cannot be subtracted from one another"),
+            Binary::Mul => ("types::product", "cannot be multiplied"),
+            Binary::Div => ("types::quotient", "cannot be divided"),
+            Binary::Toward => ("types::toward", "make no vector"),
+            Binary::Pow => ("types::power", "make no power"),
+            _ => ("types::comparison", "cannot be compared"),
+        };
+        let finding = Diagnostic::error(code, op.span, format!("{} and {} {verb}", article(&left), article(&right)))
+            .here(format!("`{symbol}`"))
+            .label(a.span, format!("`{left}`"))
+            .label(b.span, format!("`{right}`"));
+        let finding = match self.operator_help(op.node, a, b) {
+            Some(help) => finding.help(help),
+            None => finding,
+        };
+        self.report(finding);
+        self.unknown(span)
+    }
+
+    fn operator_help(&self, op: Binary, a: &Expr, b: &Expr) -> Option<String> {
+        use Type::*;
+        Some(match (op, &a.ty, &b.ty) {
+            (Binary::Add, Heading, Heading) => {
+                "a heading is turned by an angle: `HEADING + ANGLE`; the angle between two is `HEADING - HEADING`"
+                    .into()
+            }
+            (Binary::Add | Binary::Sub, Point, Quantity(d)) if *d == Dimension::LENGTH => {
+                "say in which direction: `POINT + LENGTH toward HEADING`".into()
+            }
+            (Binary::Add, Point, Point) => {
+                "a point is moved by a vector: `POINT + VECTOR`; `POINT - POINT` is a vector".into()
+            }
+            (_, Depth, Altitude) | (_, Altitude, Depth) => {
+                "depth is counted from the surface and altitude from the bottom; `water_depth` is both together".into()
+            }
+            (Binary::Add, Depth, Depth) | (Binary::Add, Altitude, Altitude) => {
+                "it is changed by a length: `depth + 2 m`; the difference of two is a length".into()
+            }
+            (_, Depth | Altitude, Quantity(d)) | (_, Quantity(d), Depth | Altitude)
+                if op.compares() && *d == Dimension::LENGTH =>
+            {
+                "compare with a depth or an altitude, such as `top + 1 m`, or with a constant".into()
+            }
+            (Binary::Add | Binary::Sub, x, y)
+            | (Binary::Lt | Binary::Le | Binary::Gt | Binary::Ge | Binary::Eq | Binary::Ne, x, y) => {
+                let (d, e) = (x.dimension()?, y.dimension()?);
+                if d.is_none() {
+                    return Some(format!("give the number on the left a unit, such as `{}`", e.display().unit));
+                }
+                if e.is_none() {
+                    return Some(format!("give the number on the right a unit, such as `{}`", d.display().unit));
+                }
+                if let Some(name) = (e / d).type_name() {
+                    format!("divide the right-hand side by {}", article(name))
+                } else if let Some(name) = (d / e).type_name() {
+                    format!("multiply the right-hand side by {}", article(name))
+                } else {
+                    return Option::None;
+                }
+            }
+            _ => return Option::None,
+        })
+    }
+}

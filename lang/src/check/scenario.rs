@@ -1,0 +1,192 @@
+//! Scenarios: clauses with typed arguments. What a clause means is for the simulator; its parameters are declared in
+//! the standard library like those of any function.
+
+use super::expr::Found;
+use super::{Checker, Def, Scope, Setting};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{ClauseArg, ClauseUse};
+use crate::suggest;
+use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
+use crate::types::Type;
+
+impl<'t> Checker<'t> {
+    pub(super) fn declare_clause(&mut self, m: usize, id: usize, params: &'t [tree::Param]) {
+        // A parameter whose type is the kind of other clauses takes one of those as its value.
+        let mut nested = Vec::new();
+        for param in params {
+            let kind = match &param.ty.kind {
+                TyKind::Named { path, .. } => {
+                    let name = path.text();
+                    self.clauses.iter().any(|c| c.kind.as_ref() == Some(&name)).then_some(name)
+                }
+                TyKind::List { .. } => None,
+            };
+            nested.push(kind);
+        }
+        let mut infos = Vec::new();
+        for (param, nested) in params.iter().zip(&nested) {
+            if nested.is_some() {
+                infos.push(super::ParamInfo {
+                    name: param.name.node.clone(),
+                    ty: Type::Unknown,
+                    default: None,
+                    range: None,
+                    span: param.name.span,
+                });
+            } else {
+                infos.extend(self.params(m, std::slice::from_ref(param), None));
+            }
+        }
+        self.clauses[id].signature.params = infos;
+        self.clauses[id].nested = nested;
+    }
+
+    pub(super) fn scenario_named(&mut self, path: &tree::Path) -> Option<usize> {
+        let module = self.scope.module;
+        let found = match path.parts.as_slice() {
+            [name] => self.lookup(module, &name.node).cloned(),
+            [head, name] => {
+                self.modules[module].imports.get(&head.node).and_then(|&i| self.names[i].get(&name.node)).cloned()
+            }
+            _ => None,
+        };
+        match found {
+            Some(Def::Scenario(id)) => Some(id),
+            // A scenario may also be chosen on the command line: what is missing here is reported where it is run.
+            Some(def) => {
+                self.report(Diagnostic::error(
+                    "scenarios::unknown",
+                    path.span,
+                    format!("`{}` is {}, no scenario", path.text(), def.what()),
+                ));
+                None
+            }
+            None => {
+                let known: Vec<String> = self.hir.scenarios.iter().map(|s| s.name.clone()).collect();
+                let finding = Diagnostic::error(
+                    "scenarios::unknown",
+                    path.span,
+                    format!("there is no scenario `{}`", path.text()),
+                );
+                let finding = match suggest::help(&path.text(), known.iter().map(String::as_str)) {
+                    Some(help) => finding.help(help),
+                    None => finding,
+                };
+                self.report(finding);
+                None
+            }
+        }
+    }
+
+    pub(super) fn check_scenario(&mut self, m: usize, id: usize, body: &'t tree::Block) {
+        let mut scope = Scope::new(m, Setting::Constant);
+        for var in self.hir.scenarios[id].vars.clone() {
+            scope.visible.push((var.name.clone(), scope.vars.len()));
+            scope.vars.push(var);
+        }
+        let (clauses, scope) = self.within(scope, |c| {
+            let mut clauses = Vec::new();
+            for clause in &body.clauses {
+                match &clause.kind {
+                    ClauseKind::Timed(timed) if !timed.is_modified() => {
+                        if let Action::Expr(e) = &timed.action {
+                            clauses.extend(c.clause_use(e, false));
+                            continue;
+                        }
+                        c.misplaced(
+                            clause.span,
+                            "a scenario says what the world is, not what is done",
+                            "move this into a mission",
+                        );
+                    }
+                    _ => c.misplaced(clause.span, "a scenario holds clauses such as `flow(…)`", "move this elsewhere"),
+                }
+            }
+            clauses
+        });
+        self.hir.scenarios[id].clauses = clauses;
+        self.hir.scenarios[id].vars = scope.vars;
+    }
+
+    /// `flow(12 cm/s toward 140 deg, meander: 8 deg)`, or as an argument `lbl(every: 120 s)`.
+    fn clause_use(&mut self, e: &'t tree::Expr, as_value: bool) -> Option<ClauseUse> {
+        use tree::ExprKind as K;
+        let (callee, args): (&'t tree::Expr, &'t [tree::Arg]) = match &e.kind {
+            K::Call(callee, args) => (callee, args),
+            K::Name(_) | K::Member(..) => (e, &[]),
+            _ => {
+                self.misplaced(e.span, "a scenario holds clauses such as `flow(…)`", "write `NAME(…)`");
+                return None;
+            }
+        };
+        let Found::Def(Def::Clause(id)) = self.find(callee) else {
+            let name = match &callee.kind {
+                K::Name(name) => name.clone(),
+                _ => "this".to_string(),
+            };
+            let finding =
+                Diagnostic::error("scenarios::clause", callee.span, format!("`{name}` is no clause of a scenario"));
+            let known: Vec<String> = self
+                .clauses
+                .iter()
+                .filter(|c| c.kind.is_some() == as_value)
+                .map(|c| c.signature.name.clone())
+                .collect();
+            let finding = match suggest::help(&name, known.iter().map(String::as_str)) {
+                Some(help) => finding.help(help),
+                None => finding,
+            };
+            self.report(finding);
+            return None;
+        };
+        let (name, params, nested) = {
+            let clause = &self.clauses[id];
+            (clause.signature.name.clone(), clause.signature.params.clone(), clause.nested.clone())
+        };
+        if self.clauses[id].kind.is_some() != as_value {
+            let help = if as_value { "it stands on a line of its own" } else { "it is a value of another clause" };
+            self.report(
+                Diagnostic::error("scenarios::clause", e.span, format!("`{name}` cannot stand here")).help(help),
+            );
+            return None;
+        }
+        // Clauses as arguments are taken out first: the rest are arguments like any.
+        let mut values: Vec<(String, ClauseArg)> = Vec::new();
+        let mut plain_args = Vec::new();
+        for arg in args {
+            let head = match &arg.value.kind {
+                K::Call(callee, _) => callee.as_ref(),
+                _ => &arg.value,
+            };
+            if let Found::Def(Def::Clause(inner)) = self.find(head) {
+                let inner_name = self.clauses[inner].signature.name.clone();
+                // Where it goes: the parameter of its label, else the first whose type it is.
+                let kind = self.clauses[inner].kind.clone();
+                let place = params
+                    .iter()
+                    .zip(&nested)
+                    .find(|(p, n)| n.is_some() && **n == kind && arg.label.as_ref().is_none_or(|l| l.node == p.name));
+                match place {
+                    Some((param, _)) => {
+                        let param = param.name.clone();
+                        if let Some(used) = self.clause_use(&arg.value, true) {
+                            values.push((param, ClauseArg::Nested(used)));
+                        }
+                    }
+                    None => self.report(Diagnostic::error(
+                        "scenarios::clause",
+                        arg.value.span,
+                        format!("`{name}` takes no `{inner_name}`"),
+                    )),
+                }
+            } else {
+                plain_args.push(arg.clone());
+            }
+        }
+        let plain: Vec<super::ParamInfo> =
+            params.iter().zip(&nested).filter(|(_, n)| n.is_none()).map(|(p, _)| p.clone()).collect();
+        let checked = self.arguments(&name, &plain, &plain_args, e.span, None)?;
+        values.extend(plain.into_iter().map(|p| p.name).zip(checked.into_iter().map(ClauseArg::Value)));
+        Some(ClauseUse { name, span: e.span, args: values })
+    }
+}

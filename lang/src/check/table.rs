@@ -1,0 +1,352 @@
+//! The switching table: which behavior follows which, and that none is forgotten.
+
+use super::facts;
+use super::{Checker, Setting, body};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
+use crate::suggest;
+use crate::syntax::tree::{self, Clause, ClauseKind};
+use crate::types::Type;
+
+impl<'t> Checker<'t> {
+    pub(super) fn table(
+        &mut self,
+        id: usize,
+        a: &'t tree::Activity,
+        kind: Kind,
+        result: Option<&Type>,
+        clauses: &[&'t Clause],
+    ) -> Body {
+        let mut names: Vec<&tree::Name> = Vec::new();
+        let mut behaviors = Vec::new();
+        let mut start = None;
+        let mut written = Vec::new();
+        for clause in clauses {
+            match &clause.kind {
+                ClauseKind::Behavior(b) => {
+                    if let Some(earlier) = names.iter().find(|n| n.node == b.name.node) {
+                        let finding = Diagnostic::error(
+                            "names::twice",
+                            b.name.span,
+                            format!("there are two behaviors `{}`", b.name.node),
+                        )
+                        .label(earlier.span, "the first");
+                        self.report(finding);
+                    }
+                    names.push(&b.name);
+                    behaviors.push(self.nested(id, b));
+                }
+                ClauseKind::Start(name) => {
+                    if start.replace(name).is_some() {
+                        self.report(Diagnostic::error("rules::start", clause.span, "a table has one `start`"));
+                    }
+                }
+                ClauseKind::Rule(rule) => written.push(rule),
+                _ => self.misplaced(
+                    clause.span,
+                    "a switching table has no statements",
+                    "move it into a behavior, and name that behavior in the table",
+                ),
+            }
+        }
+        if kind == Kind::Mission && result.is_some() {
+            self.report(Diagnostic::error("missions::result", a.name.span, "a mission finishes with no value"));
+        }
+        let mut rules = Vec::new();
+        for rule in &written {
+            rules.extend(self.rule(rule, &names, result));
+        }
+        let start = match start {
+            Some(name) => self.behavior_named(name, &names),
+            None => {
+                self.report(
+                    Diagnostic::error(
+                        "rules::start",
+                        a.name.span,
+                        format!("with which behavior does `{}` begin?", a.name.node),
+                    )
+                    .help("write `start NAME`"),
+                );
+                None
+            }
+        };
+        if behaviors.is_empty() || start.is_none() {
+            return Body::Sequence(hir::Block::default());
+        }
+        let start = start.unwrap_or(0);
+        self.check_table(&names, &behaviors, start, &rules, a);
+        Body::Table { start, behaviors, rules }
+    }
+
+    fn nested(&mut self, owner: usize, b: &'t tree::Activity) -> usize {
+        if let Some(param) = b.params.first() {
+            self.report(
+                Diagnostic::error(
+                    "rules::params",
+                    param.name.span,
+                    format!("`{}` is entered by a rule, which gives no arguments", b.name.node),
+                )
+                .help("it sees the strategy's parameters, memory and signals"),
+            );
+        }
+        if let Some(result) = &b.result {
+            self.report(
+                Diagnostic::error(
+                    "rules::result",
+                    result.span,
+                    format!("`{}` ends in a table, where nobody reads a result", b.name.node),
+                )
+                .help("set a `memory` of the strategy"),
+            );
+        }
+        let outer = self.scope.finish.take();
+        let activity = self.in_block(|c| c.with_setting(Setting::Body, |c| c.activity(usize::MAX, b, Some(owner))));
+        self.scope.finish = outer;
+        self.hir.activities.push(activity);
+        self.hir.activities.len() - 1
+    }
+
+    fn behavior_named(&mut self, name: &tree::Name, names: &[&tree::Name]) -> Option<usize> {
+        let found = names.iter().position(|n| n.node == name.node);
+        if found.is_none() {
+            let finding =
+                Diagnostic::error("rules::unknown", name.span, format!("there is no behavior `{}` here", name.node));
+            let finding = match suggest::help(&name.node, names.iter().map(|n| n.node.as_str())) {
+                Some(help) => finding.help(help),
+                None => finding,
+            };
+            self.report(finding);
+        }
+        found
+    }
+
+    fn rule(&mut self, rule: &tree::SwitchingRule, names: &[&tree::Name], result: Option<&Type>) -> Option<Rule> {
+        let to = match &rule.target {
+            tree::Target::Behavior(name) => Some(self.behavior_named(name, names)),
+            _ => None,
+        };
+        let sources: Vec<usize> = if rule.sources.is_empty() {
+            // `any -> C`: all but C.
+            (0..names.len()).filter(|&i| to.flatten() != Some(i)).collect()
+        } else {
+            rule.sources.iter().filter_map(|name| self.behavior_named(name, names)).collect()
+        };
+        let on = self.rule_condition(&rule.on);
+        let facts = facts::shown(&on, true);
+        let (target, effect) = self.with_setting(Setting::Instant, |c| {
+            c.in_block(|c| {
+                c.scope.facts.learn(facts);
+                let effect = rule.effect.as_ref().map(|b| c.in_block(|c| c.block(b)));
+                // The result is computed before `do` runs: what the guard has shown holds.
+                let target = match &rule.target {
+                    tree::Target::Behavior(_) => to.flatten().map(Target::Behavior),
+                    tree::Target::Finish(value, span) => c.rule_result(value.as_ref(), *span, result),
+                    tree::Target::Abort(why, _) => Some(Target::Abort(c.literal_text(why))),
+                };
+                (target, effect)
+            })
+        });
+        if let (Some(back), false) = (rule.back, matches!(rule.target, tree::Target::Behavior(_))) {
+            self.report(
+                Diagnostic::error("rules::back", back, "nothing comes back from here")
+                    .help("`then back` belongs to `A -> B`"),
+            );
+        }
+        let target = target?;
+        if let Target::Behavior(to) = target
+            && sources.contains(&to)
+            && rule.back.is_some()
+        {
+            self.report(Diagnostic::error("rules::back", rule.sources_span, "a behavior cannot wait for itself"));
+        }
+        let span = rule.sources_span;
+        Some(Rule { sources, target, on, back: rule.back.is_some(), effect, span, on_span: rule.on.span })
+    }
+
+    fn rule_result(
+        &mut self,
+        value: Option<&tree::Expr>,
+        span: crate::source::Span,
+        result: Option<&Type>,
+    ) -> Option<Target> {
+        match (value, result) {
+            (Some(value), Some(ty)) => Some(Target::Finish(Some(self.expr_as(value, ty, "the result")))),
+            (None, None) => Some(Target::Finish(None)),
+            (Some(value), None) => {
+                self.report(
+                    Diagnostic::error("flow::result", value.span, "this finishes with a value, and none is declared")
+                        .help("declare it: `strategy NAME(…) -> TYPE { … }`"),
+                );
+                None
+            }
+            (None, Some(ty)) => {
+                let ty = self.type_name(ty);
+                self.report(
+                    Diagnostic::error("flow::result", span, format!("this finishes without its result, a `{ty}`"))
+                        .help("write `-> finish VALUE`"),
+                );
+                None
+            }
+        }
+    }
+
+    /// What the table promises: every behavior reachable, every ending answered, every rule alive.
+    fn check_table(
+        &mut self,
+        names: &[&tree::Name],
+        behaviors: &[usize],
+        start: usize,
+        rules: &[Rule],
+        a: &tree::Activity,
+    ) {
+        let mut reached = vec![false; names.len()];
+        let mut todo = vec![start];
+        while let Some(at) = todo.pop() {
+            if std::mem::replace(&mut reached[at], true) {
+                continue;
+            }
+            for rule in rules.iter().filter(|r| r.sources.contains(&at)) {
+                if let Target::Behavior(to) = rule.target {
+                    todo.push(to);
+                }
+            }
+        }
+        for (i, name) in names.iter().enumerate() {
+            if !reached[i] {
+                self.report(
+                    Diagnostic::error("rules::unreachable", name.span, format!("`{}` is never entered", name.node))
+                        .help(format!("add a rule `… -> {} on …`, or remove it", name.node)),
+                );
+                continue;
+            }
+            let only_back =
+                rules.iter().all(|r| !matches!(r.target, Target::Behavior(to) if to == i) || r.back) && i != start;
+            let ends = match &self.hir.activities[behaviors[i]].body {
+                Body::Sequence(block) => can_end(block),
+                _ => false,
+            };
+            let leaving: Vec<&Rule> = rules.iter().filter(|r| r.sources.contains(&i)).collect();
+            let answered = leaving.iter().any(|r| Self::is_just_done(&r.on));
+            if ends && !answered && !only_back {
+                self.report(
+                    Diagnostic::error(
+                        "rules::ending",
+                        name.span,
+                        format!("`{}` can end, and no rule says what then", name.node),
+                    )
+                    .help(format!("add `{} -> … on done`", name.node)),
+                );
+            }
+            if !ends {
+                for rule in &leaving {
+                    if mentions_done(&rule.on) && rule.sources.len() == 1 {
+                        self.report(
+                            Diagnostic::error(
+                                "rules::done",
+                                rule.on_span,
+                                format!("`{}` never ends: it is never `done`", name.node),
+                            )
+                            .label(name.span, "declared here")
+                            .help("leave `done` out"),
+                        );
+                    }
+                }
+                if leaving.is_empty() && !only_back {
+                    self.report(
+                        Diagnostic::error("rules::forever", name.span, format!("`{}` is never left", name.node))
+                            .help(format!("add `{} -> … on …`", name.node)),
+                    );
+                }
+            }
+            self.shadowed(i, &leaving, name);
+        }
+        let _ = a;
+    }
+
+    /// A rule after one of the same source whose guard always holds is never tried.
+    fn shadowed(&mut self, source: usize, leaving: &[&Rule], name: &tree::Name) {
+        let _ = source;
+        for (k, later) in leaving.iter().enumerate() {
+            let shadow = leaving[..k]
+                .iter()
+                .find(|earlier| earlier.sources.len() >= later.sources.len() && same_guard(&earlier.on, &later.on));
+            if let Some(earlier) = shadow {
+                self.report(
+                    Diagnostic::error(
+                        "rules::shadowed",
+                        later.on_span,
+                        format!("this rule of `{}` is never reached", name.node),
+                    )
+                    .label(earlier.on_span, "this one holds whenever it does, and comes first")
+                    .help("remove it, or put it first"),
+                );
+            }
+        }
+    }
+}
+
+/// Whether a body can come to its end.
+fn can_end(block: &hir::Block) -> bool {
+    if body::leaves(block) {
+        return finishes(block);
+    }
+    !block.stmts.iter().any(|stmt| match &stmt.kind {
+        // A statement that never ends by itself and is not bounded.
+        hir::StmtKind::Timed(timed) => endless(timed),
+        hir::StmtKind::With(_, body) => !can_end(body),
+        hir::StmtKind::Loop(_) => true,
+        _ => false,
+    })
+}
+
+fn finishes(block: &hir::Block) -> bool {
+    block.stmts.iter().any(|stmt| match &stmt.kind {
+        hir::StmtKind::Finish(_) => true,
+        hir::StmtKind::If(_, a, b) => finishes(a) || finishes(b),
+        hir::StmtKind::With(_, b) | hir::StmtKind::Loop(b) => finishes(b),
+        _ => false,
+    })
+}
+
+fn endless(timed: &hir::Timed) -> bool {
+    use albacore_program::Guide;
+    if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() {
+        return false;
+    }
+    match &timed.action {
+        hir::Action::Guide(guide, args) => match guide {
+            Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => true,
+            Guide::Loiter => args.get(2).is_some_and(|turns| turns.range.constant() == Some(0.0)),
+            _ => false,
+        },
+        hir::Action::Keep(..) => true,
+        hir::Action::Call(..) => false,
+    }
+}
+
+pub(super) fn mentions_done(e: &Expr) -> bool {
+    match &e.kind {
+        ExprKind::Done => true,
+        ExprKind::Do(_, operands) => operands.iter().any(mentions_done),
+        ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) => mentions_done(inner),
+        _ => false,
+    }
+}
+
+/// Whether two guards are the same condition. Conservative: `false` when in doubt.
+fn same_guard(a: &Expr, b: &Expr) -> bool {
+    match (&a.kind, &b.kind) {
+        (ExprKind::Done, ExprKind::Done) => true,
+        (ExprKind::Var(x), ExprKind::Var(y)) => x == y,
+        (ExprKind::Number(x), ExprKind::Number(y)) => x == y,
+        (ExprKind::IsPresent(x), ExprKind::IsPresent(y)) => same_guard(x, y),
+        // `a or b` holds whenever `a` does.
+        (ExprKind::Do(Builtin::Or, ors), _) if ors.iter().any(|o| same_guard(o, b)) => true,
+        // `a and b` holds only when `a` does.
+        (_, ExprKind::Do(Builtin::And, ands)) if ands.iter().any(|o| same_guard(a, o)) => true,
+        (ExprKind::Do(op, xs), ExprKind::Do(other, ys)) => {
+            op == other && xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| same_guard(x, y))
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,299 @@
+//! Statements that take time: guidance, calls, and the modifiers that bound them; `with`.
+
+use super::expr::Found;
+use super::{Checker, Def, ParamInfo, Setting, Temporal};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{self, Action, ExprKind, Interval, Stmt, StmtKind, Timed, VarKind, With};
+use crate::source::Span;
+use crate::syntax::tree::{self, WithItem};
+use crate::types::Type;
+use albacore_program::{Channel, Guide};
+
+const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
+
+impl<'t> Checker<'t> {
+    /// The behavior or strategy that an expression calls.
+    pub(super) fn called_activity(&self, e: &tree::Expr) -> Option<usize> {
+        let tree::ExprKind::Call(callee, _) = &e.kind else { return None };
+        match self.find(callee) {
+            Found::Def(Def::Activity(id)) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// A statement that may take time; `bind` is the name of `let`.
+    pub(super) fn timed_stmt(
+        &mut self,
+        timed: &tree::Timed,
+        bind: Option<(&tree::Name, Option<&tree::Ty>)>,
+        span: Span,
+    ) -> Option<Stmt> {
+        if let Some(repeated) = timed.repeated {
+            self.report(Diagnostic::error("syntax::modifier", repeated, "this modifier is written twice"));
+        }
+        if let tree::Action::Expr(e) = &timed.action {
+            if self.called_activity(e).is_none() {
+                if timed.is_modified() {
+                    self.report(
+                        Diagnostic::error(
+                            "time::modifier",
+                            timed.span,
+                            "this takes no time: nothing to end or to cut off",
+                        )
+                        .help("`for`, `until`, `within` and `at` belong to statements that take time"),
+                    );
+                }
+                return self.expr_stmt(e, span);
+            }
+        }
+        if self.scope.setting != Setting::Body {
+            let finding =
+                Diagnostic::error("time::instant", timed.span, "this takes time, and here everything is instantaneous")
+                    .help("move it into the body of a behavior; a reaction can set a `memory` for a rule to see");
+            self.report(finding);
+        }
+        if let (Some(duration), Some(until)) = (&timed.duration, &timed.until) {
+            self.report(
+                Diagnostic::error("time::modifier", until.span, "`for` and `until` cannot both end this")
+                    .label(duration.span, "the other end")
+                    .help("write `until X` with `within T` to cut it off, or `until X or after T`"),
+            );
+        }
+        let (action, ends, result_ty) = self.action(&timed.action, timed.span)?;
+        let duration = timed.duration.as_ref().map(|e| self.duration(e, "the time after `for`"));
+        let within = timed.within.as_ref().map(|e| self.duration(e, "the time after `within`"));
+        let until = timed.until.as_ref().map(|e| self.with_temporal(Temporal::Yes, |c| c.condition(e)));
+        let at = self.setpoints(&timed.at);
+        self.time_passes();
+        let result = bind.map(|(name, ty)| {
+            let cut = duration.is_some() || until.is_some() || within.is_some();
+            let found = match (&action, result_ty) {
+                (Action::Call(..), Some(ty)) => {
+                    if cut {
+                        ty.optional()
+                    } else {
+                        ty
+                    }
+                }
+                _ => Type::Bool,
+            };
+            if let Some(ty) = ty {
+                let written = self.written_type(self.scope.module, ty);
+                if written != found {
+                    let (has, wants) = (self.type_name(&found), self.type_name(&written));
+                    let place = ty.span;
+                    self.report(
+                        Diagnostic::error("types::mismatch", place, format!("this gives a `{has}`, not a `{wants}`"))
+                            .help(format!("write `{has}`, or leave the type out")),
+                    );
+                }
+            }
+            self.declare(name, VarKind::Let, found)
+        });
+        if within.is_some() && result.is_none() {
+            self.report(
+                Diagnostic::warning("time::unread", timed.span, "nobody learns whether this was cut off")
+                    .help("write `let ok = …`, or `until after T` when either end will do"),
+            );
+        }
+        if !ends && bind.is_some() && duration.is_none() && until.is_none() && within.is_none() {
+            self.report(
+                Diagnostic::error("flow::endless", timed.span, "this never ends by itself: its outcome is never known")
+                    .help("bound it with `for T`, `until X` or `within T`"),
+            );
+        }
+        let timed = Timed { action, duration, until, within, at, result };
+        Some(Stmt { kind: StmtKind::Timed(Box::new(timed)), span })
+    }
+
+    /// What is done, whether it ends by itself, and the result it has.
+    fn action(&mut self, action: &tree::Action, span: Span) -> Option<(Action, bool, Option<Type>)> {
+        Some(match action {
+            tree::Action::Guide { verb, args } => return self.guidance(verb, args, span),
+            tree::Action::Keep(setpoint) => {
+                let (channel, value) = self.setpoint(setpoint)?;
+                (Action::Keep(channel, value), false, None)
+            }
+            tree::Action::Hold => (Action::Guide(Guide::Hold, Vec::new()), false, None),
+            tree::Action::Wait => (Action::Guide(Guide::Wait, Vec::new()), false, None),
+            tree::Action::Watch | tree::Action::Override => {
+                self.report(
+                    Diagnostic::error("time::control", span, "`watch` and `override` belong to a vehicle at the end of a link, which this version cannot drive yet")
+                        .help("leave them out: in the simulator the mission takes control at its start"),
+                );
+                return None;
+            }
+            tree::Action::Expr(e) => {
+                let id = self.called_activity(e)?;
+                let tree::ExprKind::Call(_, args) = &e.kind else { return None };
+                let signature = self.activity_signatures[id].clone();
+                if self.overlay_ids.contains(&id) || self.mission_ids.contains(&id) {
+                    let (what, help) = if self.overlay_ids.contains(&id) {
+                        ("an overlay", format!("put it on: `with {}(…)`", signature.name))
+                    } else {
+                        ("a mission", "only the person starts missions; make what both need a behavior".to_string())
+                    };
+                    self.report(
+                        Diagnostic::error(
+                            "time::call",
+                            e.span,
+                            format!("`{}` is {what}, no statement", signature.name),
+                        )
+                        .label(signature.span, "declared here")
+                        .help(help),
+                    );
+                    return None;
+                }
+                let values = self.arguments(&signature.name, &signature.params, args, e.span, Some(signature.span))?;
+                (Action::Call(id, values), true, signature.result)
+            }
+        })
+    }
+
+    fn guidance(&mut self, verb: &tree::Name, args: &[tree::Arg], span: Span) -> Option<(Action, bool, Option<Type>)> {
+        let length = |meters: f64| Some((ExprKind::Number(meters), LENGTH, Interval::exactly(meters)));
+        let param =
+            |name: &str, ty: Type, default: Option<(ExprKind, Type, Interval)>, range: Option<Interval>| ParamInfo {
+                name: name.to_string(),
+                ty,
+                default: default.map(|(kind, ty, range)| hir::Expr { kind, ty, span, range }),
+                range,
+                span: verb.span,
+            };
+        let yes = |b: bool| Some((ExprKind::Number(f64::from(u8::from(b))), Type::Bool, Interval::ANY));
+        let positive = Some(Interval { low: 0.1, high: f64::INFINITY, not_zero: true });
+        // A turning radius of 0 stands for the one that the speed and the command filter allow.
+        let turning = || param("radius", LENGTH, length(0.0), None);
+        let (guide, params, ends) = match verb.node.as_str() {
+            "goto" => {
+                let params =
+                    vec![param("point", Type::Point, None, None), param("radius", LENGTH, length(10.0), positive)];
+                (Guide::Goto, params, true)
+            }
+            "follow" => (Guide::Follow, vec![param("line", Type::Line, None, None), turning()], true),
+            "dubins" => {
+                let params = vec![
+                    param("point", Type::Point, None, None),
+                    param("heading", Type::Heading, None, None),
+                    turning(),
+                    param("all_words", Type::Bool, yes(false), None),
+                ];
+                (Guide::Dubins, params, true)
+            }
+            "loiter" => {
+                let turns = Some((ExprKind::Number(0.0), Type::Quantity(Dimension::NONE), Interval::exactly(0.0)));
+                let params = vec![
+                    param("center", Type::Point, None, None),
+                    param("radius", LENGTH, None, positive),
+                    param("turns", Type::Quantity(Dimension::NONE), turns, None),
+                    param("clockwise", Type::Bool, yes(true), None),
+                ];
+                let ends = args.iter().any(|a| a.label.as_ref().is_some_and(|l| l.node == "turns"));
+                (Guide::Loiter, params, ends)
+            }
+            _ if args.first().and_then(|a| a.label.as_ref()).is_some_and(|l| l.node == "heading") => {
+                (Guide::SteerHeading, vec![param("heading", Type::Heading, None, None)], false)
+            }
+            _ => (Guide::Steer, vec![param("course", Type::Heading, None, None)], false),
+        };
+        let values = self.arguments(&verb.node, &params, args, span, None)?;
+        Some((Action::Guide(guide, values), ends, None))
+    }
+
+    pub(super) fn setpoints(&mut self, written: &[tree::Setpoint]) -> Vec<(Channel, hir::Expr)> {
+        let mut setpoints: Vec<(Channel, hir::Expr)> = Vec::new();
+        let mut spans: Vec<Span> = Vec::new();
+        for setpoint in written {
+            let Some((channel, value)) = self.setpoint(setpoint) else { continue };
+            if let Some(i) = setpoints.iter().position(|(c, _)| same_channel(*c, channel)) {
+                let earlier = spans[i];
+                self.report(owned_twice(setpoint.span, earlier, channel));
+            }
+            setpoints.push((channel, value));
+            spans.push(setpoint.span);
+        }
+        setpoints
+    }
+
+    fn setpoint(&mut self, setpoint: &tree::Setpoint) -> Option<(Channel, hir::Expr)> {
+        let (channel, ty) = match setpoint.channel.node.as_str() {
+            "depth" => (Channel::Depth, Type::Depth),
+            "altitude" => (Channel::Altitude, Type::Altitude),
+            _ => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
+        };
+        // `keep depth + 1 m` reads as "keep depth plus one", and would mean "at a depth of +1 m".
+        if let tree::ExprKind::Unary(op, _) = &setpoint.value.kind
+            && matches!(op.node, tree::Unary::Pos | tree::Unary::Neg)
+        {
+            let name = &setpoint.channel.node;
+            self.report(Diagnostic::error("syntax::setpoint", op.span, "no setpoint begins with a sign").help(
+                format!("for the present {name} and a bit write `{name} {name} + 1 m`, else leave the sign out"),
+            ));
+        }
+        let value = self.expr_as(&setpoint.value, &ty, &format!("the {} setpoint", setpoint.channel.node));
+        if value.range.high < 0.0 {
+            let name = &setpoint.channel.node;
+            self.report(Diagnostic::error("ranges::negative", value.span, format!("a negative {name} cannot be held")));
+        }
+        (value.ty != Type::Unknown).then_some((channel, value))
+    }
+
+    pub(super) fn with_items(&mut self, items: &[WithItem]) -> Vec<With> {
+        let mut with = Vec::new();
+        let mut owned: Vec<(Channel, Span)> = Vec::new();
+        for item in items {
+            match item {
+                WithItem::Setpoint(setpoint) => {
+                    let Some((channel, value)) = self.setpoint(setpoint) else { continue };
+                    if let Some((_, earlier)) = owned.iter().find(|(c, _)| same_channel(*c, channel)) {
+                        self.report(owned_twice(setpoint.span, *earlier, channel));
+                    }
+                    owned.push((channel, setpoint.span));
+                    with.push(With::Setpoint(channel, value));
+                }
+                WithItem::Overlay(e) => {
+                    let Some(id) = self.called_activity(e) else {
+                        // A wrong name is reported where it is looked up.
+                        let value = self.expr(e, None);
+                        if value.ty != Type::Unknown {
+                            self.report(
+                                Diagnostic::error("types::overlay", e.span, "`with` puts on overlays and setpoints")
+                                    .help("for example `with safety.cage(op), altitude 2 m, speed 2 m/s`"),
+                            );
+                        }
+                        continue;
+                    };
+                    let tree::ExprKind::Call(_, args) = &e.kind else { continue };
+                    let signature = self.activity_signatures[id].clone();
+                    if !self.overlay_ids.contains(&id) {
+                        self.report(
+                            Diagnostic::error("types::overlay", e.span, format!("`{}` is no overlay", signature.name))
+                                .label(signature.span, "declared here")
+                                .help("call it as a statement"),
+                        );
+                        continue;
+                    }
+                    if let Some(values) =
+                        self.arguments(&signature.name, &signature.params, args, e.span, Some(signature.span))
+                    {
+                        with.push(With::Overlay(id, values));
+                    }
+                }
+            }
+        }
+        with
+    }
+}
+
+/// Depth and altitude are one channel, the vertical.
+fn same_channel(a: Channel, b: Channel) -> bool {
+    (a == Channel::Speed) == (b == Channel::Speed)
+}
+
+fn owned_twice(span: Span, earlier: Span, channel: Channel) -> Diagnostic {
+    let name = if channel == Channel::Speed { "speed" } else { "vertical channel" };
+    Diagnostic::error("channels::twice", span, format!("the {name} is set twice"))
+        .label(earlier, "already set here")
+        .help("keep one of them")
+}

@@ -1,0 +1,234 @@
+//! Dimensions and units. The angle is a dimension of its own, so that radians are never taken for numbers.
+
+use albacore_program::Display;
+use std::fmt;
+use std::ops::{Div, Mul};
+
+/// Powers of length, time, angle and mass, in halves: `m/s^0.5` has one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Dimension {
+    halves: [i8; 4],
+}
+
+const SYMBOLS: [&str; 4] = ["m", "s", "rad", "kg"];
+
+impl Dimension {
+    /// No dimension: a plain number.
+    pub const NONE: Dimension = Dimension { halves: [0; 4] };
+    /// Metres.
+    pub const LENGTH: Dimension = Dimension { halves: [2, 0, 0, 0] };
+    /// Seconds.
+    pub const TIME: Dimension = Dimension { halves: [0, 2, 0, 0] };
+    /// Radians.
+    pub const ANGLE: Dimension = Dimension { halves: [0, 0, 2, 0] };
+    /// Kilograms.
+    pub const MASS: Dimension = Dimension { halves: [0, 0, 0, 2] };
+    /// Metres per second.
+    pub const SPEED: Dimension = Dimension { halves: [2, -2, 0, 0] };
+
+    /// This dimension to a power, when its halves stay whole.
+    pub fn power(self, power: f64) -> Option<Dimension> {
+        let mut halves = [0; 4];
+        for (to, from) in halves.iter_mut().zip(self.halves) {
+            let raised = f64::from(from) * power;
+            if raised.fract() != 0.0 || raised.abs() > 100.0 {
+                return None;
+            }
+            *to = raised as i8;
+        }
+        Some(Dimension { halves })
+    }
+
+    /// Whether it has no dimension.
+    pub fn is_none(self) -> bool {
+        self == Self::NONE
+    }
+
+    /// The name of the type whose dimension this is, if it has one.
+    pub fn type_name(self) -> Option<&'static str> {
+        NAMED.iter().find(|(_, d)| *d == self).map(|(name, _)| *name)
+    }
+
+    /// The dimension of a type's name.
+    pub fn of_type(name: &str) -> Option<Dimension> {
+        NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
+    }
+
+    /// How a value of this dimension is shown.
+    pub fn display(self) -> Display {
+        let shown = |unit: &str, scale: f64, decimals: u8| Display { unit: unit.to_string(), scale, decimals };
+        match self {
+            d if d == Self::NONE => shown("%", 0.01, 1),
+            d if d == Self::LENGTH => shown("m", 1.0, 1),
+            d if d == Self::TIME => shown("s", 1.0, 1),
+            d if d == Self::ANGLE => shown("deg", std::f64::consts::PI / 180.0, 1),
+            d if d == Self::SPEED => shown("m/s", 1.0, 2),
+            d if d == Self::ANGLE / Self::TIME => shown("deg/s", std::f64::consts::PI / 180.0, 1),
+            d => shown(&d.symbol(), 1.0, 4),
+        }
+    }
+
+    fn symbol(self) -> String {
+        let part = |positive: bool| {
+            let mut parts = Vec::new();
+            for (symbol, halves) in SYMBOLS.iter().zip(self.halves) {
+                let halves = if positive { halves } else { -halves };
+                match halves {
+                    h if h <= 0 => {}
+                    2 => parts.push((*symbol).to_string()),
+                    h if h % 2 == 0 => parts.push(format!("{symbol}{}", h / 2)),
+                    h => parts.push(format!("{symbol}^{}", f64::from(h) / 2.0)),
+                }
+            }
+            parts
+        };
+        match (part(true).as_slice(), part(false).as_slice()) {
+            ([], []) => String::new(),
+            (above, []) => above.join(" "),
+            ([], below) => format!("1/{}", below.join("/")),
+            (above, below) => format!("{}/{}", above.join(" "), below.join("/")),
+        }
+    }
+}
+
+impl Mul for Dimension {
+    type Output = Dimension;
+    fn mul(self, other: Dimension) -> Dimension {
+        let mut halves = self.halves;
+        for (to, by) in halves.iter_mut().zip(other.halves) {
+            *to = to.saturating_add(by);
+        }
+        Dimension { halves }
+    }
+}
+
+impl Div for Dimension {
+    type Output = Dimension;
+    fn div(self, other: Dimension) -> Dimension {
+        let mut halves = self.halves;
+        for (to, by) in halves.iter_mut().zip(other.halves) {
+            *to = to.saturating_sub(by);
+        }
+        Dimension { halves }
+    }
+}
+
+/// The type's name where it has one, else its units.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.type_name() {
+            Some(name) => f.write_str(name),
+            None => write!(f, "a quantity in {}", self.symbol()),
+        }
+    }
+}
+
+/// Types that are a dimension and nothing more. The first name of a dimension is the one that messages use.
+pub const NAMED: [(&str, Dimension); 13] = [
+    ("Ratio", Dimension::NONE),
+    ("Number", Dimension::NONE),
+    ("Length", Dimension::LENGTH),
+    ("Duration", Dimension::TIME),
+    ("Angle", Dimension::ANGLE),
+    ("Mass", Dimension::MASS),
+    ("Speed", Dimension::SPEED),
+    ("Acceleration", Dimension { halves: [2, -4, 0, 0] }),
+    ("TurnRate", Dimension { halves: [0, -2, 2, 0] }),
+    ("Frequency", Dimension { halves: [0, -2, 0, 0] }),
+    ("Surface", Dimension { halves: [4, 0, 0, 0] }),
+    ("Diffusivity", Dimension { halves: [4, -2, 0, 0] }),
+    ("RandomWalk", Dimension { halves: [2, -1, 0, 0] }),
+];
+
+/// A unit: how many SI units one of it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// SI units in one of it.
+    pub scale: f64,
+}
+
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+/// The units that every script knows, by the word that names them.
+pub const UNITS: [(&str, Dimension, f64); 24] = [
+    ("%", Dimension::NONE, 0.01),
+    ("m", Dimension::LENGTH, 1.0),
+    ("mm", Dimension::LENGTH, 0.001),
+    ("cm", Dimension::LENGTH, 0.01),
+    ("km", Dimension::LENGTH, 1000.0),
+    ("nmi", Dimension::LENGTH, 1852.0),
+    ("ft", Dimension::LENGTH, 0.3048),
+    ("s", Dimension::TIME, 1.0),
+    ("ms", Dimension::TIME, 0.001),
+    ("min", Dimension::TIME, 60.0),
+    ("h", Dimension::TIME, 3600.0),
+    ("deg", Dimension::ANGLE, DEGREE),
+    ("rad", Dimension::ANGLE, 1.0),
+    ("mrad", Dimension::ANGLE, 0.001),
+    ("kn", Dimension::SPEED, 1852.0 / 3600.0),
+    ("knot", Dimension::SPEED, 1852.0 / 3600.0),
+    ("knots", Dimension::SPEED, 1852.0 / 3600.0),
+    ("Hz", Dimension { halves: [0, -2, 0, 0] }, 1.0),
+    ("kHz", Dimension { halves: [0, -2, 0, 0] }, 1000.0),
+    ("mHz", Dimension { halves: [0, -2, 0, 0] }, 0.001),
+    ("kg", Dimension::MASS, 1.0),
+    ("g", Dimension::MASS, 0.001),
+    ("mg", Dimension::MASS, 1e-6),
+    ("ppm", Dimension::NONE, 1e-6),
+];
+
+/// A word of a unit with its power: `m2`, `s^0.5`, `deg`.
+fn word(text: &str, known: &dyn Fn(&str) -> Option<Unit>) -> Option<Unit> {
+    if let Some(unit) = known(text) {
+        return Some(unit);
+    }
+    let split = text.find(|c: char| c.is_ascii_digit() || c == '^')?;
+    let power: f64 = text[split..].trim_start_matches('^').parse().ok()?;
+    let base = known(&text[..split])?;
+    Some(Unit { dimension: base.dimension.power(power)?, scale: albacore_geometry::math::pow(base.scale, power) })
+}
+
+/// The unit that a text such as `cm/s` names; `own` knows the units that the script declares.
+pub fn unit(text: &str, own: &dyn Fn(&str) -> Option<Unit>) -> Option<Unit> {
+    let known = |name: &str| {
+        own(name)
+            .or_else(|| UNITS.iter().find(|(n, ..)| *n == name).map(|&(_, dimension, scale)| Unit { dimension, scale }))
+    };
+    let mut words = text.split('/');
+    let mut product = word(words.next()?, &known)?;
+    for below in words {
+        let below = word(below, &known)?;
+        product = Unit { dimension: product.dimension / below.dimension, scale: product.scale / below.scale };
+    }
+    Some(product)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, dimension: Dimension, scale: f64) {
+        let unit = unit(text, &|_| None).unwrap();
+        assert_eq!(unit.dimension, dimension);
+        assert!((unit.scale - scale).abs() < 1e-12 * scale, "{}", unit.scale);
+    }
+
+    #[test]
+    fn units_compose() {
+        check("cm/s", Dimension::SPEED, 0.01);
+        check("m2/s", Dimension::of_type("Diffusivity").unwrap(), 1.0);
+        check("m/s^0.5", Dimension::of_type("RandomWalk").unwrap(), 1.0);
+        check("deg/s", Dimension::of_type("TurnRate").unwrap(), DEGREE);
+        assert_eq!(unit("sec", &|_| None), None);
+        assert_eq!(unit("m/t", &|_| None), None);
+    }
+
+    #[test]
+    fn a_dimension_says_its_name_or_its_units() {
+        assert_eq!(Dimension::SPEED.to_string(), "Speed");
+        assert_eq!((Dimension::LENGTH * Dimension::ANGLE).to_string(), "a quantity in m rad");
+    }
+}

@@ -1,0 +1,277 @@
+//! Source text to checked program. Pure: no files, no clock, no vehicle.
+//!
+//! [`load`] reads a file and all it imports (`syntax`), checks them (`check`: names, types, dimensions, rules), and gives a
+//! [`Script`], from which missions and scenarios are lowered (`lower`) to what the machine executes.
+
+mod check;
+pub mod diagnostic;
+mod dimension;
+mod hir;
+mod lower;
+pub mod source;
+mod suggest;
+pub mod syntax;
+mod types;
+
+pub use lower::{ScenarioClause, ScenarioProgram, ScenarioValue};
+pub use suggest::{help as suggestion, nearest};
+
+use albacore_geometry::Geodetic;
+use albacore_program::Program;
+use check::{Module, Override};
+use diagnostic::Diagnostic;
+use source::{FileId, Source, Sources, Span};
+use std::collections::BTreeMap;
+use syntax::tree::{self, ActivityKind, Item};
+
+/// A script imports this many modules at most, all in all.
+const MODULES_MAX: usize = 256;
+
+/// Where imported modules come from.
+pub trait Library {
+    /// The modules whose names every script knows.
+    fn prelude(&self) -> Vec<Source>;
+    /// The module that `use a.b` in a file means; else a message that names what exists.
+    fn module(&self, importer: &Source, path: &[String]) -> Result<Source, String>;
+}
+
+/// A mission of a script.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissionInfo {
+    /// Its name.
+    pub name: String,
+    /// The scenario that it names.
+    pub scenario: Option<String>,
+}
+
+/// A script with all it imports, read and checked.
+pub struct Script {
+    /// The sources, the script's own file first.
+    pub sources: Sources,
+    /// What is wrong, in source order.
+    pub findings: Vec<Diagnostic>,
+    hir: hir::Hir,
+    types: types::TypeTable,
+    missions: Vec<(MissionInfo, usize)>,
+}
+
+/// Reads and checks a script. `set` changes parameters: `lambda=6s` of the mission or its scenario, `cpt_2005.beta=30deg`
+/// of a declaration. `mission` is the mission that is meant, when there are several.
+pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[String]) -> Script {
+    let mut loader = Loader {
+        library,
+        sources: Sources::default(),
+        modules: Vec::new(),
+        known: BTreeMap::new(),
+        findings: Vec::new(),
+    };
+    let main = loader.read(entry.clone(), String::new(), false, &mut Vec::new());
+    for source in library.prelude() {
+        if !loader.known.contains_key(&*source.name) {
+            let name = module_name(&source.name);
+            loader.read(source, name, true, &mut Vec::new());
+        }
+    }
+    let Loader { mut sources, modules, mut findings, .. } = loader;
+    let chosen = chosen_mission(&modules[main].tree, &entry.name, mission);
+    let overrides = overrides(&mut sources, set, chosen.as_ref(), &modules[main].tree, &mut findings);
+    let unreadable = !findings.is_empty();
+    let checked = check::check(&modules, overrides);
+    // What could not be read is missing everywhere: names that it would have declared are no second mistake.
+    let later = checked.findings.into_iter().filter(|f| !(unreadable && f.code == "names::unknown"));
+    findings.extend(later);
+    diagnostic::settle(&mut findings);
+    let mut missions = Vec::new();
+    for item in &modules[main].tree.items {
+        if let Item::Activity(a) = item
+            && let ActivityKind::Mission { scenario, .. } = &a.kind
+        {
+            let info = MissionInfo { name: a.name.node.clone(), scenario: scenario.as_ref().map(tree::Path::text) };
+            let id =
+                checked.hir.activities.iter().position(|h| h.full_name == info.name && h.kind == hir::Kind::Mission);
+            missions.extend(id.map(|id| (info, id)));
+        }
+    }
+    Script { sources, findings, hir: checked.hir, types: checked.types, missions }
+}
+
+impl Script {
+    /// Whether it can run.
+    pub fn is_sound(&self) -> bool {
+        self.findings.iter().all(|f| f.severity != diagnostic::Severity::Error)
+    }
+
+    /// The missions of the script's own file.
+    pub fn missions(&self) -> impl Iterator<Item = &MissionInfo> {
+        self.missions.iter().map(|(info, _)| info)
+    }
+
+    /// The scenarios that the script knows.
+    pub fn scenarios(&self) -> impl Iterator<Item = &str> {
+        self.hir.scenarios.iter().map(|s| s.name.as_str())
+    }
+
+    /// A mission, ready for the machine.
+    pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
+        let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
+        Some(lower::mission(&self.hir, &self.types, &self.sources, *id))
+    }
+
+    /// A scenario, ready to be computed, in the frame about `origin`.
+    pub fn scenario(&self, name: &str, origin: Option<Geodetic>) -> Option<Result<ScenarioProgram, Vec<Diagnostic>>> {
+        let name = name.rsplit('.').next().unwrap_or(name);
+        let id = self.hir.scenarios.iter().position(|s| s.name == name)?;
+        Some(lower::scenario(&self.hir, &self.types, &self.sources, id, origin))
+    }
+}
+
+/// Reads modules, each once.
+struct Loader<'a> {
+    library: &'a dyn Library,
+    sources: Sources,
+    modules: Vec<Module>,
+    known: BTreeMap<String, usize>,
+    findings: Vec<Diagnostic>,
+}
+
+impl Loader<'_> {
+    fn read(&mut self, source: Source, name: String, prelude: bool, path: &mut Vec<String>) -> usize {
+        let file = self.sources.add(source.clone());
+        let index = self.modules.len();
+        self.known.insert(source.name.to_string(), index);
+        let parsed = syntax::parse(file, &source.text);
+        self.findings.extend(parsed.findings);
+        self.modules.push(Module { name, tree: parsed.file, imports: BTreeMap::new(), prelude });
+        path.push(source.name.to_string());
+        let uses: Vec<tree::Path> = self.modules[index]
+            .tree
+            .items
+            .iter()
+            .filter_map(|item| if let Item::Use(paths) = item { Some(paths.clone()) } else { None })
+            .flatten()
+            .collect();
+        for wanted in uses {
+            if let Some(imported) = self.import(&source, &wanted, path) {
+                let name = wanted.parts.last().map(|p| p.node.clone()).unwrap_or_default();
+                self.modules[index].imports.insert(name, imported);
+            }
+        }
+        path.pop();
+        index
+    }
+
+    fn import(&mut self, importer: &Source, wanted: &tree::Path, path: &mut Vec<String>) -> Option<usize> {
+        let parts: Vec<String> = wanted.parts.iter().map(|p| p.node.clone()).collect();
+        let source = match self.library.module(importer, &parts) {
+            Ok(source) => source,
+            Err(help) => {
+                let message = format!("there is no module `{}`", wanted.text());
+                self.findings.push(Diagnostic::error("imports::unknown", wanted.span, message).help(help));
+                return None;
+            }
+        };
+        if let Some(start) = path.iter().position(|p| *p == *source.name) {
+            let mut chain: Vec<&str> = path[start..].iter().map(String::as_str).collect();
+            chain.push(&source.name);
+            let message = format!("this import leads back to its beginning: {}", chain.join(" -> "));
+            self.findings.push(
+                Diagnostic::error("imports::cycle", wanted.span, message)
+                    .help("move what both need into a module that neither of them imports from"),
+            );
+            return None;
+        }
+        if let Some(&index) = self.known.get(&*source.name) {
+            return Some(index);
+        }
+        if self.modules.len() >= MODULES_MAX {
+            let message = format!("more than {MODULES_MAX} modules are imported");
+            self.findings.push(Diagnostic::error("imports::many", wanted.span, message));
+            return None;
+        }
+        let name = parts.last().cloned().unwrap_or_default();
+        Some(self.read(source, name, false, path))
+    }
+}
+
+fn module_name(file: &str) -> String {
+    let stem = file.rsplit(['/', '\\', ':']).next().unwrap_or(file);
+    stem.trim_end_matches(".alb").trim_end_matches('>').to_string()
+}
+
+/// The mission that is meant: the one asked for, else the one named like the file, else the only one.
+fn chosen_mission(tree: &tree::File, file: &str, asked: Option<&str>) -> Option<tree::Activity> {
+    let missions: Vec<&tree::Activity> = tree
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Activity(a) if matches!(a.kind, ActivityKind::Mission { .. }) => Some(a),
+            _ => None,
+        })
+        .collect();
+    let by_name = |name: &str| missions.iter().find(|m| m.name.node == name);
+    match asked {
+        Some(name) => by_name(name).copied().cloned(),
+        None => by_name(&module_name(file))
+            .copied()
+            .or(if missions.len() == 1 { missions.first().copied() } else { None })
+            .cloned(),
+    }
+}
+
+/// Reads `--set` texts, each as a source of its own, so that messages can point into it.
+fn overrides(
+    sources: &mut Sources,
+    set: &[String],
+    mission: Option<&tree::Activity>,
+    tree: &tree::File,
+    findings: &mut Vec<Diagnostic>,
+) -> Vec<Override> {
+    let mut overrides = Vec::new();
+    for text in set {
+        let source = Source { name: format!("--set {text}").into(), text: text.as_str().into() };
+        let Some((place, value)) = text.split_once('=') else {
+            let file = sources.add(source);
+            let span = Span { file, start: 0, end: text.len() as u32 };
+            findings.push(
+                Diagnostic::error("set::form", span, "`--set` takes NAME=VALUE").help("for example `--set lambda=6s`"),
+            );
+            continue;
+        };
+        // The value keeps its place in the text: what stands before it becomes blanks.
+        let blanked = format!("{}{value}", " ".repeat(place.len() + 1));
+        let file = sources.add(source);
+        match syntax::parse_expression(file, &blanked) {
+            Ok(value) => {
+                let (declaration, param) = match place.trim().rsplit_once('.') {
+                    Some((declaration, param)) => (declaration.to_string(), param.to_string()),
+                    None => (owner_of(place.trim(), mission, tree), place.trim().to_string()),
+                };
+                overrides.push(Override { declaration, param, value, used: false });
+            }
+            Err(finding) => findings.push(finding),
+        }
+    }
+    overrides
+}
+
+/// A plain name is a parameter of the mission, or else of its scenario.
+fn owner_of(param: &str, mission: Option<&tree::Activity>, tree: &tree::File) -> String {
+    let Some(mission) = mission else { return String::new() };
+    let has = |params: &[tree::Param]| params.iter().any(|p| p.name.node == param);
+    if !has(&mission.params)
+        && let ActivityKind::Mission { scenario: Some(path), .. } = &mission.kind
+    {
+        let name = path.parts.last().map_or("", |p| p.node.as_str());
+        let scenario = tree.items.iter().find_map(|item| match item {
+            Item::Scenario { name: n, params, .. } if n.node == name => Some(params),
+            _ => None,
+        });
+        if scenario.is_none_or(|params| has(params)) {
+            return name.to_string();
+        }
+    }
+    mission.name.node.clone()
+}
+
+/// The file that is run is always the first.
+pub const ENTRY: FileId = FileId(0);

@@ -1,0 +1,577 @@
+//! Activities to code: the pieces that the machine runs at each point of a tick.
+
+use super::watch::{Timer, activity_children, block_children, children, positions};
+use super::{Lowering, UnitCode, WORDS_MAX};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{self, Action, Block, Decl, Expr, ExprKind, InputPart, Kind, StmtKind, Var, VarKind};
+use crate::types::Type;
+use albacore_geometry::Geodetic;
+use albacore_program::{
+    Abort, Activity, ActivityKind, Body, Channel, Code, Entry, Exit, Limits, Op, Recovery, Require, Rule, Shape, Slot,
+    Table, Target, Valued, Watched, WatchedCode, header,
+};
+
+impl<'a> Lowering<'a> {
+    pub(super) fn mission(&mut self, id: usize) {
+        let activity = &self.hir.activities[id];
+        self.find_origin(activity);
+        self.inputs();
+        self.keep_samples();
+        let unit = self.unit(id);
+        let base = self.input_words();
+        let mission = &mut self.program.mission;
+        mission.name = activity.name.clone();
+        mission.activity = unit.activity;
+        mission.base = base;
+        mission.origin = self.origin;
+        self.program.words = base.saturating_add(unit.words);
+        if self.program.words > WORDS_MAX {
+            let span = activity.span;
+            self.findings.push(
+                Diagnostic::error(
+                    "limits::memory",
+                    span,
+                    format!("the mission `{}` needs too much memory", activity.name),
+                )
+                .here(format!("{} numbers, more than {WORDS_MAX}", self.program.words))
+                .help("make its lists shorter, or call fewer behaviors from one another"),
+            );
+        }
+    }
+
+    /// The local frame lies about the middle of the positions that the area is made of: of a rectangle its centre.
+    fn find_origin(&mut self, mission: &hir::Activity) {
+        let mut found = Vec::new();
+        for decl in &mission.decls {
+            if let Decl::Area(_, e) = decl {
+                positions(e, &mut found);
+            }
+        }
+        self.origin = middle(&found);
+    }
+
+    /// A declaration of the left margin with its own frame, lowered when first needed.
+    pub(super) fn unit(&mut self, id: usize) -> UnitCode {
+        if let Some(unit) = self.units.get(&id) {
+            return *unit;
+        }
+        let activity = &self.hir.activities[id];
+        if self.recursion(&activity.full_name, Some(activity.span)) {
+            return UnitCode { activity: 0, words: header::WORDS };
+        }
+        self.prepare_activity(id);
+        let index = std::cell::Cell::new(0);
+        let words = self.twice(&activity.vars, 0, |l| {
+            l.sorters(&activity.vars);
+            index.set(l.activity(id, 0));
+        });
+        self.path.pop();
+        let unit = UnitCode { activity: index.get(), words };
+        self.units.insert(id, unit);
+        unit
+    }
+
+    /// Lowers all that an activity calls, ahead of it.
+    fn prepare_activity(&mut self, id: usize) {
+        let activity = &self.hir.activities[id];
+        let mut exprs: Vec<&Expr> = Vec::new();
+        activity_children(activity, &mut |e| exprs.push(e));
+        for e in exprs {
+            self.prepare(e);
+        }
+        for decl in &activity.decls {
+            if let Decl::With(items) = decl {
+                self.prepare_with(items);
+            }
+        }
+        match &activity.body {
+            hir::Body::Sequence(block) | hir::Body::Amend { block, .. } => self.prepare_units(block),
+            hir::Body::Table { behaviors, .. } => {
+                for &behavior in behaviors {
+                    self.prepare_activity(behavior);
+                }
+            }
+        }
+        if let Some((_, block)) = activity.mission.as_ref().and_then(|m| m.recovery.as_ref()) {
+            self.prepare_units(block);
+        }
+    }
+
+    /// Lowers the functions that an expression calls.
+    pub(super) fn prepare(&mut self, e: &Expr) {
+        let mut inner: Vec<&Expr> = Vec::new();
+        children(e, &mut |child| inner.push(child));
+        for child in inner {
+            self.prepare(child);
+        }
+        if let ExprKind::Call(id, _) = e.kind {
+            self.function(id);
+        }
+    }
+
+    pub(super) fn prepare_block(&mut self, block: &Block) {
+        let mut exprs: Vec<&Expr> = Vec::new();
+        block_children(block, &mut |e| exprs.push(e));
+        for e in exprs {
+            self.prepare(e);
+        }
+    }
+
+    fn prepare_with(&mut self, items: &[hir::With]) {
+        for item in items {
+            if let hir::With::Overlay(id, _) = item {
+                self.unit(*id);
+            }
+        }
+    }
+
+    fn prepare_units(&mut self, block: &Block) {
+        for stmt in &block.stmts {
+            match &stmt.kind {
+                StmtKind::Timed(timed) => {
+                    if let Action::Call(id, _) = timed.action {
+                        self.path.push((format!("the call of {}", self.hir.activities[id].full_name), stmt.span));
+                        self.unit(id);
+                        self.path.pop();
+                    }
+                }
+                StmtKind::With(items, body) => {
+                    self.prepare_with(items);
+                    self.prepare_units(body);
+                }
+                StmtKind::If(_, a, b) => {
+                    self.prepare_units(a);
+                    self.prepare_units(b);
+                }
+                StmtKind::Match(_, arms, otherwise) => {
+                    for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
+                        self.prepare_units(block);
+                    }
+                }
+                StmtKind::ForRange { body, .. }
+                | StmtKind::ForList { body, .. }
+                | StmtKind::ForEdges { body, .. }
+                | StmtKind::While { body, .. }
+                | StmtKind::Loop(body) => self.prepare_units(body),
+                _ => {}
+            }
+        }
+    }
+
+    /// The subroutines that put ordered lists in order.
+    pub(super) fn sorters(&mut self, vars: &[Var]) {
+        for (id, var) in vars.iter().enumerate() {
+            let (Some(order), Type::List(inner, _)) = (&var.order, &var.ty) else { continue };
+            let value = self.lasting(1);
+            let key = self.here();
+            self.scratch(|l| l.expr_into(&order.key, value));
+            self.emit(Op::Return);
+            let sorter = self.here();
+            let (list, it) = (self.frame.vars[id], self.frame.vars[order.it]);
+            let words = self.words(inner);
+            self.emit(Op::Sort { list, words, it, key, value, most: order.most });
+            self.emit(Op::Return);
+            self.frame.sorters.insert(id, sorter);
+        }
+    }
+
+    /// One activity; gives its index in the program.
+    fn activity(&mut self, id: usize, _depth: u32) -> u32 {
+        let activity = &self.hir.activities[id];
+        let outer = (self.frame.header, self.frame.result, std::mem::take(&mut self.frame.overlays));
+        let at = self.lasting(header::WORDS);
+        let result =
+            activity.result.as_ref().map(|ty| Valued { slot: self.lasting(self.words(ty)), shape: self.shape(ty) });
+        self.frame.header = at;
+        self.frame.result = result.as_ref().map_or(at, |r| r.slot);
+
+        let signal_timers: Vec<Vec<Timer>> = activity
+            .decls
+            .iter()
+            .map(|decl| match decl {
+                Decl::Signal(_, e) => self.place_timers([e]),
+                _ => Vec::new(),
+            })
+            .collect();
+        let conditions = activity.aborts.iter().map(|(_, c)| c).chain(activity.reactions.iter().map(|(c, _)| c));
+        let condition_timers = self.place_timers(conditions);
+
+        let entry = self.here();
+        signal_timers.iter().for_each(|timers| self.reset_timers(timers));
+        self.reset_timers(&condition_timers);
+        for (decl, timers) in activity.decls.iter().zip(&signal_timers) {
+            self.declaration(decl, timers, at);
+        }
+        self.update_timers(&condition_timers, at, None);
+        self.emit(Op::Return);
+
+        let refresh = self.here();
+        for (decl, timers) in activity.decls.iter().zip(&signal_timers) {
+            match decl {
+                Decl::Signal(var, e) => {
+                    self.update_timers(timers, at, None);
+                    let to = self.frame.vars[*var];
+                    self.scratch(|l| l.expr_into(e, to));
+                }
+                Decl::Memory(var, _) => {
+                    if let Some(&sorter) = self.frame.sorters.get(var) {
+                        self.emit(Op::Call { code: sorter, base: 0 });
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.update_timers(&condition_timers, at, None);
+        self.emit(Op::Return);
+
+        let aborts = activity.aborts.iter().map(|(why, condition)| self.abort(why, condition)).collect();
+        let reactions = self.here();
+        for (condition, block) in &activity.reactions {
+            let unless = self.scratch(|l| {
+                let condition = l.expr(condition);
+                l.emit(Op::JumpUnless { unless: condition, to: 0 })
+            });
+            self.stmts(&block.stmts);
+            self.land(unless);
+        }
+        self.emit(Op::Return);
+
+        let body = match &activity.body {
+            hir::Body::Sequence(block) => {
+                let body = self.here();
+                self.stmts(&block.stmts);
+                self.emit(Op::End);
+                Body::Sequence(body)
+            }
+            hir::Body::Amend { asked, block } => {
+                let value = self.lasting(1);
+                let entry = self.here();
+                self.block_into(block, value);
+                self.emit(Op::Return);
+                Body::Amend { asked: self.frame.vars[*asked], amended: Code { entry, value } }
+            }
+            hir::Body::Table { start, behaviors, rules } => self.table(id, *start, behaviors, rules),
+        };
+        if let Some(mission) = &activity.mission {
+            self.mission_parts(mission);
+        }
+        let overlays = std::mem::replace(&mut self.frame.overlays, outer.2);
+        (self.frame.header, self.frame.result) = (outer.0, outer.1);
+        self.program.activities.push(Activity {
+            name: activity.name.clone(),
+            place: self.sources.place(activity.span),
+            kind: match activity.kind {
+                Kind::Behavior => ActivityKind::Behavior,
+                Kind::Strategy => ActivityKind::Strategy,
+                Kind::AmendsCourse => ActivityKind::AmendsCourse,
+                Kind::Sets(Channel::Speed) => ActivityKind::SetsSpeed,
+                Kind::Sets(_) => ActivityKind::SetsVertical,
+                Kind::Mission => ActivityKind::Mission,
+            },
+            header: at,
+            entry,
+            refresh,
+            aborts,
+            reactions,
+            body,
+            overlays,
+            result,
+        });
+        self.program.activities.len() as u32 - 1
+    }
+
+    /// A declaration, at entry.
+    fn declaration(&mut self, decl: &Decl, timers: &[Timer], at: Slot) {
+        match decl {
+            Decl::With(items) => {
+                self.put_on(items);
+            }
+            Decl::Signal(var, e) => {
+                self.update_timers(timers, at, None);
+                let to = self.frame.vars[*var];
+                self.scratch(|l| l.expr_into(e, to));
+            }
+            Decl::Area(var, e) => {
+                let to = self.frame.vars[*var];
+                self.program.mission.area = Some(to);
+                self.scratch(|l| l.expr_into(e, to));
+            }
+            Decl::Memory(var, init) => {
+                let to = self.frame.vars[*var];
+                match init {
+                    Some(e) => self.scratch(|l| l.expr_into(e, to)),
+                    None => {
+                        let words = self.words(&self.var_type(*var));
+                        self.emit(Op::Clear { to, words });
+                    }
+                }
+            }
+        }
+    }
+
+    /// The type of a variable of the unit that is being lowered.
+    fn var_type(&self, var: usize) -> Type {
+        self.unit_vars().get(var).map_or(Type::Bool, |v| v.ty.clone())
+    }
+
+    /// The variables of the unit that is being lowered: the last activity on the path that has a frame.
+    pub(super) fn unit_vars(&self) -> &'a [Var] {
+        let hir = self.hir;
+        self.path
+            .iter()
+            .rev()
+            .find_map(|(name, _)| hir.activities.iter().find(|a| a.owner.is_none() && a.full_name == *name))
+            .map_or(&[], |a| &a.vars)
+    }
+
+    fn abort(&mut self, why: &[hir::TextPart], condition: &Expr) -> Abort {
+        let value = self.lasting(1);
+        let entry = self.here();
+        self.scratch(|l| l.expr_into(condition, value));
+        let why = self.text(why);
+        self.emit(Op::Return);
+        Abort { condition: Code { entry, value }, why }
+    }
+
+    fn table(&mut self, id: usize, start: usize, behaviors: &[usize], rules: &[hir::Rule]) -> Body {
+        let indices: Vec<u32> = behaviors.iter().map(|&b| self.activity(b, 1)).collect();
+        let first_rule = self.program.rules.len() as u32;
+        for rule in rules {
+            let lowered = self.rule(id, rule, behaviors);
+            self.program.rules.push(lowered);
+        }
+        let mut entries = Vec::new();
+        for (source, &index) in indices.iter().enumerate() {
+            let owner = self.program.activities[index as usize].header;
+            let leaving: Vec<(usize, &hir::Rule)> =
+                rules.iter().enumerate().filter(|(_, r)| r.sources.contains(&source)).collect();
+            // The same guard may serve several sources: each has its own timers.
+            let timers = self.place_timers(leaving.iter().map(|(_, r)| &r.on));
+            let arm = self.here();
+            self.reset_timers(&timers);
+            self.update_timers(&timers, owner, None);
+            self.emit(Op::Return);
+            let watch = self.here();
+            self.update_timers(&timers, owner, None);
+            self.emit(Op::Return);
+            let exits = leaving
+                .into_iter()
+                .map(|(i, rule)| Exit {
+                    rule: first_rule + i as u32,
+                    guard: self.code(&rule.on),
+                    guard_done: mentions_done(&rule.on).then(|| {
+                        self.frame.done = true;
+                        let code = self.code(&rule.on);
+                        self.frame.done = false;
+                        code
+                    }),
+                    watched: self.watched(id, &rule.on),
+                })
+                .collect();
+            entries.push(Entry { activity: index, arm, watch, exits });
+        }
+        Body::Table(Table { start: start as u32, behaviors: entries })
+    }
+
+    fn rule(&mut self, id: usize, rule: &hir::Rule, behaviors: &[usize]) -> Rule {
+        let mut aborting = None;
+        let effect = match (&rule.effect, &rule.target) {
+            (None, target) if !matches!(target, hir::Target::Abort(_)) => None,
+            (effect, target) => {
+                let entry = self.here();
+                if let Some(block) = effect {
+                    self.stmts(&block.stmts);
+                    self.remembered(id, block);
+                }
+                if let hir::Target::Abort(why) = target {
+                    aborting = Some(self.text(why));
+                }
+                self.emit(Op::Return);
+                Some(entry)
+            }
+        };
+        let (target, to) = match &rule.target {
+            hir::Target::Behavior(to) => {
+                (Target::Behavior(*to as u32), self.hir.activities[behaviors[*to]].name.clone())
+            }
+            hir::Target::Abort(_) => (Target::Abort(aborting.unwrap_or(0)), "abort".to_string()),
+            hir::Target::Finish(value) => {
+                let code = value.as_ref().map(|e| {
+                    let entry = self.here();
+                    let to = self.frame.result;
+                    self.scratch(|l| l.expr_into(e, to));
+                    self.emit(Op::Return);
+                    entry
+                });
+                (Target::Finish(code), "finish".to_string())
+            }
+        };
+        let guard = self.sources.text(rule.on_span);
+        Rule {
+            text: format!("-> {to} on {guard}"),
+            place: self.sources.place(rule.span),
+            target,
+            back: rule.back,
+            effect,
+        }
+    }
+
+    /// Tells the trace of the memories that an effect assigns.
+    fn remembered(&mut self, id: usize, effect: &Block) {
+        let mut vars: Vec<usize> = Vec::new();
+        assigned(effect, &mut vars);
+        vars.sort_unstable();
+        vars.dedup();
+        let unit = self.owner_of(id);
+        for var in vars {
+            let declared = &self.hir.activities[unit].vars[var];
+            if declared.kind != VarKind::Memory {
+                continue;
+            }
+            let value = Valued { slot: self.frame.vars[var], shape: self.shape(&declared.ty) };
+            self.program.memories.push(Watched { name: declared.name.clone(), value });
+            let memory = self.program.memories.len() as u32 - 1;
+            self.emit(Op::Changed { memory });
+        }
+    }
+
+    fn owner_of(&self, id: usize) -> usize {
+        self.hir.activities[id].owner.unwrap_or(id)
+    }
+
+    /// What the trace prints of a guard: its names, and for each signal the readings that it is made of.
+    fn watched(&mut self, id: usize, guard: &Expr) -> Vec<WatchedCode> {
+        let mut leaves: Vec<(String, Expr)> = Vec::new();
+        self.leaves(id, guard, &mut leaves);
+        leaves
+            .into_iter()
+            .map(|(name, e)| {
+                let code = self.code(&e);
+                let shape: Shape = self.shape(&e.ty);
+                WatchedCode { name, code, shape }
+            })
+            .collect()
+    }
+
+    fn leaves(&self, id: usize, e: &Expr, out: &mut Vec<(String, Expr)>) {
+        let shown = match &e.kind {
+            ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..)),
+            ExprKind::Part(inner, _) => matches!(inner.kind, ExprKind::Var(_)),
+            _ => false,
+        };
+        let hides = matches!(&e.kind, ExprKind::Part(inner, _) if !matches!(inner.kind, ExprKind::Var(_)));
+        if shown && !hides {
+            let name = self.sources.text(e.span).to_string();
+            if !out.iter().any(|(n, _)| *n == name) {
+                out.push((name, e.clone()));
+            }
+            if let ExprKind::Input(_, InputPart::Hits(limit, _)) = &e.kind {
+                self.leaves(id, limit, out);
+            }
+            if let ExprKind::Var(var) = e.kind {
+                let unit = &self.hir.activities[self.owner_of(id)];
+                let signal = unit.decls.iter().find_map(|d| match d {
+                    Decl::Signal(v, e) if *v == var => Some(e),
+                    _ => None,
+                });
+                if let Some(signal) = signal {
+                    self.leaves(id, signal, out);
+                }
+            }
+            return;
+        }
+        children(e, &mut |child| self.leaves(id, child, out));
+    }
+
+    fn mission_parts(&mut self, mission: &hir::Mission) {
+        let within = mission.within.as_ref().map(|e| self.ticks_code(e));
+        let mut limits = Limits::default();
+        for (channel, least, e) in &mission.limits {
+            let code = Some(self.code(e));
+            match (channel, least) {
+                (Channel::Altitude, true) => limits.altitude_min = code,
+                (Channel::Altitude, false) => limits.altitude_max = code,
+                (Channel::Depth, true) => limits.depth_min = code,
+                (Channel::Depth, false) => limits.depth_max = code,
+                (Channel::Speed, true) => limits.speed_min = code,
+                (Channel::Speed, false) => limits.speed_max = code,
+            }
+        }
+        let mut requires = Vec::new();
+        for require in &mission.requires {
+            requires.push(Require {
+                input: require.input as u32,
+                fresh: self.ticks_code(&require.fresh),
+                at_first: require.at_first.as_ref().map(|e| self.code(e)),
+                hold_for: require.hold_for.as_ref().map(|e| self.ticks_code(e)),
+            });
+        }
+        let recovery = mission.recovery.as_ref().map(|(within, block)| {
+            let within = within.as_ref().map(|e| self.ticks_code(e));
+            Recovery { activity: self.recovery(block), within }
+        });
+        let lowered = &mut self.program.mission;
+        lowered.within = within;
+        lowered.limits = limits;
+        lowered.requires = requires;
+        lowered.recovery = recovery;
+    }
+
+    /// The recovery is an activity that shares the mission's frame.
+    fn recovery(&mut self, block: &Block) -> u32 {
+        let outer = (self.frame.header, self.frame.result, std::mem::take(&mut self.frame.overlays));
+        let at = self.lasting(header::WORDS);
+        (self.frame.header, self.frame.result) = (at, at);
+        let nothing = self.emit(Op::Return);
+        let body = self.here();
+        self.stmts(&block.stmts);
+        self.emit(Op::End);
+        let overlays = std::mem::replace(&mut self.frame.overlays, outer.2);
+        (self.frame.header, self.frame.result) = (outer.0, outer.1);
+        self.program.activities.push(Activity {
+            name: "recovery".to_string(),
+            place: String::new(),
+            kind: ActivityKind::Recovery,
+            header: at,
+            entry: nothing,
+            refresh: nothing,
+            aborts: Vec::new(),
+            reactions: nothing,
+            body: Body::Sequence(body),
+            overlays,
+            result: None,
+        });
+        self.program.activities.len() as u32 - 1
+    }
+}
+
+/// The middle of some positions.
+pub(super) fn middle(positions: &[(f64, f64)]) -> Option<Geodetic> {
+    let n = positions.len() as f64;
+    let sum = positions.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + lon));
+    (!positions.is_empty()).then(|| Geodetic::from_degrees(sum.0 / n, sum.1 / n))
+}
+
+fn mentions_done(e: &Expr) -> bool {
+    let mut found = matches!(e.kind, ExprKind::Done);
+    children(e, &mut |child| found |= mentions_done(child));
+    found
+}
+
+fn assigned(block: &Block, out: &mut Vec<usize>) {
+    for stmt in &block.stmts {
+        match &stmt.kind {
+            StmtKind::Set(var, _) | StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) => {
+                out.push(*var)
+            }
+            StmtKind::If(_, a, b) => {
+                assigned(a, out);
+                assigned(b, out);
+            }
+            StmtKind::ForRange { body, .. } | StmtKind::ForList { body, .. } | StmtKind::ForEdges { body, .. } => {
+                assigned(body, out)
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! Expressions to code.
+
+use super::{FnCode, Lowering};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart};
+use crate::types::Type;
+use albacore_program::{Code, Input, Op, Slot, Text, Valued};
+
+impl<'a> Lowering<'a> {
+    /// Code that leaves an expression's value somewhere; a variable's stays where it is.
+    pub(super) fn expr(&mut self, e: &Expr) -> Slot {
+        match &e.kind {
+            ExprKind::Var(id) => self.frame.vars[*id],
+            ExprKind::Unwrap(inner) => self.expr(inner) + 1,
+            ExprKind::Part(inner, at) => self.expr(inner) + at,
+            ExprKind::IsPresent(inner) => self.expr(inner),
+            _ => {
+                let to = self.temp(self.words(&e.ty).max(1));
+                self.expr_into(e, to);
+                to
+            }
+        }
+    }
+
+    pub(super) fn copy(&mut self, to: Slot, from: Slot, words: u32) {
+        if to != from {
+            match words {
+                0 => return,
+                1 => self.emit(Op::Copy { to, from }),
+                _ => self.emit(Op::CopyMany { to, from, words }),
+            };
+        }
+    }
+
+    /// Code that leaves an expression's value in a slot.
+    pub(super) fn expr_into(&mut self, e: &Expr, to: Slot) {
+        let words = self.words(&e.ty).max(1);
+        match &e.kind {
+            ExprKind::Number(value) => _ = self.emit(Op::Const { to, value: *value }),
+            ExprKind::Geodetic { latitude_deg, longitude_deg } => {
+                let point = self.place(e.span, *latitude_deg, *longitude_deg);
+                self.emit(Op::Const { to, value: point.north });
+                self.emit(Op::Const { to: to + 1, value: point.east });
+            }
+            ExprKind::Text(parts) => {
+                let text = self.text(parts);
+                self.emit(Op::Const { to, value: f64::from(text) });
+            }
+            ExprKind::None => _ = self.emit(Op::Clear { to, words }),
+            ExprKind::Done => _ = self.emit(Op::Const { to, value: f64::from(u8::from(self.frame.done)) }),
+            ExprKind::Var(_) | ExprKind::Unwrap(_) | ExprKind::Part(..) | ExprKind::IsPresent(_) => self.scratch(|l| {
+                let from = l.expr(e);
+                l.copy(to, from, words);
+            }),
+            ExprKind::Input(id, part) => self.input(*id, part, to, words),
+            ExprKind::Present(inner) => {
+                self.expr_into(inner, to + 1);
+                self.emit(Op::Const { to, value: 1.0 });
+            }
+            ExprKind::Else(a, b) => self.scratch(|l| {
+                let value = l.expr(a);
+                let absent = l.emit(Op::JumpUnless { unless: value, to: 0 });
+                // `a else b` where b may be absent too keeps a's presence.
+                let from = if e.ty.is_optional() { value } else { value + 1 };
+                l.copy(to, from, words);
+                let present = l.emit(Op::Jump { to: 0 });
+                l.land(absent);
+                l.expr_into(b, to);
+                l.land(present);
+            }),
+            ExprKind::Do(op, operands) => self.scratch(|l| l.builtin(*op, operands, to)),
+            ExprKind::Call(id, args) => self.scratch(|l| l.call(*id, args, to, words)),
+            ExprKind::Record(fields) => {
+                let mut at = to;
+                for field in fields {
+                    self.expr_into(field, at);
+                    at += self.words(&field.ty);
+                }
+            }
+            ExprKind::List(elements) => {
+                self.emit(Op::Clear { to, words });
+                self.emit(Op::Const { to, value: elements.len() as f64 });
+                let mut at = to + 1;
+                for element in elements {
+                    self.expr_into(element, at);
+                    at += self.words(&element.ty);
+                }
+            }
+            ExprKind::If(condition, then, otherwise) => {
+                let unless = self.scratch(|l| {
+                    let condition = l.expr(condition);
+                    l.emit(Op::JumpUnless { unless: condition, to: 0 })
+                });
+                self.block_into(then, to);
+                let end = self.emit(Op::Jump { to: 0 });
+                self.land(unless);
+                self.block_into(otherwise, to);
+                self.land(end);
+            }
+            ExprKind::Match(on, arms, otherwise) => {
+                let ends = self.match_arms(on, arms, otherwise.as_ref(), |l, block| l.block_into(block, to));
+                for end in ends {
+                    self.land(end);
+                }
+            }
+            ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) => {
+                let address = std::ptr::from_ref(e) as usize;
+                let from = self.frame.timers.get(&address).copied().unwrap_or(to);
+                self.copy(to, from, 1);
+            }
+        }
+    }
+
+    /// A block whose value goes to a slot.
+    pub(super) fn block_into(&mut self, block: &Block, to: Slot) {
+        self.stmts(&block.stmts);
+        if let Some(value) = &block.value {
+            self.expr_into(value, to);
+        }
+    }
+
+    /// The arms of a `match`; gives the jumps that must land after it.
+    pub(super) fn match_arms(
+        &mut self,
+        on: &Expr,
+        arms: &[(Vec<usize>, Block)],
+        otherwise: Option<&Block>,
+        mut body: impl FnMut(&mut Self, &Block),
+    ) -> Vec<u32> {
+        // A name for the value: arms may take time, and temporaries do not outlive a tick.
+        let value = self.lasting(1);
+        self.scratch(|l| l.expr_into(on, value));
+        let mut ends = Vec::new();
+        for (variants, block) in arms {
+            let mut hits = Vec::new();
+            for &variant in variants {
+                self.scratch(|l| {
+                    let wanted = l.temp(1);
+                    l.emit(Op::Const { to: wanted, value: variant as f64 });
+                    let equal = l.temp(1);
+                    l.emit(Op::Eq { to: equal, a: value, b: wanted, words: 1 });
+                    hits.push(l.emit(Op::JumpIf { if_: equal, to: 0 }));
+                });
+            }
+            let next = self.emit(Op::Jump { to: 0 });
+            for hit in hits {
+                self.land(hit);
+            }
+            body(self, block);
+            ends.push(self.emit(Op::Jump { to: 0 }));
+            self.land(next);
+        }
+        if let Some(block) = otherwise {
+            body(self, block);
+        }
+        ends
+    }
+
+    fn input(&mut self, id: usize, part: &InputPart, to: Slot, words: u32) {
+        let at = self.program.inputs[id].at;
+        match part {
+            InputPart::Value => _ = self.emit(Op::Global { to, from: at + Input::VALUE, words }),
+            InputPart::Field(offset) => _ = self.emit(Op::Global { to, from: at + Input::VALUE + offset, words }),
+            InputPart::Peak => _ = self.emit(Op::Global { to, from: at + Input::PEAK, words: 1 }),
+            InputPart::Age => _ = self.emit(Op::Age { to, input: id as u32 }),
+            InputPart::Hits(limit, of) => self.scratch(|l| {
+                let limit = l.expr(limit);
+                l.emit(Op::Hits { to, input: id as u32, limit, of: *of });
+            }),
+        }
+    }
+
+    fn call(&mut self, id: usize, args: &[Expr], to: Slot, words: u32) {
+        let code = self.function(id);
+        // Arguments first: a call inside an argument must not disturb those already in place.
+        let slots: Vec<(Slot, u32)> = args.iter().map(|a| (self.expr(a), self.words(&a.ty))).collect();
+        let base = self.temp(code.words);
+        let mut at = base;
+        for (from, words) in slots {
+            self.copy(at, from, words);
+            at += words;
+        }
+        self.emit(Op::Call { code: code.entry, base });
+        self.copy(to, base + code.result, words);
+    }
+
+    /// The code of a function, lowered when first called.
+    pub(super) fn function(&mut self, id: usize) -> FnCode {
+        if let Some(code) = self.fns.get(&id) {
+            return *code;
+        }
+        let function = &self.hir.fns[id];
+        let span = function.vars.first().map_or_else(|| function.body.value.as_ref().map(|v| v.span), |v| Some(v.span));
+        if self.recursion(&function.name, span) {
+            return FnCode { entry: 0, result: 0, words: 1 };
+        }
+        self.prepare_block(&function.body);
+        for order in function.vars.iter().filter_map(|v| v.order.as_ref()) {
+            self.prepare(&order.key);
+        }
+        let entry = std::cell::Cell::new(0);
+        let result = std::cell::Cell::new(0);
+        let words = self.twice(&function.vars, 0, |l| {
+            l.sorters(&function.vars);
+            entry.set(l.here());
+            let to = l.lasting(l.words(&function.result));
+            result.set(to);
+            l.block_into(&function.body, to);
+            l.emit(Op::Return);
+        });
+        self.path.pop();
+        let code = FnCode { entry: entry.get(), result: result.get(), words };
+        self.fns.insert(id, code);
+        code
+    }
+
+    /// Whether this is being lowered already; if not, it is from now on.
+    pub(super) fn recursion(&mut self, name: &str, span: Option<crate::source::Span>) -> bool {
+        let Some(start) = self.path.iter().position(|(n, _)| n == name) else {
+            if let Some(span) = span.or_else(|| self.path.last().map(|(_, s)| *s)) {
+                self.path.push((name.to_string(), span));
+            }
+            return false;
+        };
+        let mut chain: Vec<&str> = self.path[start..].iter().map(|(n, _)| n.as_str()).collect();
+        chain.push(name);
+        let finding = Diagnostic::error(
+            "flow::recursion",
+            self.path[start].1,
+            format!("`{name}` calls itself: {}", chain.join(" -> ")),
+        )
+        .help("what is called must be known before launch: use a loop");
+        if !self.findings.contains(&finding) {
+            self.findings.push(finding);
+        }
+        true
+    }
+
+    fn builtin(&mut self, op: Builtin, operands: &[Expr], to: Slot) {
+        use Builtin as B;
+        if op == B::Pair || op == B::Line {
+            let mut at = to;
+            for operand in operands {
+                self.expr_into(operand, at);
+                at += self.words(&operand.ty);
+            }
+            return;
+        }
+        let slots: Vec<Slot> = operands.iter().map(|o| self.expr(o)).collect();
+        let a = slots.first().copied().unwrap_or(to);
+        let b = slots.get(1).copied().unwrap_or(a);
+        let c = slots.get(2).copied().unwrap_or(a);
+        let d = slots.get(3).copied().unwrap_or(a);
+        let element_words = |l: &Self| match &operands[0].ty {
+            Type::List(inner, _) => l.words(inner),
+            _ => 1,
+        };
+        let op = match op {
+            // `number(angle)` has one operand: it is the angle.
+            B::Add if operands.len() == 1 => Op::Copy { to, from: a },
+            B::Add => Op::Add { to, a, b },
+            B::Sub => Op::Sub { to, a, b },
+            B::Mul => Op::Mul { to, a, b },
+            B::Div => Op::Div { to, a, b },
+            B::Pow => Op::Pow { to, a, b },
+            B::Neg => Op::Neg { to, a },
+            B::Abs => Op::Abs { to, a },
+            B::Min => Op::Min { to, a, b },
+            B::Max => Op::Max { to, a, b },
+            B::Sqrt => Op::Sqrt { to, a },
+            B::Floor => Op::Floor { to, a },
+            B::Ceil => Op::Ceil { to, a },
+            B::Round => Op::Round { to, a },
+            B::Sin => Op::Sin { to, a },
+            B::Cos => Op::Cos { to, a },
+            B::Heading => Op::WrapHeading { to, a },
+            B::Angle => Op::WrapAngle { to, a },
+            B::Lt => Op::Lt { to, a, b },
+            B::Le => Op::Le { to, a, b },
+            B::Eq => Op::Eq { to, a, b, words: self.words(&operands[0].ty) },
+            B::Not => Op::Not { to, a },
+            B::And => Op::And { to, a, b },
+            B::Or => Op::Or { to, a, b },
+            B::AddVector => Op::AddVector { to, a, b },
+            B::SubVector => Op::SubVector { to, a, b },
+            B::Scale => Op::Scale { to, vector: a, by: b },
+            B::Toward => Op::Toward { to, length: a, heading: b },
+            B::Direction => Op::Direction { to, vector: a },
+            B::Length => Op::Length { to, vector: a },
+            B::Dot => Op::Dot { to, a, b },
+            B::Along => Op::Along { to, vector: a, heading: b },
+            B::Pair | B::Line => return,
+            B::Rectangle => Op::Rectangle { to, center: a, along: b, length: c, width: d },
+            B::Polygon => Op::Polygon { to: to + 1, points: a, ok: to },
+            B::Center => Op::Center { to, area: a },
+            B::Gap => Op::Gap { to, area: a, point: b },
+            B::Corner => Op::Corner { to, area: a, heading: b, near: c },
+            B::EdgeAt => Op::EdgeAt { to, area: a, index: b },
+            B::NearestEdge => Op::NearestEdge { to, area: a, point: b },
+            B::EdgeGap => Op::EdgeGap { to, edge: a, point: b },
+            B::EdgeTangent => Op::EdgeTangent { to, edge: a, heading: b },
+            B::Exit => Op::Exit { to, area: a, point: b, heading: c },
+            B::Top => Op::Top { to, list: a, count: b, words: element_words(self) },
+            B::At => Op::At { to, list: a, index: b, words: element_words(self) },
+            B::Spread => Op::Spread { to, list: a, heading: b },
+        };
+        self.emit(op);
+    }
+
+    /// A text with its holes computed into slots of their own.
+    pub(super) fn text(&mut self, parts: &[TextPart]) -> u32 {
+        let mut lowered = Vec::new();
+        for part in parts {
+            lowered.push(match part {
+                TextPart::Literal(text) => albacore_program::TextPart::Literal(text.clone()),
+                TextPart::Hole(e) => albacore_program::TextPart::Hole(self.valued(e)),
+            });
+        }
+        self.program.texts.push(Text { parts: lowered });
+        self.program.texts.len() as u32 - 1
+    }
+
+    /// A value in a slot of its own, with its shape.
+    pub(super) fn valued(&mut self, e: &Expr) -> Valued {
+        let slot = self.lasting(self.words(&e.ty));
+        self.scratch(|l| l.expr_into(e, slot));
+        Valued { slot, shape: self.shape(&e.ty) }
+    }
+
+    /// An expression as a piece of code of its own, its value in a slot of its own.
+    pub(super) fn code(&mut self, e: &Expr) -> Code {
+        let value = self.lasting(self.words(&e.ty).max(1));
+        let entry = self.here();
+        self.scratch(|l| l.expr_into(e, value));
+        self.emit(Op::Return);
+        Code { entry, value }
+    }
+
+    /// A duration in ticks, as a piece of code of its own.
+    pub(super) fn ticks_code(&mut self, e: &Expr) -> Code {
+        let value = self.lasting(1);
+        let entry = self.here();
+        self.scratch(|l| {
+            let seconds = l.expr(e);
+            l.emit(Op::Ticks { to: value, a: seconds });
+        });
+        self.emit(Op::Return);
+        Code { entry, value }
+    }
+}

@@ -1,0 +1,122 @@
+//! Scenarios to code that computes their numbers, and a description of what each number is.
+
+use super::Lowering;
+use super::activity::middle;
+use super::watch::scenario_positions;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{ClauseArg, ClauseUse, ExprKind, Hir, TextPart};
+use crate::source::Sources;
+use crate::types::{Type, TypeTable};
+use albacore_geometry::Geodetic;
+use albacore_program::{Op, Program, Shape, Slot};
+
+/// A scenario, ready to be computed: run the program's code from 0, then read the slots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScenarioProgram {
+    /// Its name.
+    pub name: String,
+    /// Where the local frame touches the globe.
+    pub origin: Option<Geodetic>,
+    /// The code, and nothing else.
+    pub program: Program,
+    /// What it says, in order.
+    pub clauses: Vec<ScenarioClause>,
+}
+
+/// A clause of a scenario: `flow`, `source`, …
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScenarioClause {
+    /// Its name.
+    pub name: String,
+    /// `file:line`.
+    pub place: String,
+    /// Its arguments by the names of its parameters, defaults included.
+    pub args: Vec<(String, ScenarioValue)>,
+}
+
+/// An argument of a clause.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScenarioValue {
+    /// Words in a slot.
+    Words(Slot, Shape),
+    /// A text.
+    Text(String),
+    /// Another clause.
+    Clause(ScenarioClause),
+}
+
+/// Lowers a scenario, its frame about `origin`, else about the middle of its own positions.
+pub fn scenario(
+    hir: &Hir,
+    types: &TypeTable,
+    sources: &Sources,
+    id: usize,
+    origin: Option<Geodetic>,
+) -> Result<ScenarioProgram, Vec<Diagnostic>> {
+    let scenario = &hir.scenarios[id];
+    let mut lowering = Lowering::new(hir, types, sources);
+    let mut positions = Vec::new();
+    scenario_positions(&scenario.clauses, &mut positions);
+    lowering.origin = origin.or_else(|| middle(&positions));
+    for clause in &scenario.clauses {
+        lowering.prepare_clause(clause);
+    }
+    let entry = lowering.here();
+    let clauses = std::cell::RefCell::new(Vec::new());
+    let words = lowering.twice(&scenario.vars, 0, |l| {
+        for (default, to) in scenario.defaults.iter().zip(l.frame.vars.clone()) {
+            if let Some(e) = default {
+                l.scratch(|l| l.expr_into(e, to));
+            }
+        }
+        let lowered = scenario.clauses.iter().map(|c| l.clause(c)).collect();
+        clauses.replace(lowered);
+        l.emit(Op::Return);
+    });
+    if !lowering.findings.is_empty() {
+        return Err(lowering.findings);
+    }
+    let mut program = lowering.program;
+    program.words = words;
+    program.mission.activity = entry;
+    Ok(ScenarioProgram { name: scenario.name.clone(), origin: lowering.origin, program, clauses: clauses.into_inner() })
+}
+
+impl<'a> Lowering<'a> {
+    fn prepare_clause(&mut self, clause: &ClauseUse) {
+        for (_, arg) in &clause.args {
+            match arg {
+                ClauseArg::Value(e) => self.prepare(e),
+                ClauseArg::Nested(inner) => self.prepare_clause(inner),
+            }
+        }
+    }
+
+    fn clause(&mut self, clause: &ClauseUse) -> ScenarioClause {
+        let mut args = Vec::new();
+        for (name, arg) in &clause.args {
+            let value = match arg {
+                ClauseArg::Nested(inner) => ScenarioValue::Clause(self.clause(inner)),
+                ClauseArg::Value(e) => match (&e.kind, &e.ty) {
+                    (ExprKind::Text(parts), Type::Text) => ScenarioValue::Text(plain(parts)),
+                    _ => {
+                        let valued = self.valued(e);
+                        ScenarioValue::Words(valued.slot, valued.shape)
+                    }
+                },
+            };
+            args.push((name.clone(), value));
+        }
+        ScenarioClause { name: clause.name.clone(), place: self.sources.place(clause.span), args }
+    }
+}
+
+fn plain(parts: &[TextPart]) -> String {
+    parts
+        .iter()
+        .filter_map(|p| match p {
+            TextPart::Literal(text) => Some(text.as_str()),
+            TextPart::Hole(_) => None,
+        })
+        .collect()
+}

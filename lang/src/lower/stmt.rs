@@ -1,0 +1,469 @@
+//! Statements to code. Whatever a statement keeps while time goes by lives on in the frame.
+
+use super::Lowering;
+use crate::hir::{self, Action, Block, Expr, Stmt, StmtKind, Timed, With};
+use crate::types::Type;
+use albacore_program::{CallSite, Cause, Channel, Guide, Op, OverlaySite, ReportSite, Slot, header, setpoints};
+
+/// The words that a guidance law keeps while its statement lasts: the most that any of them needs.
+pub const GUIDANCE_WORDS: u32 = 32;
+
+impl<'a> Lowering<'a> {
+    pub(super) fn stmts(&mut self, stmts: &[Stmt]) {
+        for stmt in stmts {
+            self.scratch(|l| l.stmt(stmt));
+        }
+    }
+
+    fn body(&mut self, block: &Block) {
+        self.stmts(&block.stmts);
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) {
+        match &stmt.kind {
+            StmtKind::Set(var, e) => {
+                let to = self.frame.vars[*var];
+                // `x = x.something` may read what it writes: by way of a temporary.
+                if self.words(&e.ty) > 1 {
+                    let from = self.expr(e);
+                    let words = self.words(&e.ty);
+                    self.copy(to, from, words);
+                } else {
+                    self.expr_into(e, to);
+                }
+                self.sort(*var);
+            }
+            StmtKind::Insert(var, e) => {
+                let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
+                let capacity = self.capacity(*var);
+                match self.frame.sorters.get(var) {
+                    Some(&sort) => self.emit(Op::PushSorted { list, item, words, capacity, sort }),
+                    None => self.emit(Op::Push { list, item, words, capacity }),
+                };
+            }
+            StmtKind::Remove(var, e) => {
+                let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
+                self.emit(Op::Remove { list, item, words });
+            }
+            StmtKind::Clear(var) => {
+                let to = self.frame.vars[*var];
+                self.emit(Op::Clear { to, words: 1 });
+            }
+            StmtKind::If(condition, then, otherwise) => {
+                let unless = self.scratch(|l| {
+                    let condition = l.expr(condition);
+                    l.emit(Op::JumpUnless { unless: condition, to: 0 })
+                });
+                self.body(then);
+                let end = self.emit(Op::Jump { to: 0 });
+                self.land(unless);
+                self.body(otherwise);
+                self.land(end);
+            }
+            StmtKind::Match(on, arms, otherwise) => {
+                let ends = self.match_arms(on, arms, otherwise.as_ref(), |l, block| l.body(block));
+                for end in ends {
+                    self.land(end);
+                }
+            }
+            StmtKind::ForRange { var, first, last, inclusive, body } => {
+                self.for_range(*var, first, last, *inclusive, body)
+            }
+            StmtKind::ForList { var, list, body } => self.for_list(*var, list, body),
+            StmtKind::ForEdges { var, area, body } => self.for_edges(*var, area, body),
+            StmtKind::While { condition, bind, body } => {
+                let top = self.here();
+                let unless = self.scratch(|l| {
+                    let value = l.expr(condition);
+                    let unless = l.emit(Op::JumpUnless { unless: value, to: 0 });
+                    if let Some(var) = bind {
+                        let (to, words) = (l.frame.vars[*var], l.words(condition.ty.present()));
+                        l.copy(to, value + 1, words);
+                    }
+                    unless
+                });
+                self.body(body);
+                self.emit(Op::Jump { to: top });
+                self.land(unless);
+            }
+            StmtKind::Loop(body) => {
+                let top = self.here();
+                self.body(body);
+                self.emit(Op::Jump { to: top });
+            }
+            StmtKind::With(items, body) => self.with(items, body),
+            StmtKind::Timed(timed) => self.timed(timed),
+            StmtKind::Finish(value) => {
+                if let Some(e) = value {
+                    let to = self.frame.result;
+                    self.expr_into(e, to);
+                }
+                self.emit(Op::Finish);
+            }
+            StmtKind::Abort(why) => {
+                let why = self.text(why);
+                self.emit(Op::Abort { why });
+            }
+            StmtKind::Report { name, fields } => {
+                let fields = fields.iter().map(|(label, e)| (label.clone(), self.valued(e))).collect();
+                self.program.reports.push(ReportSite { name: name.clone(), fields });
+                let site = self.program.reports.len() as u32 - 1;
+                self.emit(Op::Report { site });
+            }
+            StmtKind::Log(parts) => {
+                let text = self.text(parts);
+                self.emit(Op::Log { text });
+            }
+            StmtKind::Expr(e) => _ = self.expr(e),
+        }
+    }
+
+    fn sort(&mut self, var: usize) {
+        if let Some(&sorter) = self.frame.sorters.get(&var) {
+            self.emit(Op::Call { code: sorter, base: 0 });
+        }
+    }
+
+    fn capacity(&self, var: usize) -> u32 {
+        match self.frame_vars().get(var).map(|v| &v.ty) {
+            Some(Type::List(_, capacity)) => *capacity,
+            _ => 1,
+        }
+    }
+
+    /// The variables of what is being lowered: a function's or a unit's.
+    fn frame_vars(&self) -> &'a [hir::Var] {
+        let hir = self.hir;
+        let Some((name, _)) = self.path.last() else { return &[] };
+        match hir.fns.iter().find(|f| f.name == *name && f.vars.len() == self.frame.vars.len()) {
+            Some(function) => &function.vars,
+            None => self.unit_vars(),
+        }
+    }
+
+    fn for_range(&mut self, var: usize, first: &Expr, last: &Expr, inclusive: bool, body: &Block) {
+        let (counter, end) = (self.lasting(1), self.lasting(1));
+        self.scratch(|l| {
+            l.expr_into(first, counter);
+            l.expr_into(last, end);
+        });
+        let top = self.here();
+        let done = self.scratch(|l| {
+            let goes_on = l.temp(1);
+            l.emit(if inclusive {
+                Op::Le { to: goes_on, a: counter, b: end }
+            } else {
+                Op::Lt { to: goes_on, a: counter, b: end }
+            });
+            l.emit(Op::JumpUnless { unless: goes_on, to: 0 })
+        });
+        let to = self.frame.vars[var];
+        self.copy(to, counter, 1);
+        self.body(body);
+        self.count_up(counter);
+        self.emit(Op::Jump { to: top });
+        self.land(done);
+    }
+
+    fn count_up(&mut self, counter: Slot) {
+        self.scratch(|l| {
+            let one = l.temp(1);
+            l.emit(Op::Const { to: one, value: 1.0 });
+            l.emit(Op::Add { to: counter, a: counter, b: one });
+        });
+    }
+
+    /// Walks a copy of the list, made at the start.
+    fn for_list(&mut self, var: usize, list: &Expr, body: &Block) {
+        let Type::List(inner, _) = &list.ty else { return };
+        let (words, element) = (self.words(&list.ty), self.words(inner));
+        let copy = self.lasting(words);
+        let (counter, found) = (self.lasting(1), self.lasting(1 + element));
+        self.scratch(|l| l.expr_into(list, copy));
+        self.emit(Op::Const { to: counter, value: 0.0 });
+        let top = self.here();
+        self.emit(Op::At { to: found, list: copy, index: counter, words: element });
+        let done = self.emit(Op::JumpUnless { unless: found, to: 0 });
+        let to = self.frame.vars[var];
+        self.copy(to, found + 1, element);
+        self.body(body);
+        self.count_up(counter);
+        self.emit(Op::Jump { to: top });
+        self.land(done);
+    }
+
+    fn for_edges(&mut self, var: usize, area: &Expr, body: &Block) {
+        // An area that is a variable cannot change while it is walked; any other is copied.
+        let area = match area.kind {
+            hir::ExprKind::Var(id) => self.frame.vars[id],
+            _ => {
+                let copy = self.lasting(self.words(&Type::Area));
+                self.scratch(|l| l.expr_into(area, copy));
+                copy
+            }
+        };
+        let counter = self.lasting(1);
+        self.emit(Op::Const { to: counter, value: 0.0 });
+        let top = self.here();
+        let done = self.scratch(|l| {
+            let goes_on = l.temp(1);
+            l.emit(Op::Lt { to: goes_on, a: counter, b: area });
+            l.emit(Op::JumpUnless { unless: goes_on, to: 0 })
+        });
+        let to = self.frame.vars[var];
+        self.emit(Op::EdgeAt { to, area, index: counter });
+        self.body(body);
+        self.count_up(counter);
+        self.emit(Op::Jump { to: top });
+        self.land(done);
+    }
+
+    /// Puts setpoints and overlays in force; gives what must be undone.
+    pub(super) fn put_on(&mut self, items: &[With]) -> Vec<u32> {
+        let mut worn = Vec::new();
+        for item in items {
+            match item {
+                With::Setpoint(channel, e) => {
+                    let at = self.frame.header + header::SETPOINTS;
+                    self.scratch(|l| l.setpoint(*channel, e, at));
+                }
+                With::Overlay(id, args) => {
+                    let unit = self.units[id];
+                    let base = self.lasting(unit.words);
+                    self.scratch(|l| l.args(args, base));
+                    self.program.overlays.push(OverlaySite { activity: unit.activity, base });
+                    let overlay = self.program.overlays.len() as u32 - 1;
+                    self.emit(Op::PutOn { overlay });
+                    self.frame.overlays.push(overlay);
+                    worn.push(overlay);
+                }
+            }
+        }
+        worn
+    }
+
+    /// Arguments straight into the callee's frame, whose variables begin with its parameters.
+    fn args(&mut self, args: &[Expr], base: Slot) {
+        let mut at = base;
+        for arg in args {
+            self.expr_into(arg, at);
+            at += self.words(&arg.ty);
+        }
+    }
+
+    fn setpoint(&mut self, channel: Channel, e: &Expr, at: Slot) {
+        if channel == Channel::Speed {
+            self.expr_into(e, at + setpoints::SPEED);
+            return;
+        }
+        self.expr_into(e, at + setpoints::METRES);
+        let value = if channel == Channel::Depth { setpoints::DEPTH } else { setpoints::ALTITUDE };
+        self.emit(Op::Const { to: at + setpoints::VERTICAL, value });
+    }
+
+    fn with(&mut self, items: &[With], body: &Block) {
+        let at = self.frame.header + header::SETPOINTS;
+        let saved = self.lasting(setpoints::WORDS);
+        self.copy(saved, at, setpoints::WORDS);
+        let worn = self.put_on(items);
+        self.body(body);
+        for overlay in worn.into_iter().rev() {
+            self.emit(Op::TakeOff { overlay });
+        }
+        self.copy(at, saved, setpoints::WORDS);
+    }
+
+    fn timed(&mut self, timed: &Timed) {
+        let owner = self.frame.header;
+        let begun = self.lasting(1);
+        self.emit(Op::Now { to: begun, owner });
+        // Setpoints of its own are frozen now; without them those in force are used where they are.
+        let in_force = owner + header::SETPOINTS;
+        let setpoints = if timed.at.is_empty() {
+            in_force
+        } else {
+            let own = self.lasting(setpoints::WORDS);
+            self.copy(own, in_force, setpoints::WORDS);
+            for (channel, e) in &timed.at {
+                self.scratch(|l| l.setpoint(*channel, e, own));
+            }
+            own
+        };
+        let duration = timed.duration.as_ref().map(|e| self.frozen_ticks(e));
+        let within = timed.within.as_ref().map(|e| self.frozen_ticks(e));
+        let timers = self.place_timers(&timed.until);
+        self.reset_timers(&timers);
+        self.update_timers(&timers, owner, Some(begun));
+        let ended = self.lasting(1);
+        let result = timed.result.map(|var| self.frame.vars[var]);
+
+        let action = self.begin(&timed.action, setpoints, ended);
+        let wait = self.emit(Op::Yield);
+        self.update_timers(&timers, owner, Some(begun));
+        self.go_on(&action, &timed.action, setpoints, ended);
+        let mut done = vec![self.emit(Op::JumpIf { if_: ended, to: 0 })];
+        let mut cut_normally = Vec::new();
+        let mut cut_off = None;
+        if let Some(until) = &timed.until {
+            let holds = self.scratch(|l| {
+                let value = l.expr(until);
+                l.emit(Op::JumpIf { if_: value, to: 0 })
+            });
+            cut_normally.push(holds);
+        }
+        if let Some(ticks) = duration {
+            cut_normally.push(self.jump_if_elapsed(begun, ticks, owner));
+        }
+        if let Some(ticks) = within {
+            cut_off = Some(self.jump_if_elapsed(begun, ticks, owner));
+        }
+        self.emit(Op::Jump { to: wait });
+
+        // Its own end, then `for` and `until`, then `within`: each leaves the outcome where `let` wants it.
+        let has_value = match &timed.action {
+            Action::Call(id, _) => self.hir.activities[*id].result.clone(),
+            _ => None,
+        };
+        let cut = timed.duration.is_some() || timed.until.is_some() || timed.within.is_some();
+        self.land(done.remove(0));
+        if let Some(to) = result {
+            self.outcome_of_end(&action, has_value.as_ref(), cut, to);
+        }
+        let mut ends = Vec::new();
+        for (jumps, cause, by_itself) in
+            [(cut_normally, Cause::Until, 1.0), (cut_off.into_iter().collect(), Cause::TimedOut, 0.0)]
+        {
+            if jumps.is_empty() {
+                continue;
+            }
+            ends.push(self.emit(Op::Jump { to: 0 }));
+            for jump in jumps {
+                self.land(jump);
+            }
+            if let Running::Call { call, .. } = action {
+                self.emit(Op::Cut { call, cause });
+            }
+            if let Some(to) = result {
+                match &has_value {
+                    Some(ty) => {
+                        let words = self.words(&ty.clone().optional());
+                        self.emit(Op::Clear { to, words });
+                    }
+                    // `for` and `until` are normal ends; only `within` cuts off.
+                    None => _ = self.emit(Op::Const { to, value: by_itself }),
+                }
+            }
+        }
+        for end in ends {
+            self.land(end);
+        }
+    }
+
+    fn frozen_ticks(&mut self, duration: &Expr) -> Slot {
+        let ticks = self.lasting(1);
+        self.scratch(|l| {
+            let seconds = l.expr(duration);
+            l.emit(Op::Ticks { to: ticks, a: seconds });
+        });
+        ticks
+    }
+
+    fn jump_if_elapsed(&mut self, from: Slot, ticks: Slot, owner: Slot) -> u32 {
+        self.scratch(|l| {
+            let elapsed = l.temp(1);
+            l.emit(Op::Elapsed { to: elapsed, from, ticks, owner });
+            l.emit(Op::JumpIf { if_: elapsed, to: 0 })
+        })
+    }
+
+    fn outcome_of_end(&mut self, action: &Running, value: Option<&Type>, cut: bool, to: Slot) {
+        match (action, value) {
+            (Running::Call { result, .. }, Some(ty)) => {
+                let words = self.words(ty);
+                if cut && !ty.is_optional() {
+                    self.emit(Op::Const { to, value: 1.0 });
+                    self.copy(to + 1, *result, words);
+                } else {
+                    self.copy(to, *result, words);
+                }
+            }
+            _ => _ = self.emit(Op::Const { to, value: 1.0 }),
+        }
+    }
+
+    /// The first tick of a statement.
+    fn begin(&mut self, action: &Action, setpoints: Slot, ended: Slot) -> Running {
+        match action {
+            Action::Guide(guide, args) => {
+                let words: u32 = args.iter().map(|a| self.words(&a.ty)).sum();
+                let slots = self.lasting(words.max(1));
+                self.scratch(|l| l.args(args, slots));
+                let state = self.lasting(GUIDANCE_WORDS);
+                self.emit(Op::Begin { guide: *guide, args: slots, state, setpoints });
+                self.emit(Op::Guide { guide: *guide, args: slots, state, setpoints, ended });
+                Running::Guide { guide: *guide, args: slots, state }
+            }
+            Action::Keep(channel, e) => {
+                let own = self.lasting(setpoints::WORDS);
+                let value = self.lasting(1);
+                let state = self.lasting(1);
+                let running = Running::Keep { channel: *channel, value, own, state };
+                self.keep(&running, e, setpoints, ended);
+                running
+            }
+            Action::Call(id, args) => {
+                let unit = self.units[id];
+                let base = self.lasting(unit.words);
+                self.scratch(|l| l.args(args, base));
+                self.program.calls.push(CallSite {
+                    activity: unit.activity,
+                    caller: self.frame.header,
+                    base,
+                    setpoints,
+                });
+                let call = self.program.calls.len() as u32 - 1;
+                self.emit(Op::Enter { call });
+                let result = self.program.activities[unit.activity as usize].result.as_ref().map_or(0, |r| r.slot);
+                Running::Call { call, result: base + result }
+            }
+        }
+    }
+
+    /// Every later tick: what tells whether it has come to its own end.
+    fn go_on(&mut self, running: &Running, action: &Action, setpoints: Slot, ended: Slot) {
+        match (running, action) {
+            (Running::Guide { guide, args, state }, Action::Guide(_, written)) => {
+                // `steer` reads its course at every tick; all others have frozen their arguments.
+                if matches!(guide, Guide::Steer | Guide::SteerHeading) {
+                    self.scratch(|l| l.args(written, *args));
+                }
+                self.emit(Op::Guide { guide: *guide, args: *args, state: *state, setpoints, ended });
+            }
+            (Running::Keep { .. }, Action::Keep(_, e)) => self.keep(running, e, setpoints, ended),
+            (Running::Call { call, .. }, _) => _ = self.emit(Op::Step { call: *call, ended }),
+            _ => {}
+        }
+    }
+
+    /// `keep` reads its setpoint at every tick. In an overlay it is the channel's; in a behavior it keeps course as well.
+    fn keep(&mut self, running: &Running, e: &Expr, setpoints: Slot, ended: Slot) {
+        let Running::Keep { channel, value, own, state } = *running else { return };
+        self.scratch(|l| l.expr_into(e, value));
+        self.copy(own, setpoints, setpoints::WORDS);
+        let metres = if channel == Channel::Speed { own + setpoints::SPEED } else { own + setpoints::METRES };
+        self.copy(metres, value, 1);
+        if channel != Channel::Speed {
+            let kind = if channel == Channel::Depth { setpoints::DEPTH } else { setpoints::ALTITUDE };
+            self.emit(Op::Const { to: own + setpoints::VERTICAL, value: kind });
+        }
+        self.emit(Op::Keep { channel, value });
+        self.emit(Op::Guide { guide: Guide::Keep, args: value, state, setpoints: own, ended });
+    }
+}
+
+/// A statement under way: where its parts are.
+enum Running {
+    Guide { guide: Guide, args: Slot, state: Slot },
+    Keep { channel: Channel, value: Slot, own: Slot, state: Slot },
+    Call { call: u32, result: Slot },
+}

@@ -1,0 +1,275 @@
+//! From the grammar's pairs to the tree: expressions, by precedence climbing over the flat list that the grammar gives.
+
+use super::Rule;
+use super::build::{Builder, block, modified, parts};
+use super::tree::*;
+use crate::source::Spanned;
+use pest::iterators::Pair;
+
+type P<'a> = Pair<'a, Rule>;
+
+pub(super) fn name(b: &Builder, pair: P) -> Name {
+    Spanned { node: pair.as_str().trim_end().to_string(), span: b.span(&pair) }
+}
+
+pub(super) fn path(b: &Builder, pair: P) -> Path {
+    let span = b.span(&pair);
+    Path { parts: pair.into_inner().map(|p| name(b, p)).collect(), span }
+}
+
+pub(super) fn cond(b: &mut Builder, pair: P) -> Expr {
+    let span = b.span(&pair);
+    let mut inner = parts(pair);
+    let holds = inner.next().map(|p| expr(b, p));
+    let duration = inner.next().map(|p| expr(b, p));
+    match (holds, duration) {
+        (Some(holds), Some(duration)) => Expr { kind: ExprKind::HasHeldFor(Box::new(holds), Box::new(duration)), span },
+        (Some(holds), None) => holds,
+        (None, _) => Expr { kind: ExprKind::None, span },
+    }
+}
+
+pub(super) fn condition(b: &mut Builder, pair: P) -> Option<Condition> {
+    let mut inner = parts(pair);
+    let first = inner.next()?;
+    Some(if first.as_rule() == Rule::name {
+        Condition::Let { name: name(b, first), value: expr(b, inner.next()?) }
+    } else {
+        Condition::Holds(cond(b, first))
+    })
+}
+
+pub(super) fn expr_stmt(b: &mut Builder, pair: P) -> Option<Timed> {
+    let span = b.span(&pair);
+    let mut inner = pair.into_inner();
+    let value = expr(b, inner.next()?);
+    Some(modified(b, Action::Expr(value), inner, span))
+}
+
+pub(super) fn args(b: &mut Builder, pair: P) -> Vec<Arg> {
+    pair.into_inner().filter_map(|p| arg(b, p)).collect()
+}
+
+pub(super) fn arg(b: &mut Builder, pair: P) -> Option<Arg> {
+    let mut inner = pair.into_inner().peekable();
+    let label = inner.next_if(|p| p.as_rule() == Rule::label).map(|p| name(b, p));
+    Some(Arg { label, value: expr(b, inner.next()?) })
+}
+
+/// How tightly an operator binds; `None` for what is no infix operator.
+fn infix(rule: Rule) -> Option<(Binary, u8)> {
+    Some(match rule {
+        Rule::op_else => (Binary::Else, 1),
+        Rule::op_or => (Binary::Or, 2),
+        Rule::op_and => (Binary::And, 3),
+        Rule::op_eq => (Binary::Eq, 5),
+        Rule::op_ne => (Binary::Ne, 5),
+        Rule::op_le => (Binary::Le, 5),
+        Rule::op_ge => (Binary::Ge, 5),
+        Rule::op_lt => (Binary::Lt, 5),
+        Rule::op_gt => (Binary::Gt, 5),
+        Rule::op_add => (Binary::Add, 6),
+        Rule::op_sub => (Binary::Sub, 6),
+        Rule::op_toward => (Binary::Toward, 7),
+        Rule::op_mul => (Binary::Mul, 8),
+        Rule::op_div => (Binary::Div, 8),
+        Rule::op_pow => (Binary::Pow, 10),
+        _ => return None,
+    })
+}
+
+/// How tightly what follows a prefix operator is held.
+fn prefix(rule: Rule) -> Option<(Unary, u8)> {
+    Some(match rule {
+        Rule::not => (Unary::Not, 4),
+        Rule::no => (Unary::No, 4),
+        Rule::becomes => (Unary::Becomes, 4),
+        Rule::after => (Unary::After, 4),
+        Rule::neg => (Unary::Neg, 9),
+        Rule::pos => (Unary::Pos, 9),
+        _ => return None,
+    })
+}
+
+pub(super) fn expr(b: &mut Builder, pair: P) -> Expr {
+    let pairs: Vec<P> = pair.into_inner().collect();
+    let mut at = 0;
+    climb(b, &pairs, &mut at, 0)
+}
+
+/// Precedence climbing. The grammar never gives an operator without its operand, so `at` always finds one.
+fn climb(b: &mut Builder, pairs: &[P], at: &mut usize, least: u8) -> Expr {
+    let first = pairs[*at].clone();
+    *at += 1;
+    let mut left = match prefix(first.as_rule()) {
+        Some((unary, binds)) => {
+            let op = Spanned { node: unary, span: b.span(&first) };
+            let operand = climb(b, pairs, at, binds);
+            let span = op.span.to(operand.span);
+            Expr { kind: ExprKind::Unary(op, Box::new(operand)), span }
+        }
+        None => operand(b, first),
+    };
+    while let Some((binary, binds)) = pairs.get(*at).and_then(|p| infix(p.as_rule())) {
+        if binds < least {
+            break;
+        }
+        let op = Spanned { node: binary, span: b.span(&pairs[*at]) };
+        *at += 1;
+        // `^` and `else` group to the right, all others to the left.
+        let right_least = if matches!(binary, Binary::Pow | Binary::Else) { binds } else { binds + 1 };
+        let right = climb(b, pairs, at, right_least);
+        let span = left.span.to(right.span);
+        left = Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span };
+    }
+    left
+}
+
+fn operand(b: &mut Builder, pair: P) -> Expr {
+    let mut inner = pair.into_inner();
+    let Some(first) = inner.next() else { return nothing(b) };
+    let mut value = primary(b, first);
+    for suffix in inner {
+        let span = value.span.to(b.span(&suffix));
+        let kind = match suffix.as_rule() {
+            Rule::args => ExprKind::Call(Box::new(value), args(b, suffix)),
+            Rule::member => match suffix.into_inner().next() {
+                Some(label) => ExprKind::Member(Box::new(value), name(b, label)),
+                None => continue,
+            },
+            _ => match suffix.into_inner().next() {
+                Some(at) => ExprKind::Index(Box::new(value), Box::new(expr(b, at))),
+                None => continue,
+            },
+        };
+        value = Expr { kind, span };
+    }
+    value
+}
+
+/// Stands where the grammar promised a child and gave none: never reached, and harmless.
+fn nothing(b: &Builder) -> Expr {
+    Expr { kind: ExprKind::None, span: crate::source::Span { file: b.file, start: 0, end: 0 } }
+}
+
+fn primary(b: &mut Builder, pair: P) -> Expr {
+    let span = b.span(&pair);
+    let kind = match pair.as_rule() {
+        Rule::quantity => {
+            let mut inner = pair.into_inner();
+            let value = inner.next().and_then(|n| n.as_str().parse().ok()).unwrap_or(0.0);
+            ExprKind::Number { value, unit: inner.next().map(|u| name(b, u)) }
+        }
+        Rule::geodetic => {
+            let mut halves = pair.into_inner().map(degrees);
+            ExprKind::Geodetic {
+                latitude_deg: halves.next().unwrap_or(0.0),
+                longitude_deg: halves.next().unwrap_or(0.0),
+            }
+        }
+        Rule::text => return text(b, pair),
+        Rule::list => ExprKind::List(pair.into_inner().map(|p| expr(b, p)).collect()),
+        Rule::paren => match pair.into_inner().next() {
+            Some(inside) => ExprKind::Paren(Box::new(cond(b, inside))),
+            None => ExprKind::None,
+        },
+        Rule::if_expr => if_expr(b, pair).unwrap_or(ExprKind::None),
+        Rule::match_expr => match_expr(b, pair).unwrap_or(ExprKind::None),
+        Rule::kw_done => ExprKind::Done,
+        Rule::kw_true => ExprKind::Bool(true),
+        Rule::kw_false => ExprKind::Bool(false),
+        Rule::kw_none => ExprKind::None,
+        _ => ExprKind::Name(pair.as_str().to_string()),
+    };
+    Expr { kind, span }
+}
+
+fn if_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
+    let mut inner = parts(pair);
+    let condition = Box::new(condition(b, inner.next()?)?);
+    let then = block(b, inner.next()?);
+    let otherwise = match inner.next() {
+        // `else if` is a block of one expression.
+        Some(chained) if chained.as_rule() == Rule::if_expr => {
+            let span = b.span(&chained);
+            let value = primary(b, chained);
+            let only = Timed {
+                action: Action::Expr(value),
+                duration: None,
+                until: None,
+                within: None,
+                at: Vec::new(),
+                repeated: None,
+                span,
+            };
+            Some(Block { clauses: vec![Clause { kind: ClauseKind::Timed(only), span }], span })
+        }
+        Some(other) => Some(block(b, other)),
+        None => None,
+    };
+    Some(ExprKind::If { condition, then, otherwise })
+}
+
+fn match_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
+    let mut inner = parts(pair);
+    let on = Box::new(expr(b, inner.next()?));
+    let mut arms = Vec::new();
+    for arm in inner {
+        let span = b.span(&arm);
+        let mut names = Vec::new();
+        for part in parts(arm) {
+            if part.as_rule() == Rule::name {
+                names.push(name(b, part));
+            } else {
+                arms.push(MatchArm { names: std::mem::take(&mut names), block: block(b, part), span });
+            }
+        }
+    }
+    Some(ExprKind::Match { on, arms })
+}
+
+/// Degrees, and minutes when written; south and west are negative.
+fn degrees(pair: P) -> f64 {
+    let mut value = 0.0;
+    let mut unit = 1.0;
+    for part in pair.into_inner() {
+        match part.as_str() {
+            "S" | "W" => value = -value,
+            number => {
+                value += number.parse::<f64>().unwrap_or(0.0) / unit;
+                unit *= 60.0;
+            }
+        }
+    }
+    value
+}
+
+pub(super) fn text(b: &mut Builder, pair: P) -> Expr {
+    let span = b.span(&pair);
+    let mut text = Vec::new();
+    for part in pair.into_inner() {
+        if part.as_rule() == Rule::text_part {
+            text.push(TextPart::Literal(unescape(part.as_str())));
+        } else if let Some(hole) = part.into_inner().next().and_then(|p| p.into_inner().next()) {
+            text.push(TextPart::Hole(expr(b, hole)));
+        }
+    }
+    Expr { kind: ExprKind::Text(text), span }
+}
+
+fn unescape(written: &str) -> String {
+    let mut out = String::with_capacity(written.len());
+    let mut chars = written.chars();
+    while let Some(c) = chars.next() {
+        match c {
+            '\\' => match chars.next() {
+                Some('n') => out.push('\n'),
+                Some('t') => out.push('\t'),
+                Some(other) => out.push(other),
+                None => {}
+            },
+            c => out.push(c),
+        }
+    }
+    out
+}

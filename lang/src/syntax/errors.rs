@@ -1,0 +1,187 @@
+//! What to say of text that the grammar cannot read: what was found, what was expected, in the language's own terms.
+
+use super::build::{Bad, Place};
+use super::{Grammar, Rule};
+use crate::diagnostic::Diagnostic;
+use crate::source::{FileId, Span};
+use crate::suggest;
+use pest::Parser;
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+/// Words that may begin an item.
+const ITEM_WORDS: [&str; 15] = [
+    "use", "const", "enum", "record", "unit", "input", "fn", "signal", "behavior", "strategy", "overlay", "mission",
+    "scenario", "test", "clause",
+];
+
+/// Words that may begin a clause of a block.
+const CLAUSE_WORDS: [&str; 32] = [
+    "behavior", "with", "signal", "memory", "let", "var", "on", "start", "area", "limits", "requires", "recovery",
+    "amend", "abort", "finish", "report", "log", "if", "match", "for", "while", "loop", "goto", "follow", "dubins",
+    "steer", "keep", "hold", "loiter", "wait", "watch", "override",
+];
+
+/// Words that may begin a clause of a test.
+const TEST_WORDS: [&str; 3] = ["run", "expect", "snapshot"];
+
+/// Looks again at a stretch that was passed over, with the rule that belongs there, for the exact place.
+pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic {
+    let (start, end) = (bad.span.start as usize, bad.span.end as usize);
+    let stretch = &text[start..end];
+    let (rule, words) = match bad.place {
+        Place::Item => (Rule::item_only, &ITEM_WORDS[..]),
+        Place::Clause => (Rule::clause_only, &CLAUSE_WORDS[..]),
+        Place::TestClause => (Rule::test_clause_only, &TEST_WORDS[..]),
+    };
+    let word: String = stretch.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+    let error = Grammar::parse(rule, stretch).err();
+    let offset = error.as_ref().map_or(0, |e| match e.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    });
+    // A first word that nothing begins with is the mistake itself, wherever the grammar gave up.
+    let begins = words.contains(&word.as_str());
+    let after_word = stretch[word.len()..].trim_start();
+    if !begins && !word.is_empty() && offset <= word.len() + (stretch.len() - word.len() - after_word.len()) {
+        let span = Span { file, start: start as u32, end: (start + word.len()) as u32 };
+        let finding = match bad.place {
+            Place::Item => {
+                Diagnostic::error("syntax::item", span, format!("`{word}` begins nothing that a file holds"))
+            }
+            _ => Diagnostic::error("syntax::clause", span, format!("`{word}` begins no statement")),
+        };
+        return match suggest::nearest(&word, words.iter().copied()) {
+            Some(near) => finding.help(format!("did you mean `{near}`?")),
+            None if bad.place == Place::Item => {
+                finding.help("a file holds behaviors, strategies, missions, scenarios, …")
+            }
+            None => finding
+                .help(format!("after a name comes `=`, `(`, or in a switching table `->`; not {}", found(after_word))),
+        };
+    }
+    match error {
+        Some(error) => finding(file, stretch, start, &error),
+        None => Diagnostic::error("syntax::clause", bad.span, "this cannot stand here")
+            .help("one statement a line: separate two with a newline or `;`"),
+    }
+}
+
+/// The finding for the grammar's own error, its place shifted by where the stretch begins.
+pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule>) -> Diagnostic {
+    let offset = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
+    };
+    let rest = &text[offset..];
+    let token = token(rest);
+    let span = Span { file, start: (start + offset) as u32, end: (start + offset + token.len()) as u32 };
+    let expected = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => expectation(positives),
+        ErrorVariant::CustomError { message } => message.clone(),
+    };
+    let message = if expected.is_empty() {
+        format!("{} cannot stand here", found(rest))
+    } else {
+        format!("expected {expected}, found {}", found(rest))
+    };
+    let finding = Diagnostic::error("syntax::expected", span, message);
+    match hint(rest) {
+        Some(hint) => finding.help(hint),
+        None => finding,
+    }
+}
+
+/// The word or sign at the front of a text.
+fn token(rest: &str) -> &str {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let length = match rest.chars().next() {
+        None | Some('\n') => 0,
+        Some(c) if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+        Some(c) => c.len_utf8(),
+    };
+    &rest[..length]
+}
+
+fn found(rest: &str) -> String {
+    match token(rest.trim_start_matches([' ', '\t', '\r'])) {
+        "" if rest.trim().is_empty() => "the end".to_string(),
+        "" => "the end of the line".to_string(),
+        token => format!("`{token}`"),
+    }
+}
+
+/// What other languages write here, and what ours does.
+fn hint(rest: &str) -> Option<String> {
+    let hints = [
+        ("&&", "write `and`"),
+        ("||", "write `or`"),
+        ("!", "write `not`"),
+        ("===", "write `==`"),
+        ("=>", "write `->`"),
+        ("->", "a rule is `A -> B on X`, in a strategy or a mission"),
+        ("'", "texts stand between `\"`"),
+    ];
+    hints.iter().find(|(sign, _)| rest.starts_with(sign)).map(|(_, hint)| (*hint).to_string())
+}
+
+/// The rules that the grammar would have taken, as kinds of things, each once.
+fn expectation(rules: &[Rule]) -> String {
+    let mut kinds: Vec<String> = Vec::new();
+    for &rule in rules {
+        let kind = kind(rule);
+        if !kind.is_empty() && !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    // A value is expected wherever an expression may go on: an operator is then no news.
+    if kinds.len() > 1 {
+        kinds.retain(|k| k != "an operator" && k != "the end");
+    }
+    if kinds.len() > 5 {
+        kinds.truncate(5);
+        kinds.push("something else".to_string());
+    }
+    match kinds.as_slice() {
+        [] => String::new(),
+        [one] => one.clone(),
+        [rest @ .., last] => format!("{} or {last}", rest.join(", ")),
+    }
+}
+
+fn kind(rule: Rule) -> String {
+    use Rule::*;
+    let words = match rule {
+        EOI | sep => "the end",
+        name | label | path => "a name",
+        quantity | number | expr | operand | cond | condition | geodetic | paren | list | if_expr | match_expr
+        | neg | pos | not | no | becomes | after | kw_true | kw_false | kw_none | kw_done | hole_expr => "a value",
+        unit => "a unit",
+        text | text_part | hole => "a text",
+        op_else | op_or | op_and | op_eq | op_ne | op_le | op_ge | op_lt | op_gt | op_add | op_sub | op_toward
+        | op_mul | op_div | op_pow | kw_toward | kw_and | kw_or | args | member | index => "an operator",
+        block | test_block => "`{`",
+        params => "`(`",
+        arrow => "`->`",
+        range | range_op => "`..`",
+        ty | name_ty | list_ty => "a type",
+        dim_op | maybe | order | dim_factor => "",
+        default => "`=`",
+        setpoint | w_channel => "`depth`, `altitude` or `speed`",
+        mod_for | kw_for => "`for`",
+        mod_until | kw_until => "`until`",
+        mod_within | kw_within => "`within`",
+        mod_at | kw_at => "`at`",
+        then_back => "`then back`",
+        do_block => "`do`",
+        target => "a behavior, `finish` or `abort`",
+        overlay_kind => "`amends` or `sets`",
+        require => "an input",
+        other => return keyword(other).map(|k| format!("`{k}`")).unwrap_or_default(),
+    };
+    words.to_string()
+}
+
+/// The word of a keyword rule, from its own name.
+fn keyword(rule: Rule) -> Option<String> {
+    let name = format!("{rule:?}");
+    let word = name.strip_prefix("kw_").or_else(|| name.strip_prefix("w_"))?;
+    Some(if word == "all" { "always".to_string() } else { word.to_string() })
+}

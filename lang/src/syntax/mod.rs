@@ -1,0 +1,76 @@
+//! Text to tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
+
+mod build;
+mod build_expr;
+mod errors;
+mod scan;
+pub mod tree;
+
+pub use scan::{Comment, NESTING_MAX};
+
+use crate::diagnostic::Diagnostic;
+use crate::source::{FileId, Span};
+use pest::Parser;
+use pest_derive::Parser;
+
+#[derive(Parser)]
+#[grammar = "syntax/grammar.pest"]
+struct Grammar;
+
+/// What a source says.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    /// All that could be read.
+    pub file: tree::File,
+    /// All that could not.
+    pub findings: Vec<Diagnostic>,
+    /// The comments, in order: the formatter and the documentation need them.
+    pub comments: Vec<Comment>,
+}
+
+/// Reads a source file.
+pub fn parse(file: FileId, source: &str) -> Parsed {
+    let scanned = scan::scan(file, source);
+    let mut findings = scanned.findings;
+    // Too deep: the grammar itself would be at the mercy of the thread's stack.
+    if findings.iter().any(|f| f.code == "syntax::nesting") {
+        return Parsed { file: tree::File::default(), findings, comments: scanned.comments };
+    }
+    let mut builder = build::Builder { file, bad: Vec::new() };
+    let tree = match Grammar::parse(Rule::file, &scanned.text) {
+        Ok(pairs) => build::file(&mut builder, pairs),
+        Err(error) => {
+            findings.push(errors::finding(file, &scanned.text, 0, &error));
+            tree::File::default()
+        }
+    };
+    for bad in builder.bad {
+        // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
+        let known = findings.iter().any(|f| f.code.starts_with("syntax::") && touches(f.span(), bad.span));
+        if !known {
+            findings.push(errors::of_bad_stretch(file, &scanned.text, &bad));
+        }
+    }
+    Parsed { file: tree, findings, comments: scanned.comments }
+}
+
+/// Reads one expression, such as the value of `--set lambda=6s`.
+pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagnostic> {
+    let scanned = scan::scan(file, source);
+    if let Some(finding) = scanned.findings.into_iter().next() {
+        return Err(finding);
+    }
+    let text = scanned.text.trim_end();
+    let mut builder = build::Builder { file, bad: Vec::new() };
+    match Grammar::parse(Rule::expr_only, text) {
+        Ok(mut pairs) => match pairs.next() {
+            Some(pair) => Ok(build_expr::expr(&mut builder, pair)),
+            None => Err(Diagnostic::error("syntax::expected", Span { file, start: 0, end: 0 }, "a value is missing")),
+        },
+        Err(error) => Err(errors::finding(file, text, 0, &error)),
+    }
+}
+
+fn touches(a: Span, b: Span) -> bool {
+    a.start < b.end.max(b.start + 1) && b.start < a.end.max(a.start + 1)
+}

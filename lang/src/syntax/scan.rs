@@ -1,0 +1,318 @@
+//! The pass before the grammar: takes comments out, decides which newlines end a statement, and bounds nesting.
+//!
+//! The text that comes out has the same length as the one that went in, so that every span stays true. A comment and a
+//! newline that ends nothing become blanks; the grammar then needs one rule for blanks and one for the end of a statement.
+
+use crate::diagnostic::Diagnostic;
+use crate::source::{FileId, Span};
+
+/// Brackets and blocks may be nested this deep, on every machine and in every build.
+pub const NESTING_MAX: usize = 64;
+
+/// Words that begin an item of a file. An item stands at the left margin, which is how an unclosed brace is found.
+const ITEM_WORDS: [&str; 13] = [
+    "use", "const", "enum", "record", "unit", "input", "clause", "fn", "strategy", "overlay", "mission", "scenario",
+    "test",
+];
+
+/// Words after which a line goes on.
+const OPEN_WORDS: [&str; 9] = ["and", "or", "not", "toward", "else", "on", "do", "becomes", "no"];
+
+/// A comment of the source.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comment {
+    /// Where it stands, slashes included.
+    pub span: Span,
+}
+
+/// The text for the grammar, and what was found on the way.
+#[derive(Clone, Debug)]
+pub struct Scanned {
+    /// As long as the source, byte for byte.
+    pub text: String,
+    /// The comments, in order.
+    pub comments: Vec<Comment>,
+    /// Brackets that do not fit, characters that deceive.
+    pub findings: Vec<Diagnostic>,
+}
+
+/// Prepares a source for the grammar.
+pub fn scan(file: FileId, source: &str) -> Scanned {
+    let mut scanner = Scanner {
+        file,
+        source,
+        out: source.as_bytes().to_vec(),
+        at: 0,
+        open: Vec::new(),
+        last: Last::Nothing,
+        comments: Vec::new(),
+        findings: Vec::new(),
+    };
+    scanner.run();
+    let text = String::from_utf8(scanner.out).unwrap_or_default();
+    Scanned { text, comments: scanner.comments, findings: scanner.findings }
+}
+
+/// What stood last on the line: decides whether a newline ends the statement.
+#[derive(Clone, Copy, PartialEq)]
+enum Last {
+    Nothing,
+    Goes,
+    Ends,
+}
+
+struct Scanner<'a> {
+    file: FileId,
+    source: &'a str,
+    out: Vec<u8>,
+    at: usize,
+    open: Vec<(char, usize)>,
+    last: Last,
+    comments: Vec<Comment>,
+    findings: Vec<Diagnostic>,
+}
+
+impl<'a> Scanner<'a> {
+    fn run(&mut self) {
+        if self.source.starts_with('\u{feff}') {
+            self.blank(0, 3);
+            self.at = 3;
+        }
+        self.margin();
+        while let Some(c) = self.rest().chars().next() {
+            let start = self.at;
+            match c {
+                '\n' => self.newline(),
+                '/' if self.rest().starts_with("//") => self.comment(),
+                '"' => self.text(),
+                '(' | '[' | '{' => {
+                    self.open(c);
+                    self.last = Last::Nothing;
+                }
+                ')' | ']' | '}' => {
+                    self.close(c);
+                    self.last = Last::Ends;
+                }
+                c if c.is_alphanumeric() || c == '_' => self.word(),
+                '+' | '-' | '*' | '/' | '^' | '=' | '<' | '>' | ',' | ':' => {
+                    self.at += 1;
+                    self.last = Last::Goes;
+                }
+                ' ' | '\t' | '\r' => self.at += 1,
+                c if deceives(c) => {
+                    self.at += c.len_utf8();
+                    self.deceptive(c, start);
+                }
+                c => {
+                    self.at += c.len_utf8();
+                    self.last = Last::Ends;
+                }
+            }
+        }
+        for (bracket, at) in std::mem::take(&mut self.open) {
+            self.unclosed(bracket, at);
+        }
+    }
+
+    fn rest(&self) -> &'a str {
+        self.source.get(self.at..).unwrap_or("")
+    }
+
+    fn span(&self, start: usize, end: usize) -> Span {
+        Span { file: self.file, start: start as u32, end: end as u32 }
+    }
+
+    fn blank(&mut self, start: usize, end: usize) {
+        self.out[start..end].fill(b' ');
+    }
+
+    fn newline(&mut self) {
+        let in_brackets = matches!(self.open.last(), Some(('(' | '[', _)));
+        let goes_on = in_brackets || self.last == Last::Goes || self.next_word_is("else");
+        if goes_on {
+            self.blank(self.at, self.at + 1);
+        } else {
+            self.last = Last::Nothing;
+        }
+        self.at += 1;
+        self.margin();
+    }
+
+    /// At the left margin: an item here means that whatever is open was never closed.
+    fn margin(&mut self) {
+        let word: String = self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        if !self.open.is_empty() && ITEM_WORDS.contains(&word.as_str()) {
+            let (bracket, at) = self.open[0];
+            self.open.clear();
+            self.unclosed(bracket, at);
+            // The newline before this item was swallowed when a round bracket was open: give it back.
+            if self.at > 0 && self.source.as_bytes()[self.at - 1] == b'\n' {
+                self.out[self.at - 1] = b'\n';
+            }
+            self.last = Last::Nothing;
+        }
+    }
+
+    fn next_word_is(&self, word: &str) -> bool {
+        let mut rest = self.rest();
+        loop {
+            rest = rest.trim_start();
+            match rest.strip_prefix("//") {
+                Some(comment) => rest = comment.split_once('\n').map_or("", |(_, after)| after),
+                None => break,
+            }
+        }
+        rest.strip_prefix(word).is_some_and(|after| !after.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    }
+
+    fn comment(&mut self) {
+        let length = self.rest().find('\n').unwrap_or(self.rest().len());
+        let (start, end) = (self.at, self.at + length);
+        if let Some((offset, c)) = self.rest()[..length].char_indices().find(|&(_, c)| deceives(c)) {
+            self.deceptive(c, start + offset);
+        }
+        self.comments.push(Comment { span: self.span(start, end) });
+        self.blank(start, end);
+        self.at = end;
+    }
+
+    fn text(&mut self) {
+        let start = self.at;
+        let mut escaped = false;
+        let mut length = 1;
+        let mut closed = false;
+        for c in self.rest().chars().skip(1) {
+            if c == '\n' {
+                break;
+            }
+            if deceives(c) {
+                self.deceptive(c, start + length);
+            }
+            length += c.len_utf8();
+            if c == '"' && !escaped {
+                closed = true;
+                break;
+            }
+            escaped = c == '\\' && !escaped;
+        }
+        self.at = start + length;
+        self.last = Last::Ends;
+        if !closed {
+            let span = self.span(start, self.at);
+            self.findings.push(
+                Diagnostic::error("syntax::text", span, "this text is not closed")
+                    .help("end it with `\"` on the same line"),
+            );
+        }
+    }
+
+    fn word(&mut self) {
+        let length: usize =
+            self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').map(char::len_utf8).sum();
+        let word = &self.source[self.at..self.at + length];
+        self.last = if OPEN_WORDS.contains(&word) { Last::Goes } else { Last::Ends };
+        self.at += length;
+    }
+
+    fn open(&mut self, bracket: char) {
+        if self.open.len() == NESTING_MAX {
+            let span = self.span(self.at, self.at + 1);
+            self.findings.push(
+                Diagnostic::error("syntax::nesting", span, format!("nested deeper than {NESTING_MAX} levels"))
+                    .help("name a part of it with `let`, or move it into a `fn` or a `behavior`"),
+            );
+        }
+        self.open.push((bracket, self.at));
+        self.at += 1;
+    }
+
+    fn close(&mut self, bracket: char) {
+        let wanted = match bracket {
+            ')' => '(',
+            ']' => '[',
+            _ => '{',
+        };
+        match self.open.iter().rposition(|&(open, _)| open == wanted) {
+            Some(index) => {
+                for (bracket, at) in self.open.split_off(index).into_iter().skip(1) {
+                    self.unclosed(bracket, at);
+                }
+            }
+            None => {
+                let span = self.span(self.at, self.at + 1);
+                self.findings.push(
+                    Diagnostic::error("syntax::bracket", span, format!("this `{bracket}` closes nothing"))
+                        .help(format!("remove it, or open it with `{wanted}`")),
+                );
+            }
+        }
+        self.at += 1;
+    }
+
+    fn unclosed(&mut self, bracket: char, at: usize) {
+        let closer = match bracket {
+            '(' => ')',
+            '[' => ']',
+            _ => '}',
+        };
+        let span = self.span(at, at + 1);
+        self.findings.push(
+            Diagnostic::error("syntax::bracket", span, format!("this `{bracket}` is never closed"))
+                .help(format!("add the `{closer}` that belongs to it")),
+        );
+    }
+
+    fn deceptive(&mut self, c: char, at: usize) {
+        let span = self.span(at, at + c.len_utf8());
+        self.findings.push(
+            Diagnostic::error(
+                "syntax::deceptive",
+                span,
+                format!("the invisible character U+{:04X} stands here", c as u32),
+            )
+            .help("delete it: it makes the script read differently from what runs"),
+        );
+    }
+}
+
+/// Characters that change how a script looks and not what it means: bidirectional controls, zero-width, control codes.
+fn deceives(c: char) -> bool {
+    matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+        || (c.is_control() && !matches!(c, '\n' | '\r' | '\t'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(source: &str, expected: &str) {
+        let scanned = scan(FileId(0), source);
+        assert_eq!(scanned.text.len(), source.len());
+        assert_eq!(scanned.text, expected, "findings: {:?}", scanned.findings);
+    }
+
+    #[test]
+    fn a_newline_ends_a_statement_or_nothing() {
+        check("a\nb", "a\nb");
+        check("f(a,\n  b)\nc", "f(a,   b)\nc");
+        check("a +\nb", "a + b");
+        check("{ a }\nelse { b }", "{ a } else { b }");
+        check("x on\ny", "x on y");
+        check("a -> b\nc", "a -> b\nc");
+    }
+
+    #[test]
+    fn comments_become_blanks() {
+        check("a // b\nc", "a     \nc");
+        check("goto p // é\n", "goto p      \n");
+        check("log \"a // b\"", "log \"a // b\"");
+    }
+
+    #[test]
+    fn an_unclosed_bracket_does_not_swallow_the_next_item() {
+        let scanned = scan(FileId(0), "mission a {\n  goto (1 m\n}\nmission b {\n}\n");
+        assert_eq!(scanned.findings.len(), 1);
+        assert!(scanned.text.contains("\nmission b"), "{:?}", scanned.text);
+    }
+}

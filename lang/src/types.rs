@@ -1,0 +1,164 @@
+//! Types: what keeps a heading from being taken for an angle, and a point for a vector.
+
+use crate::dimension::Dimension;
+use albacore_program::Shape;
+
+/// Index of a record declaration.
+pub type RecordId = usize;
+/// Index of an enum declaration.
+pub type EnumId = usize;
+
+/// The type of a value.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "each variant is the type of its name in the language")]
+pub enum Type {
+    Bool,
+    Int,
+    /// +1 or -1.
+    Sign,
+    Text,
+    Quantity(Dimension),
+    Heading,
+    Depth,
+    Altitude,
+    Point,
+    Vector(Dimension),
+    Area,
+    Edge,
+    Line,
+    Record(RecordId),
+    Enum(EnumId),
+    Optional(Box<Type>),
+    List(Box<Type>, u32),
+    /// The type of `none`, which is of every optional type.
+    None,
+    /// What has no value: a statement.
+    Nothing,
+    /// Of what has been reported already: fits everything, so that no mistake is told twice.
+    Unknown,
+}
+
+/// A record as the checker knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordInfo {
+    /// Its name.
+    pub name: String,
+    /// Its fields.
+    pub fields: Vec<(String, Type)>,
+}
+
+/// An enum as the checker knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnumInfo {
+    /// Its name.
+    pub name: String,
+    /// Its variants.
+    pub variants: Vec<String>,
+}
+
+/// The declared types of a program.
+#[derive(Clone, Debug, Default)]
+pub struct TypeTable {
+    /// Records, by [`RecordId`].
+    pub records: Vec<RecordInfo>,
+    /// Enums, by [`EnumId`].
+    pub enums: Vec<EnumInfo>,
+}
+
+impl Type {
+    /// `T?`; an optional of an optional is one.
+    pub fn optional(self) -> Type {
+        match self {
+            Type::Optional(_) | Type::Unknown => self,
+            other => Type::Optional(Box::new(other)),
+        }
+    }
+
+    /// The type inside `T?`, or the type itself.
+    pub fn present(&self) -> &Type {
+        match self {
+            Type::Optional(inner) => inner,
+            other => other,
+        }
+    }
+
+    /// Whether it may be absent.
+    pub fn is_optional(&self) -> bool {
+        matches!(self, Type::Optional(_) | Type::None)
+    }
+
+    /// A number that can be calculated with: its dimension.
+    pub fn dimension(&self) -> Option<Dimension> {
+        match self {
+            Type::Int | Type::Sign => Some(Dimension::NONE),
+            Type::Quantity(d) => Some(*d),
+            _ => None,
+        }
+    }
+}
+
+impl TypeTable {
+    /// A type as a script writes it.
+    pub fn name(&self, ty: &Type) -> String {
+        match ty {
+            Type::Bool => "Bool".into(),
+            Type::Int => "Int".into(),
+            Type::Sign => "Sign".into(),
+            Type::Text => "Text".into(),
+            Type::Quantity(d) => d.to_string(),
+            Type::Heading => "Heading".into(),
+            Type::Depth => "Depth".into(),
+            Type::Altitude => "Altitude".into(),
+            Type::Point => "Point".into(),
+            Type::Vector(d) if *d == Dimension::LENGTH => "Vector".into(),
+            Type::Vector(d) if *d == Dimension::SPEED => "Velocity".into(),
+            Type::Vector(d) if d.is_none() => "Direction".into(),
+            Type::Vector(d) => format!("a vector of {d}"),
+            Type::Area => "Area".into(),
+            Type::Edge => "Edge".into(),
+            Type::Line => "Line".into(),
+            Type::Record(id) => self.records[*id].name.clone(),
+            Type::Enum(id) => self.enums[*id].name.clone(),
+            Type::Optional(inner) => format!("{}?", self.name(inner)),
+            Type::List(inner, capacity) => format!("[{}; {capacity}]", self.name(inner)),
+            Type::None => "none".into(),
+            Type::Nothing => "nothing".into(),
+            Type::Unknown => "?".into(),
+        }
+    }
+
+    /// The shape of a type's words.
+    pub fn shape(&self, ty: &Type) -> Shape {
+        match ty {
+            Type::Bool => Shape::Bool,
+            Type::Int | Type::Sign => Shape::Int,
+            Type::Text => Shape::Text,
+            Type::Quantity(d) => Shape::Quantity(d.display()),
+            Type::Heading => Shape::Heading,
+            Type::Depth => Shape::Depth,
+            Type::Altitude => Shape::Altitude,
+            Type::Point => Shape::Point,
+            Type::Vector(d) => Shape::Vector(d.display()),
+            Type::Area => Shape::Area,
+            Type::Edge => Shape::Edge,
+            Type::Line => Shape::Line,
+            Type::Record(id) => {
+                let record = &self.records[*id];
+                let fields = record.fields.iter().map(|(name, ty)| (name.clone(), self.shape(ty))).collect();
+                Shape::Record(record.name.clone(), fields)
+            }
+            Type::Enum(id) => Shape::Enum(self.enums[*id].variants.clone()),
+            Type::Optional(inner) => Shape::Optional(Box::new(self.shape(inner))),
+            Type::List(inner, capacity) => Shape::List(Box::new(self.shape(inner)), *capacity),
+            Type::None | Type::Nothing | Type::Unknown => Shape::Bool,
+        }
+    }
+
+    /// How many words a value of a type takes.
+    pub fn words(&self, ty: &Type) -> u32 {
+        match ty {
+            Type::Nothing => 0,
+            other => self.shape(other).words(),
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! An operating area: a convex polygon, its edges, and how far a point is from leaving it.
+
+use crate::heading::Heading;
+use crate::math::PI;
+use crate::plane::{Line, Point, Vector};
+use serde::{Deserialize, Serialize};
+
+/// An area has at most this many corners.
+pub const AREA_CORNERS_MAX: usize = 16;
+
+/// Corners closer together than this, in metres, are one corner.
+const CORNER_SEPARATION_M: f64 = 1e-3;
+
+/// A convex polygon in the tangent plane, its corners clockwise seen from above.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Area {
+    corners: Vec<Point>,
+}
+
+/// One side of an area.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Edge {
+    /// The side itself, clockwise round the area.
+    pub line: Line,
+    /// The outward unit normal.
+    pub normal: Vector,
+}
+
+/// Why a polygon is not an area.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AreaError {
+    /// Fewer than three distinct corners.
+    TooFewCorners,
+    /// More than [`AREA_CORNERS_MAX`] corners.
+    TooManyCorners,
+    /// The polygon has a dent or crosses itself.
+    NotConvex,
+    /// A coordinate is not a number.
+    NotFinite,
+}
+
+impl std::fmt::Display for AreaError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            AreaError::TooFewCorners => write!(f, "an area needs at least three distinct corners"),
+            AreaError::TooManyCorners => write!(f, "an area has at most {AREA_CORNERS_MAX} corners"),
+            AreaError::NotConvex => write!(f, "the corners do not make a convex polygon"),
+            AreaError::NotFinite => write!(f, "a corner has no finite position"),
+        }
+    }
+}
+
+impl std::error::Error for AreaError {}
+
+impl Edge {
+    /// Metres from the edge's line, positive inside the area and negative outside.
+    pub fn gap(self, p: Point) -> f64 {
+        (self.line.start - p).dot(self.normal)
+    }
+
+    /// The direction along the edge, either way, that is nearest to a heading; clockwise round the area on a tie.
+    pub fn tangent(self, nearest: Heading) -> Heading {
+        let forward = self.line.heading();
+        if (forward - nearest).abs() <= PI / 2.0 { forward } else { forward.reverse() }
+    }
+}
+
+impl Area {
+    /// The convex polygon with these corners, given either way round.
+    pub fn polygon(corners: &[Point]) -> Result<Self, AreaError> {
+        if corners.iter().any(|c| !c.north.is_finite() || !c.east.is_finite()) {
+            return Err(AreaError::NotFinite);
+        }
+        if corners.len() < 3 {
+            return Err(AreaError::TooFewCorners);
+        }
+        if corners.len() > AREA_CORNERS_MAX {
+            return Err(AreaError::TooManyCorners);
+        }
+        let n = corners.len();
+        let side = |i: usize| corners[(i + 1) % n] - corners[i];
+        if (0..n).any(|i| side(i).length() < CORNER_SEPARATION_M) {
+            return Err(AreaError::TooFewCorners);
+        }
+        // Convex: every turn the same way, and one turn in all (a star turns twice).
+        let turns: Vec<f64> = (0..n).map(|i| side((i + 1) % n).toward() - side(i).toward()).collect();
+        let total: f64 = turns.iter().sum();
+        let clockwise = total > 0.0;
+        let bends_one_way = turns.iter().all(|&turn| if clockwise { turn >= -1e-9 } else { turn <= 1e-9 });
+        if !bends_one_way || (total.abs() - 2.0 * PI).abs() > 1e-6 {
+            return Err(AreaError::NotConvex);
+        }
+        let mut corners = corners.to_vec();
+        if !clockwise {
+            corners.reverse();
+        }
+        Ok(Area { corners })
+    }
+
+    /// The rectangle of a given length along a direction and width across it, in metres.
+    pub fn rectangle(center: Point, along: Heading, length: f64, width: f64) -> Result<Self, AreaError> {
+        let (u, v) = (along.unit(), (along + PI / 2.0).unit());
+        let (u, v) = ((length / 2.0) * u, (width / 2.0) * v);
+        Area::polygon(&[center + u - v, center + u + v, center - u + v, center - u - v])
+    }
+
+    /// The corners, clockwise seen from above.
+    pub fn corners(&self) -> &[Point] {
+        &self.corners
+    }
+
+    /// The sides, clockwise, beginning at the first corner.
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
+        let n = self.corners.len();
+        (0..n).map(move |i| {
+            let line = Line { start: self.corners[i], end: self.corners[(i + 1) % n] };
+            // Clockwise round the area, outside is on the left.
+            Edge { line, normal: (line.heading() - PI / 2.0).unit() }
+        })
+    }
+
+    /// The mean of the corners: the middle of a rectangle.
+    pub fn center(&self) -> Point {
+        let n = self.corners.len() as f64;
+        let sum = self.corners.iter().fold(Vector::ZERO, |sum, &c| sum + (c - Point::ORIGIN));
+        Point::ORIGIN + (1.0 / n) * sum
+    }
+
+    /// Metres to the nearest edge, positive inside and negative outside.
+    pub fn gap(&self, p: Point) -> f64 {
+        self.edges().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rectangle_lies_along_its_heading() {
+        let area = Area::rectangle(Point::new(10.0, 20.0), Heading::from_degrees(90.0), 200.0, 40.0).unwrap();
+        assert!(area.center().distance(Point::new(10.0, 20.0)) < 1e-9);
+        assert!((area.gap(Point::new(10.0, 20.0)) - 20.0).abs() < 1e-9);
+        assert!((area.gap(Point::new(10.0, 119.0)) - 1.0).abs() < 1e-9);
+        assert!((area.gap(Point::new(10.0, 125.0)) + 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn either_way_round_gives_the_same_area() {
+        let corners = [Point::new(0.0, 0.0), Point::new(10.0, 0.0), Point::new(10.0, 10.0), Point::new(0.0, 10.0)];
+        let mut reversed = corners;
+        reversed.reverse();
+        let gap = |c: &[Point]| Area::polygon(c).unwrap().gap(Point::new(4.0, 5.0));
+        assert_eq!(gap(&corners), gap(&reversed));
+        assert!(gap(&corners) > 0.0);
+    }
+
+    #[test]
+    fn dents_stars_and_slivers_are_refused() {
+        let p = Point::new;
+        let dent = [p(0.0, 0.0), p(10.0, 0.0), p(3.0, 3.0), p(0.0, 10.0)];
+        assert_eq!(Area::polygon(&dent), Err(AreaError::NotConvex));
+        let star = [p(10.0, 0.0), p(-8.0, 6.0), p(3.0, -9.5), p(3.0, 9.5), p(-8.0, -6.0)];
+        assert_eq!(Area::polygon(&star), Err(AreaError::NotConvex));
+        assert_eq!(Area::polygon(&[p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
+        assert_eq!(Area::polygon(&[p(0.0, 0.0), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
+        assert_eq!(Area::polygon(&[p(0.0, f64::NAN), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::NotFinite));
+    }
+
+    #[test]
+    fn an_edge_knows_both_its_directions() {
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 100.0, 50.0).unwrap();
+        let north_edge = area.edges().max_by(|a, b| a.normal.north.total_cmp(&b.normal.north)).unwrap();
+        assert_eq!(north_edge.tangent(Heading::from_degrees(80.0)).degrees().round(), 90.0);
+        assert_eq!(north_edge.tangent(Heading::from_degrees(300.0)).degrees().round(), 270.0);
+    }
+}

@@ -1,0 +1,15 @@
+//! The frame everything else speaks: headings, points and vectors in the north/east tangent plane, areas, and positions on
+//! the globe.
+//!
+//! Metres, seconds, radians. Headings are clockwise from north, depth is positive down, and there is no other convention.
+
+mod area;
+mod geodetic;
+mod heading;
+pub mod math;
+mod plane;
+
+pub use area::{AREA_CORNERS_MAX, Area, AreaError, Edge};
+pub use geodetic::{Geodetic, TangentFrame};
+pub use heading::{Heading, wrap_angle};
+pub use plane::{Line, Point, Vector};

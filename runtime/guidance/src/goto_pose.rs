@@ -1,0 +1,141 @@
+//! Drives to a point so as to arrive there on a given heading, along a Dubins path.
+
+use crate::dubins::{Path, Pose, Words, shortest};
+use crate::law::{Guidance, cross_track};
+use crate::parameters::{CROSS_TRACK_GAIN, CROSS_TRACK_MAX, LINE_CAPTURE_ANGLE, NAVIGATION_JUMP};
+use crate::words::{Reader, Writer};
+use albacore_geometry::{Heading, Point};
+
+/// Farther than this off the path, in metres, another path is planned: here the correction is at its 45 degrees (d_1 of
+/// appendix A.2, 9 m) and has nothing more to say.
+const OFF_PATH: f64 = CROSS_TRACK_MAX / CROSS_TRACK_GAIN;
+
+/// Arcs grow by this factor when the vehicle left its path without a jump of its navigation: it does not turn as
+/// tightly as was thought.
+const WIDEN: f64 = 1.25;
+
+/// Arcs never grow to more than this many times the radius first planned with.
+const WIDEN_MAX: f64 = 4.0;
+
+/// So many times a path that ended across the goal's heading is planned again; then an end is an end.
+const RETRIES_MAX: u8 = 3;
+
+/// Follows the shortest path of bounded curvature to a pose (2005 paper, appendix A.3, "go to point with heading").
+///
+/// The paper plans a path and says nothing of keeping to it. Here the path is a track: each tick commands the path's
+/// direction a little ahead of the vehicle (`lead` metres, for the lag of filter and vehicle) plus the same
+/// cross-track correction that follows a line. When the vehicle is more than 9 m from where it should be, a new path
+/// is planned from where it is, at most once for each turning radius driven; likewise when the path ends more than 30
+/// degrees across the goal's heading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GotoPose {
+    path: Path,
+    goal: Pose,
+    words: Words,
+    radius: f64,
+    lead: f64,
+    /// Metres along the path.
+    progress: f64,
+    last: Point,
+    /// Metres driven since the path was planned, and whether the navigation jumped on the way.
+    driven: f64,
+    jumped: bool,
+    retries: u8,
+}
+
+impl GotoPose {
+    /// How many words the state takes.
+    pub const WORDS: usize = Path::WORDS + 12;
+
+    /// From `start` to `goal` with arcs of `radius` metres, turns commanded `lead` metres early
+    /// (speed x [`TURN_LEAD_TIME`](crate::parameters::TURN_LEAD_TIME)).
+    pub fn new(start: Pose, goal: Pose, radius: f64, words: Words, lead: f64) -> Self {
+        let path = shortest(start, goal, radius, words);
+        let (radius, last) = (path.radius, start.point);
+        GotoPose { path, goal, words, radius, lead, progress: 0.0, last, driven: 0.0, jumped: false, retries: 0 }
+    }
+
+    /// The path now followed.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Metres of the path that are left.
+    pub fn remaining(&self) -> f64 {
+        self.path.length() - self.progress
+    }
+
+    /// One tick, from the vehicle's position and its course over ground. Arrived at the end of the path, which can be
+    /// up to 9 m from the goal after a late jump of the navigation: another path for the last metres would be a whole
+    /// loop.
+    pub fn step(&mut self, position: Point, course: Heading) -> Guidance {
+        let step = position.distance(self.last);
+        self.last = position;
+        self.jumped |= step > NAVIGATION_JUMP;
+        self.driven += step.min(NAVIGATION_JUMP);
+        let mut foot = self.path.project(position, self.progress);
+        let miss = position.distance(self.path.pose_at(foot.distance).point);
+        let across = (course - self.goal.heading).abs() > LINE_CAPTURE_ANGLE;
+        let retry = across && foot.distance >= self.path.length() && self.retries < RETRIES_MAX;
+        if (miss > OFF_PATH || retry) && self.driven >= self.path.radius {
+            self.retries += u8::from(retry);
+            self.plan_again(Pose { point: position, heading: course });
+            foot = self.path.project(position, 0.0);
+        }
+        self.progress = foot.distance;
+        let ahead = self.path.pose_at(self.progress + self.lead).heading;
+        Guidance { course: ahead + cross_track(foot.left), arrived: self.progress >= self.path.length() }
+    }
+
+    /// Begins anew from a pose, with arcs as wide as they have become.
+    pub(crate) fn restart(&mut self, from: Pose) {
+        // Nothing more was learnt of how the vehicle turns.
+        self.jumped = true;
+        self.retries = 0;
+        self.last = from.point;
+        self.plan_again(from);
+    }
+
+    fn plan_again(&mut self, from: Pose) {
+        let wider = (WIDEN * self.path.radius).min(WIDEN_MAX * self.radius);
+        let radius = if self.jumped { self.path.radius } else { wider };
+        self.path = shortest(from, self.goal, radius, self.words);
+        self.progress = 0.0;
+        self.driven = 0.0;
+        self.jumped = false;
+    }
+
+    /// The state as plain numbers.
+    pub fn to_words(self) -> [f64; Self::WORDS] {
+        Writer::new()
+            .numbers(&self.path.to_words())
+            .point(self.goal.point)
+            .heading(self.goal.heading)
+            .flag(self.words == Words::Full)
+            .number(self.radius)
+            .number(self.lead)
+            .number(self.progress)
+            .point(self.last)
+            .number(self.driven)
+            .flag(self.jumped)
+            .number(f64::from(self.retries))
+            .finish()
+    }
+
+    /// The state back from its numbers.
+    pub fn from_words(words: &[f64; Self::WORDS]) -> Self {
+        let mut reader = Reader::new(words);
+        GotoPose {
+            path: Path::from_words(&reader.numbers()),
+            goal: Pose { point: reader.point(), heading: reader.heading() },
+            words: if reader.flag() { Words::Full } else { Words::Csc },
+            radius: reader.number(),
+            lead: reader.number(),
+            progress: reader.number(),
+            last: reader.point(),
+            driven: reader.number(),
+            jumped: reader.flag(),
+            retries: reader.number() as u8,
+        }
+    }
+}

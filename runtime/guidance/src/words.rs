@@ -1,0 +1,82 @@
+//! Taking a guidance state apart into plain numbers and putting it together again.
+
+use albacore_geometry::{Heading, Point};
+
+/// Writes a state into its words, first field first.
+pub(crate) struct Writer<const N: usize> {
+    words: [f64; N],
+    at: usize,
+}
+
+/// Reads a state from its words in the order they were written; zero past the end.
+pub(crate) struct Reader<'a> {
+    words: &'a [f64],
+}
+
+impl<const N: usize> Writer<N> {
+    pub(crate) fn new() -> Self {
+        Writer { words: [0.0; N], at: 0 }
+    }
+
+    pub(crate) fn number(mut self, x: f64) -> Self {
+        debug_assert!(self.at < N, "a state writes as many words as it declares");
+        if let Some(word) = self.words.get_mut(self.at) {
+            *word = x;
+        }
+        self.at += 1;
+        self
+    }
+
+    pub(crate) fn flag(self, set: bool) -> Self {
+        self.number(if set { 1.0 } else { 0.0 })
+    }
+
+    pub(crate) fn point(self, p: Point) -> Self {
+        self.number(p.north).number(p.east)
+    }
+
+    pub(crate) fn heading(self, heading: Heading) -> Self {
+        self.number(heading.radians())
+    }
+
+    pub(crate) fn numbers(self, numbers: &[f64]) -> Self {
+        numbers.iter().fold(self, |writer, &x| writer.number(x))
+    }
+
+    pub(crate) fn finish(self) -> [f64; N] {
+        debug_assert!(self.at == N, "a state writes as many words as it declares");
+        self.words
+    }
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(words: &'a [f64]) -> Self {
+        Reader { words }
+    }
+
+    pub(crate) fn number(&mut self) -> f64 {
+        match self.words {
+            [first, rest @ ..] => {
+                self.words = rest;
+                *first
+            }
+            [] => 0.0,
+        }
+    }
+
+    pub(crate) fn flag(&mut self) -> bool {
+        self.number() != 0.0
+    }
+
+    pub(crate) fn point(&mut self) -> Point {
+        Point { north: self.number(), east: self.number() }
+    }
+
+    pub(crate) fn heading(&mut self) -> Heading {
+        Heading::from_radians(self.number())
+    }
+
+    pub(crate) fn numbers<const N: usize>(&mut self) -> [f64; N] {
+        std::array::from_fn(|_| self.number())
+    }
+}

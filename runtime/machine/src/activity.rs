@@ -1,0 +1,359 @@
+//! Entering, stepping and leaving activities: the heart of the rules of time.
+
+use crate::Event;
+use crate::execute::Flow;
+use crate::state::Run;
+use albacore_program::{
+    Activity, ActivityId, Addr, Body, Cause, Entry, Exit, Program, Slot, Table, Target, header, setpoints,
+};
+
+/// What became of an activity in a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Status {
+    /// It goes on.
+    Running,
+    /// It came to its own end.
+    Ended,
+}
+
+impl Run {
+    fn head(&self, activity: &Activity, base: Slot, word: u32) -> f64 {
+        self.get(base + activity.header + word)
+    }
+
+    fn set_head(&mut self, activity: &Activity, base: Slot, word: u32, value: f64) {
+        self.set(base + activity.header + word, value);
+    }
+
+    /// Rule 9: declarations in textual order, reactions, body. `inherited` is where the setpoints of the caller are.
+    pub fn enter(&mut self, p: &Program, id: ActivityId, base: Slot, inherited: Option<Slot>) {
+        let activity = &p.activities[id as usize];
+        let at = base + activity.header;
+        self.set(at + header::PC, header::ENDED);
+        self.set(at + header::AGE, 0.0);
+        self.set(at + header::STATE, header::ACTIVE);
+        self.set(at + header::CHILD, 0.0);
+        self.set(at + header::BACK_TO, 0.0);
+        match inherited {
+            Some(from) => self.copy(at + header::SETPOINTS, from, setpoints::WORDS),
+            None => {
+                self.set(at + header::SETPOINTS + setpoints::VERTICAL, setpoints::UNSET);
+                self.set(at + header::SETPOINTS + setpoints::METRES, 0.0);
+                self.set(at + header::SETPOINTS + setpoints::SPEED, -1.0);
+            }
+        }
+        self.events.push(Event::Entered(id));
+        if self.execute(p, activity.entry, base) == Flow::Abort {
+            return;
+        }
+        self.execute(p, activity.reactions, base);
+        match &activity.body {
+            // A body that ends without having taken time ends on the next tick (rule 6).
+            Body::Sequence(entry) => _ = self.run_body(p, activity, base, *entry),
+            Body::Table(table) => self.enter_behavior(p, activity, table, base, table.start, None),
+            Body::Amend { .. } => {}
+        }
+    }
+
+    /// Runs a body until it gives the tick away; tells whether it came to its end.
+    fn run_body(&mut self, p: &Program, activity: &Activity, base: Slot, from: Addr) -> Status {
+        let (pc, status) = match self.execute(p, from, base) {
+            Flow::Yield(pc) => (f64::from(pc), Status::Running),
+            Flow::Abort => return Status::Running,
+            Flow::End | Flow::Return => (header::ENDED, Status::Ended),
+        };
+        self.set_head(activity, base, header::PC, pc);
+        status
+    }
+
+    /// Rule 2: signals and timers; aborts; rules; reactions; body.
+    pub fn step(&mut self, p: &Program, id: ActivityId, base: Slot) -> Status {
+        let activity = &p.activities[id as usize];
+        let age = self.head(activity, base, header::AGE);
+        self.set_head(activity, base, header::AGE, age + 1.0);
+        self.execute(p, activity.refresh, base);
+        if self.aborts(p, activity, base) {
+            return Status::Running;
+        }
+        self.step_overlays(p, activity, base);
+        if self.abort.is_some() {
+            return Status::Running;
+        }
+        let mut switched = false;
+        if let Body::Table(table) = &activity.body {
+            match self.try_rules(p, activity, table, base, false) {
+                Switch::None => {}
+                Switch::Entered => switched = true,
+                Switch::Finished => return Status::Ended,
+            }
+            if self.abort.is_some() {
+                return Status::Running;
+            }
+        }
+        self.execute(p, activity.reactions, base);
+        match &activity.body {
+            Body::Sequence(_) => {
+                let pc = self.head(activity, base, header::PC);
+                if pc < 0.0 { Status::Ended } else { self.run_body(p, activity, base, pc as Addr) }
+            }
+            Body::Table(_) if switched => Status::Running,
+            Body::Table(table) => self.step_table(p, activity, table, base),
+            Body::Amend { .. } => Status::Running,
+        }
+    }
+
+    fn aborts(&mut self, p: &Program, activity: &Activity, base: Slot) -> bool {
+        for abort in &activity.aborts {
+            self.execute(p, abort.condition.entry, base);
+            if self.get(base + abort.condition.value) != 0.0 {
+                self.abort = Some(self.filled(&p.texts[abort.why as usize], base, p));
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The active behavior of a table, and when it is done the rules that mention `done` (rule 8).
+    fn step_table(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot) -> Status {
+        let Some(active) = self.active_behavior(activity, base) else { return Status::Running };
+        let entry = &table.behaviors[active as usize];
+        if self.step(p, entry.activity, base) == Status::Running || self.abort.is_some() {
+            return Status::Running;
+        }
+        match self.try_rules(p, activity, table, base, true) {
+            Switch::Finished => Status::Ended,
+            Switch::Entered => Status::Running,
+            Switch::None => {
+                self.go_back(p, activity, table, base, active);
+                Status::Running
+            }
+        }
+    }
+
+    fn active_behavior(&self, activity: &Activity, base: Slot) -> Option<u32> {
+        let child = self.head(activity, base, header::CHILD);
+        (child > 0.0).then(|| child as u32 - 1)
+    }
+
+    /// Rule 12: a behavior that is done makes room for the one that waits.
+    fn go_back(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot, done: u32) {
+        let behavior = &p.activities[table.behaviors[done as usize].activity as usize];
+        let waiting = self.head(behavior, base, header::BACK_TO);
+        if waiting == 0.0 {
+            return;
+        }
+        let waiting = waiting as u32 - 1;
+        self.set_head(behavior, base, header::BACK_TO, 0.0);
+        self.leave(p, table.behaviors[done as usize].activity, base, Cause::Done);
+        let id = table.behaviors[waiting as usize].activity;
+        self.set_head(&p.activities[id as usize], base, header::STATE, header::ACTIVE);
+        self.set_head(activity, base, header::CHILD, f64::from(waiting + 1));
+        self.events.push(Event::Resumed(id));
+        self.step(p, id, base);
+    }
+
+    /// Tries the rules of the active behavior; `done` tells whether its body came to its end in this tick.
+    fn try_rules(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot, done: bool) -> Switch {
+        let Some(active) = self.active_behavior(activity, base) else { return Switch::None };
+        let entry = &table.behaviors[active as usize];
+        if !done {
+            self.execute(p, entry.watch, base);
+        }
+        for (i, exit) in entry.exits.iter().enumerate() {
+            let guard = if done { exit.guard_done } else { Some(exit.guard) };
+            let Some(guard) = guard else { continue };
+            self.execute(p, guard.entry, base);
+            if self.get(base + guard.value) != 0.0 {
+                return self.switch(p, activity, table, base, active, i as u32, done);
+            }
+        }
+        Switch::None
+    }
+
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "a switch has this many sides: who, where, from what, by which rule, when"
+    )]
+    fn switch(
+        &mut self,
+        p: &Program,
+        activity: &Activity,
+        table: &Table,
+        base: Slot,
+        from: u32,
+        exit_index: u32,
+        done: bool,
+    ) -> Switch {
+        let entry: &Entry = &table.behaviors[from as usize];
+        let exit: &Exit = &entry.exits[exit_index as usize];
+        let rule = &p.rules[exit.rule as usize];
+        let mut values = Vec::new();
+        for watched in &exit.watched {
+            self.execute(p, watched.code.entry, base);
+            values.extend_from_slice(self.slice(base + watched.code.value, watched.shape.words()));
+        }
+        self.events.push(Event::Switched { rule: exit.rule, from: entry.activity, exit: exit_index, values });
+        // The result is of the tick as it was when the rule was tried.
+        if let Target::Finish(Some(code)) = rule.target {
+            self.execute(p, code, base);
+        }
+        let to = match rule.target {
+            Target::Behavior(to) => Some(to),
+            _ => None,
+        };
+        if rule.back && to != Some(from) {
+            self.set_head(&p.activities[entry.activity as usize], base, header::STATE, header::SUSPENDED);
+            self.events.push(Event::Suspended(entry.activity));
+        } else {
+            self.leave_with_waiting(p, table, base, from, if done { Cause::Done } else { Cause::Rule });
+        }
+        self.set_head(activity, base, header::CHILD, 0.0);
+        if let Some(effect) = rule.effect {
+            self.execute(p, effect, base);
+        }
+        match rule.target {
+            Target::Behavior(to) => {
+                // Entering a suspended behavior afresh leaves it first, and what waits for it.
+                let id = table.behaviors[to as usize].activity;
+                if self.head(&p.activities[id as usize], base, header::STATE) == header::SUSPENDED {
+                    self.leave_with_waiting(p, table, base, to, Cause::Rule);
+                }
+                let back_to = (rule.back && to != from).then_some(from);
+                self.enter_behavior(p, activity, table, base, to, back_to);
+                Switch::Entered
+            }
+            Target::Finish(_) => Switch::Finished,
+            Target::Abort(why) => {
+                self.abort = Some(self.filled(&p.texts[why as usize], base, p));
+                Switch::Entered
+            }
+        }
+    }
+
+    /// Leaves a behavior, and those that wait for it to be done.
+    fn leave_with_waiting(&mut self, p: &Program, table: &Table, base: Slot, from: u32, cause: Cause) {
+        let mut next = Some((from, cause));
+        while let Some((behavior, cause)) = next {
+            let id = table.behaviors[behavior as usize].activity;
+            let waiting = self.head(&p.activities[id as usize], base, header::BACK_TO);
+            self.leave(p, id, base, cause);
+            next = (waiting > 0.0).then(|| (waiting as u32 - 1, Cause::Preempted));
+        }
+    }
+
+    fn enter_behavior(
+        &mut self,
+        p: &Program,
+        owner: &Activity,
+        table: &Table,
+        base: Slot,
+        which: u32,
+        back_to: Option<u32>,
+    ) {
+        let entry = &table.behaviors[which as usize];
+        self.set_head(owner, base, header::CHILD, f64::from(which + 1));
+        // The rules' timers watch from here: the age they count by begins with the behavior.
+        let behavior = &p.activities[entry.activity as usize];
+        self.set_head(behavior, base, header::AGE, 0.0);
+        self.execute(p, entry.arm, base);
+        self.enter(p, entry.activity, base, Some(base + owner.header + header::SETPOINTS));
+        if let Some(waiting) = back_to {
+            self.set_head(behavior, base, header::BACK_TO, f64::from(waiting + 1));
+        }
+    }
+
+    /// Leaves an activity, innermost first.
+    pub fn leave(&mut self, p: &Program, id: ActivityId, base: Slot, cause: Cause) {
+        let activity = &p.activities[id as usize];
+        if self.head(activity, base, header::STATE) == header::IDLE {
+            return;
+        }
+        let child = self.head(activity, base, header::CHILD);
+        if child > 0.0 {
+            let child = child as u32 - 1;
+            // What is inside did not choose to end.
+            let inner = if cause == Cause::Done { Cause::Preempted } else { outer_cause(cause) };
+            match &activity.body {
+                Body::Table(table) => self.leave_with_waiting(p, table, base, child, inner),
+                _ => {
+                    let site = &p.calls[child as usize];
+                    self.leave(p, site.activity, base + site.base, inner);
+                }
+            }
+        }
+        for &overlay in activity.overlays.iter().rev() {
+            self.take_off(p, overlay, base, outer_cause(cause));
+        }
+        self.set_head(activity, base, header::STATE, header::IDLE);
+        self.set_head(activity, base, header::CHILD, 0.0);
+        self.set_head(activity, base, header::PC, header::ENDED);
+        self.events.push(Event::Left(id, cause));
+    }
+
+    pub fn enter_call(&mut self, p: &Program, call: u32, base: Slot) {
+        let site = &p.calls[call as usize];
+        self.set_caller(p, call, base, f64::from(call + 1));
+        self.enter(p, site.activity, base + site.base, Some(base + site.setpoints));
+    }
+
+    /// Steps what a body has called; tells whether it came to its end.
+    pub fn step_call(&mut self, p: &Program, call: u32, base: Slot) -> bool {
+        let site = &p.calls[call as usize];
+        let over = self.step(p, site.activity, base + site.base) == Status::Ended && self.abort.is_none();
+        if over {
+            self.set_caller(p, call, base, 0.0);
+            self.leave(p, site.activity, base + site.base, Cause::Done);
+        }
+        over
+    }
+
+    pub fn cut_call(&mut self, p: &Program, call: u32, base: Slot, cause: Cause) {
+        let site = &p.calls[call as usize];
+        self.set_caller(p, call, base, 0.0);
+        self.leave(p, site.activity, base + site.base, cause);
+    }
+
+    fn set_caller(&mut self, p: &Program, call: u32, base: Slot, child: f64) {
+        self.set(base + p.calls[call as usize].caller + header::CHILD, child);
+    }
+
+    pub fn put_on(&mut self, p: &Program, overlay: u32, base: Slot) {
+        let site = &p.overlays[overlay as usize];
+        let outer = std::mem::replace(&mut self.in_overlay, true);
+        self.enter(p, site.activity, base + site.base, None);
+        self.in_overlay = outer;
+    }
+
+    pub fn take_off(&mut self, p: &Program, overlay: u32, base: Slot, cause: Cause) {
+        let site = &p.overlays[overlay as usize];
+        if std::mem::take(&mut self.state.amending[overlay as usize]) {
+            self.events.push(Event::AmendingEnded(site.activity));
+        }
+        self.leave(p, site.activity, base + site.base, cause);
+    }
+
+    /// Steps the overlays that an activity wears.
+    pub fn step_overlays(&mut self, p: &Program, activity: &Activity, base: Slot) {
+        for &overlay in &activity.overlays {
+            let site = &p.overlays[overlay as usize];
+            let at = base + site.base;
+            if self.head(&p.activities[site.activity as usize], at, header::STATE) == header::ACTIVE {
+                let outer = std::mem::replace(&mut self.in_overlay, true);
+                self.step(p, site.activity, at);
+                self.in_overlay = outer;
+            }
+        }
+    }
+}
+
+/// Why what is inside is left when something outside is left for a cause.
+fn outer_cause(cause: Cause) -> Cause {
+    if cause == Cause::Aborted { Cause::Aborted } else { Cause::Preempted }
+}
+
+/// What trying the rules led to.
+enum Switch {
+    None,
+    Entered,
+    Finished,
+}

@@ -1,0 +1,117 @@
+//! Areas in words: a count of corners, then for each its point and the outward normal of the edge that begins there.
+
+use crate::state::Run;
+use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector};
+use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Slot};
+
+/// Corners whose coordinates along a direction differ by less than this, in metres, are equally far.
+const EQUALLY_FAR_M: f64 = 1.0;
+
+impl Run {
+    pub fn point(&self, at: Slot) -> Point {
+        Point::new(self.get(at), self.get(at + 1))
+    }
+
+    pub fn set_point(&mut self, at: Slot, p: Point) {
+        self.set(at, p.north);
+        self.set(at + 1, p.east);
+    }
+
+    pub fn vector(&self, at: Slot) -> Vector {
+        Vector::new(self.get(at), self.get(at + 1))
+    }
+
+    pub fn set_vector(&mut self, at: Slot, v: Vector) {
+        self.set(at, v.north);
+        self.set(at + 1, v.east);
+    }
+
+    pub fn line(&self, at: Slot) -> Line {
+        Line { start: self.point(at), end: self.point(at + 2) }
+    }
+
+    pub fn set_area(&mut self, to: Slot, area: Option<&Area>) {
+        self.state.words[to as usize..(to + AREA_WORDS) as usize].fill(0.0);
+        let Some(area) = area else { return };
+        self.set(to, area.corners().len() as f64);
+        for (i, edge) in area.edges().enumerate() {
+            let at = to + 1 + AREA_CORNER_WORDS * i as u32;
+            self.set_point(at, edge.line.start);
+            self.set_vector(at + 2, edge.normal);
+        }
+    }
+
+    fn corners(&self, area: Slot) -> u32 {
+        self.get(area) as u32
+    }
+
+    fn corner_point(&self, area: Slot, i: u32) -> Point {
+        self.point(area + 1 + AREA_CORNER_WORDS * (i % self.corners(area).max(1)))
+    }
+
+    pub fn edge_of(&self, area: Slot, i: u32) -> Edge {
+        let line = Line { start: self.corner_point(area, i), end: self.corner_point(area, i + 1) };
+        Edge { line, normal: self.vector(area + 1 + AREA_CORNER_WORDS * i + 2) }
+    }
+
+    pub fn edge(&self, at: Slot) -> Edge {
+        Edge { line: self.line(at), normal: self.vector(at + 4) }
+    }
+
+    pub fn set_edge(&mut self, at: Slot, edge: Edge) {
+        self.set_point(at, edge.line.start);
+        self.set_point(at + 2, edge.line.end);
+        self.set_vector(at + 4, edge.normal);
+    }
+
+    pub fn center(&self, area: Slot) -> Point {
+        let n = self.corners(area);
+        let sum = (0..n).fold(Vector::ZERO, |sum, i| sum + (self.corner_point(area, i) - Point::ORIGIN));
+        Point::ORIGIN + (1.0 / f64::from(n.max(1))) * sum
+    }
+
+    pub fn gap(&self, area: Slot, p: Point) -> f64 {
+        (0..self.corners(area)).map(|i| self.edge_of(area, i).gap(p)).fold(f64::INFINITY, f64::min)
+    }
+
+    pub fn nearest_edge(&self, area: Slot, p: Point) -> Edge {
+        let mut nearest = self.edge_of(area, 0);
+        for i in 1..self.corners(area) {
+            let edge = self.edge_of(area, i);
+            if edge.gap(p) < nearest.gap(p) {
+                nearest = edge;
+            }
+        }
+        nearest
+    }
+
+    /// The corner that lies farthest along a heading; of those equally far the one nearest to a point.
+    pub fn farthest_corner(&self, area: Slot, heading: Heading, near: Point) -> Point {
+        let corners: Vec<Point> = (0..self.corners(area)).map(|i| self.corner_point(area, i)).collect();
+        let far = corners.iter().map(|c| c.along(heading)).fold(f64::NEG_INFINITY, f64::max);
+        let mut best: Option<Point> = None;
+        for c in corners.into_iter().filter(|c| c.along(heading) > far - EQUALLY_FAR_M) {
+            if best.is_none_or(|b| c.distance(near) < b.distance(near)) {
+                best = Some(c);
+            }
+        }
+        best.unwrap_or(near)
+    }
+
+    /// Where a ray from a point leaves the area; the point itself when it is outside.
+    pub fn exit(&self, area: Slot, from: Point, heading: Heading) -> Point {
+        let ray = heading.unit();
+        let mut run = f64::INFINITY;
+        for i in 0..self.corners(area) {
+            let edge = self.edge_of(area, i);
+            let (gap, outward) = (edge.gap(from), ray.dot(edge.normal));
+            if gap < 0.0 {
+                return from;
+            }
+            if outward > 0.0 {
+                run = run.min(gap / outward);
+            }
+        }
+        if run.is_finite() { from + run * ray } else { from }
+    }
+}

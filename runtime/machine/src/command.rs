@@ -1,0 +1,168 @@
+//! From what a statement asks to what the vehicle is told: amendments, limits, command filter, flow compensation.
+
+use crate::guide::Filter;
+use crate::state::{Limits, Run};
+use crate::{Event, execute::Flow};
+use albacore_geometry::Heading;
+use albacore_guidance::through_water;
+use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, header};
+use albacore_vehicle::{Command, TICK_S, Vertical};
+
+/// An amendment smaller than this, in radians, is not worth a line of trace; it ends below half of it.
+const AMENDMENT_TOLD_RAD: f64 = 0.02;
+
+impl Run {
+    /// The command of this tick.
+    pub fn give_command(&mut self, p: &Program) -> Command {
+        let mut asked = self.state.asked;
+        if let Some(vertical) = self.state.overridden.vertical {
+            asked.vertical = vertical;
+        }
+        if let Some(speed) = self.state.overridden.speed {
+            asked.speed = speed;
+        }
+        let amended = self.amended(p, asked.course);
+        let over_ground = asked.over_ground || amended != asked.course;
+        let speed = self.limit(Channel::Speed, asked.speed);
+        let vertical = self.limit_vertical(asked.vertical);
+        let mut filter = Filter::new(self.state.filtered);
+        let course = filter.step(amended, TICK_S);
+        self.state.filtered = course;
+        // Flow compensation may ask for more speed through the water than the mission allows.
+        let speed_max = self.state.limits.speed.1;
+        let command = if over_ground && speed > 0.0 {
+            let water = through_water(course, speed, self.flow(), speed_max);
+            Command { heading: water.heading, speed: water.speed, vertical }
+        } else {
+            Command { heading: course, speed: speed.max(0.0), vertical }
+        };
+        self.state.command = Some(command);
+        command
+    }
+
+    /// The course after all overlays, from inner to outer.
+    fn amended(&mut self, p: &Program, asked: Heading) -> Heading {
+        let mut chain = Vec::new();
+        self.chain(p, &mut |id, base| chain.push((id, base)));
+        let mut course = asked;
+        for (id, base) in chain.into_iter().rev() {
+            for &overlay in &p.activities[id as usize].overlays {
+                course = self.amend(p, overlay, base, course);
+            }
+        }
+        course
+    }
+
+    fn amend(&mut self, p: &Program, overlay: u32, base: Slot, asked: Heading) -> Heading {
+        let site = &p.overlays[overlay as usize];
+        let activity = &p.activities[site.activity as usize];
+        let at = base + site.base;
+        let active = self.get(at + activity.header + header::STATE) == header::ACTIVE;
+        let (ActivityKind::AmendsCourse, Body::Amend { asked: slot, amended }, true) =
+            (activity.kind, &activity.body, active)
+        else {
+            return asked;
+        };
+        self.set(at + slot, asked.radians());
+        if self.execute(p, amended.entry, at) == Flow::Abort {
+            return asked;
+        }
+        let given = Heading::from_radians(self.get(at + amended.value));
+        let change = (given - asked).abs();
+        let told = self.state.amending[overlay as usize];
+        if !told && change > AMENDMENT_TOLD_RAD {
+            self.state.amending[overlay as usize] = true;
+            self.events.push(Event::Amending(site.activity, asked.radians(), given.radians()));
+        } else if told && change < AMENDMENT_TOLD_RAD / 2.0 {
+            self.state.amending[overlay as usize] = false;
+            self.events.push(Event::AmendingEnded(site.activity));
+        }
+        given
+    }
+
+    /// The active activities from outside in, with the bases of their frames.
+    pub fn chain(&self, p: &Program, visit: &mut impl FnMut(u32, Slot)) {
+        let mut next = Some((p.mission.activity, p.mission.base));
+        while let Some((id, base)) = next {
+            let activity = &p.activities[id as usize];
+            if self.get(base + activity.header + header::STATE) != header::ACTIVE {
+                break;
+            }
+            visit(id, base);
+            let child = self.get(base + activity.header + header::CHILD);
+            next = if child == 0.0 {
+                None
+            } else {
+                match &activity.body {
+                    Body::Table(table) => Some((table.behaviors[child as usize - 1].activity, base)),
+                    _ => {
+                        let site = &p.calls[child as usize - 1];
+                        Some((site.activity, base + site.base))
+                    }
+                }
+            };
+        }
+        // The recovery runs beside the mission's body, in its frame.
+        if let Some(recovery) = p.mission.recovery {
+            let activity = &p.activities[recovery.activity as usize];
+            let base = p.mission.base;
+            if self.get(base + activity.header + header::STATE) == header::ACTIVE {
+                visit(recovery.activity, base);
+                let child = self.get(base + activity.header + header::CHILD);
+                if child > 0.0 {
+                    let site = &p.calls[child as usize - 1];
+                    visit(site.activity, base + site.base);
+                }
+            }
+        }
+    }
+
+    fn limit_vertical(&mut self, asked: Vertical) -> Vertical {
+        match asked {
+            Vertical::Altitude(metres) => Vertical::Altitude(self.limit(Channel::Altitude, metres)),
+            Vertical::Depth(metres) => {
+                // The bottom is nearer than the depth allows: the altitude limits hold too, where the water depth is known.
+                let floor =
+                    self.water_depth().map_or(f64::MAX, |water| (water - self.state.limits.altitude.0).max(0.0));
+                Vertical::Depth(self.limit(Channel::Depth, metres).min(floor))
+            }
+        }
+    }
+
+    /// Holds a setpoint within its limits, and says when that begins and when it ends.
+    fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
+        let (index, (low, high)) = match channel {
+            Channel::Depth => (0, self.state.limits.depth),
+            Channel::Altitude => (1, self.state.limits.altitude),
+            Channel::Speed => (2, self.state.limits.speed),
+        };
+        // Standing still is always allowed: it is what a hold asks for.
+        let given = if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.clamp(low, high.max(low)) };
+        let held = given != asked;
+        if held != self.state.limited[index] {
+            self.state.limited[index] = held;
+            self.events.push(if held { Event::Limited(channel, asked, given) } else { Event::LimitedEnded(channel) });
+        }
+        given
+    }
+
+    /// The mission's limits as numbers.
+    pub fn compute_limits(&mut self, p: &Program) {
+        let base = p.mission.base;
+        let mut number = |code: &Option<Code>, otherwise: f64| match code {
+            Some(code) => {
+                self.execute(p, code.entry, base);
+                self.get(base + code.value)
+            }
+            None => otherwise,
+        };
+        let limits = &p.mission.limits;
+        let none = Limits::NONE;
+        let computed = Limits {
+            altitude: (number(&limits.altitude_min, none.altitude.0), number(&limits.altitude_max, none.altitude.1)),
+            depth: (number(&limits.depth_min, none.depth.0), number(&limits.depth_max, none.depth.1)),
+            speed: (number(&limits.speed_min, none.speed.0), number(&limits.speed_max, none.speed.1)),
+        };
+        self.state.limits = computed;
+    }
+}

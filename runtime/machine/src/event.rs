@@ -1,0 +1,92 @@
+//! What happened in a tick, for traces and journals.
+
+use albacore_program::{ActivityId, Cause, Channel};
+use albacore_vehicle::Control;
+use serde::{Deserialize, Serialize};
+
+/// Something that happened. Words are values in the form that the program's shapes describe.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Event {
+    /// Who drives has changed.
+    Control(Control),
+    /// An activity was entered.
+    Entered(ActivityId),
+    /// An activity was left.
+    Left(ActivityId, Cause),
+    /// An activity waits for another to be done (`then back`).
+    Suspended(ActivityId),
+    /// It goes on where it was.
+    Resumed(ActivityId),
+    /// A rule fired.
+    Switched {
+        /// Index into the program's rules.
+        rule: u32,
+        /// The behavior that was active.
+        from: ActivityId,
+        /// Which of its entry's exits fired.
+        exit: u32,
+        /// The words of the exit's watched values, one after the other.
+        values: Vec<f64>,
+    },
+    /// A rule changed a memory: index into the program's memories, and its words now.
+    Remembered(u32, Vec<f64>),
+    /// A report: index into the program's report sites, and the words of its fields, one after the other.
+    Reported(u32, Vec<f64>),
+    /// A line of log, its holes filled.
+    Logged(String),
+    /// An overlay begins to change the course: asked and given, in radians.
+    Amending(ActivityId, f64, f64),
+    /// It leaves the course alone again.
+    AmendingEnded(ActivityId),
+    /// A limit begins to hold a setpoint back: asked and given, in SI units.
+    Limited(Channel, f64, f64),
+    /// It no longer does.
+    LimitedEnded(Channel),
+    /// A required input is too old: index into the program's inputs.
+    Stale(u32),
+    /// It is fresh again.
+    Fresh(u32),
+    /// The mission is aborted.
+    Aborted(String),
+    /// The mission's time is up.
+    TimedOut,
+    /// The mission is over.
+    Ended(Outcome),
+}
+
+/// How a mission ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Outcome {
+    /// It came to its own end.
+    Completed,
+    /// Its time limit ended it.
+    TimedOut,
+    /// The script aborted it.
+    Aborted,
+    /// The person aborted it.
+    Interrupted,
+    /// The vehicle would not let us drive.
+    Refused,
+    /// The vehicle took control back.
+    ReleasedByVehicle,
+    /// The vehicle was heard no more.
+    LinkLost,
+    /// The vehicle or the machine failed.
+    Failed,
+}
+
+impl Outcome {
+    /// The outcome's name, as results carry it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::Completed => "completed",
+            Outcome::TimedOut => "timed_out",
+            Outcome::Aborted => "aborted",
+            Outcome::Interrupted => "interrupted",
+            Outcome::Refused => "refused",
+            Outcome::ReleasedByVehicle => "released_by_vehicle",
+            Outcome::LinkLost => "link_lost",
+            Outcome::Failed => "failed",
+        }
+    }
+}

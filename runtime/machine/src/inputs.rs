@@ -1,0 +1,146 @@
+//! Samples into the blocks of words where programs read them.
+
+use crate::state::{Run, Senses};
+use albacore_geometry::{Heading, Point, Vector};
+use albacore_program::{Input, Program, Slot};
+use albacore_vehicle::{Channel, Sample, TICK_S};
+
+/// The seconds that an input is old before it has had any sample.
+const NEVER_S: f64 = 1e9;
+
+/// An input that a mission requires and the vehicle does not deliver.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingInput {
+    /// The input.
+    pub name: String,
+    /// What the vehicle delivers.
+    pub delivered: Vec<String>,
+}
+
+impl std::fmt::Display for MissingInput {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "the mission requires `{}`, which this vehicle does not deliver; it delivers {}",
+            self.name,
+            self.delivered.join(", ")
+        )
+    }
+}
+
+impl std::error::Error for MissingInput {}
+
+/// For each channel of the vehicle the input that reads it.
+pub(crate) fn wiring(program: &Program, channels: &[Channel]) -> Result<Vec<Option<u32>>, MissingInput> {
+    for require in &program.mission.requires {
+        let name = &program.inputs[require.input as usize].name;
+        if !channels.iter().any(|c| c.name == *name) {
+            let delivered = channels.iter().map(|c| c.name.clone()).collect();
+            return Err(MissingInput { name: name.clone(), delivered });
+        }
+    }
+    let input = |channel: &Channel| program.inputs.iter().position(|i| i.name == channel.name).map(|i| i as u32);
+    Ok(channels.iter().map(input).collect())
+}
+
+/// Where guidance finds what it reads.
+pub(crate) fn senses(program: &Program) -> Senses {
+    let at = |name: &str| program.inputs.iter().find(|i| i.name == name).map(|i| i.at);
+    Senses {
+        position: at("position"),
+        course: at("course"),
+        heading: at("heading"),
+        flow: at("flow"),
+        depth: at("depth"),
+        water_depth: at("water_depth"),
+    }
+}
+
+impl Run {
+    /// Takes in the samples of a tick. A sample with a number that is none is as if it had not come.
+    pub fn take_in(&mut self, program: &Program, wiring: &[Option<u32>], samples: &[Sample]) {
+        for input in &program.inputs {
+            // Until a sample comes the peak is the latest value.
+            let value = self.get(input.at + Input::VALUE);
+            self.set(input.at + Input::PEAK, value);
+        }
+        let tick = self.state.tick as f64;
+        for sample in samples {
+            let Some(Some(index)) = wiring.get(sample.channel as usize) else { continue };
+            let input = &program.inputs[*index as usize];
+            let width = (input.width as usize).min(sample.reading.len());
+            let numbers = &sample.reading[..width];
+            if numbers.iter().any(|x| !x.is_finite()) {
+                continue;
+            }
+            let first_in_tick = self.get(input.at + Input::STAMP) != tick;
+            let peak = if first_in_tick { numbers[0] } else { self.get(input.at + Input::PEAK).max(numbers[0]) };
+            self.set(input.at + Input::STAMP, tick);
+            self.set(input.at + Input::PEAK, peak);
+            let count = self.get(input.at + Input::COUNT);
+            self.set(input.at + Input::COUNT, count + 1.0);
+            if input.kept > 0 {
+                let place = (count as u64 % u64::from(input.kept)) as u32;
+                self.set(input.at + input.ring() + place, numbers[0]);
+            }
+            for (i, number) in numbers.iter().enumerate() {
+                self.set(input.at + Input::VALUE + i as u32, *number);
+            }
+        }
+    }
+
+    pub fn has_sample(&self, input: &Input) -> bool {
+        self.get(input.at + Input::STAMP) >= 0.0
+    }
+
+    /// Ticks since the latest sample.
+    pub fn age_ticks(&self, input: &Input) -> f64 {
+        self.state.tick as f64 - self.get(input.at + Input::STAMP)
+    }
+
+    pub fn age_s(&self, input: &Input) -> f64 {
+        if self.has_sample(input) { self.age_ticks(input) * TICK_S } else { NEVER_S }
+    }
+
+    /// How many of the last `of` samples reached a limit.
+    pub fn hits(&self, input: &Input, limit: f64, of: u32) -> f64 {
+        let count = self.get(input.at + Input::COUNT) as u64;
+        let kept = u64::from(input.kept);
+        let look = u64::from(of).min(count).min(kept);
+        let ring = self.slice(input.at + input.ring(), input.kept);
+        (1..=look).filter(|back| ring[((count - back) % kept) as usize] >= limit).count() as f64
+    }
+
+    fn value(&self, at: Option<Slot>) -> Option<Slot> {
+        at.filter(|at| self.get(at + Input::STAMP) >= 0.0).map(|at| at + Input::VALUE)
+    }
+
+    pub fn position(&self) -> Point {
+        self.value(self.senses.position).map_or(Point::ORIGIN, |at| Point::new(self.get(at), self.get(at + 1)))
+    }
+
+    pub fn heading(&self) -> Heading {
+        self.value(self.senses.heading).map_or(Heading::NORTH, |at| Heading::from_radians(self.get(at)))
+    }
+
+    /// Over ground; the heading when no course is sensed.
+    pub fn course(&self) -> Heading {
+        self.value(self.senses.course).map_or_else(|| self.heading(), |at| Heading::from_radians(self.get(at)))
+    }
+
+    /// The flow as the program knows it: also what `at first` says.
+    pub fn flow(&self) -> Vector {
+        match self.senses.flow {
+            Some(at) => Vector::new(self.get(at + Input::VALUE), self.get(at + Input::VALUE + 1)),
+            None => Vector::ZERO,
+        }
+    }
+
+    pub fn depth(&self) -> f64 {
+        self.value(self.senses.depth).map_or(0.0, |at| self.get(at))
+    }
+
+    pub fn water_depth(&self) -> Option<f64> {
+        self.value(self.senses.water_depth).map(|at| self.get(at))
+    }
+}

@@ -1,0 +1,21 @@
+//! Executes a lowered mission tick by tick, by the numbered rules of time (docs/language.md).
+//!
+//! The whole state of a run is one plain value, [`State`]: cloned, compared, serialised. The machine knows no vehicle:
+//! it takes what was sensed and gives what to command.
+
+mod activity;
+mod area;
+mod command;
+mod event;
+mod execute;
+mod guide;
+mod inputs;
+mod lists;
+mod mission;
+mod state;
+
+pub use event::{Event, Outcome};
+pub use execute::evaluate;
+pub use inputs::MissingInput;
+pub use mission::Machine;
+pub use state::{Phase, State};

@@ -1,0 +1,143 @@
+//! Bounded lists in words: a count, then the elements.
+
+use crate::state::Run;
+use albacore_geometry::{Heading, Point};
+use albacore_program::{Program, Slot};
+
+impl Run {
+    fn count(&self, list: Slot) -> u32 {
+        self.get(list) as u32
+    }
+
+    pub fn push(&mut self, list: Slot, item: Slot, words: u32, capacity: u32) {
+        let mut count = self.count(list);
+        if count == capacity {
+            // Full: the oldest, which is the first, goes.
+            self.copy(list + 1, list + 1 + words, (count - 1) * words);
+            count -= 1;
+        }
+        self.copy(list + 1 + count * words, item, words);
+        self.set(list, f64::from(count + 1));
+    }
+
+    /// Adds to a list in order; when full the last in order goes, which may be the new element.
+    pub fn push_sorted(
+        &mut self,
+        program: &Program,
+        list: Slot,
+        item: Slot,
+        words: u32,
+        capacity: u32,
+        sorter: (u32, Slot),
+    ) {
+        let count = self.count(list);
+        if count < capacity {
+            self.copy(list + 1 + count * words, item, words);
+            self.set(list, f64::from(count + 1));
+            self.execute(program, sorter.0, sorter.1);
+            return;
+        }
+        // No room to sort one more: the new element takes the place of the last in order if it comes before it.
+        let last = list + 1 + (count - 1) * words;
+        let kept: Vec<f64> = self.slice(last, words).to_vec();
+        let added: Vec<f64> = self.slice(item, words).to_vec();
+        let before = self.keys(program, sorter, &[&kept, &added]);
+        if let Some((kept_key, added_key, most)) = before {
+            let comes_first = if most { added_key > kept_key } else { added_key < kept_key };
+            if comes_first {
+                self.state.words[last as usize..(last + words) as usize].copy_from_slice(&added);
+            }
+        }
+        self.execute(program, sorter.0, sorter.1);
+    }
+
+    /// The keys of two elements, by the `Sort` instruction that a sorter begins with.
+    fn keys(&mut self, program: &Program, sorter: (u32, Slot), elements: &[&[f64]; 2]) -> Option<(f64, f64, bool)> {
+        let albacore_program::Op::Sort { it, key, value, most, .. } = program.ops[sorter.0 as usize] else {
+            return None;
+        };
+        let mut keys = [0.0; 2];
+        for (out, element) in keys.iter_mut().zip(elements) {
+            let at = (sorter.1 + it) as usize;
+            self.state.words[at..at + element.len()].copy_from_slice(element);
+            self.execute(program, key, sorter.1);
+            *out = self.get(sorter.1 + value);
+        }
+        Some((keys[0], keys[1], most))
+    }
+
+    /// Insertion sort: lists are short and nearly in order. Stable, so that ties keep the older first.
+    #[allow(clippy::too_many_arguments, reason = "the operands of one instruction")]
+    pub fn sort(
+        &mut self,
+        program: &Program,
+        base: Slot,
+        list: Slot,
+        words: u32,
+        it: Slot,
+        key: u32,
+        value: Slot,
+        most: bool,
+    ) {
+        let count = self.count(list);
+        let mut keys: Vec<f64> = Vec::with_capacity(count as usize);
+        for i in 0..count {
+            self.copy(it, list + 1 + i * words, words);
+            self.execute(program, key, base);
+            keys.push(self.get(value));
+        }
+        for i in 1..count {
+            let mut j = i;
+            while j > 0 {
+                let (a, b) = (keys[j as usize - 1], keys[j as usize]);
+                let in_order = if most { a >= b } else { a <= b };
+                if in_order {
+                    break;
+                }
+                keys.swap(j as usize - 1, j as usize);
+                for w in 0..words {
+                    let (x, y) = ((list + 1 + (j - 1) * words + w) as usize, (list + 1 + j * words + w) as usize);
+                    self.state.words.swap(x, y);
+                }
+                j -= 1;
+            }
+        }
+    }
+
+    pub fn remove(&mut self, list: Slot, item: Slot, words: u32) {
+        let count = self.count(list);
+        let found = (0..count).find(|i| self.slice(list + 1 + i * words, words) == self.slice(item, words));
+        if let Some(i) = found {
+            self.copy(list + 1 + i * words, list + 1 + (i + 1) * words, (count - i - 1) * words);
+            self.set(list, f64::from(count - 1));
+        }
+    }
+
+    pub fn element(&mut self, to: Slot, list: Slot, index: Slot, words: u32) {
+        let index = self.get(index);
+        if index >= 0.0 && index < self.get(list) {
+            self.copy(to + 1, list + 1 + index as u32 * words, words);
+            self.set(to, 1.0);
+        } else {
+            self.state.words[to as usize..(to + 1 + words) as usize].fill(0.0);
+        }
+    }
+
+    pub fn top(&mut self, to: Slot, list: Slot, count: Slot, words: u32) {
+        let count = self.get(count).clamp(0.0, self.get(list)) as u32;
+        self.copy(to + 1, list + 1, count * words);
+        self.set(to, f64::from(count));
+    }
+
+    pub fn spread(&self, list: Slot, heading: Heading) -> f64 {
+        let mut low = f64::INFINITY;
+        let mut high = f64::NEG_INFINITY;
+        for i in 0..self.count(list) {
+            let at = list + 1 + 2 * i;
+            let along = Point::new(self.get(at), self.get(at + 1)).along(heading);
+            low = low.min(along);
+            high = high.max(along);
+        }
+        if low <= high { high - low } else { 0.0 }
+    }
+}

@@ -1,0 +1,334 @@
+//! The machine: a mission from its first tick to its release.
+
+use crate::activity::Status;
+use crate::inputs::{MissingInput, senses, wiring};
+use crate::state::{Asked, Limits, Overridden, Phase, Requirement, Run, State};
+use crate::{Event, Outcome};
+use albacore_geometry::{Heading, Point};
+use albacore_program::{Cause, Code, Input, Program, header};
+use albacore_vehicle::{Channel, Command, Control, Snapshot, Vertical};
+use std::sync::Arc;
+
+/// Executes one mission.
+pub struct Machine {
+    program: Arc<Program>,
+    wiring: Vec<Option<u32>>,
+    run: Run,
+}
+
+impl Run {
+    /// A run that has not begun.
+    pub fn new(p: &Program) -> Self {
+        let mut words = vec![0.0; p.words as usize];
+        for input in &p.inputs {
+            words[(input.at + Input::STAMP) as usize] = -1.0;
+        }
+        let state = State {
+            words,
+            tick: 0,
+            phase: Phase::Waiting,
+            asked: Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) },
+            command: None,
+            filtered: Heading::NORTH,
+            control: Control::Disconnected,
+            limits: Limits::NONE,
+            amending: vec![false; p.overlays.len()],
+            limited: [false; 3],
+            requires: Vec::new(),
+            within: None,
+            overridden: Overridden::default(),
+        };
+        Run { state, events: Vec::new(), in_overlay: false, abort: None, senses: senses(p) }
+    }
+
+    fn number(&mut self, p: &Program, code: &Code) -> f64 {
+        self.execute(p, code.entry, p.mission.base);
+        self.get(p.mission.base + code.value)
+    }
+}
+
+impl Machine {
+    /// A machine for a mission on a vehicle that delivers these channels.
+    pub fn new(program: Arc<Program>, channels: &[Channel]) -> Result<Self, MissingInput> {
+        let wiring = wiring(&program, channels)?;
+        let run = Run::new(&program);
+        Ok(Machine { program, wiring, run })
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+
+    /// The whole state.
+    pub fn state(&self) -> &State {
+        &self.run.state
+    }
+
+    /// Goes back, or on, to a state of the same program.
+    pub fn restore(&mut self, state: State) {
+        self.run.state = state;
+        self.run.events.clear();
+        self.run.abort = None;
+    }
+
+    /// What happened in the last tick, in order.
+    pub fn events(&self) -> &[Event] {
+        &self.run.events
+    }
+
+    /// How the mission ended, once it has.
+    pub fn outcome(&self) -> Option<Outcome> {
+        match self.run.state.phase {
+            Phase::Over(outcome) => Some(outcome),
+            _ => None,
+        }
+    }
+
+    /// The active activities from outside in.
+    pub fn active(&self) -> Vec<u32> {
+        let mut ids = Vec::new();
+        self.run.chain(&self.program, &mut |id, _| ids.push(id));
+        ids
+    }
+
+    /// Where the mission believes the vehicle to be; `None` before the first sample.
+    pub fn position(&self) -> Option<Point> {
+        let at = self.run.senses.position?;
+        (self.run.get(at + Input::STAMP) >= 0.0).then(|| self.run.position())
+    }
+
+    /// One tick: takes in what was sensed, gives what to command. After the end there is nothing to command: release.
+    pub fn step(&mut self, snapshot: &Snapshot) -> Option<Command> {
+        let program = Arc::clone(&self.program);
+        let p = program.as_ref();
+        let run = &mut self.run;
+        run.events.clear();
+        run.state.overridden = Overridden::default();
+        run.take_in(p, &self.wiring, &snapshot.samples);
+        run.hear_control(snapshot.control);
+        let command = run.live(p);
+        run.state.tick += 1;
+        command
+    }
+
+    /// Ends the mission because the person or the host says so; gives what happened.
+    pub fn end(&mut self, outcome: Outcome) -> &[Event] {
+        let program = Arc::clone(&self.program);
+        self.run.events.clear();
+        if self.outcome().is_none() {
+            self.run.over(&program, outcome);
+        }
+        &self.run.events
+    }
+}
+
+impl Run {
+    fn hear_control(&mut self, control: Control) {
+        if control != self.state.control {
+            self.state.control = control;
+            self.events.push(Event::Control(control));
+        }
+    }
+
+    /// One tick of whatever phase the mission is in.
+    fn live(&mut self, p: &Program) -> Option<Command> {
+        let began = !matches!(self.state.phase, Phase::Waiting);
+        match self.state.control {
+            Control::InControl => {}
+            // The vehicle does not listen for a while: the mission stands still.
+            Control::Suspended => return None,
+            Control::Refused => return self.over(p, Outcome::Refused),
+            Control::Released if began => return self.over(p, Outcome::ReleasedByVehicle),
+            Control::TimedOut | Control::Disconnected if began => return self.over(p, Outcome::LinkLost),
+            _ => return None,
+        }
+        match self.state.phase {
+            Phase::Over(_) => None,
+            Phase::Waiting => {
+                if !self.ready(p) {
+                    return None;
+                }
+                self.start(p);
+                self.after_step(p, Status::Running)
+            }
+            Phase::Running | Phase::Holding(_) => {
+                if let Some(command) = self.hold_while_stale(p) {
+                    return command;
+                }
+                let age = self.get(p.mission.base + p.activities[p.mission.activity as usize].header + header::AGE);
+                if self.state.within.is_some_and(|ticks| age + 1.0 >= ticks) {
+                    self.events.push(Event::TimedOut);
+                    return self.recover(p, Outcome::TimedOut);
+                }
+                let status = self.step(p, p.mission.activity, p.mission.base);
+                self.after_step(p, status)
+            }
+            Phase::Recovering(outcome, since) => self.step_recovery(p, outcome, since),
+        }
+    }
+
+    /// Whether every required input without an `at first` has come, and what guidance itself needs.
+    fn ready(&mut self, p: &Program) -> bool {
+        p.mission.requires.iter().all(|r| r.at_first.is_some() || self.has_sample(&p.inputs[r.input as usize]))
+    }
+
+    fn start(&mut self, p: &Program) {
+        let base = p.mission.base;
+        self.state.phase = Phase::Running;
+        self.state.filtered = self.heading();
+        // Rule 6: at the very start the present heading and depth, speed 0.
+        self.state.asked =
+            Asked { course: self.heading(), over_ground: false, speed: 0.0, vertical: Vertical::Depth(self.depth()) };
+        for require in &p.mission.requires {
+            let input = &p.inputs[require.input as usize];
+            if let Some(at_first) = &require.at_first
+                && !self.has_sample(input)
+            {
+                self.execute(p, at_first.entry, base);
+                let words = input.shape.words();
+                self.copy(input.at + Input::VALUE, base + at_first.value, words);
+                let first = self.get(input.at + Input::VALUE);
+                self.set(input.at + Input::PEAK, first);
+            }
+        }
+        self.enter(p, p.mission.activity, base, None);
+        let mut requires = Vec::new();
+        for require in &p.mission.requires {
+            let fresh = self.number(p, &require.fresh);
+            let patience = require.hold_for.as_ref().map(|code| self.number(p, code));
+            requires.push(Requirement { fresh, patience, stale: false });
+        }
+        self.state.requires = requires;
+        self.state.within = p.mission.within.as_ref().map(|code| self.number(p, code));
+        self.compute_limits(p);
+    }
+
+    /// Required inputs that are too old suspend the mission; too long, and they abort it.
+    fn hold_while_stale(&mut self, p: &Program) -> Option<Option<Command>> {
+        let mut patience: Option<f64> = None;
+        let mut stale_name = None;
+        for (i, require) in p.mission.requires.iter().enumerate() {
+            let input = &p.inputs[require.input as usize];
+            // Before its first sample the `at first` value holds.
+            let stale = self.has_sample(input) && self.age_ticks(input) > self.state.requires[i].fresh;
+            if stale != self.state.requires[i].stale {
+                self.state.requires[i].stale = stale;
+                self.events.push(if stale { Event::Stale(require.input) } else { Event::Fresh(require.input) });
+            }
+            if stale {
+                let held = self.state.requires[i].patience.unwrap_or(0.0);
+                patience = Some(patience.map_or(held, |p| p.min(held)));
+                stale_name = Some(&input.name);
+            }
+        }
+        let (Some(patience), Some(name)) = (patience, stale_name) else {
+            if matches!(self.state.phase, Phase::Holding(_)) {
+                self.state.phase = Phase::Running;
+            }
+            return None;
+        };
+        let since = match self.state.phase {
+            Phase::Holding(since) => since,
+            _ => self.state.tick,
+        };
+        self.state.phase = Phase::Holding(since);
+        if (self.state.tick - since) as f64 >= patience {
+            let why = format!("no fresh `{name}`");
+            self.events.push(Event::Aborted(why));
+            return Some(self.recover(p, Outcome::Aborted));
+        }
+        let before = self.state.asked;
+        self.state.asked.speed = 0.0;
+        let command = self.give_command(p);
+        self.state.asked = before;
+        Some(Some(command))
+    }
+
+    fn after_step(&mut self, p: &Program, status: Status) -> Option<Command> {
+        if let Some(why) = self.abort.take() {
+            self.events.push(Event::Aborted(why));
+            return self.recover(p, Outcome::Aborted);
+        }
+        if status == Status::Ended {
+            return self.over(p, Outcome::Completed);
+        }
+        Some(self.give_command(p))
+    }
+
+    /// Leaves all that is inside the mission and begins the recovery; without one the mission is over.
+    fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
+        self.abort = None;
+        let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
+        let (id, base) = (p.mission.activity, p.mission.base);
+        let at = base + p.activities[id as usize].header;
+        if self.get(at + header::STATE) == header::ACTIVE {
+            self.leave_inside(p, cause);
+        }
+        let Some(recovery) = p.mission.recovery else { return self.over(p, outcome) };
+        self.state.phase = Phase::Recovering(outcome, self.state.tick);
+        self.enter(p, recovery.activity, base, Some(at + header::SETPOINTS));
+        Some(self.give_command(p))
+    }
+
+    /// Leaves what the mission's body has entered; the mission itself and its overlays stay for the recovery.
+    fn leave_inside(&mut self, p: &Program, cause: Cause) {
+        let (id, base) = (p.mission.activity, p.mission.base);
+        let activity = &p.activities[id as usize];
+        let child = self.get(base + activity.header + header::CHILD);
+        if child > 0.0 {
+            let cause = if cause == Cause::TimedOut { Cause::Preempted } else { cause };
+            match &activity.body {
+                albacore_program::Body::Table(table) => {
+                    self.leave(p, table.behaviors[child as usize - 1].activity, base, cause);
+                }
+                _ => {
+                    let site = &p.calls[child as usize - 1];
+                    self.leave(p, site.activity, base + site.base, cause);
+                }
+            }
+        }
+        self.set(base + activity.header + header::CHILD, 0.0);
+        self.set(base + activity.header + header::PC, header::ENDED);
+    }
+
+    fn step_recovery(&mut self, p: &Program, outcome: Outcome, since: u64) -> Option<Command> {
+        let Some(recovery) = p.mission.recovery else { return self.over(p, outcome) };
+        let base = p.mission.base;
+        let mission = &p.activities[p.mission.activity as usize];
+        // Overlays stay in force; their aborts do not: there is nothing left to abort.
+        self.execute(p, mission.refresh, base);
+        self.step_overlays(p, mission, base);
+        self.abort = None;
+        let time_is_up = match &recovery.within {
+            Some(code) => (self.state.tick - since) as f64 >= self.number(p, code),
+            None => false,
+        };
+        let status = self.step(p, recovery.activity, base);
+        self.abort = None;
+        if time_is_up || status == Status::Ended {
+            return self.over(p, outcome);
+        }
+        Some(self.give_command(p))
+    }
+
+    /// The end: everything is left, nothing more is commanded.
+    fn over(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
+        if matches!(self.state.phase, Phase::Over(_)) {
+            return None;
+        }
+        let cause = match outcome {
+            Outcome::Completed => Cause::Done,
+            Outcome::TimedOut => Cause::TimedOut,
+            _ => Cause::Aborted,
+        };
+        let base = p.mission.base;
+        if let Some(recovery) = p.mission.recovery {
+            self.leave(p, recovery.activity, base, Cause::Preempted);
+        }
+        self.leave(p, p.mission.activity, base, cause);
+        self.state.phase = Phase::Over(outcome);
+        self.events.push(Event::Ended(outcome));
+        None
+    }
+}

@@ -1,0 +1,131 @@
+//! The state of a run: one plain value.
+
+use crate::Outcome;
+use albacore_geometry::Heading;
+use albacore_program::Slot;
+use albacore_vehicle::{Command, Control, Vertical};
+use serde::{Deserialize, Serialize};
+
+/// Everything that a run remembers from one tick to the next.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Inputs first, then the mission's frame with all that is inside it.
+    pub words: Vec<f64>,
+    /// The tick that comes next.
+    pub tick: u64,
+    /// What the mission is about.
+    pub phase: Phase,
+    /// What was asked last, before amendments and limits.
+    pub(crate) asked: Asked,
+    /// What was commanded last.
+    pub command: Option<Command>,
+    /// The course behind the command filter.
+    pub(crate) filtered: Heading,
+    /// Who drove last.
+    pub(crate) control: Control,
+    /// The mission's limits, once it runs.
+    pub(crate) limits: Limits,
+    /// For each overlay site whether it is changing the course; for each channel whether a limit holds it back.
+    pub(crate) amending: Vec<bool>,
+    pub(crate) limited: [bool; 3],
+    /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
+    pub(crate) requires: Vec<Requirement>,
+    /// The mission's time limit in ticks.
+    pub(crate) within: Option<f64>,
+    /// Channels that overlays set in this tick.
+    pub(crate) overridden: Overridden,
+}
+
+/// Where a mission is in its life.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Phase {
+    /// Before control is ours and the required inputs have come.
+    Waiting,
+    /// Under way.
+    Running,
+    /// A required input is stale: the vehicle stays, since this many ticks.
+    Holding(u64),
+    /// After a time-out or an abort, which will be the outcome, since this tick.
+    Recovering(Outcome, u64),
+    /// Ended.
+    Over(Outcome),
+}
+
+/// What a statement asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Asked {
+    pub course: Heading,
+    /// Over ground; otherwise through the water.
+    pub over_ground: bool,
+    pub speed: f64,
+    pub vertical: Vertical,
+}
+
+/// Limits as numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Limits {
+    pub altitude: (f64, f64),
+    pub depth: (f64, f64),
+    pub speed: (f64, f64),
+}
+
+impl Limits {
+    pub const NONE: Limits = Limits { altitude: (0.0, f64::MAX), depth: (0.0, f64::MAX), speed: (0.0, f64::MAX) };
+}
+
+/// A required input as numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Requirement {
+    pub fresh: f64,
+    pub patience: Option<f64>,
+    pub stale: bool,
+}
+
+/// Channels that overlays set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Overridden {
+    pub vertical: Option<Vertical>,
+    pub speed: Option<f64>,
+}
+
+/// A run in the middle of a tick: its state, and what has happened so far.
+pub(crate) struct Run {
+    pub state: State,
+    pub events: Vec<Event>,
+    /// An overlay is being stepped: what it keeps is an override.
+    pub in_overlay: bool,
+    /// Why the mission is aborted, when it is.
+    pub abort: Option<String>,
+    pub senses: Senses,
+}
+
+use crate::Event;
+
+/// Where the inputs are that guidance itself reads; absolute slots of their blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Senses {
+    pub position: Option<Slot>,
+    pub course: Option<Slot>,
+    pub heading: Option<Slot>,
+    pub flow: Option<Slot>,
+    pub depth: Option<Slot>,
+    pub water_depth: Option<Slot>,
+}
+
+impl Run {
+    pub fn get(&self, slot: Slot) -> f64 {
+        self.state.words[slot as usize]
+    }
+
+    pub fn set(&mut self, slot: Slot, value: f64) {
+        self.state.words[slot as usize] = value;
+    }
+
+    pub fn slice(&self, slot: Slot, words: u32) -> &[f64] {
+        &self.state.words[slot as usize..(slot + words) as usize]
+    }
+
+    pub fn copy(&mut self, to: Slot, from: Slot, words: u32) {
+        self.state.words.copy_within(from as usize..(from + words) as usize, to as usize);
+    }
+}

@@ -1,0 +1,155 @@
+//! The lowered form of a checked mission: what the compiler gives and the machine executes. Plain data.
+//!
+//! Types and units are gone: every value is a run of 64-bit floating-point *words*, every name a *slot*, an offset from the
+//! base of the frame of the declaration that owns it. There is no recursion in the language, so the frame of everything that
+//! can ever be called has its place before launch, and the whole state of a run is one array of words.
+
+mod activity;
+pub mod number;
+mod op;
+mod shape;
+
+pub use activity::*;
+pub use op::*;
+pub use shape::*;
+
+use albacore_geometry::Geodetic;
+use serde::{Deserialize, Serialize};
+
+/// The version of this form. A journal of another version is not resumed.
+pub const PROGRAM_VERSION: u32 = 1;
+
+/// A whole mission, ready to run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Program {
+    /// All code.
+    pub ops: Vec<Op>,
+    /// Everything that can be active.
+    pub activities: Vec<Activity>,
+    /// Places where a body calls a behavior or a strategy.
+    pub calls: Vec<CallSite>,
+    /// Places where an overlay is put on.
+    pub overlays: Vec<OverlaySite>,
+    /// Switching rules, in textual order.
+    pub rules: Vec<Rule>,
+    /// Places that report.
+    pub reports: Vec<ReportSite>,
+    /// Texts with their holes: of `log` and `abort`.
+    pub texts: Vec<Text>,
+    /// Memories that rules change, for the trace.
+    pub memories: Vec<Watched>,
+    /// The inputs it reads.
+    pub inputs: Vec<Input>,
+    /// What belongs to the mission alone.
+    pub mission: Mission,
+    /// How many words a run needs in all: inputs first, then the mission's frame.
+    pub words: u32,
+}
+
+/// What belongs to the mission alone.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Mission {
+    /// Its name.
+    pub name: String,
+    /// Its activity.
+    pub activity: ActivityId,
+    /// The base of its frame.
+    pub base: Slot,
+    /// The slot of its operating area, in its frame.
+    pub area: Option<Slot>,
+    /// Its time limit, in ticks.
+    pub within: Option<Code>,
+    /// Where the local frame touches the globe.
+    pub origin: Option<Geodetic>,
+    /// What no command may exceed.
+    pub limits: Limits,
+    /// The inputs it cannot do without.
+    pub requires: Vec<Require>,
+    /// What runs once after a time-out or an abort.
+    pub recovery: Option<Recovery>,
+}
+
+/// A piece of code that leaves a value in a slot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Code {
+    /// Where it begins.
+    pub entry: Addr,
+    /// Where its value is afterwards.
+    pub value: Slot,
+}
+
+/// What no command may exceed: each is code, run at the mission's start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Metres above the bottom, at least.
+    pub altitude_min: Option<Code>,
+    /// Metres above the bottom, at most.
+    pub altitude_max: Option<Code>,
+    /// Metres below the surface, at least.
+    pub depth_min: Option<Code>,
+    /// Metres below the surface, at most.
+    pub depth_max: Option<Code>,
+    /// Metres per second through the water, at least.
+    pub speed_min: Option<Code>,
+    /// Metres per second through the water, at most.
+    pub speed_max: Option<Code>,
+}
+
+/// An input that the mission cannot do without.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Require {
+    /// Index into [`Program::inputs`].
+    pub input: u32,
+    /// The age in ticks beyond which it is stale.
+    pub fresh: Code,
+    /// What holds before the first sample.
+    pub at_first: Option<Code>,
+    /// How many ticks the mission holds before it aborts; none: it aborts at once.
+    pub hold_for: Option<Code>,
+}
+
+/// What runs once after a time-out or an abort.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Recovery {
+    /// The activity of its block, which shares the mission's frame.
+    pub activity: ActivityId,
+    /// Its time limit, in ticks.
+    pub within: Option<Code>,
+}
+
+/// An input of a program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Input {
+    /// Its name, which is also the name of the vehicle's channel.
+    pub name: String,
+    /// Where its block of words begins. Absolute, as inputs belong to no frame.
+    pub at: Slot,
+    /// The words of its latest sample, fields included.
+    pub width: u32,
+    /// How many of its last samples are kept for `hits`.
+    pub kept: u32,
+    /// Its shape, for the trace.
+    pub shape: Shape,
+}
+
+/// The layout of an input's block of words, from its start.
+impl Input {
+    /// The tick of the latest sample; negative before the first.
+    pub const STAMP: u32 = 0;
+    /// The largest first number since the last tick, or the latest value when no sample came.
+    pub const PEAK: u32 = 1;
+    /// How many samples have come in all.
+    pub const COUNT: u32 = 2;
+    /// The latest sample.
+    pub const VALUE: u32 = 3;
+
+    /// The words of its block.
+    pub fn words(&self) -> u32 {
+        Self::VALUE + self.width + self.kept
+    }
+
+    /// Where the ring of kept samples begins, from the start of the block.
+    pub fn ring(&self) -> u32 {
+        Self::VALUE + self.width
+    }
+}

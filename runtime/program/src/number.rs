@@ -1,0 +1,166 @@
+//! The one place where numbers become text: fixed decimals for each unit, so that traces compare line by line.
+
+use crate::{AREA_CORNER_WORDS, Display, Shape, Text, TextPart};
+use albacore_geometry::{Heading, Point, math};
+use albacore_vehicle::TICK_S;
+
+/// Ticks in a second, whole so that a time is printed without any arithmetic on fractions.
+const TICKS_PER_SECOND: u64 = 10;
+const _: () = assert!(TICK_S * TICKS_PER_SECOND as f64 == 1.0);
+
+/// Decimals of lengths in metres.
+const METRE_DECIMALS: u8 = 1;
+/// Decimals of speeds in metres per second.
+const SPEED_DECIMALS: u8 = 2;
+/// Decimals of angles in degrees.
+const DEGREE_DECIMALS: u8 = 1;
+/// A list longer than this is cut, and its count is given.
+const LIST_ELEMENTS_MAX: usize = 6;
+/// Numbers from here on are printed with an exponent.
+const PLAIN_MAX: f64 = 1e15;
+/// What stands for a number that is missing or is none.
+const UNKNOWN: &str = "?";
+
+/// A number with a fixed count of decimals. Never `-0.0`; `?` for what is not a number.
+pub fn fixed(x: f64, decimals: u8) -> String {
+    if x.is_nan() {
+        return UNKNOWN.to_string();
+    }
+    if x.is_infinite() || PLAIN_MAX <= x.abs() {
+        return format!("{x:e}");
+    }
+    let text = format!("{x:.*}", usize::from(decimals));
+    // Rounding makes a negative zero of every small negative number, so the sign is looked at after it.
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_string(),
+        _ => text,
+    }
+}
+
+/// The time of a tick in seconds, right-aligned in nine characters: `  412.3 s`.
+pub fn seconds(tick: u64) -> String {
+    format!("{:>5}.{} s", tick / TICKS_PER_SECOND, tick % TICKS_PER_SECOND)
+}
+
+/// A length in metres: `2.0 m`.
+pub fn metres(length_m: f64) -> String {
+    format!("{} m", fixed(length_m, METRE_DECIMALS))
+}
+
+/// A speed in metres per second: `1.50 m/s`.
+pub fn metres_per_second(speed_mps: f64) -> String {
+    format!("{} m/s", fixed(speed_mps, SPEED_DECIMALS))
+}
+
+/// North and east in metres: `(-405.6, 116.2) m`.
+pub fn point(p: Point) -> String {
+    format!("({}, {}) m", fixed(p.north, METRE_DECIMALS), fixed(p.east, METRE_DECIMALS))
+}
+
+/// A compass direction in degrees, without the unit: `291.0`. In [0, 360) as printed: 359.96 is `0.0`.
+pub fn compass(angle_rad: f64) -> String {
+    if !angle_rad.is_finite() {
+        return UNKNOWN.to_string();
+    }
+    let text = fixed(Heading::from_radians(angle_rad).degrees(), DEGREE_DECIMALS);
+    if text == "360.0" { "0.0".to_string() } else { text }
+}
+
+/// A compass direction: `291.0 deg`.
+pub fn heading(angle_rad: f64) -> String {
+    format!("{} deg", compass(angle_rad))
+}
+
+/// An angle, not a direction: `-12.5 deg`.
+pub fn angle(angle_rad: f64) -> String {
+    format!("{} deg", fixed(math::degrees(angle_rad), DEGREE_DECIMALS))
+}
+
+/// A quantity in the unit it is shown in: `5.2 %`.
+pub fn quantity(display: &Display, si: f64) -> String {
+    with_unit(fixed(si / display.scale, display.decimals), display)
+}
+
+fn with_unit(number: String, display: &Display) -> String {
+    if display.unit.is_empty() { number } else { format!("{number} {}", display.unit) }
+}
+
+/// A value as its shape reads its words. Words that are missing are printed as `?`.
+pub fn value(shape: &Shape, words: &[f64]) -> String {
+    value_with(&[], shape, words)
+}
+
+/// As [`value`], for a program whose texts are known.
+pub fn value_with(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
+    let word = |i: usize| words.get(i).copied().unwrap_or(f64::NAN);
+    let place = |i: usize| point(Point::new(word(i), word(i + 1)));
+    let first = word(0);
+    match shape {
+        Shape::Bool if first.is_nan() => UNKNOWN.to_string(),
+        Shape::Bool => (first != 0.0).to_string(),
+        Shape::Int => fixed(first, 0),
+        Shape::Quantity(display) => quantity(display, first),
+        Shape::Heading => heading(first),
+        Shape::Depth | Shape::Altitude => metres(first),
+        Shape::Point => place(0),
+        Shape::Vector(display) => {
+            let part = |i: usize| fixed(word(i) / display.scale, display.decimals);
+            with_unit(format!("({}, {})", part(0), part(1)), display)
+        }
+        Shape::Line | Shape::Edge => format!("{} to {}", place(0), place(2)),
+        Shape::Area => match index(first) {
+            Some(corners) if words.len() > corners * AREA_CORNER_WORDS as usize => format!("area of {corners} corners"),
+            _ => UNKNOWN.to_string(),
+        },
+        Shape::Text => text(texts, first),
+        Shape::Enum(variants) => {
+            index(first).and_then(|i| variants.get(i)).map_or_else(|| UNKNOWN.to_string(), String::clone)
+        }
+        Shape::Record(name, fields) => {
+            let mut at = 0;
+            let fields = fields.iter().map(|(label, shape)| {
+                let field = format!("{label}: {}", value_with(texts, shape, tail(words, at)));
+                at += shape.words() as usize;
+                field
+            });
+            format!("{name}({})", fields.collect::<Vec<_>>().join(", "))
+        }
+        Shape::Optional(_) if first.is_nan() => UNKNOWN.to_string(),
+        Shape::Optional(_) if first == 0.0 => "none".to_string(),
+        Shape::Optional(shape) => value_with(texts, shape, tail(words, 1)),
+        Shape::List(shape, capacity) => match index(first) {
+            Some(count) => list(texts, shape, count.min(*capacity as usize), tail(words, 1)),
+            None => UNKNOWN.to_string(),
+        },
+    }
+}
+
+fn list(texts: &[Text], shape: &Shape, count: usize, words: &[f64]) -> String {
+    let width = shape.words() as usize;
+    let mut elements: Vec<String> =
+        (0..count.min(LIST_ELEMENTS_MAX)).map(|i| value_with(texts, shape, tail(words, i * width))).collect();
+    if LIST_ELEMENTS_MAX < count {
+        elements.push(format!("… {count} in all"));
+    }
+    format!("[{}]", elements.join(", "))
+}
+
+/// A text by its index, in quotes; its holes, whose values are elsewhere, as `{}`.
+fn text(texts: &[Text], word: f64) -> String {
+    let Some(i) = index(word) else { return UNKNOWN.to_string() };
+    let Some(text) = texts.get(i) else { return format!("text {i}") };
+    let parts = text.parts.iter().map(|part| match part {
+        TextPart::Literal(literal) => literal.as_str(),
+        TextPart::Hole(_) => "{}",
+    });
+    format!("\"{}\"", parts.collect::<String>())
+}
+
+/// A word that counts or points, unless it is none.
+fn index(word: f64) -> Option<usize> {
+    (0.0..=f64::from(u32::MAX)).contains(&word).then_some(word as usize)
+}
+
+fn tail(words: &[f64], from: usize) -> &[f64] {
+    words.get(from..).unwrap_or(&[])
+}

@@ -1,0 +1,75 @@
+//! How words are read: the shape of a value, for traces, texts and the values of a scenario.
+
+use serde::{Deserialize, Serialize};
+
+/// What a run of words means.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Shape {
+    /// 0 or 1.
+    Bool,
+    /// A whole number.
+    Int,
+    /// An SI quantity.
+    Quantity(Display),
+    /// Radians clockwise from north.
+    Heading,
+    /// Metres below the surface.
+    Depth,
+    /// Metres above the bottom.
+    Altitude,
+    /// North and east, in metres.
+    Point,
+    /// North and east components.
+    Vector(Display),
+    /// Start and end.
+    Line,
+    /// A line and its outward normal.
+    Edge,
+    /// A count of corners, then for each corner its point and the outward normal of the edge that begins there.
+    Area,
+    /// Index into [`crate::Program::texts`].
+    Text,
+    /// The index of a variant.
+    Enum(Vec<String>),
+    /// Named fields, one after the other.
+    Record(String, Vec<(String, Shape)>),
+    /// 1 or 0, then the value, which means nothing after a 0.
+    Optional(Box<Shape>),
+    /// A count, then room for so many elements.
+    List(Box<Shape>, u32),
+}
+
+/// How a quantity is shown to a person.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Display {
+    /// The unit, as it is written.
+    pub unit: String,
+    /// SI units in one of it.
+    pub scale: f64,
+    /// Digits after the point.
+    pub decimals: u8,
+}
+
+/// An area's words for each corner: its point and the outward normal of the edge that begins there.
+pub const AREA_CORNER_WORDS: u32 = 4;
+/// Words of an area.
+pub const AREA_WORDS: u32 = 1 + AREA_CORNER_WORDS * albacore_geometry::AREA_CORNERS_MAX as u32;
+/// Words of an edge.
+pub const EDGE_WORDS: u32 = 6;
+
+impl Shape {
+    /// How many words it takes.
+    pub fn words(&self) -> u32 {
+        match self {
+            Shape::Bool | Shape::Int | Shape::Quantity(_) | Shape::Heading | Shape::Depth | Shape::Altitude => 1,
+            Shape::Text | Shape::Enum(_) => 1,
+            Shape::Point | Shape::Vector(_) => 2,
+            Shape::Line => 4,
+            Shape::Edge => EDGE_WORDS,
+            Shape::Area => AREA_WORDS,
+            Shape::Record(_, fields) => fields.iter().map(|(_, shape)| shape.words()).sum(),
+            Shape::Optional(shape) => 1 + shape.words(),
+            Shape::List(shape, capacity) => 1 + capacity * shape.words(),
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Where scripts come from: the project's folder, then the standard library inside the binary, nowhere else.
+
+use albacore_lang::source::{SOURCE_BYTES_MAX, Source};
+use albacore_lang::{Library, Script, nearest};
+use std::path::{Component, Path, PathBuf};
+
+/// The standard library, compiled in: an installed binary needs no checkout.
+const STDLIB: [(&str, &str); 6] = [
+    ("cpt", include_str!("../../../stdlib/cpt.alb")),
+    ("inputs", include_str!("../../../stdlib/inputs.alb")),
+    ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
+    ("safety", include_str!("../../../stdlib/safety.alb")),
+    ("search", include_str!("../../../stdlib/search.alb")),
+    ("world", include_str!("../../../stdlib/world.alb")),
+];
+
+/// Modules whose names every script knows.
+const PRELUDE: [&str; 2] = ["inputs", "world"];
+
+/// The file that marks a project's folder.
+const PROJECT_FILE: &str = "albacore.toml";
+
+/// A script that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct FileError {
+    /// What is wrong, with the path.
+    pub message: String,
+    /// How to mend it.
+    pub help: Option<String>,
+}
+
+/// The files of a project.
+#[derive(Clone, Debug)]
+pub struct Files {
+    root: PathBuf,
+}
+
+/// Reads and checks a script file. `mission` and `set` are as in [`albacore_lang::load`].
+pub fn load(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script, FileError> {
+    let source = read(path)?;
+    let files = Files::around(path);
+    Ok(albacore_lang::load(source, &files, mission, set))
+}
+
+/// Reads a source file as text.
+fn read(path: &Path) -> Result<Source, FileError> {
+    let name = path.display().to_string();
+    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
+    // A directory, a device or a pipe would answer with something else, or never.
+    if !metadata.is_file() {
+        let what = if metadata.is_dir() { "a folder" } else { "no ordinary file" };
+        return Err(FileError {
+            message: format!("`{name}` is {what}"),
+            help: Some("name a script, such as `mission.alb`".into()),
+        });
+    }
+    if metadata.len() > SOURCE_BYTES_MAX as u64 {
+        return Err(FileError { message: format!("`{name}` is larger than {SOURCE_BYTES_MAX} bytes"), help: None });
+    }
+    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(Source { name: name.into(), text: text.into() }),
+        Err(error) => {
+            let valid = error.utf8_error().valid_up_to();
+            let line = error.as_bytes()[..valid].iter().filter(|&&b| b == b'\n').count() + 1;
+            let message = format!("`{name}` is no text in UTF-8: line {line}");
+            Err(FileError { message, help: Some("save it as UTF-8".into()) })
+        }
+    }
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
+    let name = path.display().to_string();
+    if error.kind() != std::io::ErrorKind::NotFound {
+        return FileError { message: format!("`{name}` cannot be read: {}", plain(error)), help: None };
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut scripts: Vec<String> = scripts_in(folder);
+    scripts.sort();
+    let wanted = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let help = if let Some(near) = nearest(&wanted, scripts.iter().map(String::as_str)) {
+        Some(format!("did you mean `{}`?", folder.join(near).display()))
+    } else if !folder.is_dir() {
+        Some(format!("there is no folder `{}`", folder.display()))
+    } else if scripts.is_empty() {
+        Some(format!("`{}` holds no scripts", folder.display()))
+    } else {
+        Some(format!("`{}` holds {}", folder.display(), scripts.join(", ")))
+    };
+    FileError { message: format!("there is no file `{name}`"), help }
+}
+
+/// An error of the system without its number.
+fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or(&text).to_lowercase()
+}
+
+fn scripts_in(folder: &Path) -> Vec<String> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).filter(|n| n.ends_with(".alb")).collect()
+}
+
+impl Files {
+    /// The project that a script belongs to: the nearest folder above it with an `albacore.toml`, else its own folder.
+    pub fn around(script: &Path) -> Self {
+        let own = script.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_path_buf();
+        let absolute = std::path::absolute(&own).unwrap_or_else(|_| own.clone());
+        let mut root = own.clone();
+        for (up, folder) in absolute.ancestors().enumerate() {
+            if folder.join(PROJECT_FILE).is_file() {
+                root = own.clone();
+                for _ in 0..up {
+                    root = if root.as_os_str().is_empty() || root == Path::new(".") {
+                        root.join("..")
+                    } else {
+                        parent(&root)
+                    };
+                }
+                break;
+            }
+        }
+        Files { root }
+    }
+
+    /// The names that `use` can give.
+    fn known(&self) -> Vec<String> {
+        let mut names: Vec<String> =
+            scripts_in(&self.root).into_iter().map(|n| n.trim_end_matches(".alb").to_string()).collect();
+        names.extend(STDLIB.iter().map(|(n, _)| (*n).to_string()));
+        names.sort();
+        names.dedup();
+        names
+    }
+}
+
+fn parent(path: &Path) -> PathBuf {
+    match path.components().next_back() {
+        Some(Component::Normal(_)) => path.parent().map_or_else(|| path.join(".."), Path::to_path_buf),
+        _ => path.join(".."),
+    }
+}
+
+fn stdlib(name: &str) -> Option<Source> {
+    let (name, text) = STDLIB.iter().find(|(n, _)| *n == name)?;
+    Some(Source { name: format!("stdlib/{name}.alb").into(), text: (*text).into() })
+}
+
+impl Library for Files {
+    fn prelude(&self) -> Vec<Source> {
+        PRELUDE.iter().filter_map(|name| stdlib(name)).collect()
+    }
+
+    fn module(&self, _importer: &Source, path: &[String]) -> Result<Source, String> {
+        // Names are letters, digits and underscores: they cannot lead out of the folder.
+        let file = path.iter().fold(self.root.clone(), |folder, part| folder.join(part)).with_extension("alb");
+        if file.exists() {
+            let inside = match (file.canonicalize(), self.root.canonicalize()) {
+                (Ok(file), Ok(root)) => file.starts_with(root),
+                _ => false,
+            };
+            if !inside {
+                return Err(format!("`{}` is a link that leads out of the project", file.display()));
+            }
+            return read(&file).map_err(|error| error.message);
+        }
+        if let [name] = path
+            && let Some(source) = stdlib(name)
+        {
+            return Ok(source);
+        }
+        let known = self.known();
+        let wanted = path.join(".");
+        Err(match nearest(&wanted, known.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there is {}", known.join(", ")),
+        })
+    }
+}

@@ -1,0 +1,15 @@
+//! Load, check and step a mission: the few types that the command line, the tests and the prompt all use.
+
+mod files;
+mod picture;
+mod run;
+mod scenario;
+mod summary;
+
+pub use albacore_lang::Script;
+pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
+pub use albacore_lang::source::{FileId, Source, Sources};
+pub use albacore_machine::Outcome;
+pub use files::{FileError, Files, load};
+pub use run::{Plan, PlanError, Run, Running};
+pub use summary::{Report, Summary};

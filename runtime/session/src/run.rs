@@ -1,0 +1,395 @@
+//! One run of a mission in a simulated world, tick by tick, with its trace, digest and picture.
+
+use crate::picture;
+use crate::scenario;
+use crate::summary::{Report, Summary};
+use albacore_geometry::{Point, TangentFrame, Vector};
+use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::{Script, suggestion};
+use albacore_machine::{Event, Machine, Outcome};
+use albacore_program::{Program, Shape};
+use albacore_sim::{Scenario, Simulator};
+use albacore_trace::{BehaviorTrace, Digest, Header};
+use albacore_vehicle::{Snapshot, TICK_S, Vehicle, Vertical};
+use std::sync::Arc;
+
+/// A run takes this many ticks at most: ten days.
+const TICKS_MAX: u64 = 8_640_000;
+/// Ticks between the points of the track that the picture draws.
+const TRACK_EVERY_TICKS: u64 = 5;
+/// Detections in the picture: readings at or above this share of full scale, the papers' threshold.
+const DETECTION: f64 = 0.04;
+
+/// A mission and the world it runs in, ready to run with any seed.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The mission.
+    pub program: Arc<Program>,
+    /// The world.
+    pub scenario: Arc<Scenario>,
+    /// The world's name.
+    pub scenario_name: String,
+}
+
+/// Why a script cannot be run as asked.
+#[derive(Debug)]
+pub enum PlanError {
+    /// The script has errors.
+    Script(Vec<Diagnostic>),
+    /// What was asked for does not exist or makes no sense: message and help.
+    Asked(String, Option<String>),
+}
+
+impl Plan {
+    /// Chooses the mission (by name, else the one named like the file, else the only one) and the scenario (by name, else
+    /// the mission's own).
+    pub fn new(script: &Script, file: &str, mission: Option<&str>, scenario: Option<&str>) -> Result<Self, PlanError> {
+        let names: Vec<&str> = script.missions().map(|m| m.name.as_str()).collect();
+        let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = match mission {
+            Some(name) if names.contains(&name) => name.to_string(),
+            Some(name) => {
+                let message = format!("`{file}` has no mission `{name}`");
+                return Err(PlanError::Asked(message, suggestion(name, names.iter().copied())));
+            }
+            None if names.contains(&stem.as_str()) => stem,
+            None => match names.as_slice() {
+                [only] => (*only).to_string(),
+                [] => {
+                    return Err(PlanError::Asked(
+                        format!("`{file}` has no mission"),
+                        Some("write `mission NAME { … }`".into()),
+                    ));
+                }
+                several => {
+                    let message = format!("`{file}` has several missions");
+                    let help = format!("choose one with `--mission`: {}", several.join(", "));
+                    return Err(PlanError::Asked(message, Some(help)));
+                }
+            },
+        };
+        let program = match script.mission(&name) {
+            Some(Ok(program)) => program,
+            Some(Err(findings)) => return Err(PlanError::Script(findings)),
+            None => return Err(PlanError::Asked(format!("`{file}` has no mission `{name}`"), None)),
+        };
+        let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
+        let known: Vec<&str> = script.scenarios().collect();
+        let Some(wanted) = scenario.map(str::to_string).or(own) else {
+            let message = format!("in which world does the mission `{name}` run?");
+            let help =
+                format!("name one with `--in`, or write `mission {name} in SCENARIO`; there is {}", known.join(", "));
+            return Err(PlanError::Asked(message, Some(help)));
+        };
+        let lowered = match script.scenario(&wanted, program.mission.origin) {
+            Some(Ok(lowered)) => lowered,
+            Some(Err(findings)) => return Err(PlanError::Script(findings)),
+            None => {
+                let message = format!("there is no scenario `{wanted}`");
+                return Err(PlanError::Asked(message, suggestion(&wanted, known.iter().copied())));
+            }
+        };
+        let world = scenario::scenario(&lowered).map_err(|what| PlanError::Asked(what, None))?;
+        world.validate().map_err(|error| {
+            let message = format!("the scenario `{}` cannot be", lowered.name);
+            PlanError::Asked(message, Some(error.faults.join("; ")))
+        })?;
+        Ok(Plan { program: Arc::new(program), scenario: Arc::new(world), scenario_name: lowered.name })
+    }
+}
+
+/// A run under way.
+pub struct Run {
+    plan: Plan,
+    seed: u64,
+    machine: Machine,
+    vehicle: Simulator,
+    snapshot: Snapshot,
+    trace: BehaviorTrace,
+    digest: Digest,
+    reports: Vec<Report>,
+    reason: String,
+    switches: u64,
+    path_length_m: f64,
+    last_truth: Point,
+    picture: picture::Sketch,
+    asked_for_control: bool,
+}
+
+/// Whether a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Running {
+    /// It goes on.
+    On,
+    /// It has ended so.
+    Over(Outcome),
+}
+
+impl Run {
+    /// A run with a seed, at its first tick.
+    pub fn new(plan: &Plan, seed: u64) -> Result<Self, PlanError> {
+        let vehicle = Simulator::new(&plan.scenario, seed)
+            .map_err(|error| PlanError::Asked("the scenario cannot be".into(), Some(error.faults.join("; "))))?;
+        let machine = Machine::new(Arc::clone(&plan.program), vehicle.channels())
+            .map_err(|missing| PlanError::Asked(missing.to_string(), None))?;
+        let header = Header {
+            mission: plan.program.mission.name.clone(),
+            scenario: plan.scenario_name.clone(),
+            seed,
+            tick_s: TICK_S,
+        };
+        let trace = BehaviorTrace::new(&plan.program, &header);
+        let last_truth = vehicle.truth().position;
+        Ok(Run {
+            plan: plan.clone(),
+            seed,
+            machine,
+            vehicle,
+            snapshot: Snapshot::default(),
+            trace,
+            digest: Digest::new(),
+            reports: Vec::new(),
+            reason: String::new(),
+            switches: 0,
+            path_length_m: 0.0,
+            last_truth,
+            picture: picture::Sketch::default(),
+            asked_for_control: false,
+        })
+    }
+
+    /// The tick that comes next.
+    pub fn tick(&self) -> u64 {
+        self.machine.state().tick
+    }
+
+    /// The names of the active activities, from outside in.
+    pub fn active(&self) -> Vec<&str> {
+        let program = self.machine.program();
+        self.machine.active().into_iter().map(|id| program.activities[id as usize].name.as_str()).collect()
+    }
+
+    /// Lets one tick go by.
+    pub fn step(&mut self) -> Running {
+        if let Some(outcome) = self.machine.outcome() {
+            return Running::Over(outcome);
+        }
+        let tick = self.tick();
+        if tick >= TICKS_MAX {
+            return self.end(Outcome::Failed, "the run is longer than ten days");
+        }
+        if let Err(error) = self.vehicle.sense(&mut self.snapshot) {
+            return self.end(Outcome::Failed, &error.to_string());
+        }
+        if !self.asked_for_control {
+            self.asked_for_control = true;
+            if let Err(error) = self.vehicle.take_over() {
+                return self.end(Outcome::Failed, &error.to_string());
+            }
+        }
+        let command = self.machine.step(&self.snapshot);
+        if let Some(command) = command
+            && let Err(error) = self.vehicle.command(&command)
+        {
+            return self.end(Outcome::Failed, &error.to_string());
+        }
+        let events = self.machine.events().to_vec();
+        self.note(tick, &events);
+        match self.machine.outcome() {
+            Some(outcome) => self.finish(outcome),
+            None => Running::On,
+        }
+    }
+
+    /// Runs to the end.
+    pub fn to_end(&mut self) -> Outcome {
+        loop {
+            if let Running::Over(outcome) = self.step() {
+                return outcome;
+            }
+        }
+    }
+
+    /// Ends the run because the person says so.
+    pub fn interrupt(&mut self) -> Running {
+        self.end(Outcome::Interrupted, "interrupted")
+    }
+
+    fn end(&mut self, outcome: Outcome, reason: &str) -> Running {
+        let tick = self.tick();
+        self.reason = reason.to_string();
+        let events = self.machine.end(outcome).to_vec();
+        self.note(tick, &events);
+        self.finish(outcome)
+    }
+
+    /// The release is always the last act.
+    fn finish(&mut self, outcome: Outcome) -> Running {
+        let released = self.vehicle.release();
+        if let Err(error) = released {
+            self.reason = error.to_string();
+        }
+        self.trace.finish(outcome, self.tick(), &self.digest);
+        Running::Over(outcome)
+    }
+
+    /// Takes down what happened in a tick.
+    fn note(&mut self, tick: u64, events: &[Event]) {
+        let truth = self.vehicle.truth();
+        self.hash(tick, events);
+        self.path_length_m += truth.position.distance(self.last_truth);
+        self.last_truth = truth.position;
+        let believed = self.machine.position();
+        for event in events {
+            match event {
+                Event::Switched { .. } => self.switches += 1,
+                Event::Reported(site, words) => self.report(tick, *site, words),
+                Event::Aborted(why) => self.reason.clone_from(why),
+                Event::TimedOut => self.reason = "time limit".to_string(),
+                _ => {}
+            }
+        }
+        self.trace.tick(tick, believed, events);
+        self.trace.sample(tick, believed, Some(truth.heading), Some(truth.depth));
+        if tick.is_multiple_of(TRACK_EVERY_TICKS) || !events.is_empty() {
+            if let Some(behavior) = self.shown_behavior() {
+                self.picture.track(believed.unwrap_or(truth.position), behavior);
+            }
+        }
+        let chemical = self.vehicle.channels().iter().position(|c| c.name == "chemical");
+        let detected =
+            self.snapshot.samples.iter().any(|s| Some(s.channel as usize) == chemical && s.reading[0] >= DETECTION);
+        if detected && self.plan.scenario.plume.is_some() {
+            self.picture.detection(believed.unwrap_or(truth.position));
+        }
+    }
+
+    /// What the track is coloured by: the innermost behavior of a table, else the outermost activity inside the mission.
+    fn shown_behavior(&self) -> Option<String> {
+        let program = self.machine.program();
+        let active = self.machine.active();
+        let in_table = |id: &u32| {
+            program.activities.iter().any(|a| match &a.body {
+                albacore_program::Body::Table(table) => table.behaviors.iter().any(|b| b.activity == *id),
+                _ => false,
+            })
+        };
+        let id = active.iter().rev().find(|id| in_table(id)).or(active.get(1)).or(active.first())?;
+        Some(program.activities[*id as usize].name.clone())
+    }
+
+    /// The full-rate run: every sample, every command, every event.
+    fn hash(&mut self, tick: u64, events: &[Event]) {
+        let digest = &mut self.digest;
+        digest.word(tick);
+        for sample in &self.snapshot.samples {
+            digest.word(u64::from(sample.channel));
+            digest.numbers(&sample.reading);
+        }
+        if let Some(command) = self.machine.state().command {
+            digest.number(command.heading.radians());
+            digest.number(command.speed);
+            match command.vertical {
+                Vertical::Depth(metres) => digest.number(metres),
+                Vertical::Altitude(metres) => digest.number(-metres),
+            }
+        }
+        for event in events {
+            digest.text(&format!("{event:?}"));
+        }
+    }
+
+    fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
+        let program = Arc::clone(&self.plan.program);
+        let site = &program.reports[site as usize];
+        let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
+        let frame = program.mission.origin.map(|origin| TangentFrame { origin });
+        let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
+        let error_m = place.and_then(|p| {
+            self.plan
+                .scenario
+                .sources
+                .iter()
+                .map(|s| s.at.distance(p))
+                .fold(None, |least: Option<f64>, d| Some(least.map_or(d, |l| l.min(d))))
+        });
+        if let Some(place) = place {
+            self.picture.declared(&site.name, place);
+        }
+        self.reports.push(Report {
+            name: site.name.clone(),
+            t_s: tick as f64 / (1.0 / TICK_S),
+            north_m: place.map(|p| p.north),
+            east_m: place.map(|p| p.east),
+            latitude_deg: globe.map(|g| g.latitude_deg()),
+            longitude_deg: globe.map(|g| g.longitude_deg()),
+            error_m,
+        });
+    }
+
+    /// The result; `wall_s` is measured by who ran it.
+    pub fn summary(&self, wall_s: f64) -> Summary {
+        let outcome = self.machine.outcome().map_or("running", Outcome::name);
+        Summary {
+            mission: self.plan.program.mission.name.clone(),
+            scenario: self.plan.scenario_name.clone(),
+            seed: self.seed,
+            outcome,
+            reason: self.reason.clone(),
+            ticks: self.tick(),
+            sim_time_s: self.tick() as f64 / (1.0 / TICK_S),
+            wall_s,
+            path_length_m: self.path_length_m,
+            switches: self.switches,
+            reports: self.reports.clone(),
+            digest: self.digest.to_string(),
+        }
+    }
+
+    /// The behavior trace so far.
+    pub fn trace(&self) -> &BehaviorTrace {
+        &self.trace
+    }
+
+    /// The picture of the run so far, as SVG.
+    pub fn svg(&self) -> String {
+        let program = &self.plan.program;
+        let area = program.mission.area.map(|slot| {
+            let at = (program.mission.base + slot) as usize;
+            let words = &self.machine.state().words[at..];
+            let corner = |i: usize| 1 + albacore_program::AREA_CORNER_WORDS as usize * i;
+            (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
+        });
+        let summary = self.summary(0.0);
+        let scenario = &self.plan.scenario;
+        let flow = (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean);
+        let sources = scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect();
+        self.picture.svg(
+            &summary,
+            area.unwrap_or_default(),
+            self.vehicle.filaments().collect(),
+            sources,
+            scenario.vehicle.start,
+            flow,
+        )
+    }
+}
+
+/// The point that a reported value is, or begins with.
+fn first_point(shape: Option<&Shape>, words: &[f64]) -> Option<Point> {
+    let point = |at: usize| Some(Point::new(*words.get(at)?, *words.get(at + 1)?));
+    match shape? {
+        Shape::Point => point(0),
+        Shape::Record(_, fields) => {
+            let mut at = 0;
+            for (_, shape) in fields {
+                if matches!(shape, Shape::Point) {
+                    return point(at);
+                }
+                at += shape.words() as usize;
+            }
+            None
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,51 @@
+//! The result of a run, as `run --json` prints it.
+
+use serde::Serialize;
+
+/// The result of a run. Names and units are fixed (DESIGN of the command line): scripts rely on them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The mission's name.
+    pub mission: String,
+    /// The scenario's name.
+    pub scenario: String,
+    /// The seed.
+    pub seed: u64,
+    /// `completed`, `timed_out`, `aborted`, …
+    pub outcome: &'static str,
+    /// Why, when there is something to say.
+    pub reason: String,
+    /// Ticks lived.
+    pub ticks: u64,
+    /// The same in seconds.
+    pub sim_time_s: f64,
+    /// Seconds on the wall, measured by who ran it; no part of the digest.
+    pub wall_s: f64,
+    /// The way over ground, in metres.
+    pub path_length_m: f64,
+    /// How many rules fired.
+    pub switches: u64,
+    /// What was reported.
+    pub reports: Vec<Report>,
+    /// The digest of the full-rate run.
+    pub digest: String,
+}
+
+/// Something that was reported.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Its name.
+    pub name: String,
+    /// When, in seconds.
+    pub t_s: f64,
+    /// Where, in the mission's frame, when a position was reported.
+    pub north_m: Option<f64>,
+    /// Where, in the mission's frame.
+    pub east_m: Option<f64>,
+    /// Where on the globe, when the frame lies on it.
+    pub latitude_deg: Option<f64>,
+    /// Where on the globe.
+    pub longitude_deg: Option<f64>,
+    /// In simulation the distance to the nearest true source.
+    pub error_m: Option<f64>,
+}

@@ -1,0 +1,25 @@
+//! The world of a simulated run: water that flows and meanders, a chemical plume, a bottom, a vehicle and its sensors.
+//!
+//! A [`Scenario`] states the world in plain numbers, a [`Simulator`] runs it behind the one port of `albacore-vehicle`.
+//! Metres, seconds, radians; points in the north/east tangent frame; depths positive down. The same scenario and seed give
+//! the same bits in debug and release: every random number is a pure function of seed, stream and index ([`Noise`]).
+
+mod bottom;
+mod kinematics;
+mod noise;
+mod normal;
+mod plume;
+pub mod presets;
+mod scenario;
+mod sensors;
+mod simulator;
+mod validate;
+mod water;
+mod world;
+
+pub use noise::{Noise, Stream};
+pub use scenario::{
+    Adcp, Bottom, Flow, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Plume, Scenario, Source, UpperFlow,
+};
+pub use simulator::{CHANNELS, Simulator, Truth};
+pub use validate::ScenarioError;

@@ -1,0 +1,163 @@
+//! Random numbers as a pure function of seed, stream and index, so that any draw can be made at any time in any order.
+
+use crate::normal::inverse_normal;
+
+/// 2^64 over the golden ratio, odd: the increment of SplitMix64.
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// What a stream of random numbers is used for: one each, so that a new sensor changes no other's noise.
+///
+/// The numbers are part of every recorded run. Never renumber.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u64)]
+pub enum Stream {
+    /// Coloured noise at the corners of the flow grid.
+    FlowCorners = 1,
+    /// Times between releases; one sub-stream a source.
+    Release = 2,
+    /// Horizontal diffusion of filaments; one sub-stream a source.
+    Diffusion = 3,
+    /// Vertical diffusion of filaments; one sub-stream a source.
+    VerticalDiffusion = 4,
+    /// Altitude wobble of the vehicle.
+    AltitudeJitter = 5,
+    /// Noise of the chemical sensor.
+    Fluorometer = 6,
+    /// False alarms of the chemical sensor.
+    FalseAlarm = 7,
+    /// Noise of the acoustic Doppler current profiler.
+    Adcp = 8,
+    /// Noise of the velocity over ground that dead reckoning integrates.
+    GroundVelocity = 9,
+    /// Noise of the acoustic position fixes.
+    Lbl = 10,
+}
+
+/// One stream of random numbers of one run: a counter-based generator.
+///
+/// Draw `i` is SplitMix64's finaliser over `key + (i + 1) * 0x9E3779B97F4A7C15` (Steele, Lea & Flood, OOPSLA 2014), where the
+/// key is a mixing of the run's seed with the stream: a stream is SplitMix64 begun at a random place of its period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Noise {
+    key: u64,
+}
+
+impl Noise {
+    /// The stream of a run.
+    pub fn new(seed: u64, stream: Stream) -> Self {
+        Noise::sub(seed, stream, 0)
+    }
+
+    /// One of several like streams of a run: one for each source, say.
+    pub fn sub(seed: u64, stream: Stream, number: u32) -> Self {
+        let stream = (stream as u64) << 32 | u64::from(number);
+        Noise { key: mix(mix(seed.wrapping_add(GOLDEN)) ^ mix(stream.wrapping_mul(GOLDEN))) }
+    }
+
+    /// 64 random bits.
+    #[inline]
+    pub fn bits(self, index: u64) -> u64 {
+        mix(self.key.wrapping_add(index.wrapping_add(1).wrapping_mul(GOLDEN)))
+    }
+
+    /// Uniform in [0, 1): the top 53 bits.
+    #[inline]
+    pub fn uniform(self, index: u64) -> f64 {
+        (self.bits(index) >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+    }
+
+    /// Gaussian of mean 0 and standard deviation 1: the inverse normal distribution function of one uniform draw.
+    pub fn gaussian(self, index: u64) -> f64 {
+        // The middle of each of the 2^53 intervals, so that neither end of the line is ever drawn.
+        inverse_normal(((self.bits(index) >> 11) as f64 + 0.5) * (1.0 / 9_007_199_254_740_992.0))
+    }
+
+    /// Two nearly Gaussian numbers of mean 0 and variance 1 from a single draw, for where millions are needed.
+    ///
+    /// Each is a sum of four bytes, scaled: bounded by 3.45, excess kurtosis -0.3, on a lattice of 1/148. A filament sums
+    /// thousands of them, and the excess kurtosis of a sum of n is -0.3/n.
+    #[inline]
+    pub fn nearly_gaussian_pair(self, index: u64) -> (f64, f64) {
+        const EVEN_BYTES: u64 = 0x00FF_00FF_00FF_00FF;
+        let bits = self.bits(index);
+        let pairs = (bits & EVEN_BYTES) + (bits >> 8 & EVEN_BYTES);
+        let sums = pairs + (pairs >> 16);
+        // A byte has variance (256^2 - 1) / 12; four of them have mean 510.
+        const SCALE: f64 = 0.006_765_875_086_793_228;
+        let unit = |sum: u64| (f64::from((sum & 0xFFFF) as u32) - 510.0) * SCALE;
+        (unit(sums), unit(sums >> 32))
+    }
+}
+
+/// SplitMix64's finaliser: Stafford's mix 13.
+#[inline]
+fn mix(z: u64) -> u64 {
+    let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// SplitMix64 begun at 0 has published first outputs: index i of key 0 must be its i-th.
+    #[test]
+    fn the_generator_is_splitmix64() {
+        let zero = Noise { key: 0 };
+        assert_eq!(zero.bits(0), 0xE220_A839_7B1D_CDAF);
+        assert_eq!(zero.bits(1), 0x6E78_9E6A_A1B9_65F4);
+        assert_eq!(zero.bits(2), 0x06C4_5D18_8009_454F);
+    }
+
+    /// The first draws of a run's stream, for ever: they fix how the key is mixed. (Computed with another program.)
+    #[test]
+    fn first_draws_of_a_stream() {
+        let noise = Noise::new(1, Stream::Adcp);
+        assert_eq!((noise.bits(0), noise.bits(1)), (0xF60F_1037_BF2A_1436, 0x827B_9DAF_3675_3877));
+        assert_eq!(noise.uniform(0).to_bits(), 0x3FEE_C1E2_06F7_E542);
+        assert_eq!(noise.gaussian(0).to_bits(), 0x3FFC_3AF7_79B7_A884);
+        assert_eq!(Noise::sub(1, Stream::Diffusion, 1).bits(7), 0x80D9_4FC3_61FD_EFF2);
+    }
+
+    #[test]
+    fn moments_of_both_gaussians() {
+        let noise = Noise::new(3, Stream::Lbl);
+        let n = 200_000;
+        let moments = |draw: &dyn Fn(u64) -> f64| {
+            let power = |p: u32| (0..n).map(|i| (0..p).fold(1.0, |x, _| x * draw(i))).sum::<f64>() / n as f64;
+            (power(1), power(2), power(3), power(4))
+        };
+        for (draw, kurtosis) in [
+            (&(|i| noise.gaussian(i)) as &dyn Fn(u64) -> f64, 3.0),
+            (&|i| noise.nearly_gaussian_pair(i).0, 2.7),
+            (&|i| noise.nearly_gaussian_pair(i).1, 2.7),
+            (&|i| noise.nearly_gaussian_pair(i).0 * noise.nearly_gaussian_pair(i).1, 7.29),
+        ] {
+            let (mean, variance, skew, fourth) = moments(draw);
+            assert!(mean.abs() < 0.01, "mean {mean}");
+            assert!((variance - 1.0).abs() < 0.015, "variance {variance}");
+            assert!(skew.abs() < 0.05, "skewness {skew}");
+            assert!((fourth - kurtosis).abs() < 0.04 * kurtosis, "kurtosis {fourth} not {kurtosis}");
+        }
+    }
+
+    #[test]
+    fn streams_seeds_and_indices_are_unrelated() {
+        let n = 20_000;
+        let streams = [
+            Noise::new(1, Stream::Adcp),
+            Noise::new(2, Stream::Adcp),
+            Noise::new(1, Stream::Lbl),
+            Noise::sub(1, Stream::Adcp, 1),
+        ];
+        for (i, a) in streams.iter().enumerate() {
+            for b in &streams[i + 1..] {
+                let correlation = (0..n).map(|k| a.gaussian(k) * b.gaussian(k)).sum::<f64>() / n as f64;
+                assert!(correlation.abs() < 0.03, "{correlation}");
+            }
+            let next = (0..n).map(|k| a.gaussian(k) * a.gaussian(k + 1)).sum::<f64>() / n as f64;
+            assert!(next.abs() < 0.03, "{next}");
+        }
+    }
+}

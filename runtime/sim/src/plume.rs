@@ -1,0 +1,281 @@
+//! The plume: filaments released at the sources that drift with the water, diffuse, and grow (Farrell et al. 2002).
+
+mod kernel;
+mod nearby;
+mod release;
+
+pub use nearby::Nearby;
+
+use crate::noise::{Noise, Stream};
+use crate::scenario::{self, Scenario};
+use crate::water::{Cells, FlowFrame, Water};
+use albacore_vehicle::TICK_S;
+use kernel::Kernel;
+use release::Release;
+
+/// The plume is spun up in steps of this, s: its law does not depend on the step, so a coarse one will do.
+pub const SPIN_UP_STEP_S: f64 = 5.0;
+/// The spin-up lasts this many times the mean flow's time from the farthest source to the down-flow end.
+const SPIN_UP_TRANSITS: f64 = 1.15;
+
+/// The birth of a filament that has left the plume: later than any time.
+const GONE: f64 = f64::INFINITY;
+/// The ranks are closed when more than one in this many is gone.
+const GONE_SHARE: usize = 32;
+
+/// Filaments in a block.
+const BLOCK: usize = 64;
+
+/// An interval along the flow, m.
+#[derive(Clone, Copy, Debug)]
+struct Reach {
+    low: f64,
+    high: f64,
+}
+
+/// A puff of chemical at the end of the last step, in the coordinates of the flow frame (m); one cache line.
+#[derive(Clone, Copy, Debug)]
+pub struct Filament {
+    /// Which source released it, and as its how manieth.
+    source: u32,
+    number: u32,
+    /// When, s; [`GONE`] once it has left.
+    birth: f64,
+    x: f64,
+    y: f64,
+    /// Height above the bottom, m.
+    z: f64,
+    /// Its mean velocity over the step, m/s: between steps it moves on a straight line.
+    velocity: [f64; 3],
+}
+
+/// What a source needs for its filaments.
+#[derive(Clone, Debug)]
+struct Origin {
+    place: [f64; 3],
+    release: Release,
+    kernel: Kernel,
+}
+
+/// All filaments of a run.
+#[derive(Clone, Debug)]
+pub struct Plume {
+    settings: scenario::Plume,
+    origins: Vec<Origin>,
+    /// Horizontal and vertical diffusion of each source's filaments.
+    noises: Vec<(Noise, Noise)>,
+    filaments: Vec<Filament>,
+    /// Where each [`BLOCK`] of filaments is along the flow during the step: what was released together stays together.
+    blocks: Vec<Reach>,
+    /// How many have left and still stand in the ranks.
+    gone: usize,
+    /// Filaments leave the plume where they leave this box, m.
+    length: f64,
+    width: f64,
+    /// Time at the end of the last step, and how long that step was, s.
+    end: f64,
+    step: f64,
+    /// The same time in ticks, and the ticks of a step.
+    end_tick: u64,
+    step_ticks: u64,
+    /// Steps so far, spin-up included: the second half of every noise index.
+    steps: u64,
+    cells: Cells,
+}
+
+impl Plume {
+    /// The plume of a scenario, empty at `begin` seconds; none if the scenario has none.
+    pub fn new(scenario: &Scenario, frame: &FlowFrame, begin: f64, seed: u64) -> Option<Self> {
+        let settings = scenario.plume.clone()?;
+        let origins = scenario.sources.iter().zip(0..).map(|(source, number)| {
+            let (x, y) = frame.to_local(source.at);
+            Origin {
+                place: [x, y, source.height],
+                release: Release::new(Noise::sub(seed, Stream::Release, number), source.rate, begin),
+                kernel: Kernel::new(source, &settings),
+            }
+        });
+        let noises = (0..).take(scenario.sources.len()).map(|number| {
+            (Noise::sub(seed, Stream::Diffusion, number), Noise::sub(seed, Stream::VerticalDiffusion, number))
+        });
+        Some(Plume {
+            origins: origins.collect(),
+            noises: noises.collect(),
+            filaments: Vec::new(),
+            blocks: Vec::new(),
+            gone: 0,
+            length: frame.length,
+            width: frame.width,
+            end: begin,
+            step: SPIN_UP_STEP_S,
+            end_tick: 0,
+            step_ticks: (settings.step / TICK_S).round() as u64,
+            steps: 0,
+            cells: Cells::default(),
+            settings,
+        })
+    }
+
+    /// Fills the region: everything that was released before time 0.
+    pub fn spin_up(&mut self, water: &mut Water) {
+        let steps = (-self.end / SPIN_UP_STEP_S).round() as u64;
+        for left in (0..steps).rev() {
+            self.advance(-(left as f64) * SPIN_UP_STEP_S, water);
+        }
+    }
+
+    /// Computes steps until the plume is known up to a tick, and with it the water.
+    pub fn advance_to(&mut self, tick: u64, water: &mut Water) {
+        while self.end_tick < tick {
+            self.end_tick += self.step_ticks;
+            self.advance(self.end_tick as f64 * TICK_S, water);
+        }
+    }
+
+    /// The filaments alive at a time of the last step: where (m, in the flow frame) and how large (m).
+    pub fn alive(&self, time: f64) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
+        self.filaments.iter().filter(move |f| f.birth <= time).map(move |f| {
+            let place = f.at(self.end - time);
+            (place, self.origins[f.source as usize].kernel.squared_radius(time - f.birth).sqrt())
+        })
+    }
+
+    /// A bound of the largest squared radius, m2. Filaments stand in the order of the steps of their release, so that none is
+    /// older than the first alive by more than one step.
+    fn largest_squared_radius(&self) -> f64 {
+        let first = self.filaments.iter().find(|f| f.birth < GONE).map_or(self.end, |f| f.birth - SPIN_UP_STEP_S);
+        self.settings.initial_radius * self.settings.initial_radius + self.settings.growth * (self.end - first)
+    }
+
+    /// One step, to a time.
+    ///
+    /// x += u dt + sqrt(2 K dt) N, Euler: at 1 s and 0.125 m/s a step is shorter than a filament is wide. (pompy multiplies
+    /// the noise by dt, which makes the diffusivity depend on the time step.)
+    fn advance(&mut self, end: f64, water: &mut Water) {
+        (self.step, self.end) = (end - self.end, end);
+        water.advance_to(end);
+        water.frozen(end - 0.5 * self.step, &mut self.cells);
+        self.steps += 1;
+        self.drift();
+        self.release();
+    }
+
+    /// Moves what is alive and forgets what has left.
+    fn drift(&mut self) {
+        let (dt, per_dt, steps) = (self.step, 1.0 / self.step, self.steps);
+        let spread = (2.0 * self.settings.diffusivity * dt).sqrt();
+        let rise = (2.0 * self.settings.vertical * dt).sqrt();
+        let ceiling = self.settings.layer.filter(|_| rise > 0.0);
+        let (half_length, half_width) = (0.5 * self.length, 0.5 * self.width);
+        // Closing the ranks costs as much as a step: not for every one that leaves.
+        if self.gone * GONE_SHARE > self.filaments.len() {
+            self.filaments.retain(|f| f.birth < GONE);
+        }
+        self.gone = 0;
+        self.blocks.clear();
+        for block in self.filaments.chunks_mut(BLOCK) {
+            let mut reach = Reach::default();
+            for f in block {
+                let (horizontal, vertical) = self.noises[f.source as usize];
+                let index = f.noise_index(steps);
+                let (u, v) = self.cells.velocity(f.x, f.y);
+                let (nx, ny) = horizontal.nearly_gaussian_pair(index);
+                let (dx, dy) = (u * dt + spread * nx, v * dt + spread * ny);
+                reach.extend(f.x);
+                f.x += dx;
+                f.y += dy;
+                reach.extend(f.x);
+                (f.velocity[0], f.velocity[1]) = (dx * per_dt, dy * per_dt);
+                if let Some(ceiling) = ceiling {
+                    let z = reflected(f.z + rise * vertical.nearly_gaussian_pair(index).0, ceiling);
+                    f.velocity[2] = (z - f.z) * per_dt;
+                    f.z = z;
+                }
+                if (f.x - half_length).abs() > half_length || (f.y - half_width).abs() > half_width {
+                    f.birth = GONE;
+                    self.gone += 1;
+                }
+            }
+            self.blocks.push(reach);
+        }
+    }
+
+    /// Adds what was released during the step, each filament moved from its own moment of release on.
+    fn release(&mut self) {
+        for ((source, origin), &(horizontal, vertical)) in (0..).zip(&mut self.origins).zip(&self.noises) {
+            let [x, y, z] = origin.place;
+            let (u, v) = self.cells.velocity(x, y);
+            while let Some((number, birth)) = origin.release.before(self.end) {
+                let age = (self.end - birth).max(f64::MIN_POSITIVE);
+                let mut f = Filament { source, number, birth, x, y, z, velocity: [0.0; 3] };
+                let index = f.noise_index(self.steps);
+                let (nx, ny) = horizontal.nearly_gaussian_pair(index);
+                let spread = (2.0 * self.settings.diffusivity * age).sqrt();
+                f.x += u * age + spread * nx;
+                f.y += v * age + spread * ny;
+                if let Some(ceiling) = self.settings.layer {
+                    let rise = (2.0 * self.settings.vertical * age).sqrt();
+                    f.z = reflected(z + rise * vertical.nearly_gaussian_pair(index).0, ceiling);
+                }
+                f.velocity = [(f.x - x) / age, (f.y - y) / age, (f.z - z) / age];
+                if self.filaments.len().is_multiple_of(BLOCK) {
+                    self.blocks.push(Reach::default());
+                }
+                if let Some(block) = self.blocks.last_mut() {
+                    block.extend(x);
+                    block.extend(f.x);
+                }
+                self.filaments.push(f);
+            }
+        }
+    }
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Reach { low: f64::INFINITY, high: f64::NEG_INFINITY }
+    }
+}
+
+impl Reach {
+    #[inline]
+    fn extend(&mut self, x: f64) {
+        // Not `min` and `max`: those also cater for what is not a number.
+        self.low = if x < self.low { x } else { self.low };
+        self.high = if x > self.high { x } else { self.high };
+    }
+}
+
+impl Filament {
+    /// The draws of a filament at a step are its own, whatever else is alive.
+    fn noise_index(&self, step: u64) -> u64 {
+        u64::from(self.number) << 32 | (step & 0xFFFF_FFFF)
+    }
+
+    /// Where it was some seconds before the end of the step.
+    #[inline]
+    fn at(&self, before: f64) -> [f64; 3] {
+        let [u, v, w] = self.velocity;
+        [self.x - before * u, self.y - before * v, self.z - before * w]
+    }
+}
+
+/// When the spin-up begins, s: so long before 0 that the plume spans its box at 0.
+pub fn spin_up_begin(scenario: &Scenario) -> f64 {
+    if scenario.plume.is_none() {
+        return 0.0;
+    }
+    let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
+    let farthest = scenario.sources.iter().map(|s| frame.length - frame.to_local(s.at).0).fold(0.0, f64::max);
+    let transit = farthest / scenario.flow.mean.length();
+    -(SPIN_UP_TRANSITS * transit / SPIN_UP_STEP_S).ceil() * SPIN_UP_STEP_S
+}
+
+/// A height mirrored at the bottom and at the ceiling of the layer.
+fn reflected(z: f64, ceiling: f64) -> f64 {
+    let up = z.abs();
+    (if up > ceiling { 2.0 * ceiling - up } else { up }).clamp(0.0, ceiling)
+}
+
+#[cfg(test)]
+mod tests;

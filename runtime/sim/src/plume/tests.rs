@@ -1,0 +1,120 @@
+//! The plume's physics, each law against its own parameter.
+
+use super::*;
+use crate::presets;
+use crate::scenario::{Flow, Meander};
+use albacore_geometry::{Area, Heading, Point, Vector};
+
+/// A wide uniform flow with one source near its up-flow end.
+fn uniform(rate: f64, settings: scenario::Plume) -> Scenario {
+    Scenario {
+        region: Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0).ok(),
+        flow: Flow { mean: Vector::new(0.2, 0.0), ..Flow::default() },
+        plume: Some(settings),
+        sources: vec![scenario::Source { at: Point::new(-900.0, 0.0), rate, ..Default::default() }],
+        ..Scenario::default()
+    }
+}
+
+fn begun(scenario: &Scenario, begin: f64, seed: u64) -> (Plume, Water) {
+    scenario.validate().unwrap();
+    let water = Water::new(&scenario.flow, scenario.region.as_ref(), begin, seed);
+    (Plume::new(scenario, water.frame(), begin, seed).unwrap(), water)
+}
+
+fn squared(x: f64) -> f64 {
+    x * x
+}
+
+/// The diffusivity that the filaments show: the mean over all of displacement^2 / (2 age), along and across the flow.
+fn shown_diffusivity(step: f64, seed: u64) -> (f64, f64) {
+    let (mut plume, mut water) = begun(&uniform(4.0, scenario::Plume { step, ..Default::default() }), 0.0, seed);
+    plume.advance_to(10_000, &mut water);
+    let [x, y, _] = plume.origins[0].place;
+    let n = plume.filaments.len() as f64;
+    let mean = |square: &dyn Fn(&Filament, f64) -> f64| {
+        plume.filaments.iter().map(|f| square(f, plume.end - f.birth)).sum::<f64>() / n
+    };
+    let along = mean(&|f, age| squared(f.x - x - 0.2 * age) / (2.0 * age));
+    (along, mean(&|f, age| squared(f.y - y) / (2.0 * age)))
+}
+
+/// What it has caught elsewhere: noise times dt instead of its root, which halves the diffusivity with the step.
+#[test]
+fn the_diffusivity_is_the_parameter_whatever_the_step() {
+    for step in [0.5, 2.0] {
+        let (along, across) = shown_diffusivity(step, 11);
+        assert!((along / 0.027 - 1.0).abs() < 0.06, "{along} along, steps of {step} s");
+        assert!((across / 0.027 - 1.0).abs() < 0.06, "{across} across, steps of {step} s");
+    }
+}
+
+#[test]
+fn as_many_are_alive_as_are_released_in_a_transit() {
+    let scenario = uniform(1.0, scenario::Plume::default());
+    let begin = spin_up_begin(&scenario);
+    assert!(begin <= -9800.0);
+    let mut counts = Vec::new();
+    for seed in 0..4 {
+        let (mut plume, mut water) = begun(&scenario, begin, seed);
+        plume.spin_up(&mut water);
+        counts.push(plume.alive(plume.end).count() as f64);
+        plume.advance_to(10_000, &mut water);
+        counts.push(plume.alive(plume.end).count() as f64);
+    }
+    // From the source to the end of the margin: 1900 m + 60 m at 0.2 m/s; each count varies by its root, 99.
+    let mean = counts.iter().sum::<f64>() / counts.len() as f64;
+    assert!((mean - 9800.0).abs() < 120.0, "{counts:?}");
+}
+
+/// A layer fills evenly in the end, and nothing leaves it.
+#[test]
+fn vertical_mixing_fills_the_layer() {
+    let settings = scenario::Plume { vertical: 0.01, layer: Some(3.5), ..Default::default() };
+    let (mut plume, mut water) = begun(&uniform(2.0, settings), 0.0, 2);
+    plume.advance_to(20_000, &mut water);
+    assert!(plume.filaments.iter().all(|f| (0.0..=3.5).contains(&f.z)));
+    let old: Vec<f64> = plume.filaments.iter().filter(|f| plume.end - f.birth > 1000.0).map(|f| f.z).collect();
+    let mean = old.iter().sum::<f64>() / old.len() as f64;
+    let deviation = (old.iter().map(|z| squared(z - mean)).sum::<f64>() / old.len() as f64).sqrt();
+    assert!((mean - 1.75).abs() < 0.1 && (deviation - 3.5 / 12.0_f64.sqrt()).abs() < 0.06, "{mean} {deviation}");
+}
+
+#[test]
+fn one_search_for_a_neighbourhood_reads_the_same_bits_as_one_for_each_place() {
+    let scenario = presets::duck_2003();
+    let begin = spin_up_begin(&scenario);
+    let (mut plume, mut water) = begun(&scenario, begin, 4);
+    plume.spin_up(&mut water);
+    plume.advance_to(10, &mut water);
+    let mut shared = Nearby::default();
+    let mut read = 0;
+    for place in plume.alive(0.5).map(|(place, _)| place).step_by(97).collect::<Vec<_>>() {
+        for i in 0..10 {
+            let near = [place[0] + 0.2 * f64::from(i), place[1] - 0.1, 1.5];
+            let time = 0.1 * f64::from(i);
+            let once = shared.reading(&plume, near, time);
+            assert_eq!(once.to_bits(), Nearby::default().reading(&plume, near, time).to_bits());
+            read += usize::from(once > 0.0);
+        }
+    }
+    assert!(read > 500, "{read} places with chemical");
+}
+
+/// Between steps a filament moves on a line: it ends a step where it begins the next.
+#[test]
+fn nothing_jumps_between_steps() {
+    let scenario = Scenario {
+        flow: Flow { mean: Vector::new(0.2, 0.0), meander: Some(Meander::default()), ..Flow::default() },
+        ..uniform(1.0, scenario::Plume::default())
+    };
+    let (mut plume, mut water) = begun(&scenario, 0.0, 6);
+    plume.advance_to(3000, &mut water);
+    let before: Vec<_> = plume.alive(300.0).collect();
+    plume.advance_to(3010, &mut water);
+    let after: Vec<_> = plume.alive(300.0).collect();
+    assert_eq!(before.len(), after.len());
+    for (a, b) in before.iter().zip(&after) {
+        assert!((0..3).all(|i| (a.0[i] - b.0[i]).abs() < 1e-9) && (a.1 - b.1).abs() < 1e-12, "{a:?} {b:?}");
+    }
+}

@@ -1,0 +1,256 @@
+//! The simulator: one world, one vehicle in it, behind the port.
+
+use crate::kinematics::Kinematics;
+use crate::scenario::Scenario;
+use crate::sensors::{Fluorometer, Positioning, Profiler, View};
+use crate::validate::ScenarioError;
+use crate::world::World;
+use albacore_geometry::{Heading, Point, Vector};
+use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+
+/// What the simulator measures, in the order of its channel numbers: name, how many numbers, how often.
+pub const CHANNELS: [(&str, usize); 10] = [
+    ("position", 3),    // m north, m east, standard deviation in m an axis; every tick
+    ("course", 1),      // rad over ground; every tick
+    ("heading", 1),     // rad; every tick
+    ("speed", 1),       // m/s over ground; every tick
+    ("depth", 1),       // m; every tick
+    ("altitude", 1),    // m above the bottom; every tick
+    ("water_depth", 1), // m; every tick
+    ("flow", 2),        // m/s toward north and east, the mean of the last 200 s; every 2 s once there is one
+    ("chemical", 1),    // ratio of full scale; at the sensor's rate
+    ("battery", 1),     // ratio; every 10 s
+];
+
+const POSITION: u16 = 0;
+const COURSE: u16 = 1;
+const HEADING: u16 = 2;
+const SPEED: u16 = 3;
+const DEPTH: u16 = 4;
+const ALTITUDE: u16 = 5;
+const WATER_DEPTH: u16 = 6;
+const FLOW: u16 = 7;
+const CHEMICAL: u16 = 8;
+const BATTERY: u16 = 9;
+
+/// Ticks between battery readings.
+const BATTERY_TICKS: u64 = 100;
+/// The profiler measures this far above the vehicle, m: the middle of its bin of 0.75 to 1.25 m (the 2005 paper, App. B).
+const PROFILER_BIN_M: f64 = 1.0;
+/// A sample this near a tick, in ticks, is taken on it.
+const ON_THE_TICK: f64 = 1e-6;
+
+/// What is so, whatever the sensors say.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Truth {
+    /// Where the vehicle is.
+    pub position: Point,
+    /// Where its nose points.
+    pub heading: Heading,
+    /// Its direction over ground.
+    pub course: Heading,
+    /// Its speed over ground, m/s.
+    pub speed_over_ground: f64,
+    /// Its depth, m.
+    pub depth: f64,
+    /// Its height above the bottom, m.
+    pub altitude: f64,
+    /// The water's velocity where it is, m/s toward.
+    pub flow: Vector,
+    /// What a perfect chemical sensor without saturation would read, ratio of full scale.
+    pub concentration: f64,
+}
+
+/// A simulated vehicle in a simulated world.
+#[derive(Clone, Debug)]
+pub struct Simulator {
+    channels: Vec<Channel>,
+    world: World,
+    vehicle: Kinematics,
+    /// Where the chemical sensor's intake was a tick ago, and its height above the bottom (m).
+    intake: (Point, f64),
+    intake_ahead: f64,
+    positioning: Positioning,
+    profiler: Profiler,
+    fluorometer: Fluorometer,
+    endurance: f64,
+    control: Control,
+    command: Option<Command>,
+    truth: Truth,
+    /// The tick last sensed; none before the first.
+    tick: Option<u64>,
+}
+
+impl Simulator {
+    /// The world of a scenario before its first tick.
+    pub fn new(scenario: &Scenario, seed: u64) -> Result<Self, ScenarioError> {
+        scenario.validate()?;
+        let channels = CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect();
+        let world = World::new(scenario, seed);
+        let start = scenario.vehicle.start;
+        let altitude = world.water_depth(start) - scenario.vehicle.depth;
+        let mut simulator = Simulator {
+            channels,
+            vehicle: Kinematics::new(&scenario.vehicle, world.flow(start, altitude, 0.0), seed),
+            world,
+            intake: (start, 0.0),
+            intake_ahead: scenario.fluorometer.ahead,
+            positioning: Positioning::new(scenario.navigation.as_ref(), start, seed),
+            profiler: Profiler::new(scenario.adcp.noise, seed),
+            fluorometer: Fluorometer::new(&scenario.fluorometer, seed),
+            endurance: scenario.vehicle.endurance,
+            control: Control::Disconnected,
+            command: None,
+            truth: Truth::default(),
+            tick: None,
+        };
+        simulator.observe();
+        simulator.intake = simulator.intake_now();
+        Ok(simulator)
+    }
+
+    /// What is so at the tick last sensed.
+    pub fn truth(&self) -> Truth {
+        self.truth
+    }
+
+    /// Seconds since tick 0, at the tick last sensed.
+    pub fn time_s(&self) -> f64 {
+        self.tick.unwrap_or(0) as f64 * TICK_S
+    }
+
+    /// The plume's filaments now: where they are, and their radii (standard deviations of Gaussians) in metres.
+    pub fn filaments(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
+        self.world.filaments(self.time_s())
+    }
+
+    /// What a perfect chemical sensor without saturation would read now at a point and a height above the bottom (m): a ratio
+    /// of full scale. For pictures and statistics; the vehicle's own is in [`Simulator::truth`].
+    pub fn concentration(&self, p: Point, height: f64) -> f64 {
+        self.world.look_up(p, height, self.time_s())
+    }
+
+    /// Moves the world from the last tick to this one.
+    fn advance(&mut self, tick: u64) {
+        self.world.advance_to(tick);
+        let flow = self.world.flow(self.vehicle.position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
+        let command = if self.control == Control::InControl { self.command.as_ref() } else { None };
+        self.intake = self.intake_now();
+        self.vehicle.step(tick, command, flow, |p| self.world.water_depth(p));
+        self.positioning.step(tick, self.vehicle.ground_velocity, self.vehicle.position);
+    }
+
+    /// Notes what is so now.
+    fn observe(&mut self) {
+        let v = &self.vehicle;
+        let time = self.time_s();
+        let altitude = self.world.water_depth(v.position) - v.depth;
+        let (intake, height) = self.intake_now();
+        self.truth = Truth {
+            position: v.position,
+            heading: v.heading,
+            course: v.ground_velocity.toward(),
+            speed_over_ground: v.ground_velocity.length(),
+            depth: v.depth,
+            altitude,
+            flow: self.world.flow(v.position, altitude, time),
+            concentration: self.world.concentration(intake, height, time),
+        };
+    }
+
+    /// Where the chemical sensor's intake is, and its height above the bottom (m).
+    fn intake_now(&self) -> (Point, f64) {
+        let v = &self.vehicle;
+        let intake = v.position + self.intake_ahead * v.heading.unit();
+        (intake, (self.world.water_depth(intake) - v.depth).max(0.0))
+    }
+
+    fn sample_chemical(&mut self, tick: u64, snapshot: &mut Snapshot) {
+        let (to, to_height) = self.intake_now();
+        let (from, from_height) = self.intake;
+        while let Some((sample, time)) = self.fluorometer.due(tick) {
+            // How long before this tick the sample was taken, in ticks.
+            let back = (tick as f64 - time / TICK_S).clamp(0.0, 1.0);
+            let concentration = if back <= ON_THE_TICK {
+                self.truth.concentration
+            } else {
+                let place = to + back * (from - to);
+                self.world.concentration(place, to_height + back * (from_height - to_height), time)
+            };
+            snapshot.push(CHEMICAL, &[self.fluorometer.reading(sample, concentration)]);
+        }
+    }
+
+    fn measure(&mut self, tick: u64, snapshot: &mut Snapshot) {
+        let truth = self.truth;
+        let (position, sigma) = self.positioning.belief(truth.position);
+        snapshot.push(POSITION, &[position.north, position.east, sigma]);
+        snapshot.push(COURSE, &[truth.course.radians()]);
+        snapshot.push(HEADING, &[truth.heading.radians()]);
+        snapshot.push(SPEED, &[truth.speed_over_ground]);
+        snapshot.push(DEPTH, &[truth.depth]);
+        snapshot.push(ALTITUDE, &[truth.altitude]);
+        snapshot.push(WATER_DEPTH, &[truth.depth + truth.altitude]);
+        let view = View {
+            ground_velocity: self.vehicle.ground_velocity,
+            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),
+            heading: truth.heading,
+            depth: truth.depth,
+            altitude: truth.altitude,
+        };
+        if let Some(flow) = self.profiler.measure(tick, &view) {
+            snapshot.push(FLOW, &[flow.north, flow.east]);
+        }
+        self.sample_chemical(tick, snapshot);
+        if tick.is_multiple_of(BATTERY_TICKS) {
+            let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
+            snapshot.push(BATTERY, &[charge]);
+        }
+    }
+}
+
+impl Vehicle for Simulator {
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
+        let tick = self.tick.map_or(0, |tick| tick + 1);
+        if tick > 0 {
+            self.advance(tick);
+        }
+        self.tick = Some(tick);
+        self.observe();
+        if self.control == Control::Disconnected {
+            self.control = Control::Monitoring;
+        }
+        snapshot.samples.clear();
+        snapshot.control = self.control;
+        self.measure(tick, snapshot);
+        Ok(())
+    }
+
+    fn take_over(&mut self) -> Result<(), VehicleError> {
+        self.control = Control::InControl;
+        self.command = None;
+        Ok(())
+    }
+
+    fn command(&mut self, command: &Command) -> Result<(), VehicleError> {
+        if self.control != Control::InControl {
+            return Err(VehicleError(String::from("the vehicle was given a command before control of it was taken")));
+        }
+        let (Vertical::Depth(height) | Vertical::Altitude(height)) = command.vertical;
+        if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
+            return Err(VehicleError(String::from("the vehicle was given a command that is not a finite number")));
+        }
+        self.command = Some(*command);
+        Ok(())
+    }
+
+    fn release(&mut self) -> Result<(), VehicleError> {
+        self.control = Control::Released;
+        self.command = None;
+        Ok(())
+    }
+}

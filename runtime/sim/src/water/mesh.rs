@@ -1,0 +1,81 @@
+//! The grid of a flow field: its nodes, its spacing, and the step that is stable on it.
+
+use crate::scenario::Meander;
+use crate::water::frame::FlowFrame;
+
+/// A grid has at most this many nodes.
+const NODES_MAX: f64 = 40_000.0;
+/// A field step is cut into at most this many explicit ones.
+const SUBSTEPS_MAX: f64 = 50.0;
+/// Share of the explicit scheme's stability limit that a sub-step uses.
+const STABILITY: f64 = 0.8;
+/// Corner speeds beyond the mean that stability allows for, in standard deviations.
+const DEVIATIONS: f64 = 4.0;
+
+/// The grid of a field: nodes with their spacing, and the step that is stable on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Mesh {
+    /// Nodes along the flow and across it.
+    pub columns: usize,
+    pub rows: usize,
+    /// Metres between them.
+    pub dx: f64,
+    pub dy: f64,
+    /// Explicit steps in a step of the field, a whole number.
+    pub substeps: f64,
+}
+
+/// Velocities at the nodes, m/s along and to the right of the mean flow; row after row along the flow.
+#[derive(Clone, Debug)]
+pub struct Nodes {
+    pub u: Vec<f64>,
+    pub v: Vec<f64>,
+}
+
+/// Why a meander cannot be computed on its grid, if it cannot.
+pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Option<String> {
+    // Centred differences oscillate when a cell's Peclet number u dx / (k/2) exceeds 2.
+    let fastest = fastest(meander, mean_speed);
+    let least = fastest * meander.cell;
+    if meander.viscosity < least {
+        return Some(format!(
+            "`flow.meander.viscosity` is {} m2/s: cells of {} m in a flow of up to {fastest:.2} m/s need {least:.1} or more",
+            meander.viscosity, meander.cell
+        ));
+    }
+    let nodes = (frame.length / meander.cell + 1.0) * (frame.width / meander.cell + 1.0);
+    if nodes > NODES_MAX {
+        return Some(format!(
+            "`flow.meander.cell` is {} m: over the region that makes more than {NODES_MAX} nodes",
+            meander.cell
+        ));
+    }
+    let mesh = Mesh::new(meander, frame, mean_speed);
+    (mesh.substeps > SUBSTEPS_MAX)
+        .then(|| format!("`flow.meander` needs more than {SUBSTEPS_MAX} sub-steps to be stable: make the cells larger or the step shorter"))
+}
+
+/// The speed to be ready for, m/s.
+fn fastest(meander: &Meander, mean_speed: f64) -> f64 {
+    mean_speed * (1.0 + DEVIATIONS * meander.direction_sd)
+}
+
+impl Mesh {
+    /// The mesh of a meander over a box.
+    pub fn new(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Self {
+        let count = |length: f64| (length / meander.cell).round().max(2.0);
+        let (nx, ny) = (count(frame.length), count(frame.width));
+        let (dx, dy) = (frame.length / nx, frame.width / ny);
+        let d = 0.5 * meander.viscosity;
+        // Forward in time, centred in space: 2 D dt (1/dx^2 + 1/dy^2) <= 1 and u^2 dt <= 2 D.
+        let speed = fastest(meander, mean_speed);
+        let rate = (2.0 * d * (1.0 / (dx * dx) + 1.0 / (dy * dy))).max(2.0 * speed * speed / (2.0 * d));
+        let substeps = (meander.step * rate / STABILITY).ceil().max(1.0);
+        Mesh { columns: nx as usize + 1, rows: ny as usize + 1, dx, dy, substeps }
+    }
+
+    /// How many nodes it has.
+    pub fn nodes(&self) -> usize {
+        self.columns * self.rows
+    }
+}

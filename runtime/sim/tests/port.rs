@@ -1,0 +1,154 @@
+//! The simulator as a machine sees it: through the port alone.
+
+use albacore_geometry::{Heading, Point, Vector};
+use albacore_sim::{Bottom, Flow, Fluorometer, Lbl, Navigation, Scenario, Simulator, UpperFlow, presets};
+use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
+use std::error::Error;
+
+fn scenario() -> Scenario {
+    Scenario {
+        flow: Flow { mean: Vector::new(0.0, 0.1), ..Flow::default() },
+        bottom: Bottom::flat(10.0),
+        ..Scenario::default()
+    }
+}
+
+/// The readings of a channel in some seconds of driving at 2 m/s and 2 m above the bottom.
+fn driven(scenario: &Scenario, seconds: u32, channel: &str) -> Result<Vec<[f64; 4]>, Box<dyn Error>> {
+    let mut simulator = Simulator::new(scenario, 1)?;
+    let mut snapshot = Snapshot::default();
+    let mut readings = Vec::new();
+    simulator.take_over()?;
+    simulator.command(&Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Altitude(2.0) })?;
+    for _ in 0..seconds * 10 {
+        simulator.sense(&mut snapshot)?;
+        let wanted = snapshot.samples.iter().filter(|s| simulator.channels()[usize::from(s.channel)].name == channel);
+        readings.extend(wanted.map(|s| s.reading));
+    }
+    Ok(readings)
+}
+
+fn names(simulator: &Simulator, snapshot: &Snapshot) -> Vec<String> {
+    snapshot.samples.iter().map(|s| simulator.channels()[usize::from(s.channel)].name.clone()).collect()
+}
+
+#[test]
+fn drifts_until_taken_over_and_after_release() {
+    let mut simulator = Simulator::new(&scenario(), 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    let command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Altitude(2.0) };
+
+    simulator.sense(&mut snapshot).unwrap();
+    assert_eq!((simulator.time_s(), snapshot.control), (0.0, Control::Monitoring));
+    assert!(simulator.command(&command).is_err());
+    (0..100).for_each(|_| simulator.sense(&mut snapshot).unwrap());
+    assert!(simulator.truth().position.distance(Point::new(0.0, 1.0)) < 1e-9);
+
+    simulator.take_over().unwrap();
+    simulator.command(&command).unwrap();
+    (0..1000).for_each(|_| simulator.sense(&mut snapshot).unwrap());
+    assert_eq!(snapshot.control, Control::InControl);
+    let truth = simulator.truth();
+    assert!(truth.position.distance(Point::new(192.0, 11.0)) < 1e-6, "8 s to reach 2 m/s, then 92 s at it: {truth:?}");
+    assert!((truth.speed_over_ground - (4.0_f64 + 0.01).sqrt()).abs() < 1e-9);
+    assert!((truth.altitude - 2.0).abs() < 1e-9);
+
+    simulator.release().unwrap();
+    (0..1000).for_each(|_| simulator.sense(&mut snapshot).unwrap());
+    assert_eq!(snapshot.control, Control::Released);
+    assert!((simulator.truth().position.north - 200.0).abs() < 1e-6, "stops within 8 m");
+}
+
+#[test]
+fn each_channel_at_its_own_rate() {
+    let mut simulator = Simulator::new(&scenario(), 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    let mut counts = std::collections::BTreeMap::<String, usize>::new();
+    for _ in 0..=600 {
+        simulator.sense(&mut snapshot).unwrap();
+        for name in names(&simulator, &snapshot) {
+            *counts.entry(name).or_default() += 1;
+        }
+    }
+    for name in ["position", "course", "heading", "speed", "depth", "altitude", "water_depth", "chemical"] {
+        assert_eq!(counts[name], 601, "{name}");
+    }
+    assert_eq!(counts["battery"], 7);
+}
+
+#[test]
+fn impossible_scenarios_are_refused_with_every_reason() {
+    let mut bad = scenario();
+    bad.vehicle.turn_rate = 0.0;
+    bad.vehicle.depth = 11.0;
+    bad.fluorometer.noise = f64::NAN;
+    let error = Simulator::new(&bad, 1).unwrap_err();
+    assert_eq!(error.faults.len(), 3, "{error}");
+    assert!(error.to_string().contains("`vehicle.turn_rate` is 0"));
+}
+
+#[test]
+fn the_flow_is_estimated_once_the_vehicle_moves() {
+    let flows = driven(&scenario(), 400, "flow").unwrap();
+    // Messages every 2 s; valid from 0.4 m/s over ground on, reached within 2 s; ten are needed.
+    assert!((188..=191).contains(&flows.len()), "{}", flows.len());
+    let last = flows.last().unwrap();
+    assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "the mean of 100 with 0.05 m/s each: {last:?}");
+}
+
+/// The 2005 paper's own trouble: near the boundary of two currents the upward profiler reads the upper one.
+#[test]
+fn a_low_boundary_deceives_the_profiler() {
+    let mut layered = scenario();
+    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5 });
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!((last[0] - 0.2).abs() < 0.02 && last[1].abs() < 0.02, "{last:?}");
+    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 3.5 });
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
+}
+
+#[test]
+fn a_fix_makes_the_position_jump() {
+    let lbl = Lbl { every: 60.0, sigma: 2.0, gate: 0.0 };
+    let navigated = Scenario { navigation: Some(Navigation { walk: 0.05, lbl: Some(lbl) }), ..scenario() };
+    let positions = driven(&navigated, 100, "position").unwrap();
+    assert_eq!(positions[0][2], 0.0);
+    assert!((positions[599][2] - 0.05 * 59.9_f64.sqrt()).abs() < 1e-9);
+    assert_eq!(positions[600][2], 2.0);
+    let perfect = driven(&scenario(), 100, "position").unwrap();
+    assert!(perfect.iter().all(|p| p[2] == 0.0));
+}
+
+#[test]
+fn a_fast_chemical_sensor_gives_several_samples_a_tick() {
+    let fast =
+        Scenario { fluorometer: Fluorometer { rate: 50.0, ..Fluorometer::default() }, ..presets::duck_2003_flat() };
+    assert_eq!(driven(&fast, 10, "chemical").unwrap().len(), 496, "0 to 9.9 s");
+}
+
+#[test]
+fn impossible_plumes_are_refused() {
+    let fault = |change: &dyn Fn(&mut Scenario)| {
+        let mut scenario = presets::duck_2003();
+        change(&mut scenario);
+        scenario.validate().unwrap_err().to_string()
+    };
+    for (fault, expected) in [
+        (fault(&|s| s.flow.mean = Vector::ZERO), "needs a flow to carry it"),
+        (fault(&|s| s.region = None), "`plume` needs a `region`"),
+        (fault(&|s| s.plume = None), "`sources` need a `plume`"),
+        (fault(&|s| s.sources[0].at = Point::new(5000.0, 0.0)), "outside the `region`"),
+        (fault(&|s| s.sources[0].height = 4.0), "over the `plume.layer` of 3.5 m"),
+        (fault(&|s| s.sources[0].rate = 1000.0), "at most 200000 are simulated"),
+        (fault(&|s| s.plume.as_mut().unwrap().layer = None), "`plume.vertical` needs a `plume.layer`"),
+        (fault(&|s| s.plume.as_mut().unwrap().step = 0.25), "whole number of ticks"),
+        (fault(&|s| s.flow.meander.as_mut().unwrap().viscosity = 1.0), "need 3.9 or more"),
+        (fault(&|s| s.flow.meander.as_mut().unwrap().cell = 1.0), "more than 40000 nodes"),
+        (fault(&|s| s.flow.meander.as_mut().unwrap().damping = 1.0), "must be between 0 and 1"),
+    ] {
+        assert!(fault.contains(expected), "{fault}");
+    }
+    assert_eq!(presets::duck_2003().validate(), Ok(()));
+    assert_eq!(presets::duck_2003_flat().validate(), Ok(()));
+}

@@ -1,0 +1,175 @@
+//! The behavior trace: a line for everything that happened, short enough to read and stable enough to compare.
+
+use crate::active::Active;
+use crate::wording::Wording;
+use crate::words::one_line;
+use albacore_geometry::{Heading, Point};
+use albacore_machine::{Event, Outcome};
+use albacore_program::number;
+use albacore_program::{Cause, Program};
+
+/// Ticks between samples unless told otherwise: a minute.
+const SAMPLE_EVERY_TICKS: u64 = 600;
+/// A trace has at most this many lines: ten a second for more than a day.
+const LINES_MAX: usize = 1_000_000;
+/// What a trace says of its run at the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// The mission's name.
+    pub mission: String,
+    /// The scenario's name; empty on a real vehicle.
+    pub scenario: String,
+    /// The run's seed.
+    pub seed: u64,
+    /// The length of a tick, in seconds.
+    pub tick_s: f64,
+}
+
+/// What a line is, so that parts of a trace can be taken out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Header,
+    Event,
+    Sample,
+    Digest,
+}
+
+/// The trace of one run, as it grows.
+#[derive(Clone, Debug)]
+pub struct BehaviorTrace {
+    wording: Wording,
+    lines: Vec<(Kind, String)>,
+    active: Active,
+    sample_every_ticks: u64,
+    next_sample: u64,
+    ended: Option<Outcome>,
+}
+
+impl BehaviorTrace {
+    /// A trace that has nothing but its header.
+    pub fn new(program: &Program, header: &Header) -> Self {
+        let mut trace = BehaviorTrace {
+            wording: Wording::new(program),
+            lines: Vec::new(),
+            active: Active::default(),
+            sample_every_ticks: SAMPLE_EVERY_TICKS,
+            next_sample: 0,
+            ended: None,
+        };
+        let scenario =
+            if header.scenario.is_empty() { String::new() } else { format!("  scenario {}", header.scenario) };
+        let tick = number::fixed(header.tick_s, 1);
+        let line = format!("mission {}{scenario}  seed {}  tick {tick} s", header.mission, header.seed);
+        trace.lines.push((Kind::Header, one_line(&line)));
+        trace
+    }
+
+    /// The same with another interval between samples; 0 for none.
+    pub fn with_samples_every(self, ticks: u64) -> Self {
+        BehaviorTrace { sample_every_ticks: ticks, ..self }
+    }
+
+    /// Adds what happened in a tick, at the vehicle's estimate of its position.
+    pub fn tick(&mut self, tick: u64, position: Option<Point>, events: &[Event]) {
+        if events.is_empty() {
+            return;
+        }
+        let said = self.said_by_others(events);
+        for (event, said) in events.iter().zip(said) {
+            if let (false, Some((verb, line))) = (said, self.wording.line(event, events, &self.active, position)) {
+                self.say(Kind::Event, tick, verb, &line);
+            }
+            self.follow(event);
+        }
+    }
+
+    /// Adds a sample when one is due. Called on every tick, after [`Self::tick`].
+    pub fn sample(&mut self, tick: u64, position: Option<Point>, heading: Option<Heading>, depth_m: Option<f64>) {
+        if self.sample_every_ticks == 0 || tick < self.next_sample {
+            return;
+        }
+        self.next_sample = tick.saturating_add(self.sample_every_ticks);
+        let position = position.map_or_else(|| "?".to_string(), number::point);
+        let heading = number::compass(heading.map_or(f64::NAN, Heading::radians));
+        let depth = number::metres(depth_m.unwrap_or(f64::NAN));
+        // The mission is in the header; it is named only where nothing else is active.
+        let chain = self.active.chain();
+        let path: Vec<&str> = chain.get(1..).unwrap_or(&[]).iter().map(|&id| self.wording.names.name(id)).collect();
+        let path = if path.is_empty() {
+            chain.first().map_or("", |&id| self.wording.names.name(id)).to_string()
+        } else {
+            path.join(" > ")
+        };
+        let line = format!("{position:<21}  heading {heading:>5} deg  depth {depth:>7}  {path}");
+        self.say(Kind::Sample, tick, "at", &line);
+    }
+
+    /// Ends the trace: with the outcome, unless an event has told it, the length of the run, and the digest of all of it.
+    pub fn finish(&mut self, outcome: Outcome, ticks: u64, digest: &crate::Digest) {
+        if self.ended != Some(outcome) {
+            self.say(Kind::Event, ticks, "end", outcome.name());
+        }
+        self.lines.push((Kind::Digest, format!("digest {digest}  {ticks} ticks")));
+    }
+
+    /// The event lines alone: no header, no samples, no digest.
+    pub fn switches(&self) -> String {
+        self.lines.iter().filter(|(kind, _)| *kind == Kind::Event).map(|(_, line)| format!("{line}\n")).collect()
+    }
+
+    /// Keeps track of what is active.
+    fn follow(&mut self, event: &Event) {
+        match event {
+            Event::Entered(id) if !self.wording.names.is_overlay(*id) => self.active.enter(*id),
+            Event::Left(id, _) => self.active.leave(*id),
+            Event::Suspended(id) => self.active.suspend(*id),
+            Event::Resumed(id) => self.active.resume(*id),
+            Event::Ended(outcome) => self.ended = Some(*outcome),
+            _ => {}
+        }
+    }
+
+    /// Which events of a tick go without a line of their own: a switch implies that its source is left, or waits, and that
+    /// its target is entered; a resumption that the behavior in between is left.
+    fn said_by_others(&self, events: &[Event]) -> Vec<bool> {
+        let mut said = vec![false; events.len()];
+        let mut absorb = |implied: &dyn Fn(&Event) -> bool| {
+            if let Some(at) = (0..events.len()).find(|&i| !said[i] && implied(&events[i])) {
+                said[at] = true;
+            }
+        };
+        for event in events {
+            match event {
+                Event::Switched { rule, from, .. } => {
+                    absorb(
+                        &|e| matches!(e, Event::Left(id, Cause::Rule | Cause::Done) | Event::Suspended(id) if id == from),
+                    );
+                    if let Some(to) = self.wording.names.target(*from, *rule) {
+                        absorb(&|e| matches!(e, Event::Entered(id) if *id == to));
+                    }
+                }
+                Event::Resumed(id) => {
+                    absorb(&|e| matches!(e, Event::Left(left, _) if self.wording.names.share_table(*left, *id)))
+                }
+                _ => {}
+            }
+        }
+        said
+    }
+
+    fn say(&mut self, kind: Kind, tick: u64, verb: &str, line: &str) {
+        if self.lines.len() < LINES_MAX {
+            let line = format!("{}  {verb:<7}  {line}", number::seconds(tick));
+            self.lines.push((kind, line.trim_end().to_string()));
+        } else if self.lines.len() == LINES_MAX {
+            self.lines.push((Kind::Digest, format!("… further lines are left out after {LINES_MAX}")));
+        }
+    }
+}
+
+/// The whole trace.
+impl std::fmt::Display for BehaviorTrace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.lines.iter().try_for_each(|(_, line)| writeln!(f, "{line}"))
+    }
+}

@@ -1,0 +1,87 @@
+//! Whether two traces tell of the same behavior: the same switches by the same rules, whatever the numbers.
+
+use std::collections::BTreeMap;
+
+/// Where two traces part for the first time: the line of each, or none where one is at its end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The line of the first trace.
+    pub left: Option<String>,
+    /// The line of the second.
+    pub right: Option<String>,
+}
+
+/// What a line says was done, without its numbers.
+#[derive(PartialEq, Eq)]
+struct Deed {
+    said: String,
+    /// The file and the line of the rule.
+    rule: Option<(String, String)>,
+}
+
+/// Whether two traces, or their event lines alone, tell of the same sequence of enterings, leavings, switches, reports,
+/// changes of control, aborts and ends. See [`first_difference`].
+pub fn same_behavior(a: &str, b: &str) -> bool {
+    first_difference(a, b).is_none()
+}
+
+/// Where the behavior of two traces first differs.
+///
+/// Times, positions, values, samples, digests, logs, memories, and the coming and going of overlays' amendments and of
+/// limits are no part of it. Rules are matched one to one by file: a comment above a rule moves its line and changes nothing.
+pub fn first_difference(a: &str, b: &str) -> Option<Difference> {
+    let mut lefts = a.lines().filter_map(|line| Some((line, deed(line)?)));
+    let mut rights = b.lines().filter_map(|line| Some((line, deed(line)?)));
+    let (mut there, mut back) = (BTreeMap::new(), BTreeMap::new());
+    loop {
+        match (lefts.next(), rights.next()) {
+            (None, None) => return None,
+            (Some((_, left)), Some((_, right)))
+                if left.said == right.said && paired(&left, &right, &mut there, &mut back) => {}
+            (left, right) => {
+                let line = |side: Option<(&str, Deed)>| side.map(|(line, _)| line.trim().to_string());
+                return Some(Difference { left: line(left), right: line(right) });
+            }
+        }
+    }
+}
+
+type Rule = (String, String);
+
+/// Whether two deeds are by rules that can be one and the same, given the pairs so far.
+fn paired(left: &Deed, right: &Deed, there: &mut BTreeMap<Rule, Rule>, back: &mut BTreeMap<Rule, Rule>) -> bool {
+    match (&left.rule, &right.rule) {
+        (None, None) => true,
+        (Some(l), Some(r)) => {
+            l.0 == r.0
+                && *there.entry(l.clone()).or_insert_with(|| r.clone()) == *r
+                && *back.entry(r.clone()).or_insert_with(|| l.clone()) == *l
+        }
+        _ => false,
+    }
+}
+
+/// Reads an event line back; none for lines that are not about behavior.
+fn deed(line: &str) -> Option<Deed> {
+    let (time, rest) = line.trim_start().split_once(" s  ")?;
+    if !time.bytes().all(|b| b.is_ascii_digit() || b == b'.') {
+        return None;
+    }
+    let mut columns = rest.split("  ").map(str::trim).filter(|column| !column.is_empty());
+    let verb = columns.next()?;
+    let what = columns.next().unwrap_or_default();
+    let mut rule = None;
+    let said = match verb {
+        "switch" => {
+            // The position, then the rule's place.
+            rule = columns.nth(1).and_then(|place| place.rsplit_once(':')).map(|(f, l)| (f.to_string(), l.to_string()));
+            what.to_string()
+        }
+        "leave" => format!("{what}, {}", columns.next().unwrap_or_default()),
+        "report" => what.split(" = ").next().unwrap_or_default().to_string(),
+        "abort" => what.chars().filter(|c| !c.is_ascii_digit()).collect(),
+        "enter" | "suspend" | "resume" | "stale" | "fresh" | "control" | "timeout" | "end" => what.to_string(),
+        _ => return None,
+    };
+    Some(Deed { said: format!("{verb} {said}"), rule })
+}

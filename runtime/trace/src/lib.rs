@@ -1,0 +1,17 @@
+//! What a run leaves behind for people: the behavior trace, the digest of the full-rate run, the picture.
+//!
+//! Everything here is a pure function of what it is given: the same run gives the same bytes on every machine.
+
+mod active;
+mod behavior;
+mod compare;
+mod digest;
+mod names;
+mod picture;
+mod wording;
+mod words;
+
+pub use behavior::{BehaviorTrace, Header};
+pub use compare::{Difference, first_difference, same_behavior};
+pub use digest::Digest;
+pub use picture::Picture;

@@ -1,0 +1,101 @@
+//! The picture of a run: a chart of the track, the plume and what was found, as an SVG that needs nothing else.
+
+mod chart;
+mod frame;
+mod labels;
+mod panel;
+mod svg;
+mod track;
+
+use albacore_geometry::{Point, Vector};
+use frame::Frame;
+use svg::Svg;
+
+/// Behaviors by colour (Okabe and Ito's, less yellow, plus wine and grey): told apart by the colour-blind and on white paper.
+const PALETTE: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#6b6b6b"];
+/// Beyond this a coordinate is no place that a vehicle goes to.
+const COORDINATE_MAX_M: f64 = 1e8;
+
+/// Margins in pixels, around the chart.
+const TOP: f64 = 52.0;
+const SUBTITLE_LINE: f64 = 18.0;
+const BOTTOM: f64 = 54.0;
+const PANEL_GAP: f64 = 24.0;
+const EDGE: f64 = 20.0;
+
+/// All that the picture shows. Positions are north and east in metres; those that are not finite are left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// The heading.
+    pub title: String,
+    /// Lines beneath it.
+    pub subtitle: Vec<String>,
+    /// The corners of the operating area.
+    pub area: Vec<Point>,
+    /// Filaments of the plume: where, and how wide (radius in metres).
+    pub plume: Vec<(Point, f64)>,
+    /// Where the vehicle went, each with an index into `behaviors`.
+    pub track: Vec<(Point, u16)>,
+    /// The names of the behaviors.
+    pub behaviors: Vec<String>,
+    /// Where chemical was detected.
+    pub detections: Vec<Point>,
+    /// What the mission declared, by name.
+    pub declared: Vec<(String, Point)>,
+    /// The true sources, by name.
+    pub sources: Vec<(String, Point)>,
+    /// Where the vehicle started.
+    pub start: Option<Point>,
+    /// The mean flow, in m/s.
+    pub flow: Option<Vector>,
+}
+
+impl Picture {
+    /// The picture as an SVG document. The same picture gives the same bytes on every machine.
+    pub fn svg(&self) -> String {
+        let top = TOP + SUBTITLE_LINE * self.subtitle.len() as f64;
+        let frame = Frame::fit(self.extent(), top);
+        let runs = track::runs(&self.track, &frame);
+        let panel = panel::Panel::new(self, &frame);
+        let width = frame.right() + PANEL_GAP + panel.width() + EDGE;
+        let height = (frame.bottom() + BOTTOM).max(frame.top + panel.height() + EDGE);
+
+        let mut svg = Svg::new(width, height);
+        self.heading(&mut svg, width);
+        chart::draw(&mut svg, self, &frame, &runs);
+        panel.draw(&mut svg, frame.right() + PANEL_GAP, frame.top);
+        svg.finish()
+    }
+
+    fn heading(&self, svg: &mut Svg, width: f64) {
+        let room = width - 2.0 * EDGE;
+        svg.text(
+            (EDGE, 36.0),
+            "font-size=\"20\" font-weight=\"bold\" fill=\"#1a1a1a\"",
+            &svg::shortened(&self.title, room, 21.0),
+        );
+        for (i, line) in self.subtitle.iter().enumerate() {
+            let y = 57.0 + SUBTITLE_LINE * i as f64;
+            svg.text((EDGE, y), "font-size=\"13\" fill=\"#555\"", &svg::shortened(line, room, 13.0));
+        }
+    }
+
+    /// All points that must be on the chart. The plume may leave it.
+    fn extent(&self) -> impl Iterator<Item = Point> {
+        let places = self.declared.iter().chain(&self.sources).map(|(_, p)| *p);
+        let all = self.area.iter().copied().chain(self.track.iter().map(|(p, _)| *p)).chain(places).chain(self.start);
+        all.filter(|p| is_place(*p))
+    }
+}
+
+/// Whether a position can be drawn.
+fn is_place(p: Point) -> bool {
+    p.north.abs() <= COORDINATE_MAX_M && p.east.abs() <= COORDINATE_MAX_M
+}
+
+/// The colour of a behavior, and the dashes that tell it from the others of that colour.
+fn style(behavior: u16) -> (&'static str, &'static str) {
+    let at = usize::from(behavior);
+    let dashes = [" ", " stroke-dasharray=\"7 3\" ", " stroke-dasharray=\"2 3\" "];
+    (PALETTE[at % PALETTE.len()], dashes[(at / PALETTE.len()).min(dashes.len() - 1)])
+}

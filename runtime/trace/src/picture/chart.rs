@@ -1,0 +1,178 @@
+//! The chart itself, from the bottom up: water, grid, plume, area, track, detections, marks, labels.
+
+use super::{Picture, frame::Frame, is_place, labels::Labels, style, svg::Svg, svg::px, track::Run};
+use albacore_geometry::Point;
+use albacore_program::number::fixed;
+use std::{collections::BTreeSet, fmt::Write};
+
+/// At most so many filaments are drawn: evenly spaced in the order they are given.
+const FILAMENTS_MAX: usize = 3_000;
+/// Detections closer than this on the page, in pixels, are one cross.
+const DETECTION_CELL: f64 = 6.0;
+/// At most so many crosses.
+const DETECTIONS_MAX: usize = 2_000;
+
+/// The colour of the plume.
+pub const PLUME: &str = "#b08d2f";
+/// The colour of detections.
+pub const DETECTION: &str = "#333";
+/// The colour of true sources.
+const SOURCE: &str = "#7a0019";
+/// The radius of the ring round a true source, in pixels.
+const RING: f64 = 10.0;
+
+/// Draws everything inside the frame, and the grid's labels around it.
+pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
+    let (x, y, w, h) = (px(frame.left), px(frame.top), px(frame.width), px(frame.height));
+    svg.raw(&format!("<clipPath id=\"chart\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>"));
+    svg.raw(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"#f6f9fb\"/>"));
+    svg.raw("<g clip-path=\"url(#chart)\">");
+    area(svg, picture, frame, "fill=\"#fff\"");
+    grid(svg, frame);
+    plume(svg, picture, frame);
+    area(svg, picture, frame, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"8 5\"");
+    detections(svg, picture, frame);
+    track(svg, runs);
+    marks(svg, picture, frame, runs);
+    svg.raw("</g>");
+    svg.raw(&format!(
+        "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1\"/>"
+    ));
+    axes(svg, frame);
+}
+
+fn area(svg: &mut Svg, picture: &Picture, frame: &Frame, attributes: &str) {
+    let corners: Vec<_> = picture.area.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect();
+    if corners.len() > 2 {
+        svg.path(&corners, true, attributes);
+    }
+}
+
+fn grid(svg: &mut Svg, frame: &Frame) {
+    let (_, norths, easts) = frame.grid();
+    svg.raw("<g stroke=\"#dfe5ea\" stroke-width=\"1\">");
+    for north in norths {
+        let y = frame.place(Point::new(north, 0.0)).1;
+        svg.line((frame.left, y), (frame.right(), y), "");
+    }
+    for east in easts {
+        let x = frame.place(Point::new(0.0, east)).0;
+        svg.line((x, frame.top), (x, frame.bottom()), "");
+    }
+    svg.raw("</g>");
+}
+
+fn axes(svg: &mut Svg, frame: &Frame) {
+    let (step, norths, easts) = frame.grid();
+    let decimals = if step < 1.0 { 1 } else { 0 };
+    svg.raw("<g font-size=\"12\" fill=\"#444\" stroke=\"none\">");
+    for north in norths {
+        let y = frame.place(Point::new(north, 0.0)).1;
+        svg.text((frame.left - 7.0, y + 4.0), "text-anchor=\"end\"", &fixed(north, decimals));
+    }
+    for east in easts {
+        let x = frame.place(Point::new(0.0, east)).0;
+        svg.text((x, frame.bottom() + 17.0), "text-anchor=\"middle\"", &fixed(east, decimals));
+    }
+    let middle = ((frame.left + frame.right()) / 2.0, (frame.top + frame.bottom()) / 2.0);
+    svg.text((middle.0, frame.bottom() + 38.0), "text-anchor=\"middle\"", "east (m)");
+    let turned = format!("text-anchor=\"middle\" transform=\"rotate(-90 26 {})\"", px(middle.1));
+    svg.text((26.0, middle.1), &turned, "north (m)");
+    svg.raw("</g>");
+}
+
+fn plume(svg: &mut Svg, picture: &Picture, frame: &Frame) {
+    let shown: Vec<_> = picture.plume.iter().filter(|(p, r)| is_place(*p) && r.is_finite()).collect();
+    svg.raw(&format!("<g fill=\"{PLUME}\" fill-opacity=\"0.16\">"));
+    for i in chosen(shown.len(), FILAMENTS_MAX) {
+        let (p, radius) = shown[i];
+        let at = frame.place(*p);
+        if frame.shows(at) {
+            svg.circle(at, (radius * frame.scale).clamp(1.3, 60.0), "");
+        }
+    }
+    svg.raw("</g>");
+}
+
+/// Which of `count` are shown when at most `most` may be.
+fn chosen(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let shown = count.min(most);
+    (0..shown).map(move |i| i * count / shown)
+}
+
+fn track(svg: &mut Svg, runs: &[Run]) {
+    svg.raw("<g fill=\"none\" stroke-width=\"1.8\" stroke-linejoin=\"round\" stroke-linecap=\"round\">");
+    // One element for each behavior, not for each stretch: a table that switches every second must not fill the file.
+    for behavior in runs.iter().map(|run| run.behavior).collect::<BTreeSet<_>>() {
+        let (colour, dashes) = style(behavior);
+        let own = runs.iter().filter(|run| run.behavior == behavior).map(|run| run.points.as_slice());
+        svg.paths(own, &format!("stroke=\"{colour}\"{}", dashes.trim_end()));
+    }
+    svg.raw("</g>");
+}
+
+fn detections(svg: &mut Svg, picture: &Picture, frame: &Frame) {
+    let mut cells = BTreeSet::new();
+    let mut crosses = Vec::new();
+    for p in picture.detections.iter().filter(|p| is_place(**p)) {
+        let (x, y) = frame.place(*p);
+        if frame.shows((x, y)) && cells.insert(((x / DETECTION_CELL) as i64, (y / DETECTION_CELL) as i64)) {
+            crosses.push((x, y));
+        }
+    }
+    let mut d = String::new();
+    for i in chosen(crosses.len(), DETECTIONS_MAX) {
+        let (x, y) = crosses[i];
+        // Writing to a string cannot fail.
+        let _ = write!(d, "M{} {}l7 7m-7 0l7-7", px(x - 3.5), px(y - 3.5));
+    }
+    if !d.is_empty() {
+        svg.raw(&format!("<path d=\"{d}\" fill=\"none\" stroke=\"{DETECTION}\" stroke-width=\"0.9\"/>"));
+    }
+}
+
+fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
+    let places = |named: &'_ [(String, Point)]| -> Vec<(String, (f64, f64))> {
+        named.iter().filter(|(_, p)| is_place(*p)).map(|(name, p)| (name.clone(), frame.place(*p))).collect()
+    };
+    let (sources, declared) = (places(&picture.sources), places(&picture.declared));
+    let start = picture.start.filter(|p| is_place(*p)).map(|p| frame.place(p));
+    let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
+    taken.extend(declared.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
+    let mut outline: Vec<_> = picture.area.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect();
+    outline.extend(outline.first().copied());
+    let lines = runs.iter().map(|run| run.points.as_slice()).chain([outline.as_slice()]);
+    let mut labels = Labels::new(lines, &taken);
+
+    start.into_iter().for_each(|at| start_mark(svg, at));
+    sources.iter().for_each(|(_, at)| source_mark(svg, *at));
+    declared.iter().for_each(|(_, at)| declared_mark(svg, *at));
+    for (name, at) in &declared {
+        labels.put(svg, frame, *at, name, "#111");
+    }
+    for (name, at) in &sources {
+        labels.put(svg, frame, *at, name, SOURCE);
+    }
+    start.into_iter().for_each(|at| labels.put(svg, frame, at, "start", "#111"));
+}
+
+/// A white triangle.
+pub fn start_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    let corners = [(x, y - 7.0), (x + 6.5, y + 5.0), (x - 6.5, y + 5.0)];
+    svg.path(&corners, true, "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
+}
+
+/// A star in a ring.
+pub fn source_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    svg.circle((x, y), RING, "fill=\"#fff\" fill-opacity=\"0.75\" stroke=\"#7a0019\" stroke-width=\"1.6\"");
+    // A five-pointed star, outer radius 8 and inner 3.4, as offsets: exact on every machine.
+    let half = [(0.0, -8.0), (2.0, -2.75), (7.61, -2.47), (3.23, 1.05), (4.7, 6.47), (0.0, 3.4)];
+    let right = half.iter().map(|(dx, dy)| (x + dx, y + dy));
+    let left = half[1..5].iter().rev().map(|(dx, dy)| (x - dx, y + dy));
+    svg.path(&right.chain(left).collect::<Vec<_>>(), true, "fill=\"#ffc20a\" stroke=\"#7a0019\" stroke-width=\"0.9\"");
+}
+
+/// A dark dot.
+pub fn declared_mark(svg: &mut Svg, at: (f64, f64)) {
+    svg.circle(at, 4.2, "fill=\"#111\" stroke=\"#fff\" stroke-width=\"1.4\"");
+}

@@ -1,0 +1,96 @@
+//! Labels on the chart, each put where it covers least.
+
+use super::{frame::Frame, svg, svg::Svg};
+use std::collections::BTreeSet;
+
+/// The size of labels, in pixels.
+const SIZE: f64 = 13.0;
+/// How far from its mark a label may be, nearest first, in pixels.
+const DISTANCES: [f64; 5] = [13.0, 26.0, 44.0, 68.0, 96.0];
+/// A label farther away than this gets a line to its mark.
+const LEADER_FROM: f64 = 20.0;
+/// Directions in order of liking: right, left, above, below, and between.
+const DIRECTIONS: [(f64, f64); 8] =
+    [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (0.7, -0.7), (0.7, 0.7), (-0.7, -0.7), (-0.7, 0.7)];
+
+/// The chart is looked at in squares of so many pixels: with a line in it, or without.
+const CELL: f64 = 6.0;
+
+/// A rectangle on the page: left, top, right, bottom.
+type Region = (f64, f64, f64, f64);
+
+/// What is on the chart already, so that labels keep off it.
+pub struct Labels {
+    taken: Vec<Region>,
+    inked: Vec<(f64, f64)>,
+}
+
+impl Labels {
+    /// No labels yet, on a chart with lines and marks of a radius.
+    pub fn new<'a>(lines: impl Iterator<Item = &'a [(f64, f64)]>, marks: &[((f64, f64), f64)]) -> Self {
+        let mut inked = BTreeSet::new();
+        for segment in lines.flat_map(|line| line.windows(2)) {
+            let (a, b) = (segment[0], segment[1]);
+            let steps = (((b.0 - a.0).abs() + (b.1 - a.1).abs()) / CELL).ceil().clamp(1.0, 500.0);
+            inked.extend((0..steps as u32).map(|i| {
+                let part = f64::from(i) / steps;
+                let (x, y) = (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1));
+                ((x / CELL) as i32, (y / CELL) as i32)
+            }));
+        }
+        let inked =
+            inked.into_iter().map(|(x, y)| ((f64::from(x) + 0.5) * CELL, (f64::from(y) + 0.5) * CELL)).collect();
+        let taken = marks.iter().map(|((x, y), r)| (x - r, y - r, x + r, y + r)).collect();
+        Labels { taken, inked }
+    }
+
+    /// Puts a label near a mark.
+    pub fn put(&mut self, svg: &mut Svg, frame: &Frame, mark: (f64, f64), text: &str, colour: &str) {
+        let text = svg::shortened(text, 260.0, SIZE);
+        let width = svg::text_width(&text, SIZE);
+        let mut best: Option<(f64, Region, f64, f64)> = None;
+        for distance in DISTANCES {
+            for (i, (dx, dy)) in DIRECTIONS.iter().enumerate() {
+                let (x, y) = (mark.0 + dx * distance, mark.1 + dy * distance);
+                // Beside the mark the label begins or ends there; above and below it is centred.
+                let left = x - width * (1.0 - dx.signum() * f64::from(*dx != 0.0)) / 2.0;
+                let region = (left, y - SIZE * 0.62, left + width, y + SIZE * 0.62);
+                let cost = self.cost(frame, region) + distance / 4.0 + i as f64 / 8.0;
+                if best.is_none_or(|(least, ..)| cost < least) {
+                    best = Some((cost, region, distance, *dx));
+                }
+            }
+        }
+        let Some((_, region, distance, side)) = best else { return };
+        if LEADER_FROM < distance {
+            let end = (mark.0.clamp(region.0, region.2), mark.1.clamp(region.1, region.3));
+            let (dx, dy) = (end.0 - mark.0, end.1 - mark.1);
+            let length = (dx * dx + dy * dy).sqrt().max(1.0);
+            let start = (mark.0 + dx * 9.0 / length, mark.1 + dy * 9.0 / length);
+            svg.line(start, end, "stroke=\"#fff\" stroke-width=\"3\" opacity=\"0.8\"");
+            svg.line(start, end, "stroke=\"#333\" stroke-width=\"0.8\"");
+        }
+        // Letters are narrower than estimated in most fonts: the side that faces the mark is the one that is exact.
+        let (anchor, x) = match side {
+            side if side > 0.0 => ("start", region.0),
+            side if side < 0.0 => ("end", region.2),
+            _ => ("middle", (region.0 + region.2) / 2.0),
+        };
+        let at = (x, region.3 - SIZE * 0.27);
+        let attributes = format!(
+            "font-size=\"{SIZE}\" text-anchor=\"{anchor}\" fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"3.5\" \
+             stroke-linejoin=\"round\" paint-order=\"stroke\""
+        );
+        svg.text(at, &attributes, &text);
+        self.taken.push(region);
+    }
+
+    /// What a label would cover: another one or a mark is the worst but for leaving the chart; a line is bad.
+    fn cost(&self, frame: &Frame, r: Region) -> f64 {
+        let inside = frame.shows((r.0 - 3.0, r.1 - 3.0)) && frame.shows((r.2 + 3.0, r.3 + 3.0));
+        let overlaps = self.taken.iter().filter(|t| r.0 < t.2 && t.0 < r.2 && r.1 < t.3 && t.1 < r.3).count();
+        let within = |x: f64, y: f64| (r.0..=r.2).contains(&x) && (r.1..=r.3).contains(&y);
+        let inked = self.inked.iter().filter(|(x, y)| within(*x, *y)).count();
+        f64::from(!inside) * 1000.0 + overlaps as f64 * 200.0 + inked as f64 * 3.0
+    }
+}

@@ -1,0 +1,172 @@
+//! The panel beside the chart: north, flow, scale bar, and what the colours and marks mean.
+
+use super::{Picture, chart, frame::Frame, frame::round_down, is_place, style, svg, svg::Svg, svg::px};
+use albacore_geometry::Vector;
+use albacore_program::number;
+
+/// The panel's width in pixels: at least, and at most for the sake of long names.
+const WIDTH_MIN: f64 = 190.0;
+const WIDTH_MAX: f64 = 320.0;
+/// Where names begin, in pixels from the left of the panel.
+const NAMES: f64 = 36.0;
+/// A line of the legend, in pixels.
+const LINE: f64 = 21.0;
+/// So many behaviors are named at most.
+const BEHAVIORS_MAX: usize = 24;
+/// The length of the longest scale bar, in pixels.
+const BAR_MAX: f64 = 150.0;
+/// Heights of the parts, in pixels.
+const COMPASS: f64 = 88.0;
+const FLOW: f64 = 34.0;
+const BAR: f64 = 56.0;
+
+const HEAD: &str = "font-size=\"13\" font-weight=\"bold\" fill=\"#1a1a1a\"";
+const ENTRY: &str = "font-size=\"13\" fill=\"#222\"";
+
+/// What a mark of the legend looks like, drawn about its centre.
+type Mark = fn(&mut Svg, (f64, f64));
+
+/// What the panel will hold.
+pub struct Panel<'a> {
+    picture: &'a Picture,
+    scale: f64,
+    behaviors: Vec<u16>,
+    marks: Vec<(&'static str, Mark)>,
+}
+
+impl<'a> Panel<'a> {
+    /// The panel for a picture: it names only what is to be seen.
+    pub fn new(picture: &'a Picture, frame: &Frame) -> Self {
+        let seen: std::collections::BTreeSet<u16> = picture.track.iter().map(|(_, behavior)| *behavior).collect();
+        let there = [
+            (picture.start.is_some(), "start", chart::start_mark as Mark),
+            (!picture.area.is_empty(), "operating area", area_mark),
+            (!picture.plume.is_empty(), "plume", plume_mark),
+            (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),
+            (!picture.declared.is_empty(), "declared", chart::declared_mark),
+            (!picture.sources.is_empty(), "true source", chart::source_mark),
+        ];
+        let marks = there.into_iter().filter(|(there, ..)| *there).map(|(_, name, mark)| (name, mark)).collect();
+        Panel { picture, scale: frame.scale, behaviors: seen.into_iter().collect(), marks }
+    }
+
+    /// How wide it is, in pixels.
+    pub fn width(&self) -> f64 {
+        let names = self.behaviors.iter().map(|behavior| svg::text_width(&self.name(*behavior), 13.0));
+        names.fold(WIDTH_MIN, |widest, name| widest.max(NAMES + name)).min(WIDTH_MAX)
+    }
+
+    /// How high it is, in pixels.
+    pub fn height(&self) -> f64 {
+        let entries = self.behaviors.len().min(BEHAVIORS_MAX + 1) + self.marks.len();
+        self.compass() + BAR + LINE * (entries as f64 + 1.5)
+    }
+
+    /// Draws it with its upper left corner there.
+    pub fn draw(&self, svg: &mut Svg, left: f64, top: f64) {
+        north(svg, (left + 20.0, top + 34.0));
+        if let Some(flow) = self.flow() {
+            flow_arrow(svg, (left + 108.0, top + 34.0), flow);
+        }
+        self.bar(svg, left, top + self.compass() + 8.0);
+        let mut y = top + self.compass() + BAR + LINE / 2.0;
+        if !self.behaviors.is_empty() {
+            svg.text((left, y), HEAD, "behavior");
+            y += LINE;
+        }
+        for &behavior in self.behaviors.iter().take(BEHAVIORS_MAX) {
+            let (colour, dashes) = style(behavior);
+            svg.line(
+                (left, y - 4.5),
+                (left + 26.0, y - 4.5),
+                &format!("stroke=\"{colour}\" stroke-width=\"3\"{}", dashes.trim_end()),
+            );
+            let name = self.name(behavior);
+            svg.text((left + NAMES, y), ENTRY, &svg::shortened(&name, self.width() - NAMES, 13.0));
+            y += LINE;
+        }
+        if BEHAVIORS_MAX < self.behaviors.len() {
+            svg.text((left + NAMES, y), ENTRY, &format!("and {} more", self.behaviors.len() - BEHAVIORS_MAX));
+            y += LINE;
+        }
+        y += LINE / 2.0;
+        for (name, mark) in &self.marks {
+            mark(svg, (left + 13.0, y - 4.5));
+            svg.text((left + NAMES, y), ENTRY, name);
+            y += LINE;
+        }
+    }
+
+    fn name(&self, behavior: u16) -> String {
+        let name = self.picture.behaviors.get(usize::from(behavior));
+        name.map_or_else(|| format!("behavior {behavior}"), String::clone)
+    }
+
+    /// The flow, if there is any to draw.
+    fn flow(&self) -> Option<Vector> {
+        self.picture.flow.filter(|flow| flow.length().is_finite() && flow.length() > 0.0)
+    }
+
+    fn compass(&self) -> f64 {
+        if self.flow().is_some() { COMPASS + FLOW } else { COMPASS }
+    }
+
+    fn bar(&self, svg: &mut Svg, left: f64, y: f64) {
+        let length = round_down(BAR_MAX / self.scale);
+        let right = left + length * self.scale;
+        let d = [(left, y - 5.0), (left, y), (right, y), (right, y - 5.0)];
+        svg.path(&d, false, "fill=\"none\" stroke=\"#1a1a1a\" stroke-width=\"1.6\"");
+        let text = if length < 1000.0 { format!("{} m", px(length)) } else { format!("{} km", px(length / 1000.0)) };
+        svg.text((left, y + 17.0), ENTRY, &text);
+    }
+}
+
+fn north(svg: &mut Svg, (x, y): (f64, f64)) {
+    svg.path(
+        &[(x, y - 30.0), (x + 8.0, y + 8.0), (x, y + 1.0)],
+        true,
+        "fill=\"#1a1a1a\" stroke=\"#1a1a1a\" stroke-width=\"1\" stroke-linejoin=\"round\"",
+    );
+    svg.path(
+        &[(x, y - 30.0), (x - 8.0, y + 8.0), (x, y + 1.0)],
+        true,
+        "fill=\"#fff\" stroke=\"#1a1a1a\" stroke-width=\"1\" stroke-linejoin=\"round\"",
+    );
+    svg.text((x, y + 27.0), "font-size=\"15\" font-weight=\"bold\" fill=\"#1a1a1a\" text-anchor=\"middle\"", "N");
+}
+
+fn flow_arrow(svg: &mut Svg, (x, y): (f64, f64), flow: Vector) {
+    let unit = flow.toward().unit();
+    // On the page east is right and north is up.
+    let at = |along: f64, across: f64| {
+        (x + along * unit.east + across * unit.north, y - along * unit.north + across * unit.east)
+    };
+    let colour = "#2a6f97";
+    svg.line(at(-27.0, 0.0), at(18.0, 0.0), &format!("stroke=\"{colour}\" stroke-width=\"3\""));
+    svg.path(&[at(29.0, 0.0), at(14.0, 7.5), at(14.0, -7.5)], true, &format!("fill=\"{colour}\""));
+    let attributes = format!("font-size=\"13\" fill=\"{colour}\" text-anchor=\"middle\"");
+    svg.text((x, y + 48.0), &attributes, &format!("flow {} cm/s", number::fixed(flow.length() * 100.0, 1)));
+    svg.text((x, y + 63.0), &attributes, &format!("toward {}°", whole_degrees(flow)));
+}
+
+fn whole_degrees(flow: Vector) -> String {
+    let degrees = number::fixed(flow.toward().degrees(), 0);
+    if degrees == "360" { "0".to_string() } else { degrees }
+}
+
+fn area_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    let corners = [(x - 13.0, y - 6.0), (x + 13.0, y - 6.0), (x + 13.0, y + 6.0), (x - 13.0, y + 6.0)];
+    svg.path(&corners, true, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"5 3\"");
+}
+
+fn plume_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    for (dx, dy, radius) in [(-8.0, 1.0, 3.5), (-1.0, -1.0, 5.0), (7.0, 1.0, 6.0)] {
+        svg.circle((x + dx, y + dy), radius, &format!("fill=\"{}\" fill-opacity=\"0.4\"", chart::PLUME));
+    }
+}
+
+fn detection_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    let attributes = format!("stroke=\"{}\" stroke-width=\"1.2\"", chart::DETECTION);
+    svg.line((x - 3.5, y - 3.5), (x + 3.5, y + 3.5), &attributes);
+    svg.line((x - 3.5, y + 3.5), (x + 3.5, y - 3.5), &attributes);
+}

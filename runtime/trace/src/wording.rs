@@ -1,0 +1,147 @@
+//! What each event has to say: one line, in columns.
+
+use crate::active::Active;
+use crate::names::Names;
+use crate::words::{INDENT, cause_name, channel_name, control_name, indented, one_line};
+use albacore_geometry::Point;
+use albacore_machine::Event;
+use albacore_program::number;
+use albacore_program::{ActivityId, Channel, Program, Rule, Shape};
+
+/// The widest that the column of what happened gets by itself.
+const WHAT_WIDTH_MAX: usize = 48;
+/// The column of positions: `at (-1094.0, -1094.0) m`.
+const WHERE_WIDTH: usize = 24;
+
+/// Turns events into lines.
+#[derive(Clone, Debug)]
+pub struct Wording {
+    /// What the numbers in events stand for.
+    pub names: Names,
+    what_width: usize,
+    place_width: usize,
+}
+
+impl Wording {
+    /// The wording for a program, its columns as wide as its longest switch and place.
+    pub fn new(program: &Program) -> Self {
+        let names = Names::new(program);
+        let longest = names.switch_labels().map(|label| label.chars().count()).max().unwrap_or(0);
+        // Most tables are in a strategy that is called by a mission: two levels down.
+        let what_width = (longest + 2 * INDENT).min(WHAT_WIDTH_MAX);
+        let place_width = program.rules.iter().map(|rule| rule.place.chars().count()).max().unwrap_or(0);
+        Wording { names, what_width, place_width }
+    }
+
+    /// What an event has to say, and under which verb. Verbs have at most seven letters: two blanks end every column.
+    ///
+    /// `all` are the events of the same tick, `active` is what was active before this one.
+    pub fn line(
+        &self,
+        event: &Event,
+        all: &[Event],
+        active: &Active,
+        position: Option<Point>,
+    ) -> Option<(&'static str, String)> {
+        let inner = active.chain().len();
+        Some(match event {
+            Event::Control(control) => ("control", control_name(*control).to_string()),
+            Event::Entered(id) => ("enter", indented(inner, &self.names.titled(*id))),
+            Event::Left(id, cause) => {
+                let what = indented(active.depth(*id), &self.names.titled(*id));
+                ("leave", self.columns(&what, None, "", cause_name(*cause)))
+            }
+            Event::Suspended(id) => ("suspend", indented(active.depth(*id), self.names.name(*id))),
+            Event::Resumed(id) => {
+                let after = all.iter().find_map(|event| match event {
+                    Event::Left(left, _) if self.names.share_table(*left, *id) => {
+                        Some(format!("{} -> ", self.names.name(*left)))
+                    }
+                    _ => None,
+                });
+                let what = format!("{}{}", after.unwrap_or_default(), self.names.name(*id));
+                ("resume", self.columns(&indented(active.depth(*id), &what), Some(position), "", ""))
+            }
+            Event::Switched { rule, from, exit, values } => {
+                let what = indented(active.depth(*from), &self.names.switch_label(*from, *rule));
+                let rule = self.names.program.rules.get(*rule as usize);
+                let why = self.guard(rule, *from, *exit, values);
+                ("switch", self.columns(&what, Some(position), rule.map_or("?", |rule| &rule.place), &why))
+            }
+            Event::Remembered(memory, words) => {
+                let memory = self.names.program.memories.get(*memory as usize)?;
+                let value = self.value(&memory.value.shape, words);
+                ("memory", indented(inner, &format!("{} = {value}", memory.name)))
+            }
+            Event::Reported(site, words) => {
+                let site = self.names.program.reports.get(*site as usize)?;
+                let labels = site.fields.iter().map(|(label, field)| {
+                    (if label.is_empty() { site.name.as_str() } else { label.as_str() }, &field.shape)
+                });
+                ("report", self.values(labels, words))
+            }
+            Event::Logged(text) => ("log", one_line(text)),
+            Event::Amending(id, asked, given) => {
+                let line = format!(
+                    "{}  course {} -> {}",
+                    self.names.name(*id),
+                    number::compass(*asked),
+                    number::heading(*given)
+                );
+                ("amend", line)
+            }
+            Event::AmendingEnded(id) => ("amend", format!("{}  no more", self.names.name(*id))),
+            Event::Limited(channel, asked, given) => {
+                let print = if *channel == Channel::Speed { number::metres_per_second } else { number::metres };
+                ("limit", format!("{}  {} -> {}", channel_name(*channel), print(*asked), print(*given)))
+            }
+            Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel_name(*channel))),
+            Event::Stale(input) => ("stale", self.names.input(*input).to_string()),
+            Event::Fresh(input) => ("fresh", self.names.input(*input).to_string()),
+            Event::Aborted(why) => ("abort", self.columns(&one_line(why), Some(position), "", "")),
+            Event::TimedOut => ("timeout", self.columns("the mission's time is up", Some(position), "", "")),
+            Event::Ended(outcome) => ("end", outcome.name().to_string()),
+        })
+    }
+
+    /// What, where, by which rule, and why.
+    fn columns(&self, what: &str, position: Option<Option<Point>>, place: &str, why: &str) -> String {
+        let mut line = format!("{what:<width$}", width = self.what_width);
+        if let Some(position) = position {
+            let at = format!("at {}", position.map_or_else(|| "?".to_string(), number::point));
+            line += &format!("  {at:<WHERE_WIDTH$}");
+        }
+        if !place.is_empty() {
+            line += &format!("  {place:<width$}", width = self.place_width);
+        }
+        if !why.is_empty() {
+            line += &format!("  {why}");
+        }
+        line
+    }
+
+    /// The values that a rule's guard looked at; the guard as written when there are none.
+    fn guard(&self, rule: Option<&Rule>, from: ActivityId, exit: u32, values: &[f64]) -> String {
+        let exit = self.names.entry(from).and_then(|entry| entry.exits.get(exit as usize));
+        let watched = exit.map_or(&[][..], |exit| &exit.watched);
+        if watched.is_empty() {
+            let guard = rule.and_then(|rule| rule.text.split_once(" on "));
+            return guard.map(|(_, guard)| format!("on {}", one_line(guard))).unwrap_or_default();
+        }
+        self.values(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values)
+    }
+
+    fn values<'a>(&self, named: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
+        let mut at = 0;
+        let values = named.map(|(name, shape)| {
+            let value = self.value(shape, words.get(at..).unwrap_or(&[]));
+            at += shape.words() as usize;
+            format!("{name} = {value}")
+        });
+        values.collect::<Vec<_>>().join(", ")
+    }
+
+    fn value(&self, shape: &Shape, words: &[f64]) -> String {
+        one_line(&number::value_with(&self.names.program.texts, shape, words))
+    }
+}

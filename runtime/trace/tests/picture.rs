@@ -1,0 +1,119 @@
+//! The picture of a run.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that fails may panic")]
+
+use albacore_geometry::{Area, Heading, Point, Vector};
+use albacore_trace::{Digest, Picture};
+
+fn full() -> Picture {
+    let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0).unwrap();
+    let around = |i: u32| Point::new(f64::from(i % 997) - 500.0, f64::from(i % 613) - 300.0);
+    Picture {
+        title: "a <mission> & \"its\" 'end'".into(),
+        subtitle: vec!["control \u{1} character".into()],
+        area: area.corners().to_vec(),
+        plume: (0..50_000).map(|i| (around(i), 1.0)).collect(),
+        // The worst of tracks: every point far from the last, a switch every 40 ticks.
+        track: (0..100_000).map(|i| (around(i * 331), (i / 40 % 11) as u16)).collect(),
+        behaviors: (0..11).map(|i| format!("b{i}")).collect(),
+        detections: (0..30_000).map(around).collect(),
+        declared: vec![("declared".into(), Point::new(13.0, 2.0))],
+        sources: vec![("dye".into(), Point::ORIGIN)],
+        start: Some(Point::new(-300.0, 200.0)),
+        flow: Some(Vector::new(-0.0957, 0.0803)),
+    }
+}
+
+/// Every tag is closed, in order, and nothing is there that a browser would load.
+#[track_caller]
+fn check(svg: &str) {
+    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    assert!(!svg.contains("NaN") && !svg.contains("inf") && !svg.contains('?'), "a coordinate is no number");
+    assert!(!svg.contains("href") && !svg.contains("url(http"));
+    let mut open = Vec::new();
+    for tag in svg.split('<').skip(1) {
+        let (tag, _) = tag.split_once('>').expect("a tag ends");
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+        let name = tag.trim_start_matches('/').split([' ', '/']).next().unwrap();
+        match tag {
+            tag if tag.starts_with('/') => assert_eq!(open.pop(), Some(name)),
+            tag if tag.ends_with('/') => {}
+            _ => open.push(name),
+        }
+    }
+    assert!(open.is_empty());
+}
+
+#[test]
+fn the_picture_of_a_long_run_is_small_and_always_the_same() {
+    let svg = full().svg();
+    check(&svg);
+    assert!(svg.len() < 500_000, "{} bytes", svg.len());
+    assert_eq!(svg, full().svg());
+    assert!(svg.contains("a &lt;mission&gt; &amp; &quot;its&quot; &#39;end&#39;"));
+    assert!(svg.contains("flow 12.5 cm/s") && svg.contains("toward 140°"));
+    assert!(svg.contains(">200 m<"), "a round scale bar");
+    let mut digest = Digest::new();
+    digest.text(&svg);
+    assert_eq!(digest.to_string(), "a55cc9710de989e3", "the picture's bytes have changed: look at it, then accept");
+}
+
+#[test]
+fn little_or_nothing_to_show_is_still_a_picture() {
+    check(&Picture::default().svg());
+    let here = Point::new(3.0, 4.0);
+    check(&Picture { track: vec![(here, 0)], ..Picture::default() }.svg());
+    check(&Picture { start: Some(here), behaviors: vec!["hold".into()], ..Picture::default() }.svg());
+}
+
+#[test]
+fn what_is_not_finite_is_left_out() {
+    let bad = [f64::NAN, f64::INFINITY, -1e300].map(|x| Point::new(x, 0.0));
+    let mut picture = full();
+    let clean = picture.svg();
+    for p in bad {
+        picture.plume.push((p, 1.0));
+        picture.track.push((p, 0));
+        picture.detections.push(p);
+        picture.declared.push(("bad".into(), p));
+        picture.sources.push(("bad".into(), p));
+        picture.area.push(p);
+    }
+    let svg = picture.svg();
+    check(&svg);
+    assert!(!svg.contains("bad"));
+    assert_eq!(svg.len(), clean.len());
+    check(&Picture { start: Some(bad[0]), flow: Some(Vector::new(f64::NAN, 0.0)), ..Picture::default() }.svg());
+    check(&Picture { plume: vec![(Point::ORIGIN, f64::NAN)], ..Picture::default() }.svg());
+}
+
+#[test]
+fn great_and_small_extents_have_round_scales() {
+    for span in [1e-6, 0.3, 7.0, 200.0, 1_094.0, 33_333.0, 1e6, 1e8] {
+        let corners = [(0.0, 0.0), (span, 0.0), (span, span / 3.0), (0.0, span / 3.0)];
+        let area = corners.map(|(n, e)| Point::new(n - span / 2.0, e)).to_vec();
+        let svg = Picture { area, ..Picture::default() }.svg();
+        check(&svg);
+        let bar = svg
+            .lines()
+            .filter_map(|line| line.strip_suffix(" m</text>").or(line.strip_suffix(" km</text>")))
+            .next_back();
+        let bar = bar.and_then(|line| line.rsplit_once('>')).unwrap().1;
+        assert!(["1", "2", "5"].contains(&bar.trim_end_matches('0')), "a bar of {bar}");
+    }
+}
+
+#[test]
+fn a_straight_stretch_needs_two_points_only() {
+    let track = (0..10_000).map(|i| (Point::new(f64::from(i) * 0.2, f64::from(i) * 0.1), 0)).collect();
+    let svg = Picture { track, behaviors: vec!["go".into()], ..Picture::default() }.svg();
+    let run = svg.lines().find(|line| line.contains("stroke=\"#0072b2\"")).unwrap();
+    assert!(run.len() < 80, "{run}");
+}
+
+#[test]
+fn only_behaviors_that_were_active_are_in_the_legend() {
+    let mut picture = full();
+    picture.track.retain(|(_, behavior)| *behavior != 5);
+    let svg = picture.svg();
+    assert!(svg.contains(">b4<") && !svg.contains(">b5<"));
+}

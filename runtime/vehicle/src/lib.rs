@@ -1,0 +1,116 @@
+//! The one port between a mission and the water: what a vehicle senses, what it can be told, who has control.
+//!
+//! The simulator, a vehicle at the end of a serial line and the replay of a journal are all a [`Vehicle`]. The machine that
+//! executes a program sees nothing else of them.
+
+use albacore_geometry::Heading;
+use serde::{Deserialize, Serialize};
+
+/// The control period: one tick, in seconds.
+pub const TICK_S: f64 = 0.1;
+
+/// The numbers of one sample, in SI units; what each means is the channel's to say.
+pub type Reading = [f64; 4];
+
+/// A kind of measurement that a vehicle delivers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Channel {
+    /// Its name, which an `input` of the same name reads.
+    pub name: String,
+    /// How many numbers of a [`Reading`] it uses.
+    pub width: usize,
+}
+
+/// One measurement, taken since the last tick.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Index into [`Vehicle::channels`].
+    pub channel: u16,
+    /// Its numbers; unused ones are zero.
+    pub reading: Reading,
+}
+
+/// Who drives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Control {
+    /// Nothing has been heard of the vehicle.
+    #[default]
+    Disconnected,
+    /// The vehicle drives itself; we listen.
+    Monitoring,
+    /// We have asked to drive.
+    Requesting,
+    /// We drive.
+    InControl,
+    /// We have given the vehicle back.
+    Released,
+    /// The vehicle would not let us drive.
+    Refused,
+    /// The vehicle has stopped listening for a while.
+    Suspended,
+    /// The vehicle did not answer.
+    TimedOut,
+}
+
+/// All that came from the vehicle in one tick.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// The samples since the last tick, oldest first.
+    pub samples: Vec<Sample>,
+    /// Who drives now.
+    pub control: Control,
+}
+
+impl Snapshot {
+    /// Adds a sample; numbers beyond the fourth are not carried.
+    pub fn push(&mut self, channel: u16, numbers: &[f64]) {
+        let mut reading = Reading::default();
+        for (slot, number) in reading.iter_mut().zip(numbers) {
+            *slot = *number;
+        }
+        self.samples.push(Sample { channel, reading });
+    }
+}
+
+/// What the vertical channel is to hold.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Vertical {
+    /// Metres below the surface.
+    Depth(f64),
+    /// Metres above the bottom.
+    Altitude(f64),
+}
+
+/// What the vehicle is to do during the coming tick. Goals latch: they hold until the next command.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Command {
+    /// Heading through the water.
+    pub heading: Heading,
+    /// Speed through the water, in m/s.
+    pub speed: f64,
+    /// Depth or altitude.
+    pub vertical: Vertical,
+}
+
+/// Why a vehicle can no longer be driven.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct VehicleError(pub String);
+
+/// A vehicle, real or simulated, in steps of one tick.
+pub trait Vehicle {
+    /// What it measures, in a fixed order.
+    fn channels(&self) -> &[Channel];
+
+    /// Lets one tick go by and gives what was sensed in it. The first call gives the state at tick 0.
+    fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError>;
+
+    /// Asks for control; [`Snapshot::control`] tells how that went.
+    fn take_over(&mut self) -> Result<(), VehicleError>;
+
+    /// Gives a command, in force until the next.
+    fn command(&mut self, command: &Command) -> Result<(), VehicleError>;
+
+    /// Gives control back. Always the last act.
+    fn release(&mut self) -> Result<(), VehicleError>;
+}

@@ -1,0 +1,50 @@
+//! `albacore check`: every error and warning of all files.
+
+use crate::exit::Exit;
+use crate::message;
+use std::path::PathBuf;
+
+/// Check scripts: every error and warning of all files.
+#[derive(clap::Args)]
+pub struct Check {
+    /// Scripts.
+    #[arg(required = true, value_name = "SCRIPT.alb")]
+    scripts: Vec<PathBuf>,
+    /// Change a parameter first: `lambda=6s`, `cpt_2005.beta=30deg`.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+impl Check {
+    /// Checks each script; the worst of them decides.
+    pub fn run(&self) -> Exit {
+        let mut exit = Exit::Well;
+        for path in &self.scripts {
+            match albacore_session::load(path, None, &self.set) {
+                Ok(script) => {
+                    let mut findings = script.findings.clone();
+                    if script.is_sound() {
+                        let missions: Vec<String> = script.missions().map(|m| m.name.clone()).collect();
+                        for name in missions {
+                            if let Some(Err(more)) = script.mission(&name) {
+                                findings.extend(more);
+                            }
+                        }
+                    }
+                    albacore_session::settle(&mut findings);
+                    message::findings(&findings, &script.sources);
+                    if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
+                        exit = Exit::Script;
+                    }
+                }
+                Err(error) => {
+                    message::error(&error.message, error.help.as_deref());
+                    if exit == Exit::Well {
+                        exit = Exit::Usage;
+                    }
+                }
+            }
+        }
+        exit
+    }
+}

@@ -1,0 +1,43 @@
+//! The command line: one file a verb. All that concerns terminals, files written and exit codes is here.
+
+mod check;
+mod exit;
+mod message;
+mod run;
+
+use clap::{Parser, Subcommand};
+use exit::Exit;
+use std::process::ExitCode;
+
+/// A mission scripting language for autonomous underwater vehicles.
+#[derive(Parser)]
+#[command(name = "albacore", version, about, propagate_version = true)]
+struct Arguments {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Check a mission script and run it.
+    Run(run::Run),
+    /// Check scripts: every error and warning of all files.
+    Check(check::Check),
+}
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no errors; a closed pipe is no crash.
+            let usage = error.use_stderr();
+            let _ = error.print();
+            return ExitCode::from(if usage { Exit::Usage } else { Exit::Well });
+        }
+    };
+    let exit = match arguments.verb {
+        Verb::Run(run) => run.run(),
+        Verb::Check(check) => check.run(),
+    };
+    ExitCode::from(exit)
+}

@@ -1,0 +1,140 @@
+//! Messages on standard error: findings with their source, and plain errors with their help.
+
+use albacore_session::{Diagnostic, Severity, Sources};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource};
+use std::fmt;
+use std::io::{IsTerminal, Write};
+
+/// A finding in the form that the renderer takes. Labels in one file are drawn in one frame; those of other files follow
+/// as findings of their own.
+struct Shown<'a> {
+    finding: &'a Diagnostic,
+    source: NamedSource<String>,
+    labels: Vec<LabeledSpan>,
+    related: Vec<Shown<'a>>,
+    message: String,
+    is_part: bool,
+}
+
+impl<'a> Shown<'a> {
+    fn new(finding: &'a Diagnostic, sources: &Sources) -> Self {
+        let file = finding.span().file;
+        let mut shown = Shown::part(finding, sources, file, finding.message.clone(), false);
+        let mut others: Vec<_> = finding.labels.iter().map(|(s, _)| s.file).filter(|f| *f != file).collect();
+        others.sort_unstable();
+        others.dedup();
+        shown.related =
+            others.into_iter().map(|f| Shown::part(finding, sources, f, "see also".to_string(), true)).collect();
+        shown
+    }
+
+    fn part(
+        finding: &'a Diagnostic,
+        sources: &Sources,
+        file: albacore_session::FileId,
+        message: String,
+        is_part: bool,
+    ) -> Self {
+        let source = sources.get(file);
+        let labels = finding
+            .labels
+            .iter()
+            .filter(|(span, _)| span.file == file)
+            .map(|(span, text)| {
+                let text = if text.is_empty() { None } else { Some(text.clone()) };
+                LabeledSpan::new(text, span.start as usize, (span.end - span.start) as usize)
+            })
+            .collect();
+        let source = NamedSource::new(source.name.to_string(), source.text.to_string());
+        Shown { finding, source, labels, related: Vec::new(), message, is_part }
+    }
+}
+
+impl fmt::Debug for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Shown<'_> {}
+
+impl miette::Diagnostic for Shown<'_> {
+    fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        (!self.is_part).then(|| Box::new(self.finding.code) as Box<dyn fmt::Display>)
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match (self.is_part, self.finding.severity) {
+            (true, _) => miette::Severity::Advice,
+            (_, Severity::Error) => miette::Severity::Error,
+            (_, Severity::Warning) => miette::Severity::Warning,
+        })
+    }
+
+    fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        let help = self.finding.help.as_ref().filter(|_| !self.is_part)?;
+        Some(Box::new(help))
+    }
+
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        Some(&self.source)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(self.labels.iter().cloned()))
+    }
+
+    fn related<'b>(&'b self) -> Option<Box<dyn Iterator<Item = &'b dyn miette::Diagnostic> + 'b>> {
+        if self.related.is_empty() {
+            return None;
+        }
+        Some(Box::new(self.related.iter().map(|r| r as &dyn miette::Diagnostic)))
+    }
+}
+
+/// Prints findings, in order, and how many there are.
+pub fn findings(findings: &[Diagnostic], sources: &Sources) {
+    let theme = match (std::io::stderr().is_terminal(), std::env::var_os("NO_COLOR")) {
+        (true, None) => GraphicalTheme::unicode(),
+        _ => GraphicalTheme::unicode_nocolor(),
+    };
+    let handler = GraphicalReportHandler::new_themed(theme).with_width(120).with_links(false);
+    let mut text = String::new();
+    for finding in findings {
+        let shown = Shown::new(finding, sources);
+        if handler.render_report(&mut text, &shown).is_err() {
+            text.push_str(&finding.message);
+        }
+        text.push('\n');
+    }
+    let count = |severity: Severity| findings.iter().filter(|f| f.severity == severity).count();
+    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+    let several = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    match (errors, warnings) {
+        (0, 0) => {}
+        (0, w) => text.push_str(&format!("{}\n", several(w, "warning"))),
+        (e, 0) => text.push_str(&format!("{}\n", several(e, "error"))),
+        (e, w) => text.push_str(&format!("{}, {}\n", several(e, "error"), several(w, "warning"))),
+    }
+    write(&text);
+}
+
+/// Prints an error that stands in no script.
+pub fn error(message: &str, help: Option<&str>) {
+    let mut text = format!("error: {message}\n");
+    if let Some(help) = help {
+        text.push_str(&format!("  help: {help}\n"));
+    }
+    write(&text);
+}
+
+/// Standard error may be closed: then nobody listens, and that is all.
+pub fn write(text: &str) {
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}

@@ -1,0 +1,220 @@
+//! `albacore run`: checks a mission and runs it.
+
+use crate::exit::Exit;
+use crate::message;
+use albacore_session::{Outcome, Plan, PlanError, Run as MissionRun, Running, Script, Summary};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Ticks between two looks at the wall clock and the interrupt flag.
+const TICKS_AT_ONCE: u64 = 100;
+
+/// Check a mission script and run it.
+#[derive(clap::Args)]
+pub struct Run {
+    /// The script.
+    #[arg(value_name = "MISSION.alb")]
+    script: PathBuf,
+    /// The mission; else the one named like the file, else the only one.
+    #[arg(long)]
+    mission: Option<String>,
+    /// The scenario; else the one that the mission names.
+    #[arg(long = "in", value_name = "SCENARIO")]
+    scenario: Option<String>,
+    /// The seed of all that is random.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The folder for the trace and the picture; else `albacore-runs/MISSION-SEED`.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write no files.
+    #[arg(long, conflicts_with = "out")]
+    no_out: bool,
+    /// Print the result as one JSON object on standard output.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Run {
+    /// Runs the mission to its end.
+    pub fn run(&self) -> Exit {
+        let script = match albacore_session::load(&self.script, self.mission.as_deref(), &self.set) {
+            Ok(script) => script,
+            Err(error) => {
+                message::error(&error.message, error.help.as_deref());
+                return Exit::Usage;
+            }
+        };
+        message::findings(&script.findings, &script.sources);
+        if !script.is_sound() {
+            return Exit::Script;
+        }
+        let file = self.script.display().to_string();
+        let plan = match Plan::new(&script, &file, self.mission.as_deref(), self.scenario.as_deref()) {
+            Ok(plan) => plan,
+            Err(error) => return refused(&error, &script),
+        };
+        let started = now();
+        let mut run = match MissionRun::new(&plan, self.seed) {
+            Ok(run) => run,
+            Err(error) => return refused(&error, &script),
+        };
+        let outcome = self.drive(&mut run, &plan);
+        let summary = run.summary(started.elapsed().as_secs_f64());
+        let saved = self.save(&run, &summary);
+        self.tell(&summary, saved.as_ref().ok().and_then(|p| p.as_deref()));
+        match (outcome, saved) {
+            (Outcome::Failed | Outcome::LinkLost, _) | (_, Err(())) => Exit::Failed,
+            (Outcome::Completed, _) => Exit::Well,
+            _ => Exit::NotWell,
+        }
+    }
+
+    /// Ticks until the mission ends or the person interrupts it.
+    fn drive(&self, run: &mut MissionRun, plan: &Plan) -> Outcome {
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&interrupted);
+        // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.
+        let _ = ctrlc::set_handler(move || flag.store(true, Ordering::SeqCst));
+        let bar = self.bar(plan);
+        loop {
+            for _ in 0..TICKS_AT_ONCE {
+                if let Running::Over(outcome) = run.step() {
+                    bar.finish_and_clear();
+                    return outcome;
+                }
+            }
+            if interrupted.load(Ordering::SeqCst) {
+                bar.finish_and_clear();
+                run.interrupt();
+                return Outcome::Interrupted;
+            }
+            bar.set_position(run.tick() / 10);
+            bar.set_message(run.active().join(" > "));
+        }
+    }
+
+    fn bar(&self, plan: &Plan) -> ProgressBar {
+        if self.json || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::new_spinner();
+        let style = ProgressStyle::with_template("{spinner} {pos} s  {msg}")
+            .unwrap_or_else(|_| ProgressStyle::default_spinner());
+        bar.set_style(style);
+        bar.set_message(plan.program.mission.name.clone());
+        bar.enable_steady_tick(Duration::from_millis(100));
+        bar
+    }
+
+    /// Writes trace and picture; gives the picture's path. What cannot be written is said, and the run counts as failed.
+    fn save(&self, run: &MissionRun, summary: &Summary) -> Result<Option<PathBuf>, ()> {
+        if self.no_out {
+            return Ok(None);
+        }
+        let folder = self
+            .out
+            .clone()
+            .unwrap_or_else(|| Path::new("albacore-runs").join(format!("{}-{}", summary.mission, summary.seed)));
+        let picture = folder.join("run.svg");
+        let written = std::fs::create_dir_all(&folder)
+            .and_then(|()| whole(&folder.join("trace.txt"), &run.trace().to_string()))
+            .and_then(|()| whole(&picture, &run.svg()));
+        match written {
+            Ok(()) => Ok(Some(picture)),
+            Err(error) => {
+                message::error(
+                    &format!("`{}` cannot be written: {error}", folder.display()),
+                    Some("choose another folder with `--out`, or `--no-out`"),
+                );
+                Err(())
+            }
+        }
+    }
+
+    fn tell(&self, summary: &Summary, picture: Option<&Path>) {
+        let text = if self.json {
+            match serde_json::to_string_pretty(summary) {
+                Ok(text) => text + "\n",
+                Err(error) => {
+                    message::error(&error.to_string(), None);
+                    return;
+                }
+            }
+        } else {
+            human(summary, picture)
+        };
+        // A closed pipe is silent.
+        let _ = std::io::stdout().lock().write_all(text.as_bytes());
+    }
+}
+
+/// A whole file or none: what is half written goes under another name first.
+fn whole(path: &Path, text: &str) -> std::io::Result<()> {
+    let part = path.with_extension("part");
+    std::fs::write(&part, text)?;
+    std::fs::rename(&part, path)
+}
+
+/// The result as a person reads it.
+fn human(summary: &Summary, picture: Option<&Path>) -> String {
+    let minutes = |seconds: f64| format!("{} min {:02} s", (seconds / 60.0).floor(), (seconds % 60.0).floor());
+    let mut text = format!(
+        "{} in {}, seed {}: {}",
+        summary.mission,
+        summary.scenario,
+        summary.seed,
+        summary.outcome.replace('_', " ")
+    );
+    if !summary.reason.is_empty() && summary.outcome != "completed" {
+        text.push_str(&format!(" ({})", summary.reason));
+    }
+    text.push_str(&format!(
+        "\n  {} of the vehicle's time in {:.2} s, {:.0} m over ground, {} switches\n",
+        minutes(summary.sim_time_s),
+        summary.wall_s,
+        summary.path_length_m,
+        summary.switches
+    ));
+    for report in &summary.reports {
+        text.push_str(&format!("  reported {} after {}", report.name, minutes(report.t_s)));
+        if let (Some(north), Some(east)) = (report.north_m, report.east_m) {
+            text.push_str(&format!(" at ({north:.1}, {east:.1}) m"));
+        }
+        if let Some(error) = report.error_m {
+            text.push_str(&format!(", {error:.1} m from the nearest source"));
+        }
+        text.push('\n');
+    }
+    text.push_str(&format!("  digest {}\n", summary.digest));
+    if let Some(picture) = picture {
+        text.push_str(&format!("  picture {}\n", picture.display()));
+    }
+    text
+}
+
+fn refused(error: &PlanError, script: &Script) -> Exit {
+    match error {
+        PlanError::Script(findings) => {
+            message::findings(findings, &script.sources);
+            Exit::Script
+        }
+        PlanError::Asked(what, help) => {
+            message::error(what, help.as_deref());
+            Exit::Usage
+        }
+    }
+}
+
+/// The wall clock, which only the command line may read.
+#[expect(clippy::disallowed_methods, reason = "how long a run took is told to the person and is no part of its result")]
+fn now() -> Instant {
+    Instant::now()
+}
