@@ -393,7 +393,12 @@ impl<'t> Checker<'t> {
             }
         };
         self.enter_loop();
-        let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, element), c.block(block)));
+        let constants = matches!(&list.kind, ExprKind::List(elements) if elements.iter().all(|e| e.range.constant().is_some()));
+        let (var, body) = self.in_block(|c| {
+            let var = c.declare(name, VarKind::Loop, element);
+            c.scope.vars[var].walks_constants = constants;
+            (var, c.block(block))
+        });
         Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
     }
 

@@ -283,6 +283,7 @@ impl<'t> Checker<'t> {
                             ty: info.ty,
                             span: info.span,
                             range: info.range.unwrap_or(Interval::ANY),
+                            walks_constants: false,
                             order: None,
                         });
                         scenario.defaults.push(info.default);

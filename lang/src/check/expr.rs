@@ -77,6 +77,8 @@ impl<'t> Checker<'t> {
             }
         }
         let constant = value.range.constant();
+        let is_constant = constant.is_some()
+            || matches!(value.kind, ExprKind::Var(id) if self.scope.vars[id].walks_constants);
         match (&value.ty, ty) {
             (Type::Int | Type::Sign, Type::Quantity(d)) if d.is_none() => return Expr { ty: ty.clone(), ..value },
             (Type::Sign, Type::Int) => return Expr { ty: ty.clone(), ..value },
@@ -86,10 +88,10 @@ impl<'t> Checker<'t> {
             (Type::Quantity(d), Type::Int) if d.is_none() && constant.is_some_and(|x| x.fract() == 0.0) => {
                 return Expr { ty: Type::Int, ..value };
             }
-            (Type::Quantity(d), Type::Heading) if *d == Dimension::ANGLE && constant.is_some() => {
+            (Type::Quantity(d), Type::Heading) if *d == Dimension::ANGLE && is_constant => {
                 return self.operation(Builtin::Heading, vec![value], Type::Heading, span);
             }
-            (Type::Quantity(d), Type::Depth | Type::Altitude) if *d == Dimension::LENGTH && constant.is_some() => {
+            (Type::Quantity(d), Type::Depth | Type::Altitude) if *d == Dimension::LENGTH && is_constant => {
                 return Expr { ty: ty.clone(), ..value };
             }
             (Type::List(a, n), Type::List(b, m)) if n <= m => {
