@@ -58,6 +58,12 @@ impl<'t> Checker<'t> {
                 self.check_item(m, item);
             }
         }
+        // Whether a behavior can end depends on what it calls: tables come when all bodies are known.
+        for activity in self.hir.activities.clone() {
+            if let hir::Body::Table { start, behaviors, rules } = &activity.body {
+                self.check_table(behaviors, *start, rules);
+            }
+        }
     }
 
     /// Every declaration gets its index before any body is checked: bodies refer to one another.

@@ -361,6 +361,9 @@ impl<'t> Checker<'t> {
             (Binary::Add | Binary::Sub, Point, Quantity(d)) if *d == Dimension::LENGTH => {
                 "say in which direction: `POINT + LENGTH toward HEADING`".into()
             }
+            (Binary::Add | Binary::Sub, Point | Vector(_), t) if *t == ANGLE => {
+                "`toward` holds tighter than `+` and `-`: write `LENGTH toward (HEADING + ANGLE)`".into()
+            }
             (Binary::Add, Point, Point) => {
                 "a point is moved by a vector: `POINT + VECTOR`; `POINT - POINT` is a vector".into()
             }

@@ -74,7 +74,6 @@ impl<'t> Checker<'t> {
             return Body::Sequence(hir::Block::default());
         }
         let start = start.unwrap_or(0);
-        self.check_table(&names, &behaviors, start, &rules, a);
         Body::Table { start, behaviors, rules }
     }
 
@@ -191,14 +190,11 @@ impl<'t> Checker<'t> {
     }
 
     /// What the table promises: every behavior reachable, every ending answered, every rule alive.
-    fn check_table(
-        &mut self,
-        names: &[&tree::Name],
-        behaviors: &[usize],
-        start: usize,
-        rules: &[Rule],
-        a: &tree::Activity,
-    ) {
+    pub(super) fn check_table(&mut self, behaviors: &[usize], start: usize, rules: &[Rule]) {
+        let names: Vec<tree::Name> = behaviors
+            .iter()
+            .map(|&b| tree::Name { node: self.hir.activities[b].name.clone(), span: self.hir.activities[b].span })
+            .collect();
         let mut reached = vec![false; names.len()];
         let mut todo = vec![start];
         while let Some(at) = todo.pop() {
@@ -222,7 +218,7 @@ impl<'t> Checker<'t> {
             let only_back =
                 rules.iter().all(|r| !matches!(r.target, Target::Behavior(to) if to == i) || r.back) && i != start;
             let ends = match &self.hir.activities[behaviors[i]].body {
-                Body::Sequence(block) => can_end(block),
+                Body::Sequence(block) => can_end(block, &self.hir, &mut Vec::new()),
                 _ => false,
             };
             let leaving: Vec<&Rule> = rules.iter().filter(|r| r.sources.contains(&i)).collect();
@@ -258,14 +254,12 @@ impl<'t> Checker<'t> {
                     );
                 }
             }
-            self.shadowed(i, &leaving, name);
+            self.shadowed(&leaving, name);
         }
-        let _ = a;
     }
 
     /// A rule after one of the same source whose guard always holds is never tried.
-    fn shadowed(&mut self, source: usize, leaving: &[&Rule], name: &tree::Name) {
-        let _ = source;
+    fn shadowed(&mut self, leaving: &[&Rule], name: &tree::Name) {
         for (k, later) in leaving.iter().enumerate() {
             let shadow = leaving[..k]
                 .iter()
@@ -285,15 +279,16 @@ impl<'t> Checker<'t> {
     }
 }
 
-/// Whether a body can come to its end.
-fn can_end(block: &hir::Block) -> bool {
+/// Whether a body can come to its end. `path` holds the activities that are being asked already: recursion is an error of
+/// its own.
+fn can_end(block: &hir::Block, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
     if body::leaves(block) {
         return finishes(block);
     }
     !block.stmts.iter().any(|stmt| match &stmt.kind {
         // A statement that never ends by itself and is not bounded.
-        hir::StmtKind::Timed(timed) => endless(timed),
-        hir::StmtKind::With(_, body) => !can_end(body),
+        hir::StmtKind::Timed(timed) => endless(timed, hir, path),
+        hir::StmtKind::With(_, body) => !can_end(body, hir, path),
         hir::StmtKind::Loop(_) => true,
         _ => false,
     })
@@ -308,7 +303,7 @@ fn finishes(block: &hir::Block) -> bool {
     })
 }
 
-fn endless(timed: &hir::Timed) -> bool {
+fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
     use albacore_program::Guide;
     if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() {
         return false;
@@ -320,7 +315,15 @@ fn endless(timed: &hir::Timed) -> bool {
             _ => false,
         },
         hir::Action::Keep(..) => true,
-        hir::Action::Call(..) => false,
+        hir::Action::Call(id, _) => match &hir.activities[*id].body {
+            Body::Sequence(block) if !path.contains(id) => {
+                path.push(*id);
+                let endless = !can_end(block, hir, path);
+                path.pop();
+                endless
+            }
+            _ => false,
+        },
     }
 }
 

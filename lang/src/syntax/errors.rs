@@ -77,6 +77,11 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
         ErrorVariant::ParsingError { positives, .. } => expectation(positives),
         ErrorVariant::CustomError { message } => message.clone(),
     };
+    let wants_name = expected.split([',', ' ']).any(|word| word == "name");
+    if wants_name && is_reserved(token) {
+        return Diagnostic::error("syntax::reserved", span, format!("`{token}` is a word of the language, no name"))
+            .help("choose another name; as a field or a label it may stand");
+    }
     let message = if expected.is_empty() {
         format!("{} cannot stand here", found(rest))
     } else {
@@ -87,6 +92,10 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
         Some(hint) => finding.help(hint),
         None => finding,
     }
+}
+
+fn is_reserved(word: &str) -> bool {
+    Grammar::parse(Rule::reserved, word).is_ok_and(|mut pairs| pairs.next().is_some_and(|p| p.as_str() == word))
 }
 
 /// The word or sign at the front of a text.
@@ -152,7 +161,7 @@ fn kind(rule: Rule) -> String {
         EOI | sep => "the end",
         name | label | path => "a name",
         quantity | number | expr | operand | cond | condition | geodetic | paren | list | if_expr | match_expr
-        | neg | pos | not | no | becomes | after | kw_true | kw_false | kw_none | kw_done | hole_expr => "a value",
+        | neg | pos | not | no | becomes | after | kw_not | kw_no | kw_becomes | kw_after | kw_true | kw_false | kw_none | kw_done | hole_expr => "a value",
         unit => "a unit",
         text | text_part | hole => "a text",
         op_else | op_or | op_and | op_eq | op_ne | op_le | op_ge | op_lt | op_gt | op_add | op_sub | op_toward

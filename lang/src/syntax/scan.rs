@@ -210,7 +210,9 @@ impl<'a> Scanner<'a> {
         let length: usize =
             self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').map(char::len_utf8).sum();
         let word = &self.source[self.at..self.at + length];
-        self.last = if OPEN_WORDS.contains(&word) { Last::Goes } else { Last::Ends };
+        // After a dot any word is a field's name: `flow.toward`.
+        let is_field = self.source[..self.at].ends_with('.');
+        self.last = if OPEN_WORDS.contains(&word) && !is_field { Last::Goes } else { Last::Ends };
         self.at += length;
     }
 
@@ -300,6 +302,7 @@ mod tests {
         check("{ a }\nelse { b }", "{ a } else { b }");
         check("x on\ny", "x on y");
         check("a -> b\nc", "a -> b\nc");
+        check("x = flow.toward\ny", "x = flow.toward\ny");
     }
 
     #[test]

@@ -5,17 +5,18 @@ use albacore_lang::{Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 6] = [
+const STDLIB: [(&str, &str); 7] = [
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
+    ("scenarios", include_str!("../../../stdlib/scenarios.alb")),
     ("search", include_str!("../../../stdlib/search.alb")),
     ("world", include_str!("../../../stdlib/world.alb")),
 ];
 
 /// Modules whose names every script knows.
-const PRELUDE: [&str; 2] = ["inputs", "world"];
+const PRELUDE: [&str; 3] = ["inputs", "scenarios", "world"];
 
 /// The file that marks a project's folder.
 const PROJECT_FILE: &str = "albacore.toml";
