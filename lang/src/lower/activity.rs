@@ -197,6 +197,15 @@ impl<'a> Lowering<'a> {
         let condition_timers = self.place_timers(conditions);
 
         let entry = self.here();
+        if activity.kind == Kind::Mission {
+            // Nobody calls a mission: its parameters have their defaults, which `--set` may have changed.
+            for (param, default) in activity.defaults.iter().enumerate() {
+                if let Some(e) = default {
+                    let to = self.frame.vars[param];
+                    self.scratch(|l| l.expr_into(e, to));
+                }
+            }
+        }
         signal_timers.iter().for_each(|timers| self.reset_timers(timers));
         self.reset_timers(&condition_timers);
         for (decl, timers) in activity.decls.iter().zip(&signal_timers) {
