@@ -45,7 +45,7 @@ impl<'a> Shown<'a> {
                 LabeledSpan::new(text, span.start as usize, (span.end - span.start) as usize)
             })
             .collect();
-        let source = NamedSource::new(source.name.to_string(), source.text.to_string());
+        let source = NamedSource::new(&source.name, source.text.to_string());
         Shown { finding, source, labels, related: Vec::new(), message, is_part }
     }
 }

@@ -24,8 +24,6 @@ pub struct Hir {
     pub inputs: Vec<Input>,
     /// Scenarios.
     pub scenarios: Vec<Scenario>,
-    /// Tests.
-    pub tests: Vec<Test>,
 }
 
 /// What a variable is, which tells who may change it.
@@ -233,7 +231,6 @@ pub enum Builtin {
     Gap,
     /// An area, a heading, a point.
     Corner,
-    EdgeAt,
     NearestEdge,
     EdgeGap,
     EdgeTangent,
@@ -275,7 +272,6 @@ pub enum StmtKind {
     Abort(Vec<TextPart>),
     Report { name: String, fields: Vec<(String, Expr)> },
     Log(Vec<TextPart>),
-    Expr(Expr),
 }
 
 /// What `with` puts in force.
@@ -451,8 +447,6 @@ pub struct Require {
 pub struct Scenario {
     /// Its name.
     pub name: String,
-    /// Where it is declared.
-    pub span: Span,
     /// Its parameters.
     pub vars: Vec<Var>,
     /// Their defaults.
@@ -478,15 +472,6 @@ pub struct ClauseUse {
 pub enum ClauseArg {
     Value(Expr),
     Nested(ClauseUse),
-}
-
-/// A test.
-#[derive(Clone, Debug)]
-pub struct Test {
-    /// What it is called.
-    pub name: String,
-    /// Where it stands.
-    pub span: Span,
 }
 
 impl Activity {

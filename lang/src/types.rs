@@ -32,8 +32,6 @@ pub enum Type {
     List(Box<Type>, u32),
     /// The type of `none`, which is of every optional type.
     None,
-    /// What has no value: a statement.
-    Nothing,
     /// Of what has been reported already: fits everything, so that no mistake is told twice.
     Unknown,
 }
@@ -122,7 +120,6 @@ impl TypeTable {
             Type::Optional(inner) => format!("{}?", self.name(inner)),
             Type::List(inner, capacity) => format!("[{}; {capacity}]", self.name(inner)),
             Type::None => "none".into(),
-            Type::Nothing => "nothing".into(),
             Type::Unknown => "?".into(),
         }
     }
@@ -150,15 +147,12 @@ impl TypeTable {
             Type::Enum(id) => Shape::Enum(self.enums[*id].variants.clone()),
             Type::Optional(inner) => Shape::Optional(Box::new(self.shape(inner))),
             Type::List(inner, capacity) => Shape::List(Box::new(self.shape(inner)), *capacity),
-            Type::None | Type::Nothing | Type::Unknown => Shape::Bool,
+            Type::None | Type::Unknown => Shape::Bool,
         }
     }
 
     /// How many words a value of a type takes.
     pub fn words(&self, ty: &Type) -> u32 {
-        match ty {
-            Type::Nothing => 0,
-            other => self.shape(other).words(),
-        }
+        self.shape(ty).words()
     }
 }

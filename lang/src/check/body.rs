@@ -393,7 +393,8 @@ impl<'t> Checker<'t> {
             }
         };
         self.enter_loop();
-        let constants = matches!(&list.kind, ExprKind::List(elements) if elements.iter().all(|e| e.range.constant().is_some()));
+        let constants =
+            matches!(&list.kind, ExprKind::List(elements) if elements.iter().all(|e| e.range.constant().is_some()));
         let (var, body) = self.in_block(|c| {
             let var = c.declare(name, VarKind::Loop, element);
             c.scope.vars[var].walks_constants = constants;

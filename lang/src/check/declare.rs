@@ -100,7 +100,11 @@ impl<'t> Checker<'t> {
 
     fn declare_item(&mut self, m: usize, item: &'t Item) {
         match item {
-            Item::Use(_) | Item::Test(_) => {}
+            Item::Use(_) => {}
+            Item::Test(test) => self.report(
+                Diagnostic::warning("tests::later", test.span, "this version reads tests and does not run them yet")
+                    .help("run the mission with `albacore run --seed N`"),
+            ),
             Item::Const(c) => {
                 self.consts.push(Lazy::Unchecked { module: m, name: &c.name, ty: c.ty.as_ref(), value: &c.value });
                 self.define(m, &c.name, Def::Const(self.consts.len() - 1));
@@ -162,7 +166,6 @@ impl<'t> Checker<'t> {
             Item::Scenario { name, .. } => {
                 self.hir.scenarios.push(hir::Scenario {
                     name: name.node.clone(),
-                    span: name.span,
                     vars: Vec::new(),
                     defaults: Vec::new(),
                     clauses: Vec::new(),
@@ -543,8 +546,7 @@ impl<'t> Checker<'t> {
 
     /// The value of a constant, checked when first needed.
     pub(super) fn constant(&mut self, id: usize) -> hir::Expr {
-        let value = self.lazy(id, true);
-        value
+        self.lazy(id, true)
     }
 
     /// The expression of a module's signal.

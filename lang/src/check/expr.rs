@@ -77,8 +77,8 @@ impl<'t> Checker<'t> {
             }
         }
         let constant = value.range.constant();
-        let is_constant = constant.is_some()
-            || matches!(value.kind, ExprKind::Var(id) if self.scope.vars[id].walks_constants);
+        let is_constant =
+            constant.is_some() || matches!(value.kind, ExprKind::Var(id) if self.scope.vars[id].walks_constants);
         match (&value.ty, ty) {
             (Type::Int | Type::Sign, Type::Quantity(d)) if d.is_none() => return Expr { ty: ty.clone(), ..value },
             (Type::Sign, Type::Int) => return Expr { ty: ty.clone(), ..value },

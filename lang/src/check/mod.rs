@@ -290,7 +290,15 @@ impl<'t> Checker<'t> {
 
     fn declare_hidden(&mut self, name: String, kind: VarKind, ty: Type, span: Span) -> VarId {
         let id = self.scope.vars.len();
-        self.scope.vars.push(hir::Var { name: name.clone(), kind, ty, span, range: Interval::ANY, walks_constants: false, order: None });
+        self.scope.vars.push(hir::Var {
+            name: name.clone(),
+            kind,
+            ty,
+            span,
+            range: Interval::ANY,
+            walks_constants: false,
+            order: None,
+        });
         self.scope.visible.push((name, id));
         id
     }

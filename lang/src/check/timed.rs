@@ -32,20 +32,16 @@ impl<'t> Checker<'t> {
         if let Some(repeated) = timed.repeated {
             self.report(Diagnostic::error("syntax::modifier", repeated, "this modifier is written twice"));
         }
-        if let tree::Action::Expr(e) = &timed.action {
-            if self.called_activity(e).is_none() {
-                if timed.is_modified() {
-                    self.report(
-                        Diagnostic::error(
-                            "time::modifier",
-                            timed.span,
-                            "this takes no time: nothing to end or to cut off",
-                        )
+        if let tree::Action::Expr(e) = &timed.action
+            && self.called_activity(e).is_none()
+        {
+            if timed.is_modified() {
+                self.report(
+                    Diagnostic::error("time::modifier", timed.span, "this takes no time: nothing to end or to cut off")
                         .help("`for`, `until`, `within` and `at` belong to statements that take time"),
-                    );
-                }
-                return self.expr_stmt(e, span);
+                );
             }
+            return self.expr_stmt(e, span);
         }
         if self.scope.setting != Setting::Body {
             let finding =

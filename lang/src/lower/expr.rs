@@ -295,7 +295,6 @@ impl<'a> Lowering<'a> {
             B::Center => Op::Center { to, area: a },
             B::Gap => Op::Gap { to, area: a, point: b },
             B::Corner => Op::Corner { to, area: a, heading: b, near: c },
-            B::EdgeAt => Op::EdgeAt { to, area: a, index: b },
             B::NearestEdge => Op::NearestEdge { to, area: a, point: b },
             B::EdgeGap => Op::EdgeGap { to, edge: a, point: b },
             B::EdgeTangent => Op::EdgeTangent { to, edge: a, heading: b },

@@ -114,7 +114,6 @@ impl<'a> Lowering<'a> {
                 let text = self.text(parts);
                 self.emit(Op::Log { text });
             }
-            StmtKind::Expr(e) => _ = self.expr(e),
         }
     }
 

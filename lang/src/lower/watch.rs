@@ -134,7 +134,7 @@ fn text_children<'e>(parts: &'e [TextPart], f: &mut dyn FnMut(&'e Expr)) {
 pub(super) fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
     for stmt in &block.stmts {
         match &stmt.kind {
-            StmtKind::Set(_, e) | StmtKind::Insert(_, e) | StmtKind::Remove(_, e) | StmtKind::Expr(e) => f(e),
+            StmtKind::Set(_, e) | StmtKind::Insert(_, e) | StmtKind::Remove(_, e) => f(e),
             StmtKind::If(e, a, b) => {
                 f(e);
                 block_children(a, f);

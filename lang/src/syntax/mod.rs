@@ -10,12 +10,17 @@ pub use scan::{Comment, NESTING_MAX};
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
+use grammar::{Grammar, Rule};
 use pest::Parser;
-use pest_derive::Parser;
 
-#[derive(Parser)]
-#[grammar = "syntax/grammar.pest"]
-struct Grammar;
+/// What the grammar's file becomes.
+mod grammar {
+    #![allow(missing_docs, reason = "made from grammar.pest, whose rules carry their own comments")]
+
+    #[derive(pest_derive::Parser)]
+    #[grammar = "syntax/grammar.pest"]
+    pub struct Grammar;
+}
 
 /// What a source says.
 #[derive(Clone, Debug)]

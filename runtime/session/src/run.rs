@@ -251,10 +251,10 @@ impl Run {
         }
         self.trace.tick(tick, believed, events);
         self.trace.sample(tick, believed, Some(truth.heading), Some(truth.depth));
-        if tick.is_multiple_of(TRACK_EVERY_TICKS) || !events.is_empty() {
-            if let Some(behavior) = self.shown_behavior() {
-                self.picture.track(believed.unwrap_or(truth.position), behavior);
-            }
+        if (tick.is_multiple_of(TRACK_EVERY_TICKS) || !events.is_empty())
+            && let Some(behavior) = self.shown_behavior()
+        {
+            self.picture.track(believed.unwrap_or(truth.position), behavior);
         }
         let chemical = self.vehicle.channels().iter().position(|c| c.name == "chemical");
         let detected =
