@@ -8,6 +8,7 @@ pub mod diagnostic;
 mod dimension;
 mod hir;
 mod lower;
+mod rules;
 pub mod source;
 mod suggest;
 pub mod syntax;
@@ -80,7 +81,6 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
     // What could not be read is missing everywhere: names that it would have declared are no second mistake.
     let later = checked.findings.into_iter().filter(|f| !(unreadable && f.code == "names::unknown"));
     findings.extend(later);
-    diagnostic::settle(&mut findings);
     let mut missions = Vec::new();
     for item in &modules[main].tree.items {
         if let Item::Activity(a) = item
@@ -92,6 +92,13 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
             missions.extend(id.map(|id| (info, id)));
         }
     }
+    // A whole mission is looked at when its parts are sound: half-understood parts would be found wanting twice.
+    if findings.iter().all(|f| f.severity != diagnostic::Severity::Error) {
+        for (_, id) in &missions {
+            findings.extend(rules::check(&checked.hir, *id));
+        }
+    }
+    diagnostic::settle(&mut findings);
     Script { sources, findings, hir: checked.hir, types: checked.types, missions }
 }
 

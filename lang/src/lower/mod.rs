@@ -10,6 +10,8 @@ mod scenario;
 mod stmt;
 mod watch;
 
+pub(crate) use watch::{activity_children, children};
+
 pub use scenario::{ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 
 use crate::diagnostic::Diagnostic;

@@ -90,7 +90,7 @@ fn temporal_nodes<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
 }
 
 /// Calls `f` on the expressions directly inside one.
-pub(super) fn children<'e>(e: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
+pub fn children<'e>(e: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
     match &e.kind {
         ExprKind::Present(a)
         | ExprKind::Unwrap(a)
@@ -193,7 +193,7 @@ fn with_children<'e>(items: &'e [With], f: &mut dyn FnMut(&'e Expr)) {
 }
 
 /// Calls `f` on every expression of an activity, outermost ones only.
-pub(super) fn activity_children<'e>(activity: &'e hir::Activity, f: &mut dyn FnMut(&'e Expr)) {
+pub fn activity_children<'e>(activity: &'e hir::Activity, f: &mut dyn FnMut(&'e Expr)) {
     for decl in &activity.decls {
         match decl {
             hir::Decl::With(items) => with_children(items, f),

@@ -1,0 +1,169 @@
+//! One owner for each channel on every way that leads to a statement: speed and vertical are set, and set once.
+
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Action, Block, Body, Decl, Hir, Kind, StmtKind, Timed, With};
+use crate::source::Span;
+use albacore_program::{Channel, Guide};
+use std::collections::BTreeSet;
+
+/// A finding names this many places at most.
+const PLACES_MAX: usize = 4;
+
+/// Who owns a channel here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Owner {
+    Nobody,
+    /// A setpoint: an inner one takes its place.
+    Setpoint,
+    /// An overlay, put on here: nothing may take its place.
+    Overlay(Span),
+}
+
+/// The owners of the two channels that guidance does not set itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Owners {
+    vertical: Owner,
+    speed: Owner,
+}
+
+struct Walk<'a> {
+    hir: &'a Hir,
+    /// The calls that lead here.
+    path: Vec<(String, Span)>,
+    seen: BTreeSet<(usize, Owners)>,
+    findings: Vec<Diagnostic>,
+}
+
+/// Walks all ways from a mission to its statements.
+pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
+    let mut walk = Walk { hir, path: Vec::new(), seen: BTreeSet::new(), findings: Vec::new() };
+    walk.activity(mission, Owners { vertical: Owner::Nobody, speed: Owner::Nobody });
+    walk.findings
+}
+
+impl Walk<'_> {
+    fn activity(&mut self, id: usize, mut owners: Owners) {
+        if !self.seen.insert((id, owners)) {
+            return;
+        }
+        let activity = &self.hir.activities[id];
+        for decl in &activity.decls {
+            if let Decl::With(items) = decl {
+                owners = self.with(items, owners, activity.span);
+            }
+        }
+        match &activity.body {
+            Body::Sequence(block) => self.block(block, owners),
+            Body::Table { behaviors, .. } => behaviors.iter().for_each(|&b| self.activity(b, owners)),
+            Body::Amend { .. } => {}
+        }
+        if let Some((_, block)) = activity.mission.as_ref().and_then(|m| m.recovery.as_ref()) {
+            self.block(block, owners);
+        }
+    }
+
+    fn with(&mut self, items: &[With], mut owners: Owners, span: Span) -> Owners {
+        for item in items {
+            match item {
+                With::Setpoint(channel, e) => self.own(&mut owners, *channel, Owner::Setpoint, e.span),
+                With::Overlay(id, args) => {
+                    let place = args.first().map_or(span, |a| a.span);
+                    if let Kind::Sets(channel) = self.hir.activities[*id].kind {
+                        self.own(&mut owners, channel, Owner::Overlay(place), place);
+                    }
+                }
+            }
+        }
+        owners
+    }
+
+    /// Gives a channel a new owner; one that an overlay owns cannot be given away.
+    fn own(&mut self, owners: &mut Owners, channel: Channel, owner: Owner, span: Span) {
+        let (slot, name) = match channel {
+            Channel::Speed => (&mut owners.speed, "speed"),
+            _ => (&mut owners.vertical, "vertical channel"),
+        };
+        if let Owner::Overlay(earlier) = *slot {
+            let finding = Diagnostic::error("channels::twice", span, format!("the {name} belongs to an overlay here"))
+                .label(earlier, "put on here")
+                .help("take the overlay off, or leave the setpoint out");
+            self.tell(finding);
+            return;
+        }
+        *slot = owner;
+    }
+
+    fn tell(&mut self, mut finding: Diagnostic) {
+        // One missing setpoint leaves many statements without: one mistake, shown where it first tells and in some more places.
+        let span = finding.span();
+        if let Some(told) = self.findings.iter_mut().find(|f| f.code == finding.code && f.message == finding.message) {
+            if told.labels.len() < PLACES_MAX && !told.labels.iter().any(|(s, _)| *s == span) {
+                told.labels.push((span, "and here".to_string()));
+            }
+            return;
+        }
+        for (name, span) in self.path.iter().rev() {
+            finding = finding.label(*span, format!("`{name}` is called here"));
+        }
+        self.findings.push(finding);
+    }
+
+    fn block(&mut self, block: &Block, owners: Owners) {
+        for stmt in &block.stmts {
+            match &stmt.kind {
+                StmtKind::If(_, a, b) => {
+                    self.block(a, owners);
+                    self.block(b, owners);
+                }
+                StmtKind::Match(_, arms, otherwise) => {
+                    for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
+                        self.block(block, owners);
+                    }
+                }
+                StmtKind::ForRange { body, .. }
+                | StmtKind::ForList { body, .. }
+                | StmtKind::ForEdges { body, .. }
+                | StmtKind::While { body, .. }
+                | StmtKind::Loop(body) => self.block(body, owners),
+                StmtKind::With(items, body) => {
+                    let inner = self.with(items, owners, stmt.span);
+                    self.block(body, inner);
+                }
+                StmtKind::Timed(timed) => self.timed(timed, owners, stmt.span),
+                _ => {}
+            }
+        }
+    }
+
+    fn timed(&mut self, timed: &Timed, mut owners: Owners, span: Span) {
+        for (channel, e) in &timed.at {
+            self.own(&mut owners, *channel, Owner::Setpoint, e.span);
+        }
+        let (vertical, speed) = match &timed.action {
+            Action::Call(id, _) => {
+                self.path.push((self.hir.activities[*id].full_name.clone(), span));
+                self.activity(*id, owners);
+                self.path.pop();
+                return;
+            }
+            // A pause goes on as before; standing still needs no speed.
+            Action::Guide(Guide::Wait, _) => (false, false),
+            Action::Guide(Guide::Hold, _) => (true, false),
+            Action::Guide(..) => (true, true),
+            // What is kept is its own setpoint. In an overlay nothing else is needed.
+            Action::Keep(..) => (false, false),
+        };
+        if vertical && owners.vertical == Owner::Nobody {
+            self.tell(
+                Diagnostic::error("channels::unset", span, "how deep? neither depth nor altitude is set here")
+                    .help("write `at depth 3 m` after it, or `with altitude 2 m` around it"),
+            );
+        }
+        if speed && owners.speed == Owner::Nobody {
+            self.tell(
+                Diagnostic::error("channels::unset", span, "how fast? no speed is set here")
+                    .help("write `at speed 1.5 m/s` after it, or `with speed 1.5 m/s` around it"),
+            );
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! What only a whole mission shows: every statement has its setpoints, every input that is read is required.
+
+mod channels;
+mod inputs;
+
+use crate::diagnostic::Diagnostic;
+use crate::hir::Hir;
+
+/// The findings of a mission with all that it calls.
+pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
+    let mut findings = channels::check(hir, mission);
+    findings.extend(inputs::check(hir, mission));
+    findings
+}
