@@ -157,7 +157,12 @@ impl Run {
         let Some(active) = self.active_behavior(activity, base) else { return Switch::None };
         let entry = &table.behaviors[active as usize];
         if !done {
+            // The rules of a behavior come before its own step, and count by the age that it will have in this tick.
+            let behavior = &p.activities[entry.activity as usize];
+            let age = self.head(behavior, base, header::AGE);
+            self.set_head(behavior, base, header::AGE, age + 1.0);
             self.execute(p, entry.watch, base);
+            self.set_head(behavior, base, header::AGE, age);
         }
         for (i, exit) in entry.exits.iter().enumerate() {
             let guard = if done { exit.guard_done } else { Some(exit.guard) };
