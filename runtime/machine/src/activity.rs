@@ -218,10 +218,12 @@ impl Run {
         }
         match rule.target {
             Target::Behavior(to) => {
-                // Entering a suspended behavior afresh leaves it first, and what waits for it.
+                // Entering a suspended behavior afresh leaves it first; what waits for it now waits for the one that
+                // interrupted it.
                 let id = table.behaviors[to as usize].activity;
                 if self.head(&p.activities[id as usize], base, header::STATE) == header::SUSPENDED {
-                    self.leave_with_waiting(p, table, base, to, Cause::Rule);
+                    self.pass_on_waiting(p, table, base, to);
+                    self.leave(p, id, base, Cause::Rule);
                 }
                 let back_to = (rule.back && to != from).then_some(from);
                 self.enter_behavior(p, activity, table, base, to, back_to);
@@ -241,9 +243,22 @@ impl Run {
         while let Some((behavior, cause)) = next {
             let id = table.behaviors[behavior as usize].activity;
             let waiting = self.head(&p.activities[id as usize], base, header::BACK_TO);
+            self.set_head(&p.activities[id as usize], base, header::BACK_TO, 0.0);
             self.leave(p, id, base, cause);
             next = (waiting > 0.0).then(|| (waiting as u32 - 1, Cause::Preempted));
         }
+    }
+
+    /// Takes a suspended behavior out of the row of those that wait for one another.
+    fn pass_on_waiting(&mut self, p: &Program, table: &Table, base: Slot, suspended: u32) {
+        let behavior = |which: u32| &p.activities[table.behaviors[which as usize].activity as usize];
+        let waiting = self.head(behavior(suspended), base, header::BACK_TO);
+        for which in 0..table.behaviors.len() as u32 {
+            if self.head(behavior(which), base, header::BACK_TO) == f64::from(suspended + 1) {
+                self.set_head(behavior(which), base, header::BACK_TO, waiting);
+            }
+        }
+        self.set_head(behavior(suspended), base, header::BACK_TO, 0.0);
     }
 
     fn enter_behavior(
