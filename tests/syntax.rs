@@ -4,10 +4,10 @@ use albacore_session::{Files, Script, Source};
 use std::path::{Path, PathBuf};
 
 /// Scripts up to this size lose each of their tokens in turn; longer ones are only cut off.
-const DELETED_BYTES_MAX: usize = 900;
+const DELETED_BYTES_MAX: usize = 2_000;
 
 fn scripts() -> Vec<PathBuf> {
-    let mut scripts: Vec<PathBuf> = ["stdlib", "missions", "tests/rules"]
+    let mut scripts: Vec<PathBuf> = ["stdlib", "missions", "tests/rules", "tests/diagnostics"]
         .iter()
         .flat_map(|folder| std::fs::read_dir(folder).unwrap())
         .map(|entry| entry.unwrap().path())
