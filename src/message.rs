@@ -39,10 +39,17 @@ impl<'a> Shown<'a> {
         let labels = finding
             .labels
             .iter()
-            .filter(|(span, _)| span.file == file)
-            .map(|(span, text)| {
+            .enumerate()
+            .filter(|(_, (span, _))| span.file == file)
+            .map(|(i, (span, text))| {
                 let text = if text.is_empty() { None } else { Some(text.clone()) };
-                LabeledSpan::new(text, span.start as usize, (span.end - span.start) as usize)
+                let place = (span.start as usize, (span.end - span.start) as usize);
+                // The frame is headed by the line and column of the mistake, not of the first label in the file.
+                if i == 0 {
+                    LabeledSpan::new_primary_with_span(text, place)
+                } else {
+                    LabeledSpan::new_with_span(text, place)
+                }
             })
             .collect();
         let source = NamedSource::new(&source.name, source.text.to_string());

@@ -157,7 +157,12 @@ impl Run {
         let Some(active) = self.active_behavior(activity, base) else { return Switch::None };
         let entry = &table.behaviors[active as usize];
         if !done {
+            // The rules of a behavior come before its own step, and count by the age that it will have in this tick.
+            let behavior = &p.activities[entry.activity as usize];
+            let age = self.head(behavior, base, header::AGE);
+            self.set_head(behavior, base, header::AGE, age + 1.0);
             self.execute(p, entry.watch, base);
+            self.set_head(behavior, base, header::AGE, age);
         }
         for (i, exit) in entry.exits.iter().enumerate() {
             let guard = if done { exit.guard_done } else { Some(exit.guard) };
@@ -213,10 +218,12 @@ impl Run {
         }
         match rule.target {
             Target::Behavior(to) => {
-                // Entering a suspended behavior afresh leaves it first, and what waits for it.
+                // Entering a suspended behavior afresh leaves it first; what waits for it now waits for the one that
+                // interrupted it.
                 let id = table.behaviors[to as usize].activity;
                 if self.head(&p.activities[id as usize], base, header::STATE) == header::SUSPENDED {
-                    self.leave_with_waiting(p, table, base, to, Cause::Rule);
+                    self.pass_on_waiting(p, table, base, to);
+                    self.leave(p, id, base, Cause::Rule);
                 }
                 let back_to = (rule.back && to != from).then_some(from);
                 self.enter_behavior(p, activity, table, base, to, back_to);
@@ -236,9 +243,22 @@ impl Run {
         while let Some((behavior, cause)) = next {
             let id = table.behaviors[behavior as usize].activity;
             let waiting = self.head(&p.activities[id as usize], base, header::BACK_TO);
+            self.set_head(&p.activities[id as usize], base, header::BACK_TO, 0.0);
             self.leave(p, id, base, cause);
             next = (waiting > 0.0).then(|| (waiting as u32 - 1, Cause::Preempted));
         }
+    }
+
+    /// Takes a suspended behavior out of the row of those that wait for one another.
+    fn pass_on_waiting(&mut self, p: &Program, table: &Table, base: Slot, suspended: u32) {
+        let behavior = |which: u32| &p.activities[table.behaviors[which as usize].activity as usize];
+        let waiting = self.head(behavior(suspended), base, header::BACK_TO);
+        for which in 0..table.behaviors.len() as u32 {
+            if self.head(behavior(which), base, header::BACK_TO) == f64::from(suspended + 1) {
+                self.set_head(behavior(which), base, header::BACK_TO, waiting);
+            }
+        }
+        self.set_head(behavior(suspended), base, header::BACK_TO, 0.0);
     }
 
     fn enter_behavior(

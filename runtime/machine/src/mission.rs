@@ -307,6 +307,9 @@ impl Run {
         let status = self.step(p, recovery.activity, base);
         self.abort = None;
         if time_is_up || status == Status::Ended {
+            // Its own end on the very tick of the cut counts as such (rule 5).
+            let cause = if status == Status::Ended { Cause::Done } else { Cause::TimedOut };
+            self.leave(p, recovery.activity, base, cause);
             return self.over(p, outcome);
         }
         Some(self.give_command(p))

@@ -1,0 +1,122 @@
+//! The binary as a person or a script uses it: one run, one result, one exit code for each way it can go.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+const BOX: &str = "missions/box.alb";
+
+/// Runs the binary at the root of the repository.
+fn albacore(args: &[&str]) -> Output {
+    command(args).output().unwrap()
+}
+
+fn command(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(args).current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1").stdin(Stdio::null());
+    command
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[track_caller]
+fn ends_with(args: &[&str], code: i32, said: &str) {
+    let output = albacore(args);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {text}");
+    assert!(text.contains(said), "{args:?} should say `{said}`: {text}");
+}
+
+#[test]
+fn a_run_gives_one_json_object_with_the_fixed_fields() {
+    let output = albacore(&["run", BOX, "--json", "--no-out"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty(), "{}", stderr(&output));
+    let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let names = |value: &serde_json::Value| {
+        let mut names: Vec<String> = value.as_object().unwrap().keys().cloned().collect();
+        names.sort();
+        names
+    };
+    assert_eq!(
+        names(&result),
+        [
+            "digest",
+            "mission",
+            "outcome",
+            "path_length_m",
+            "reason",
+            "reports",
+            "scenario",
+            "seed",
+            "sim_time_s",
+            "switches",
+            "ticks",
+            "wall_s"
+        ]
+    );
+    assert_eq!(
+        names(&result["reports"][0]),
+        ["east_m", "error_m", "latitude_deg", "longitude_deg", "name", "north_m", "t_s"]
+    );
+    assert_eq!((&result["mission"], &result["outcome"]), (&"box".into(), &"completed".into()));
+    assert_eq!((&result["seed"], &result["switches"]), (&1.into(), &2.into()));
+}
+
+#[test]
+fn a_good_run_ends_with_0() {
+    ends_with(&["run", BOX, "--no-out"], 0, "");
+    ends_with(&["check", BOX], 0, "");
+}
+
+#[test]
+fn a_mission_that_does_not_end_well_ends_with_1() {
+    ends_with(&["run", "tests/rules/17_time_limit.alb", "--no-out"], 1, "");
+    ends_with(&["run", "tests/rules/11_abort.alb", "--no-out"], 1, "");
+}
+
+#[test]
+fn wrong_usage_ends_with_2() {
+    ends_with(&["run", "missions/bix.alb"], 2, "did you mean `missions/box.alb`?");
+    ends_with(&["check", "missions/bix.alb"], 2, "did you mean `missions/box.alb`?");
+    ends_with(&["run", "nowhere/box.alb"], 2, "there is no folder `nowhere`");
+    ends_with(&["run", "missions"], 2, "`missions` is a folder");
+    ends_with(&["run", BOX, "--mission", "bax"], 2, "did you mean `box`?");
+    ends_with(&["run", BOX, "--in", "tidal_steam"], 2, "did you mean `tidal_stream`?");
+    ends_with(&["run", BOX, "--speed", "2"], 2, "--speed");
+    ends_with(&["rum", BOX], 2, "run");
+}
+
+#[test]
+fn a_broken_script_ends_with_3() {
+    ends_with(&["run", "tests/diagnostics/ten_mistakes.alb", "--no-out"], 3, "10 errors");
+    ends_with(&["check", "tests/diagnostics/ten_mistakes.alb"], 3, "10 errors");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_ends_with_4() {
+    ends_with(&["run", BOX, "--out", "Cargo.toml/out"], 4, "cannot be written");
+}
+
+#[test]
+fn a_closed_pipe_is_silent() {
+    for args in [&["run", BOX, "--json", "--no-out"][..], &["run", BOX, "--no-out"], &["--help"]] {
+        let mut child = command(args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert!(output.stderr.is_empty(), "{args:?}: {}", stderr(&output));
+        assert_eq!(output.status.code(), Some(0), "{args:?}");
+    }
+}
+
+#[test]
+fn a_run_leaves_its_trace_and_picture() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("leaves");
+    let _ = std::fs::remove_dir_all(&folder);
+    let output = albacore(&["run", BOX, "--out", &folder.display().to_string()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let trace = std::fs::read_to_string(folder.join("trace.txt")).unwrap();
+    assert!(trace.starts_with("mission box  scenario tidal_stream  seed 1"), "{trace}");
+    assert!(std::fs::read_to_string(folder.join("run.svg")).unwrap().contains("</svg>"));
+}
