@@ -112,6 +112,7 @@ impl Walk<'_> {
                         self.note("course", stmt.span);
                         self.note("heading", stmt.span);
                     }
+                    Action::Guide(Guide::Wait, _) => {}
                     _ => self.note("heading", stmt.span),
                 },
                 _ => {}
