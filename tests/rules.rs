@@ -2,6 +2,8 @@
 //!
 //! A new script's trace is read against its rule before it is accepted: `cargo insta review`.
 
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
 use albacore_session::{Plan, Run, Running, load};
 use std::path::Path;
 

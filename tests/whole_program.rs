@@ -1,5 +1,7 @@
 //! The binary as a person or a script uses it: one run, one result, one exit code for each way it can go.
 
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
