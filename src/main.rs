@@ -4,6 +4,7 @@ mod check;
 mod exit;
 mod message;
 mod run;
+mod test;
 
 use clap::{Parser, Subcommand};
 use exit::Exit;
@@ -23,6 +24,8 @@ enum Verb {
     Run(run::Run),
     /// Check scripts: every error and warning of all files.
     Check(check::Check),
+    /// Run the tests of scripts.
+    Test(test::Test),
 }
 
 fn main() -> ExitCode {
@@ -38,6 +41,7 @@ fn main() -> ExitCode {
     let exit = match arguments.verb {
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
+        Verb::Test(test) => test.run(),
     };
     ExitCode::from(exit)
 }

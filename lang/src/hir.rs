@@ -24,6 +24,8 @@ pub struct Hir {
     pub inputs: Vec<Input>,
     /// Scenarios.
     pub scenarios: Vec<Scenario>,
+    /// Tests.
+    pub tests: Vec<Test>,
 }
 
 /// What a variable is, which tells who may change it.
@@ -472,6 +474,70 @@ pub struct ClauseUse {
 pub enum ClauseArg {
     Value(Expr),
     Nested(ClauseUse),
+}
+
+/// A test.
+#[derive(Clone, Debug)]
+pub struct Test {
+    /// What it is called.
+    pub name: String,
+    /// Where its name stands.
+    pub span: Span,
+    /// The mission that it runs.
+    pub mission: ActivityId,
+    /// The mission's arguments.
+    pub args: Vec<Expr>,
+    /// The scenario, by its index.
+    pub scenario: usize,
+    /// The seeds, both ends included.
+    pub seeds: (u64, u64),
+    /// What must hold.
+    pub expects: Vec<Expect>,
+    /// The seeds whose switches are compared with a snapshot.
+    pub snapshots: Vec<u64>,
+    /// The variables that expectations speak of.
+    pub vars: Vec<Var>,
+    /// Which of them is what.
+    pub known: TestVars,
+}
+
+/// What expectations can speak of.
+#[derive(Clone, Debug)]
+pub struct TestVars {
+    /// The vehicle's true position.
+    pub position: VarId,
+    /// The true source nearest to the latest report, else to the vehicle.
+    pub nearest_source: VarId,
+    /// Since the run began.
+    pub time: VarId,
+    /// Whether the mission came to its own end.
+    pub completed: VarId,
+    /// The mission's area.
+    pub area: VarId,
+    /// The mission.
+    pub mission: ActivityId,
+    /// By name, where it was first reported.
+    pub reported: Vec<(String, VarId)>,
+}
+
+/// An expectation.
+#[derive(Clone, Debug)]
+pub struct Expect {
+    /// When it must hold.
+    pub when: When,
+    /// The condition.
+    pub holds: Expr,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// When an expectation must hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum When {
+    /// At the end of this share of the runs.
+    AtTheEnd(f64),
+    /// At every tick of every run.
+    Always,
 }
 
 impl Activity {

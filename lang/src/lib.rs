@@ -14,7 +14,7 @@ mod suggest;
 pub mod syntax;
 mod types;
 
-pub use lower::{ScenarioClause, ScenarioProgram, ScenarioValue};
+pub use lower::{ExpectProgram, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots};
 pub use suggest::{help as suggestion, nearest};
 
 use albacore_geometry::Geodetic;
@@ -122,6 +122,12 @@ impl Script {
     pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
         Some(lower::mission(&self.hir, &self.types, &self.sources, *id))
+    }
+
+    /// The tests of the script's own file, ready to run.
+    pub fn tests(&self) -> Vec<Result<TestProgram, Vec<Diagnostic>>> {
+        let own = (0..self.hir.tests.len()).filter(|&i| self.hir.tests[i].span.file == ENTRY);
+        own.map(|i| lower::test(&self.hir, &self.types, &self.sources, i)).collect()
     }
 
     /// A scenario, ready to be computed, in the frame about `origin`.

@@ -207,6 +207,9 @@ impl<'t> Checker<'t> {
         span: Span,
         expected: Option<&Type>,
     ) -> Expr {
+        if let Some(value) = self.test_call(name, args, span) {
+            return value;
+        }
         let simple = |c: &mut Self, params: &[(&str, Type)], op: Builtin, ty: Type| match c
             .simple_args(name, params, args, span)
         {

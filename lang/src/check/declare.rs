@@ -58,6 +58,13 @@ impl<'t> Checker<'t> {
                 self.check_item(m, item);
             }
         }
+        for (m, module) in modules.iter().enumerate() {
+            for item in &module.tree.items {
+                if let Item::Test(test) = item {
+                    self.check_test(m, test);
+                }
+            }
+        }
         // Whether a behavior can end depends on what it calls: tables come when all bodies are known.
         for activity in self.hir.activities.clone() {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
@@ -100,11 +107,7 @@ impl<'t> Checker<'t> {
 
     fn declare_item(&mut self, m: usize, item: &'t Item) {
         match item {
-            Item::Use(_) => {}
-            Item::Test(test) => self.report(
-                Diagnostic::warning("tests::later", test.span, "this version reads tests and does not run them yet")
-                    .help("run the mission with `albacore run --seed N`"),
-            ),
+            Item::Use(_) | Item::Test(_) => {}
             Item::Const(c) => {
                 self.consts.push(Lazy::Unchecked { module: m, name: &c.name, ty: c.ty.as_ref(), value: &c.value });
                 self.define(m, &c.name, Def::Const(self.consts.len() - 1));

@@ -67,6 +67,9 @@ fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
 
 impl<'t> Checker<'t> {
     pub(super) fn member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Expr {
+        if let Some(value) = self.test_member(base, member, span) {
+            return value;
+        }
         if let Some(module) = self.module_named(base) {
             return match self.names[module].get(&member.node).cloned() {
                 Some(def) => self.def_value(&def, &member.node, span),

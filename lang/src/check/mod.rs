@@ -11,6 +11,7 @@ mod members;
 mod operators;
 mod scenario;
 mod table;
+mod test;
 mod timed;
 
 pub use declare::Override;
@@ -175,6 +176,8 @@ pub struct Checker<'t> {
     types: TypeTable,
     hir: Hir,
     scope: Scope,
+    /// What a test's expectations speak of, while one is being checked.
+    test_vars: Option<hir::TestVars>,
     findings: Vec<Diagnostic>,
 }
 
@@ -204,6 +207,7 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
         types: TypeTable::default(),
         hir: Hir::default(),
         scope: Scope::new(0, Setting::Constant),
+        test_vars: None,
         findings: Vec::new(),
     };
     checker.run();

@@ -200,7 +200,8 @@ impl<'a> Lowering<'a> {
         if activity.kind == Kind::Mission {
             // Nobody calls a mission: its parameters have their defaults, which `--set` may have changed.
             for (param, default) in activity.defaults.iter().enumerate() {
-                if let Some(e) = default {
+                let given = self.mission_args.and_then(|args| args.get(param));
+                if let Some(e) = given.or(default.as_ref()) {
                     let to = self.frame.vars[param];
                     self.scratch(|l| l.expr_into(e, to));
                 }

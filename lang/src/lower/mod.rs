@@ -8,9 +8,12 @@ mod activity;
 mod expr;
 mod scenario;
 mod stmt;
+mod test;
 mod watch;
 
 pub(crate) use watch::{activity_children, children};
+
+pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 
 pub use scenario::{ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 
@@ -53,6 +56,8 @@ struct Lowering<'a> {
     path: Vec<(String, Span)>,
     frame: Frame,
     findings: Vec<Diagnostic>,
+    /// What a test gives the mission in place of its defaults.
+    mission_args: Option<&'a [hir::Expr]>,
 }
 
 /// The frame of the unit that is being lowered.
@@ -82,7 +87,19 @@ struct Frame {
 
 /// Lowers a mission. The findings are errors that only the whole program shows.
 pub fn mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) -> Result<Program, Vec<Diagnostic>> {
+    mission_with(hir, types, sources, mission, None)
+}
+
+/// The same with arguments in place of the parameters' defaults.
+fn mission_with(
+    hir: &Hir,
+    types: &TypeTable,
+    sources: &Sources,
+    mission: usize,
+    args: Option<&[hir::Expr]>,
+) -> Result<Program, Vec<Diagnostic>> {
     let mut lowering = Lowering::new(hir, types, sources);
+    lowering.mission_args = args;
     lowering.mission(mission);
     if lowering.findings.is_empty() { Ok(lowering.program) } else { Err(lowering.findings) }
 }
@@ -100,6 +117,7 @@ impl<'a> Lowering<'a> {
             path: Vec::new(),
             frame: Frame::default(),
             findings: Vec::new(),
+            mission_args: None,
         }
     }
 

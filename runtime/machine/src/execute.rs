@@ -19,11 +19,31 @@ pub(crate) enum Flow {
     Abort,
 }
 
-/// Runs code that needs no vehicle, such as that of a scenario, and gives the words it leaves.
-pub fn evaluate(program: &Program, entry: Addr) -> Vec<f64> {
-    let mut run = Run::new(program);
-    run.execute(program, entry, 0);
-    run.state.words
+/// Code that needs no vehicle, such as that of a scenario or of a test's expectations, with the words it works on.
+pub struct Evaluation {
+    run: Run,
+}
+
+impl Evaluation {
+    /// Words of a program, all zero.
+    pub fn new(program: &Program) -> Self {
+        Evaluation { run: Run::new(program) }
+    }
+
+    /// Runs a piece of code.
+    pub fn run(&mut self, program: &Program, entry: Addr) {
+        self.run.execute(program, entry, 0);
+    }
+
+    /// Words from a slot on.
+    pub fn words(&self, slot: Slot, words: u32) -> &[f64] {
+        self.run.slice(slot, words)
+    }
+
+    /// Sets words from a slot on.
+    pub fn set(&mut self, slot: Slot, words: &[f64]) {
+        self.run.state.words[slot as usize..slot as usize + words.len()].copy_from_slice(words);
+    }
 }
 
 impl Run {

@@ -15,7 +15,7 @@ mod mission;
 mod state;
 
 pub use event::{Event, Outcome};
-pub use execute::evaluate;
+pub use execute::Evaluation;
 pub use inputs::MissingInput;
 pub use mission::Machine;
 pub use state::{Phase, State};

@@ -5,11 +5,14 @@ mod picture;
 mod run;
 mod scenario;
 mod summary;
+mod tests;
 
 pub use albacore_lang::Script;
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::source::{FileId, Source, Sources};
 pub use albacore_machine::Outcome;
+pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use files::{FileError, Files, load};
 pub use run::{Plan, PlanError, Run, Running};
 pub use summary::{Report, Summary};
+pub use tests::{Failure, TestResult, run_test};

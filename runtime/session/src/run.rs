@@ -7,7 +7,7 @@ use albacore_geometry::{Point, TangentFrame, Vector};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{Script, suggestion};
 use albacore_machine::{Event, Machine, Outcome};
-use albacore_program::{Program, Shape};
+use albacore_program::{AREA_WORDS, Program, Shape};
 use albacore_sim::{Scenario, Simulator};
 use albacore_trace::{BehaviorTrace, Digest, Header};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, Vertical};
@@ -81,12 +81,18 @@ impl Plan {
                 format!("name one with `--in`, or write `mission {name} in SCENARIO`; there is {}", known.join(", "));
             return Err(PlanError::Asked(message, Some(help)));
         };
-        let lowered = match script.scenario(&wanted, program.mission.origin) {
+        Plan::with(script, Arc::new(program), &wanted)
+    }
+
+    /// A mission that is lowered already, in a scenario of the script.
+    pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
+        let lowered = match script.scenario(wanted, program.mission.origin) {
             Some(Ok(lowered)) => lowered,
             Some(Err(findings)) => return Err(PlanError::Script(findings)),
             None => {
+                let known: Vec<&str> = script.scenarios().collect();
                 let message = format!("there is no scenario `{wanted}`");
-                return Err(PlanError::Asked(message, suggestion(&wanted, known.iter().copied())));
+                return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
             }
         };
         let world = scenario::scenario(&lowered).map_err(|what| PlanError::Asked(what, None))?;
@@ -94,7 +100,7 @@ impl Plan {
             let message = format!("the scenario `{}` cannot be", lowered.name);
             PlanError::Asked(message, Some(error.faults.join("; ")))
         })?;
-        Ok(Plan { program: Arc::new(program), scenario: Arc::new(world), scenario_name: lowered.name })
+        Ok(Plan { program, scenario: Arc::new(world), scenario_name: lowered.name })
     }
 }
 
@@ -167,6 +173,24 @@ impl Run {
     pub fn active(&self) -> Vec<&str> {
         let program = self.machine.program();
         self.machine.active().into_iter().map(|id| program.activities[id as usize].name.as_str()).collect()
+    }
+
+    /// Where the vehicle truly is.
+    pub fn true_position(&self) -> Point {
+        self.vehicle.truth().position
+    }
+
+    /// The true source that is nearest to a place.
+    pub fn nearest_source(&self, to: Point) -> Option<Point> {
+        let sources = self.plan.scenario.sources.iter().map(|s| s.at);
+        sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
+    }
+
+    /// The words of the mission's area, once it has one.
+    pub(crate) fn area_words(&self) -> Option<&[f64]> {
+        let program = &self.plan.program;
+        let at = (program.mission.base + program.mission.area?) as usize;
+        self.machine.state().words.get(at..at + AREA_WORDS as usize)
     }
 
     /// Lets one tick go by.
@@ -305,14 +329,7 @@ impl Run {
         let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
         let frame = program.mission.origin.map(|origin| TangentFrame { origin });
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
-        let error_m = place.and_then(|p| {
-            self.plan
-                .scenario
-                .sources
-                .iter()
-                .map(|s| s.at.distance(p))
-                .fold(None, |least: Option<f64>, d| Some(least.map_or(d, |l| l.min(d))))
-        });
+        let error_m = place.and_then(|p| Some(self.nearest_source(p)?.distance(p)));
         if let Some(place) = place {
             self.picture.declared(&site.name, place);
         }
@@ -353,10 +370,7 @@ impl Run {
 
     /// The picture of the run so far, as SVG.
     pub fn svg(&self) -> String {
-        let program = &self.plan.program;
-        let area = program.mission.area.map(|slot| {
-            let at = (program.mission.base + slot) as usize;
-            let words = &self.machine.state().words[at..];
+        let area = self.area_words().map(|words| {
             let corner = |i: usize| 1 + albacore_program::AREA_CORNER_WORDS as usize * i;
             (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
         });

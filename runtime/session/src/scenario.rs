@@ -2,7 +2,7 @@
 
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue};
-use albacore_machine::evaluate;
+use albacore_machine::Evaluation;
 use albacore_program::{AREA_CORNER_WORDS, Slot};
 use albacore_sim::{Adcp, Bottom, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Plume, Scenario, Source};
 
@@ -14,10 +14,12 @@ struct Clause<'a> {
 
 /// The simulator's scenario; else what of it cannot be understood.
 pub(crate) fn scenario(program: &ScenarioProgram) -> Result<Scenario, String> {
-    let words = evaluate(&program.program, program.program.mission.activity);
+    let mut evaluation = Evaluation::new(&program.program);
+    evaluation.run(&program.program, program.program.mission.activity);
+    let words = evaluation.words(0, program.program.words);
     let mut scenario = Scenario::default();
     for clause in &program.clauses {
-        let clause = Clause { clause, words: &words };
+        let clause = Clause { clause, words };
         apply(&mut scenario, &clause).map_err(|what| format!("{}: {what}", clause.clause.place))?;
     }
     Ok(scenario)

@@ -1,0 +1,226 @@
+//! Tests: a mission run in a scenario over seeds, and what must hold of it.
+
+use super::{Checker, Def, Scope, Setting};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{Expect, Expr, ExprKind, Interval, Test, TestVars, VarKind, When};
+use crate::source::Span;
+use crate::suggest;
+use crate::syntax::tree::{self, ActivityKind, ClauseKind, ExpectMode, Item, TestClause};
+use crate::types::Type;
+
+/// A test runs this many seeds at most.
+const SEEDS_MAX: f64 = 1_000_000.0;
+
+impl<'t> Checker<'t> {
+    pub(super) fn check_test(&mut self, m: usize, test: &'t tree::Test) {
+        let name = self.plain_text(&test.name);
+        let run = test.clauses.iter().find_map(|c| match &c.node {
+            TestClause::Run { mission, args, scenario, seeds } => Some((c.span, mission, args, scenario, seeds)),
+            _ => None,
+        });
+        let Some((run_span, mission, args, scenario, seeds)) = run else {
+            self.report(
+                Diagnostic::error("tests::run", test.name.span, format!("the test \"{name}\" runs nothing"))
+                    .help("write `run MISSION in SCENARIO seeds 1..20`"),
+            );
+            return;
+        };
+        let runs = test.clauses.iter().filter(|c| matches!(c.node, TestClause::Run { .. }));
+        for again in runs.skip(1) {
+            self.report(
+                Diagnostic::error("tests::run", again.span, "a test runs one mission").label(run_span, "the first"),
+            );
+        }
+        let Some(id) = self.mission_named(m, mission) else { return };
+        let signature = self.activity_signatures[id].clone();
+        let (setup, _) = self.within(Scope::new(m, Setting::Constant), |c| {
+            let args = c.arguments(&signature.name, &signature.params, args, run_span, Some(signature.span));
+            let first = c.expr_as(&seeds.first, &Type::Int, "a seed");
+            let last = c.expr_as(&seeds.last, &Type::Int, "a seed");
+            (args, c.scenario_named(scenario), first, last)
+        });
+        let (args, scenario, first, last) = setup;
+        let seeds = match (first.range.constant(), last.range.constant()) {
+            (Some(a), Some(b)) if a >= 0.0 && a <= b && b - a < SEEDS_MAX => (a as u64, b as u64),
+            _ => {
+                self.report(
+                    Diagnostic::error(
+                        "tests::seeds",
+                        first.span.to(last.span),
+                        "seeds are two whole numbers, the smaller first",
+                    )
+                    .help("for example `seeds 1..20`"),
+                );
+                return;
+            }
+        };
+        let (checked, scope) = self.within(Scope::new(m, Setting::Constant), |c| {
+            c.test_scope(id);
+            let mut expects = Vec::new();
+            let mut snapshots = Vec::new();
+            for clause in &test.clauses {
+                match &clause.node {
+                    TestClause::Expect { mode, holds } => expects.push(c.expect(mode, holds, clause.span)),
+                    TestClause::SnapshotSwitches { seed } => snapshots.push(*seed as u64),
+                    TestClause::Run { .. } => {}
+                }
+            }
+            let vars = c.test_vars.take();
+            (expects, snapshots, vars)
+        });
+        let (expects, snapshots, vars) = checked;
+        for seed in &snapshots {
+            if *seed < seeds.0 || *seed > seeds.1 {
+                self.report(
+                    Diagnostic::error(
+                        "tests::seeds",
+                        test.name.span,
+                        format!("seed {seed} is not among those that are run"),
+                    )
+                    .help("take the snapshot of a seed that `run` names"),
+                );
+            }
+        }
+        let (Some(args), Some(scenario), Some(vars)) = (args, scenario, vars) else { return };
+        self.hir.tests.push(Test {
+            name,
+            span: test.name.span,
+            mission: id,
+            args,
+            scenario,
+            seeds,
+            expects,
+            snapshots,
+            vars: scope.vars,
+            known: vars,
+        });
+    }
+
+    fn mission_named(&mut self, m: usize, path: &tree::Path) -> Option<usize> {
+        let found = match path.parts.as_slice() {
+            [name] => self.lookup(m, &name.node).cloned(),
+            [module, name] => {
+                self.modules[m].imports.get(&module.node).and_then(|&i| self.names[i].get(&name.node)).cloned()
+            }
+            _ => None,
+        };
+        match found {
+            Some(Def::Activity(id)) if self.mission_ids.contains(&id) => Some(id),
+            _ => {
+                let known: Vec<String> =
+                    self.mission_ids.iter().map(|&id| self.activity_signatures[id].name.clone()).collect();
+                let finding =
+                    Diagnostic::error("tests::mission", path.span, format!("there is no mission `{}`", path.text()));
+                let finding = match suggest::help(&path.text(), known.iter().map(String::as_str)) {
+                    Some(help) => finding.help(help),
+                    None => finding,
+                };
+                self.report(finding);
+                None
+            }
+        }
+    }
+
+    /// The names that only tests know.
+    fn test_scope(&mut self, mission: usize) {
+        let span = self.activity_signatures[mission].span;
+        let var = |c: &mut Self, name: &str, ty: Type| c.declare_hidden(name.to_string(), VarKind::Signal, ty, span);
+        let vars = TestVars {
+            position: var(self, "truth.position", Type::Point),
+            nearest_source: var(self, "truth.nearest_source", Type::Point),
+            time: var(self, "time", Type::Quantity(Dimension::TIME)),
+            completed: var(self, "completed", Type::Bool),
+            area: var(self, "the mission's area", Type::Area),
+            mission,
+            reported: Vec::new(),
+        };
+        self.test_vars = Some(vars);
+    }
+
+    fn expect(&mut self, mode: &ExpectMode, holds: &tree::Expr, span: Span) -> Expect {
+        let holds = self.condition(holds);
+        let when = match mode {
+            ExpectMode::EveryRun => When::AtTheEnd(1.0),
+            ExpectMode::Always => When::Always,
+            ExpectMode::ShareOfRuns(share) => {
+                let value = self.expr_as(share, &Type::Quantity(Dimension::NONE), "a share of the runs");
+                match value.range.constant() {
+                    Some(x) if (0.0..=1.0).contains(&x) => When::AtTheEnd(x),
+                    _ => {
+                        self.report(
+                            Diagnostic::error(
+                                "tests::share",
+                                share.span,
+                                "a share of the runs is a constant from 0 % to 100 %",
+                            )
+                            .help("for example `expect in 95 % of runs: …`"),
+                        );
+                        When::AtTheEnd(1.0)
+                    }
+                }
+            }
+        };
+        Expect { when, holds, span }
+    }
+
+    /// `truth.position`, and the area of the mission by the mission's name.
+    pub(super) fn test_member(&self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
+        let vars = self.test_vars.as_ref()?;
+        let tree::ExprKind::Name(name) = &base.kind else { return None };
+        let id = match (name.as_str(), member.node.as_str()) {
+            ("truth", "position") => vars.position,
+            ("truth", "nearest_source") => vars.nearest_source,
+            _ => {
+                let mission = &self.activity_signatures[vars.mission].name;
+                let own = name == mission && self.area_name(mission).as_deref() == Some(&member.node);
+                own.then_some(vars.area)?
+            }
+        };
+        Some(self.variable(id, span))
+    }
+
+    /// The name that a mission gives its operating area.
+    fn area_name(&self, mission: &str) -> Option<String> {
+        self.modules.iter().flat_map(|m| &m.tree.items).find_map(|item| match item {
+            Item::Activity(a) if matches!(a.kind, ActivityKind::Mission { .. }) && a.name.node == mission => {
+                a.body.clauses.iter().find_map(|c| match &c.kind {
+                    ClauseKind::Area { name, .. } => Some(name.node.clone()),
+                    _ => None,
+                })
+            }
+            _ => None,
+        })
+    }
+
+    /// `reported("source")`: where that was first reported. Without such a report the expectation fails, and says so.
+    pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
+        self.test_vars.as_ref()?;
+        let present = match name {
+            "reported" => false,
+            "has_reported" => true,
+            _ => return None,
+        };
+        let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
+        let what = self.plain_text(&text);
+        let known =
+            self.test_vars.as_ref().and_then(|v| v.reported.iter().find(|(n, _)| *n == what).map(|(_, id)| *id));
+        let id = match known {
+            Some(id) => id,
+            None => {
+                let hidden = format!("reported \"{what}\"");
+                let id = self.declare_hidden(hidden, VarKind::Signal, Type::Optional(Box::new(Type::Point)), span);
+                if let Some(vars) = &mut self.test_vars {
+                    vars.reported.push((what, id));
+                }
+                id
+            }
+        };
+        let value = self.variable(id, span);
+        Some(if present {
+            self.truth(value)
+        } else {
+            Expr { kind: ExprKind::Unwrap(Box::new(value)), ty: Type::Point, span, range: Interval::ANY }
+        })
+    }
+}

@@ -1,0 +1,157 @@
+//! Tests to code: each expectation, and what is printed of it when it fails.
+
+use super::Lowering;
+use super::watch::children;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Builtin, Expr, ExprKind, Hir, When};
+use crate::source::Sources;
+use crate::types::TypeTable;
+use albacore_program::{Code, Program, Shape, Slot};
+
+/// A test, ready to run.
+#[derive(Clone, Debug)]
+pub struct TestProgram {
+    /// What it is called.
+    pub name: String,
+    /// `file:line`.
+    pub place: String,
+    /// The mission that it runs.
+    pub mission: Program,
+    /// The scenario, by its name.
+    pub scenario: String,
+    /// The seeds, both ends included.
+    pub seeds: (u64, u64),
+    /// What must hold.
+    pub expects: Vec<ExpectProgram>,
+    /// The seeds whose switches are compared with a snapshot.
+    pub snapshots: Vec<u64>,
+    /// The code of the expectations.
+    pub program: Program,
+    /// Where the expectations find what they speak of.
+    pub slots: TestSlots,
+}
+
+/// Where expectations find what they speak of.
+#[derive(Clone, Debug)]
+pub struct TestSlots {
+    /// The vehicle's true position (2 words).
+    pub position: Slot,
+    /// The true source nearest to the latest report, else to the vehicle (2 words).
+    pub nearest_source: Slot,
+    /// Seconds since the run began.
+    pub time: Slot,
+    /// Whether the mission came to its own end.
+    pub completed: Slot,
+    /// The mission's area.
+    pub area: Slot,
+    /// For each name that is asked for: presence, then the position of its first report.
+    pub reported: Vec<(String, Slot)>,
+}
+
+/// An expectation.
+#[derive(Clone, Debug)]
+pub struct ExpectProgram {
+    /// As it is written.
+    pub text: String,
+    /// `file:line`.
+    pub place: String,
+    /// When it must hold; at the end in this share of the runs, or always.
+    pub share: Option<f64>,
+    /// The condition.
+    pub holds: Code,
+    /// The reports that it speaks of.
+    pub needs: Vec<Slot>,
+    /// Named values for the message of a failure.
+    pub watched: Vec<(String, Code, Shape)>,
+}
+
+/// Lowers a test.
+pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Result<TestProgram, Vec<Diagnostic>> {
+    let test = &hir.tests[index];
+    let mission = super::mission_with(hir, types, sources, test.mission, Some(&test.args))?;
+    let mut lowering = Lowering::new(hir, types, sources);
+    lowering.origin = mission.mission.origin;
+    for expect in &test.expects {
+        lowering.prepare(&expect.holds);
+    }
+    let lowered = std::cell::RefCell::new((Vec::new(), None));
+    let words = lowering.twice(&test.vars, 0, |l| {
+        let at = |id: usize| l.frame.vars[id];
+        let known = &test.known;
+        let slots = TestSlots {
+            position: at(known.position),
+            nearest_source: at(known.nearest_source),
+            time: at(known.time),
+            completed: at(known.completed),
+            area: at(known.area),
+            reported: known.reported.iter().map(|(name, id)| (name.clone(), at(*id))).collect(),
+        };
+        let reports: Vec<(usize, Slot)> = known.reported.iter().map(|(_, id)| (*id, at(*id))).collect();
+        let expects = test
+            .expects
+            .iter()
+            .map(|expect| {
+                let mut needs = Vec::new();
+                unwrapped(&expect.holds, &mut needs);
+                let needs = reports.iter().filter(|(id, _)| needs.contains(id)).map(|(_, slot)| *slot).collect();
+                let mut sides = Vec::new();
+                compared(&expect.holds, &mut sides);
+                let watched = sides
+                    .into_iter()
+                    .map(|e| (l.sources.text(e.span).to_string(), l.code(e), l.shape(&e.ty)))
+                    .collect();
+                ExpectProgram {
+                    text: l.sources.text(expect.span).to_string(),
+                    place: l.sources.place(expect.span),
+                    share: match expect.when {
+                        When::AtTheEnd(share) => Some(share),
+                        When::Always => None,
+                    },
+                    holds: l.code(&expect.holds),
+                    needs,
+                    watched,
+                }
+            })
+            .collect();
+        lowered.replace((expects, Some(slots)));
+    });
+    let mut findings = std::mem::take(&mut lowering.findings);
+    let (expects, slots) = lowered.into_inner();
+    let Some(slots) = slots.filter(|_| findings.is_empty()) else {
+        crate::diagnostic::settle(&mut findings);
+        return Err(findings);
+    };
+    let mut program = lowering.program;
+    program.words = words;
+    Ok(TestProgram {
+        name: test.name.clone(),
+        place: sources.place(test.span),
+        mission,
+        scenario: hir.scenarios[test.scenario].name.clone(),
+        seeds: test.seeds,
+        expects,
+        snapshots: test.snapshots.clone(),
+        program,
+        slots,
+    })
+}
+
+/// The variables whose presence an expression takes for granted.
+fn unwrapped(e: &Expr, out: &mut Vec<usize>) {
+    if let ExprKind::Unwrap(inner) = &e.kind
+        && let ExprKind::Var(id) = inner.kind
+    {
+        out.push(id);
+    }
+    children(e, &mut |child| unwrapped(child, out));
+}
+
+/// Both sides of the comparisons of a condition, constants left out.
+fn compared<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
+    match &e.kind {
+        ExprKind::Do(Builtin::Lt | Builtin::Le | Builtin::Eq, sides) => {
+            out.extend(sides.iter().filter(|s| s.range.constant().is_none()));
+        }
+        _ => children(e, &mut |child| compared(child, out)),
+    }
+}

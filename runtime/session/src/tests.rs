@@ -1,0 +1,152 @@
+//! Running `test` blocks: a mission over its seeds, its expectations, and the traces that snapshots compare.
+
+use crate::run::{Plan, PlanError, Run, Running};
+use crate::summary::Summary;
+use albacore_lang::{ExpectProgram, Script, TestProgram};
+use albacore_machine::Evaluation;
+use albacore_program::{AREA_WORDS, number};
+use albacore_vehicle::TICK_S;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// What became of a test.
+#[derive(Clone, Debug)]
+pub struct TestResult {
+    /// Its name.
+    pub name: String,
+    /// `file:line`.
+    pub place: String,
+    /// The seeds that were run.
+    pub seeds: (u64, u64),
+    /// Expectations that did not hold.
+    pub failures: Vec<Failure>,
+    /// The traces that snapshots compare, by seed.
+    pub traces: Vec<(u64, String)>,
+}
+
+/// An expectation that did not hold.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// As it is written.
+    pub text: String,
+    /// `file:line`.
+    pub place: String,
+    /// In how many of how many runs it held; for `always` how many runs were without a breach.
+    pub held: (usize, usize),
+    /// The share that was asked for, in per cent; none for `always`.
+    pub wanted: Option<f64>,
+    /// The first runs in which it did not hold: the seed, when, and what was found.
+    pub examples: Vec<(u64, String)>,
+}
+
+/// Examples of a failure that are told.
+const EXAMPLES_MAX: usize = 3;
+
+/// Runs one test: all its seeds, on all cores; the result does not depend on how many there are.
+pub fn run_test(script: &Script, test: &TestProgram) -> Result<TestResult, PlanError> {
+    let plan = Plan::with(script, Arc::new(test.mission.clone()), &test.scenario)?;
+    let seeds: Vec<u64> = (test.seeds.0..=test.seeds.1).collect();
+    let runs: Result<Vec<Judged>, PlanError> = seeds.par_iter().map(|&seed| judge(&plan, test, seed)).collect();
+    let runs = runs?;
+    let mut failures = Vec::new();
+    for (i, expect) in test.expects.iter().enumerate() {
+        let broken: Vec<&Judged> = runs.iter().filter(|r| r.breaches[i].is_some()).collect();
+        let held = runs.len() - broken.len();
+        let enough = match expect.share {
+            Some(share) => held as f64 >= share * runs.len() as f64,
+            None => broken.is_empty(),
+        };
+        if !enough {
+            let examples =
+                broken.iter().filter_map(|r| Some((r.seed, r.breaches[i].clone()?))).take(EXAMPLES_MAX).collect();
+            failures.push(Failure {
+                text: expect.text.clone(),
+                place: expect.place.clone(),
+                held: (held, runs.len()),
+                wanted: expect.share.map(|s| s * 100.0),
+                examples,
+            });
+        }
+    }
+    let traces = runs.into_iter().filter_map(|r| Some((r.seed, r.trace?))).collect();
+    Ok(TestResult { name: test.name.clone(), place: test.place.clone(), seeds: test.seeds, failures, traces })
+}
+
+/// One run and what was expected of it.
+struct Judged {
+    seed: u64,
+    /// For each expectation what was found where it first did not hold.
+    breaches: Vec<Option<String>>,
+    trace: Option<String>,
+}
+
+fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError> {
+    let mut run = Run::new(plan, seed)?;
+    let mut evaluation = Evaluation::new(&test.program);
+    let mut breaches: Vec<Option<String>> = vec![None; test.expects.len()];
+    let always: Vec<usize> = (0..test.expects.len()).filter(|&i| test.expects[i].share.is_none()).collect();
+    loop {
+        let over = matches!(run.step(), Running::Over(_));
+        if over || !always.is_empty() {
+            tell(&mut evaluation, test, &run, over);
+        }
+        for &i in always.iter().filter(|&&i| run.tick() > 1 && breaches[i].is_none()).collect::<Vec<_>>() {
+            breaches[i] = breach(&mut evaluation, test, &test.expects[i], run.tick());
+        }
+        if over {
+            break;
+        }
+    }
+    for (i, expect) in test.expects.iter().enumerate().filter(|(_, e)| e.share.is_some()) {
+        breaches[i] = breach(&mut evaluation, test, expect, run.tick());
+    }
+    let trace = test.snapshots.contains(&seed).then(|| run.trace().to_string());
+    Ok(Judged { seed, breaches, trace })
+}
+
+/// What was found, when an expectation does not hold.
+fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgram, tick: u64) -> Option<String> {
+    let when = number::seconds(tick.saturating_sub(1));
+    for need in &expect.needs {
+        if evaluation.words(*need, 1)[0] == 0.0 {
+            let what = test.slots.reported.iter().find(|(_, slot)| slot == need).map_or("", |(name, _)| name);
+            return Some(format!("nothing was reported as \"{what}\" ({})", when.trim()));
+        }
+    }
+    evaluation.run(&test.program, expect.holds.entry);
+    if evaluation.words(expect.holds.value, 1)[0] != 0.0 {
+        return None;
+    }
+    let mut found: Vec<String> = Vec::new();
+    for (name, code, shape) in &expect.watched {
+        evaluation.run(&test.program, code.entry);
+        let value = number::value(shape, evaluation.words(code.value, shape.words()));
+        found.push(format!("{name} = {value}"));
+    }
+    Some(format!(
+        "{} ({})",
+        if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") },
+        when.trim()
+    ))
+}
+
+/// Puts what is true now where the expectations look for it.
+fn tell(evaluation: &mut Evaluation, test: &TestProgram, run: &Run, over: bool) {
+    let slots = &test.slots;
+    let position = run.true_position();
+    evaluation.set(slots.position, &[position.north, position.east]);
+    evaluation.set(slots.time, &[run.tick().saturating_sub(1) as f64 * TICK_S]);
+    evaluation.set(slots.area, run.area_words().unwrap_or(&[0.0; AREA_WORDS as usize]));
+    let summary: Summary = run.summary(0.0);
+    evaluation.set(slots.completed, &[f64::from(u8::from(over && summary.outcome == "completed"))]);
+    let place = |r: &crate::Report| Some((r.north_m?, r.east_m?));
+    let latest = summary.reports.iter().rev().find_map(place);
+    let from = latest.map_or(position, |(north, east)| albacore_geometry::Point::new(north, east));
+    let nearest = run.nearest_source(from).unwrap_or(from);
+    evaluation.set(slots.nearest_source, &[nearest.north, nearest.east]);
+    for (name, slot) in &slots.reported {
+        let first = summary.reports.iter().find(|r| r.name == *name).and_then(place);
+        let (north, east) = first.unwrap_or_default();
+        evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), north, east]);
+    }
+}

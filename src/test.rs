@@ -1,0 +1,200 @@
+//! `albacore test`: runs the `test` blocks of scripts and compares behavior traces with their snapshots.
+
+use crate::exit::Exit;
+use crate::message;
+use albacore_session::{Failure, PlanError, Script, TestResult, first_difference, run_test, same_behavior};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Run the tests of scripts.
+#[derive(clap::Args)]
+pub struct Test {
+    /// Scripts, or folders of scripts; else the folder `missions`.
+    #[arg(value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// Only the tests whose names contain this.
+    #[arg(long, value_name = "TEXT")]
+    filter: Option<String>,
+    /// Take what was found as right: write new snapshots over the old.
+    #[arg(long)]
+    accept: bool,
+}
+
+/// How many tests passed and failed.
+#[derive(Default)]
+struct Count {
+    passed: usize,
+    failed: usize,
+}
+
+impl Test {
+    /// Runs all tests; one that fails makes the whole fail.
+    pub fn run(&self) -> Exit {
+        let paths = if self.paths.is_empty() { vec![PathBuf::from("missions")] } else { self.paths.clone() };
+        let mut scripts = Vec::new();
+        for path in &paths {
+            match scripts_of(path) {
+                Ok(found) => scripts.extend(found),
+                Err(error) => {
+                    message::error(&format!("`{}` cannot be read: {error}", path.display()), None);
+                    return Exit::Usage;
+                }
+            }
+        }
+        let mut count = Count::default();
+        let mut exit = Exit::Well;
+        for path in scripts {
+            let script = match albacore_session::load(&path, None, &[]) {
+                Ok(script) => script,
+                Err(error) => {
+                    message::error(&error.message, error.help.as_deref());
+                    return Exit::Usage;
+                }
+            };
+            if !script.is_sound() {
+                message::findings(&script.findings, &script.sources);
+                exit = Exit::Script;
+                continue;
+            }
+            if let Err(failed) = self.tests_of(&script, &path, &mut count) {
+                exit = failed;
+            }
+        }
+        say(&format!("{} passed, {} failed\n", count.passed, count.failed));
+        match exit {
+            Exit::Well if count.failed > 0 => Exit::NotWell,
+            exit => exit,
+        }
+    }
+
+    fn tests_of(&self, script: &Script, path: &Path, count: &mut Count) -> Result<(), Exit> {
+        for test in script.tests() {
+            let test = match test {
+                Ok(test) => test,
+                Err(findings) => {
+                    message::findings(&findings, &script.sources);
+                    return Err(Exit::Script);
+                }
+            };
+            if self.filter.as_ref().is_some_and(|text| !test.name.contains(text.as_str())) {
+                continue;
+            }
+            let result = match run_test(script, &test) {
+                Ok(result) => result,
+                Err(PlanError::Script(findings)) => {
+                    message::findings(&findings, &script.sources);
+                    return Err(Exit::Script);
+                }
+                Err(PlanError::Asked(what, help)) => {
+                    message::error(&format!("{}: {what}", test.place), help.as_deref());
+                    return Err(Exit::Usage);
+                }
+            };
+            let mut problems: Vec<String> = result.failures.iter().map(told).collect();
+            for (seed, trace) in &result.traces {
+                problems.extend(self.compare(path, &result, *seed, trace));
+            }
+            let seeds = format!("seeds {}..{}", result.seeds.0, result.seeds.1);
+            if problems.is_empty() {
+                count.passed += 1;
+                say(&format!("ok      {}  \"{}\"  {seeds}\n", result.place, result.name));
+            } else {
+                count.failed += 1;
+                say(&format!("FAILED  {}  \"{}\"  {seeds}\n", result.place, result.name));
+                for problem in problems {
+                    say(&problem);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Compares a trace with its snapshot; gives what is wrong.
+    fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str) -> Option<String> {
+        let file = snapshot_file(script, &result.name, seed);
+        let stored = std::fs::read_to_string(&file).ok();
+        if stored.as_deref() == Some(trace) {
+            return None;
+        }
+        if self.accept {
+            let written =
+                file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&file, trace));
+            return match written {
+                Ok(()) => {
+                    say(&format!("        wrote {}\n", file.display()));
+                    None
+                }
+                Err(error) => Some(format!("        `{}` cannot be written: {error}\n", file.display())),
+            };
+        }
+        let Some(stored) = stored else {
+            return Some(format!(
+                "        seed {seed}: there is no snapshot `{}`\n        look at the run, then `albacore test --accept`\n",
+                file.display()
+            ));
+        };
+        let verdict =
+            if same_behavior(&stored, trace) { "numerically different, same behavior" } else { "behaved differently" };
+        let mut text = format!("        seed {seed}: {verdict}  ({})\n", file.display());
+        let behavior = first_difference(&stored, trace);
+        let lines = behavior.map_or_else(|| first_lines(&stored, trace), |d| (d.left, d.right));
+        for (sign, line) in [("-", lines.0), ("+", lines.1)] {
+            text.push_str(&format!("          {sign} {}\n", line.as_deref().unwrap_or("(nothing more)")));
+        }
+        text.push_str("        when this is right: `albacore test --accept`\n");
+        Some(text)
+    }
+}
+
+/// The first lines in which two texts differ.
+fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
+    let (mut a, mut b) = (a.lines(), b.lines());
+    loop {
+        match (a.next(), b.next()) {
+            (Some(x), Some(y)) if x == y => {}
+            (x, y) => return (x.map(str::to_string), y.map(str::to_string)),
+        }
+    }
+}
+
+/// `missions/snapshots/duck_single-one_source-1.trace`.
+fn snapshot_file(script: &Path, test: &str, seed: u64) -> PathBuf {
+    let plain: String =
+        test.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
+    let words: Vec<&str> = plain.split('_').filter(|w| !w.is_empty()).collect();
+    let stem = script.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    script.with_file_name("snapshots").join(format!("{stem}-{}-{seed}.trace", words.join("_")))
+}
+
+/// A failed expectation as a person reads it.
+fn told(failure: &Failure) -> String {
+    let (held, runs) = failure.held;
+    let wanted = failure.wanted.filter(|w| *w < 100.0).map(|w| format!(", {w:.0} % wanted")).unwrap_or_default();
+    let mut text =
+        format!("        {}  {}\n        held in {held} of {runs} runs{wanted}\n", failure.place, failure.text);
+    for (seed, found) in &failure.examples {
+        text.push_str(&format!("          seed {seed}: {found}\n"));
+    }
+    text
+}
+
+/// A script itself, or the scripts of a folder, in the order of their names.
+fn scripts_of(path: &Path) -> std::io::Result<Vec<PathBuf>> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_path_buf()]);
+    }
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(path)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|e| e == "alb") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// A closed pipe is silent.
+fn say(text: &str) {
+    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+}
