@@ -1,5 +1,7 @@
 //! The missions off Duck: a plume is found, traced and declared, inside the operating area, on more than one seed.
 
+#![expect(clippy::unwrap_used, clippy::expect_used, reason = "a test whose scripts cannot be read has failed")]
+
 use albacore_session::{Outcome, Plan, Run, Summary, load};
 use std::path::Path;
 

@@ -83,9 +83,11 @@ impl Sources {
         (line, column)
     }
 
-    /// `file:line` of a span, as traces print it.
+    /// `file:line` of a span, as traces print it: without its folders, so that a trace is the same wherever the script lies.
     pub fn place(&self, span: Span) -> String {
-        format!("{}:{}", self.get(span.file).name, self.line_column(span).0)
+        let name = &self.get(span.file).name;
+        let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        format!("{file}:{}", self.line_column(span).0)
     }
 }
 
