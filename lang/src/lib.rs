@@ -76,7 +76,7 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
     let Loader { mut sources, modules, mut findings, .. } = loader;
     let chosen = chosen_mission(&modules[main].tree, &entry.name, mission);
     let overrides = overrides(&mut sources, set, chosen.as_ref(), &modules[main].tree, &mut findings);
-    let unreadable = !findings.is_empty();
+    let unreadable = findings.iter().any(|f| f.code.starts_with("syntax::"));
     let checked = check::check(&modules, overrides);
     // What could not be read is missing everywhere: names that it would have declared are no second mistake.
     let later = checked.findings.into_iter().filter(|f| !(unreadable && f.code == "names::unknown"));

@@ -1,5 +1,6 @@
 //! Behaviors, strategies, overlays and missions: their declarations, and what each kind may hold.
 
+use super::expr::article;
 use super::facts;
 use super::{Checker, Scope, Setting, Temporal, body};
 use crate::diagnostic::Diagnostic;
@@ -204,6 +205,16 @@ impl<'t> Checker<'t> {
                 let finish = self.scope.finish.take();
                 let block = self.in_block(|c| c.block(block));
                 self.scope.finish = finish;
+                if let Some(place) = body::aborts(&block) {
+                    self.report(
+                        Diagnostic::error(
+                            "missions::recovery",
+                            place,
+                            "a recovery cannot abort: the mission is over already",
+                        )
+                        .help("leave it out: the recovery ends with its last statement, or with its `within`"),
+                    );
+                }
                 parts.mission.recovery = Some((within, block));
             }
             _ => {}
@@ -340,7 +351,7 @@ impl<'t> Checker<'t> {
                 Diagnostic::error(
                     "flow::result",
                     a.name.span,
-                    format!("`{}` can end without its result, a `{ty}`", a.name.node),
+                    format!("`{}` can end without its result, {}", a.name.node, article(&ty)),
                 )
                 .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
             );

@@ -79,6 +79,7 @@ impl<'t> Checker<'t> {
                     };
                     self.report(finding);
                 }
+                // A label that fits nothing, or one too many, is the mistake; what is then missing is its echo.
                 (None, None) => {
                     failed = true;
                     let finding = Diagnostic::error(
@@ -102,6 +103,7 @@ impl<'t> Checker<'t> {
                     values.push(value);
                 }
                 (None, Some(default)) => values.push(default.clone()),
+                (None, None) if failed => {}
                 (None, None) => {
                     failed = true;
                     let ty = self.type_name(&param.ty);

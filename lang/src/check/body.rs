@@ -1,5 +1,6 @@
 //! Blocks and the statements in them.
 
+use super::expr::article;
 use super::facts;
 use super::{Checker, Setting, Temporal};
 use crate::diagnostic::Diagnostic;
@@ -58,8 +59,12 @@ impl<'t> Checker<'t> {
         if !matches!(key.ty, Type::Int | Type::Quantity(_) | Type::Depth | Type::Altitude | Type::Unknown) {
             let name = self.type_name(&key.ty);
             self.report(
-                Diagnostic::error("types::key", span, format!("a list is ordered by a number, not by a `{name}`"))
-                    .help("for example `by most it.along(upflow)`"),
+                Diagnostic::error(
+                    "types::key",
+                    span,
+                    format!("a list is ordered by a number, not by {}", article(&name)),
+                )
+                .help("for example `by most it.along(upflow)`"),
             );
         }
         self.scope.vars[id].order = Some(Order { most: *most, it, key: Box::new(key) });
@@ -385,7 +390,7 @@ impl<'t> Checker<'t> {
                     Diagnostic::error(
                         "types::for",
                         written.span,
-                        format!("`for` walks a list or a range, this is a `{ty}`"),
+                        format!("`for` walks a list or a range, this is {}", article(&ty)),
                     )
                     .help("ranges are `0..<n` and `1..n`"),
                 );
@@ -436,8 +441,12 @@ impl<'t> Checker<'t> {
             other => {
                 let ty = self.type_name(other);
                 self.report(
-                    Diagnostic::error("absent::let", value.span, format!("this is never absent: it is a `{ty}`"))
-                        .help("name it with a plain `let`"),
+                    Diagnostic::error(
+                        "absent::let",
+                        value.span,
+                        format!("this is never absent: it is {}", article(&ty)),
+                    )
+                    .help("name it with a plain `let`"),
                 );
                 Type::Unknown
             }
@@ -499,8 +508,12 @@ impl<'t> Checker<'t> {
             (Some(Some(ty)), None) => {
                 let ty = self.type_name(&ty);
                 self.report(
-                    Diagnostic::error("flow::result", span, format!("this finishes without its result, a `{ty}`"))
-                        .help("write `finish VALUE`"),
+                    Diagnostic::error(
+                        "flow::result",
+                        span,
+                        format!("this finishes without its result, {}", article(&ty)),
+                    )
+                    .help("write `finish VALUE`"),
                 );
                 return None;
             }
@@ -623,7 +636,7 @@ impl<'t> Checker<'t> {
             self.report(Diagnostic::error(
                 "types::list",
                 base.span,
-                format!("`{what}` changes a list, this is a `{ty}`"),
+                format!("`{what}` changes a list, this is {}", article(&ty)),
             ));
             return None;
         };
@@ -682,6 +695,22 @@ pub(super) fn may_take_time(block: &Block) -> bool {
         | StmtKind::ForEdges { body, .. }
         | StmtKind::While { body, .. } => may_take_time(body),
         _ => false,
+    })
+}
+
+/// The first `abort` in a block.
+pub(super) fn aborts(block: &Block) -> Option<Span> {
+    block.stmts.iter().find_map(|stmt| match &stmt.kind {
+        StmtKind::Abort(_) => Some(stmt.span),
+        StmtKind::If(_, a, b) => aborts(a).or_else(|| aborts(b)),
+        StmtKind::Match(_, arms, otherwise) => arms.iter().map(|(_, b)| b).chain(otherwise).find_map(aborts),
+        StmtKind::With(_, body)
+        | StmtKind::Loop(body)
+        | StmtKind::ForRange { body, .. }
+        | StmtKind::ForList { body, .. }
+        | StmtKind::ForEdges { body, .. }
+        | StmtKind::While { body, .. } => aborts(body),
+        _ => None,
     })
 }
 

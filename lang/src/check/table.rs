@@ -1,5 +1,6 @@
 //! The switching table: which behavior follows which, and that none is forgotten.
 
+use super::expr::article;
 use super::facts;
 use super::{Checker, Setting, body};
 use crate::diagnostic::Diagnostic;
@@ -181,8 +182,12 @@ impl<'t> Checker<'t> {
             (None, Some(ty)) => {
                 let ty = self.type_name(ty);
                 self.report(
-                    Diagnostic::error("flow::result", span, format!("this finishes without its result, a `{ty}`"))
-                        .help("write `-> finish VALUE`"),
+                    Diagnostic::error(
+                        "flow::result",
+                        span,
+                        format!("this finishes without its result, {}", article(&ty)),
+                    )
+                    .help("write `-> finish VALUE`"),
                 );
                 None
             }

@@ -1,11 +1,12 @@
 //! Statements that take time: guidance, calls, and the modifiers that bound them; `with`.
 
-use super::expr::Found;
+use super::expr::{Found, article};
 use super::{Checker, Def, ParamInfo, Setting, Temporal};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Action, ExprKind, Interval, Stmt, StmtKind, Timed, VarKind, With};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree::{self, WithItem};
 use crate::types::Type;
 use albacore_program::{Channel, Guide};
@@ -36,6 +37,9 @@ impl<'t> Checker<'t> {
             && self.called_activity(e).is_none()
         {
             if timed.is_modified() {
+                if self.misspelt_statement(e) {
+                    return None;
+                }
                 self.report(
                     Diagnostic::error("time::modifier", timed.span, "this takes no time: nothing to end or to cut off")
                         .help("`for`, `until`, `within` and `at` belong to statements that take time"),
@@ -80,8 +84,12 @@ impl<'t> Checker<'t> {
                     let (has, wants) = (self.type_name(&found), self.type_name(&written));
                     let place = ty.span;
                     self.report(
-                        Diagnostic::error("types::mismatch", place, format!("this gives a `{has}`, not a `{wants}`"))
-                            .help(format!("write `{has}`, or leave the type out")),
+                        Diagnostic::error(
+                            "types::mismatch",
+                            place,
+                            format!("this gives {}, not {}", article(&has), article(&wants)),
+                        )
+                        .help(format!("write `{has}`, or leave the type out")),
                     );
                 }
             }
@@ -101,6 +109,20 @@ impl<'t> Checker<'t> {
         }
         let timed = Timed { action, duration, until, within, at, result };
         Some(Stmt { kind: StmtKind::Timed(Box::new(timed)), span })
+    }
+
+    /// `wiat for 10 s` reads as a value named `wiat`: when a word of the language is near, that was meant.
+    fn misspelt_statement(&mut self, e: &tree::Expr) -> bool {
+        let tree::ExprKind::Name(name) = &e.kind else { return false };
+        if self.local(name).is_some() || self.lookup(self.scope.module, name).is_some() {
+            return false;
+        }
+        let Some(near) = suggest::nearest(name, ["wait", "hold", "watch"]) else { return false };
+        self.report(
+            Diagnostic::error("syntax::clause", e.span, format!("`{name}` begins no statement"))
+                .help(format!("did you mean `{near}`?")),
+        );
+        true
     }
 
     /// What is done, whether it ends by itself, and the result it has.

@@ -179,6 +179,7 @@ impl<'a> Lowering<'a> {
     fn activity(&mut self, id: usize, _depth: u32) -> u32 {
         let activity = &self.hir.activities[id];
         let outer = (self.frame.header, self.frame.result, std::mem::take(&mut self.frame.overlays));
+        let outer_declared = std::mem::take(&mut self.frame.declared_overlays);
         let at = self.lasting(header::WORDS);
         let result =
             activity.result.as_ref().map(|ty| Valued { slot: self.lasting(self.words(ty)), shape: self.shape(ty) });
@@ -265,7 +266,10 @@ impl<'a> Lowering<'a> {
         if let Some(mission) = &activity.mission {
             self.mission_parts(mission);
         }
-        let overlays = std::mem::replace(&mut self.frame.overlays, outer.2);
+        // Overlays beside the declarations are the outermost.
+        let declared = std::mem::replace(&mut self.frame.declared_overlays, outer_declared);
+        let mut overlays = std::mem::replace(&mut self.frame.overlays, outer.2);
+        overlays.extend(declared);
         (self.frame.header, self.frame.result) = (outer.0, outer.1);
         self.program.activities.push(Activity {
             name: activity.name.clone(),
@@ -294,7 +298,8 @@ impl<'a> Lowering<'a> {
     fn declaration(&mut self, decl: &Decl, timers: &[Timer], at: Slot) {
         match decl {
             Decl::With(items) => {
-                self.put_on(items);
+                let worn = self.put_on(items);
+                self.frame.declared_overlays.extend(worn);
             }
             Decl::Signal(var, e) => {
                 self.update_timers(timers, at, None);

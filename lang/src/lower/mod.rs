@@ -77,8 +77,10 @@ struct Frame {
     /// The header of the activity whose code is being lowered, and its result.
     header: Slot,
     result: Slot,
-    /// The overlays of the activity whose code is being lowered.
+    /// The overlays of the activity whose code is being lowered: of its statements, innermost first, and of its
+    /// declarations.
     overlays: Vec<u32>,
+    declared_overlays: Vec<u32>,
     /// In a guard: whether the body has come to its end.
     done: bool,
     /// The subroutine that sorts a variable that is an ordered list.

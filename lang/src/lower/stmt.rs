@@ -233,7 +233,6 @@ impl<'a> Lowering<'a> {
                     self.program.overlays.push(OverlaySite { activity: unit.activity, base });
                     let overlay = self.program.overlays.len() as u32 - 1;
                     self.emit(Op::PutOn { overlay });
-                    self.frame.overlays.push(overlay);
                     worn.push(overlay);
                 }
             }
@@ -266,6 +265,8 @@ impl<'a> Lowering<'a> {
         self.copy(saved, at, setpoints::WORDS);
         let worn = self.put_on(items);
         self.body(body);
+        // What is put on inside has been noted already: inner blocks amend first, whatever their order on the page.
+        self.frame.overlays.extend(&worn);
         for overlay in worn.into_iter().rev() {
             self.emit(Op::TakeOff { overlay });
         }

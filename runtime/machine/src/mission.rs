@@ -36,6 +36,7 @@ impl Run {
             limited: [false; 3],
             requires: Vec::new(),
             within: None,
+            began: 0,
             overridden: Overridden::default(),
         };
         Run { state, events: Vec::new(), in_overlay: false, abort: None, senses: senses(p) }
@@ -153,13 +154,14 @@ impl Run {
                 self.after_step(p, Status::Running)
             }
             Phase::Running | Phase::Holding(_) => {
-                if let Some(command) = self.hold_while_stale(p) {
-                    return command;
-                }
-                let age = self.get(p.mission.base + p.activities[p.mission.activity as usize].header + header::AGE);
-                if self.state.within.is_some_and(|ticks| age + 1.0 >= ticks) {
+                // The time limit bounds the run: it does not stand still while the mission is held.
+                let lived = (self.state.tick - self.state.began) as f64;
+                if self.state.within.is_some_and(|ticks| lived >= ticks) {
                     self.events.push(Event::TimedOut);
                     return self.recover(p, Outcome::TimedOut);
+                }
+                if let Some(command) = self.hold_while_stale(p) {
+                    return command;
                 }
                 let status = self.step(p, p.mission.activity, p.mission.base);
                 self.after_step(p, status)
@@ -176,6 +178,7 @@ impl Run {
     fn start(&mut self, p: &Program) {
         let base = p.mission.base;
         self.state.phase = Phase::Running;
+        self.state.began = self.state.tick;
         self.state.filtered = self.heading();
         // Rule 6: at the very start the present heading and depth, speed 0.
         self.state.asked =

@@ -30,8 +30,9 @@ pub struct State {
     pub(crate) limited: [bool; 3],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
     pub(crate) requires: Vec<Requirement>,
-    /// The mission's time limit in ticks.
+    /// The mission's time limit in ticks, and the tick on which it began.
     pub(crate) within: Option<f64>,
+    pub(crate) began: u64,
     /// Channels that overlays set in this tick.
     pub(crate) overridden: Overridden,
 }
