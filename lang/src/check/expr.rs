@@ -119,7 +119,7 @@ impl<'t> Checker<'t> {
         .here(format!("`{has}`"));
         let finding = match (&value.ty, wanted) {
             (Type::Optional(inner), w) if **inner == *w => {
-                finding.help(format!("it may be absent: write `… else VALUE`, or test it with `if` before"))
+                finding.help("it may be absent: write `… else VALUE`, or test it with `if` before".to_string())
             }
             (Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::ANGLE) => {
                 finding.help("an angle is measured from something: write `HEADING + ANGLE`, such as `north + x`")
