@@ -518,6 +518,8 @@ pub struct TestVars {
     pub mission: ActivityId,
     /// By name, where it was first reported.
     pub reported: Vec<(String, VarId)>,
+    /// By name, when it was first reported.
+    pub reported_at: Vec<(String, VarId)>,
 }
 
 /// An expectation.

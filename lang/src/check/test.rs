@@ -134,6 +134,7 @@ impl<'t> Checker<'t> {
             area: var(self, "the mission's area", Type::Area),
             mission,
             reported: Vec::new(),
+            reported_at: Vec::new(),
         };
         self.test_vars = Some(vars);
     }
@@ -172,7 +173,8 @@ impl<'t> Checker<'t> {
             ("truth", "position") => vars.position,
             ("truth", "nearest_source") => vars.nearest_source,
             _ => {
-                let mission = &self.activity_signatures[vars.mission].name;
+                let full = &self.activity_signatures[vars.mission].name;
+                let mission = full.rsplit('.').next().unwrap_or(full);
                 let own = name == mission && self.area_name(mission).as_deref() == Some(&member.node);
                 own.then_some(vars.area)?
             }
@@ -193,34 +195,42 @@ impl<'t> Checker<'t> {
         })
     }
 
-    /// `reported("source")`: where that was first reported. Without such a report the expectation fails, and says so.
+    /// `reported("source")`: where that was first reported, `reported_at("source")`: when. Without such a report the
+    /// expectation fails, and says so. `has_reported("source")` tells whether there is one.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test_vars.as_ref()?;
-        let present = match name {
-            "reported" => false,
-            "has_reported" => true,
+        let when = match name {
+            "reported" | "has_reported" => false,
+            "reported_at" => true,
             _ => return None,
         };
         let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
         let what = self.plain_text(&text);
-        let known =
-            self.test_vars.as_ref().and_then(|v| v.reported.iter().find(|(n, _)| *n == what).map(|(_, id)| *id));
-        let id = match known {
-            Some(id) => id,
-            None => {
-                let hidden = format!("reported \"{what}\"");
-                let id = self.declare_hidden(hidden, VarKind::Signal, Type::Optional(Box::new(Type::Point)), span);
-                if let Some(vars) = &mut self.test_vars {
-                    vars.reported.push((what, id));
-                }
-                id
-            }
-        };
+        let ty = if when { Type::Quantity(Dimension::TIME) } else { Type::Point };
+        let id = self.report_var(&what, when, &ty, span);
         let value = self.variable(id, span);
-        Some(if present {
+        Some(if name == "has_reported" {
             self.truth(value)
         } else {
-            Expr { kind: ExprKind::Unwrap(Box::new(value)), ty: Type::Point, span, range: Interval::ANY }
+            Expr { kind: ExprKind::Unwrap(Box::new(value)), ty, span, range: Interval::ANY }
         })
+    }
+
+    /// The variable that holds where or when something was reported: one for each name.
+    fn report_var(&mut self, what: &str, when: bool, ty: &Type, span: Span) -> usize {
+        let known = self.test_vars.as_ref().and_then(|vars| {
+            let table = if when { &vars.reported_at } else { &vars.reported };
+            table.iter().find(|(name, _)| name == what).map(|(_, id)| *id)
+        });
+        if let Some(id) = known {
+            return id;
+        }
+        let hidden = format!("report \"{what}\" {}", if when { "at" } else { "place" });
+        let id = self.declare_hidden(hidden, VarKind::Signal, Type::Optional(Box::new(ty.clone())), span);
+        if let Some(vars) = &mut self.test_vars {
+            let table = if when { &mut vars.reported_at } else { &mut vars.reported };
+            table.push((what.to_string(), id));
+        }
+        id
     }
 }

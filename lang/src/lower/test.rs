@@ -46,6 +46,8 @@ pub struct TestSlots {
     pub area: Slot,
     /// For each name that is asked for: presence, then the position of its first report.
     pub reported: Vec<(String, Slot)>,
+    /// For each name that is asked for: presence, then the seconds until its first report.
+    pub reported_at: Vec<(String, Slot)>,
 }
 
 /// An expectation.
@@ -85,8 +87,10 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
             completed: at(known.completed),
             area: at(known.area),
             reported: known.reported.iter().map(|(name, id)| (name.clone(), at(*id))).collect(),
+            reported_at: known.reported_at.iter().map(|(name, id)| (name.clone(), at(*id))).collect(),
         };
-        let reports: Vec<(usize, Slot)> = known.reported.iter().map(|(_, id)| (*id, at(*id))).collect();
+        let reports: Vec<(usize, Slot)> =
+            known.reported.iter().chain(&known.reported_at).map(|(_, id)| (*id, at(*id))).collect();
         let expects = test
             .expects
             .iter()

@@ -138,7 +138,10 @@ impl Files {
 
 fn parent(path: &Path) -> PathBuf {
     match path.components().next_back() {
-        Some(Component::Normal(_)) => path.parent().map_or_else(|| path.join(".."), Path::to_path_buf),
+        Some(Component::Normal(_)) => {
+            // The folder above `missions` is the one we stand in.
+            path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_path_buf()
+        }
         _ => path.join(".."),
     }
 }

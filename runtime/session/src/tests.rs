@@ -109,7 +109,8 @@ fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgra
     let when = number::seconds(tick.saturating_sub(1));
     for need in &expect.needs {
         if evaluation.words(*need, 1)[0] == 0.0 {
-            let what = test.slots.reported.iter().find(|(_, slot)| slot == need).map_or("", |(name, _)| name);
+            let mut reports = test.slots.reported.iter().chain(&test.slots.reported_at);
+            let what = reports.find(|(_, slot)| slot == need).map_or("", |(name, _)| name);
             return Some(format!("nothing was reported as \"{what}\" ({})", when.trim()));
         }
     }
@@ -148,5 +149,9 @@ fn tell(evaluation: &mut Evaluation, test: &TestProgram, run: &Run, over: bool) 
         let first = summary.reports.iter().find(|r| r.name == *name).and_then(place);
         let (north, east) = first.unwrap_or_default();
         evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), north, east]);
+    }
+    for (name, slot) in &slots.reported_at {
+        let first = summary.reports.iter().find(|r| r.name == *name);
+        evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), first.map_or(0.0, |r| r.t_s)]);
     }
 }
