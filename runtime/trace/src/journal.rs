@@ -12,6 +12,7 @@
 //! The length has a check of its own, because a wrong one would pass for a journal that was cut short.
 
 mod read;
+mod snapshot;
 mod write;
 
 pub use read::Reader;
@@ -69,6 +70,7 @@ pub struct Record {
     /// Which one; the first is 0.
     pub tick: u64,
     /// All that came from the vehicle.
+    #[serde(with = "snapshot")]
     pub snapshot: Snapshot,
     /// What it was told, if anything.
     pub command: Option<Command>,
@@ -175,7 +177,13 @@ enum Entry {
 #[derive(Serialize)]
 enum Written<'a> {
     Header(&'a JournalHeader),
-    Tick { tick: u64, snapshot: &'a Snapshot, command: Option<&'a Command>, events: &'a [Event] },
+    Tick {
+        tick: u64,
+        #[serde(serialize_with = "snapshot::serialize")]
+        snapshot: &'a Snapshot,
+        command: Option<&'a Command>,
+        events: &'a [Event],
+    },
     Closing(&'a Closing),
 }
 
