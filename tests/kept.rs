@@ -1,6 +1,6 @@
 //! What a run leaves on the disk: all of it, whatever ends the run; and what happens when the disk will not take it.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]
 
 use albacore_trace::journal::{Ending, Journal};

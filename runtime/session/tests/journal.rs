@@ -1,6 +1,6 @@
 //! The journal of a run: it holds all that a replay needs, and no failing disk stops a mission.
 
-#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_machine::{Machine, Outcome};
 use albacore_session::{Plan, Run, Running, load};
