@@ -2,6 +2,7 @@
 
 mod check;
 mod exit;
+mod kept;
 mod message;
 mod run;
 mod test;

@@ -1,6 +1,7 @@
 //! `albacore run`: checks a mission and runs it.
 
 use crate::exit::Exit;
+use crate::kept::Kept;
 use crate::message;
 use albacore_session::{Outcome, Plan, PlanError, Run as MissionRun, Running, Script, Summary};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -10,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Ticks between two looks at the wall clock and the interrupt flag.
+/// Ticks between two looks of the person at the progress.
 const TICKS_AT_ONCE: u64 = 100;
 
 /// Check a mission script and run it.
@@ -31,7 +32,7 @@ pub struct Run {
     /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The folder for the trace and the picture; else `albacore-runs/MISSION-SEED`.
+    /// The folder for the journal, the trace and the picture; else `albacore-runs/MISSION-SEED`.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Write no files.
@@ -66,38 +67,45 @@ impl Run {
             Ok(run) => run,
             Err(error) => return refused(&error, &script),
         };
-        let outcome = self.drive(&mut run, &plan);
+        let interrupted = interruption();
+        let mut kept = self.folder(&plan).map_or_else(Kept::nothing, Kept::begin);
+        if let Some(journal) = kept.journal() {
+            run.with_journal(Box::new(journal), &self.set);
+        }
+        let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(started.elapsed().as_secs_f64());
-        let saved = self.save(&run, &summary);
-        self.tell(&summary, saved.as_ref().ok().and_then(|p| p.as_deref()));
-        match (outcome, saved) {
-            (Outcome::Failed | Outcome::LinkLost, _) | (_, Err(())) => Exit::Failed,
-            (Outcome::Completed, _) => Exit::Well,
+        let picture = kept.finish(&run);
+        self.tell(&summary, picture.as_deref());
+        match outcome {
+            _ if kept.has_failed() => Exit::Failed,
+            Outcome::Failed | Outcome::LinkLost => Exit::Failed,
+            Outcome::Completed => Exit::Well,
             _ => Exit::NotWell,
         }
     }
 
+    /// Where files go, if any are wanted.
+    fn folder(&self, plan: &Plan) -> Option<PathBuf> {
+        let usual = || Path::new("albacore-runs").join(format!("{}-{}", plan.program.mission.name, self.seed));
+        (!self.no_out).then(|| self.out.clone().unwrap_or_else(usual))
+    }
+
     /// Ticks until the mission ends or the person interrupts it.
-    fn drive(&self, run: &mut MissionRun, plan: &Plan) -> Outcome {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.
-        let _ = ctrlc::set_handler(move || flag.store(true, Ordering::SeqCst));
+    fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut Kept, interrupted: &AtomicBool) -> Outcome {
         let bar = self.bar(plan);
         loop {
-            for _ in 0..TICKS_AT_ONCE {
-                if let Running::Over(outcome) = run.step() {
-                    bar.finish_and_clear();
-                    return outcome;
-                }
+            let running = if interrupted.load(Ordering::Relaxed) { run.interrupt() } else { run.step() };
+            if let Some(error) = run.journal_failure() {
+                bar.suspend(|| kept.journal_failed(&error));
             }
-            if interrupted.load(Ordering::SeqCst) {
+            if let Running::Over(outcome) = running {
                 bar.finish_and_clear();
-                run.interrupt();
-                return Outcome::Interrupted;
+                return outcome;
             }
-            bar.set_position(run.tick() / 10);
-            bar.set_message(run.active().join(" > "));
+            if run.tick().is_multiple_of(TICKS_AT_ONCE) {
+                bar.set_position(run.tick() / 10);
+                bar.set_message(run.active().join(" > "));
+            }
         }
     }
 
@@ -112,31 +120,6 @@ impl Run {
         bar.set_message(plan.program.mission.name.clone());
         bar.enable_steady_tick(Duration::from_millis(100));
         bar
-    }
-
-    /// Writes trace and picture; gives the picture's path. What cannot be written is said, and the run counts as failed.
-    fn save(&self, run: &MissionRun, summary: &Summary) -> Result<Option<PathBuf>, ()> {
-        if self.no_out {
-            return Ok(None);
-        }
-        let folder = self
-            .out
-            .clone()
-            .unwrap_or_else(|| Path::new("albacore-runs").join(format!("{}-{}", summary.mission, summary.seed)));
-        let picture = folder.join("run.svg");
-        let written = std::fs::create_dir_all(&folder)
-            .and_then(|()| whole(&folder.join("trace.txt"), &run.trace().to_string()))
-            .and_then(|()| whole(&picture, &run.svg()));
-        match written {
-            Ok(()) => Ok(Some(picture)),
-            Err(error) => {
-                message::error(
-                    &format!("`{}` cannot be written: {error}", folder.display()),
-                    Some("choose another folder with `--out`, or `--no-out`"),
-                );
-                Err(())
-            }
-        }
     }
 
     fn tell(&self, summary: &Summary, picture: Option<&Path>) {
@@ -156,11 +139,13 @@ impl Run {
     }
 }
 
-/// A whole file or none: what is half written goes under another name first.
-fn whole(path: &Path, text: &str) -> std::io::Result<()> {
-    let part = path.with_extension("part");
-    std::fs::write(&part, text)?;
-    std::fs::rename(&part, path)
+/// A flag that Ctrl-C and the system's request to end raise.
+fn interruption() -> Arc<AtomicBool> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.
+    let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+    interrupted
 }
 
 /// The result as a person reads it.

@@ -1,6 +1,7 @@
 //! Load, check and step a mission: the few types that the command line, the tests and the prompt all use.
 
 mod files;
+mod journal;
 mod picture;
 mod run;
 mod scenario;

@@ -1,5 +1,6 @@
-//! One run of a mission in a simulated world, tick by tick, with its trace, digest and picture.
+//! One run of a mission in a simulated world, tick by tick, with its journal, trace, digest and picture.
 
+use crate::journal::Keeper;
 use crate::picture;
 use crate::scenario;
 use crate::summary::{Report, Summary};
@@ -7,10 +8,12 @@ use albacore_geometry::{Point, TangentFrame, Vector};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{Script, suggestion};
 use albacore_machine::{Event, Machine, Outcome};
-use albacore_program::{AREA_WORDS, Program, Shape};
+use albacore_program::{AREA_WORDS, PROGRAM_VERSION, Program, Shape};
 use albacore_sim::{Scenario, Simulator};
+use albacore_trace::journal::{Closing, JournalHeader, SourceDigest};
 use albacore_trace::{BehaviorTrace, Digest, Header};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, Vertical};
+use std::io;
 use std::sync::Arc;
 
 /// A run takes this many ticks at most: ten days.
@@ -29,6 +32,8 @@ pub struct Plan {
     pub scenario: Arc<Scenario>,
     /// The world's name.
     pub scenario_name: String,
+    /// What both were made from.
+    pub sources: Vec<SourceDigest>,
 }
 
 /// Why a script cannot be run as asked.
@@ -100,7 +105,12 @@ impl Plan {
             let message = format!("the scenario `{}` cannot be", lowered.name);
             PlanError::Asked(message, Some(error.faults.join("; ")))
         })?;
-        Ok(Plan { program, scenario: Arc::new(world), scenario_name: lowered.name })
+        let sources = script.sources.iter().map(|source| {
+            let mut digest = Digest::new();
+            digest.text(&source.text);
+            SourceDigest { name: source.name.to_string(), digest: digest.value() }
+        });
+        Ok(Plan { program, scenario: Arc::new(world), scenario_name: lowered.name, sources: sources.collect() })
     }
 }
 
@@ -113,6 +123,7 @@ pub struct Run {
     snapshot: Snapshot,
     trace: BehaviorTrace,
     digest: Digest,
+    journal: Keeper,
     reports: Vec<Report>,
     reason: String,
     switches: u64,
@@ -154,6 +165,7 @@ impl Run {
             snapshot: Snapshot::default(),
             trace,
             digest: Digest::new(),
+            journal: Keeper::default(),
             reports: Vec::new(),
             reason: String::new(),
             switches: 0,
@@ -162,6 +174,27 @@ impl Run {
             picture: picture::Sketch::default(),
             asked_for_control: false,
         })
+    }
+
+    /// Keeps a journal from here on: one write call a tick, as it ends. `set` are the texts of the parameters changed for
+    /// this run. A sink that fails is given up, and the run goes on without it: see [`Run::journal_failure`].
+    pub fn with_journal(&mut self, sink: Box<dyn io::Write + Send>, set: &[String]) {
+        let header = JournalHeader {
+            program_version: PROGRAM_VERSION,
+            mission: self.plan.program.mission.name.clone(),
+            scenario: self.plan.scenario_name.clone(),
+            seed: self.seed,
+            tick_s: TICK_S,
+            sources: self.plan.sources.clone(),
+            set: set.to_vec(),
+            channels: self.vehicle.channels().to_vec(),
+        };
+        self.journal.begin(sink, &header);
+    }
+
+    /// Why the journal was given up, if it was; told once.
+    pub fn journal_failure(&mut self) -> Option<io::Error> {
+        self.journal.failure()
     }
 
     /// The tick that comes next.
@@ -212,15 +245,15 @@ impl Run {
             }
         }
         let command = self.machine.step(&self.snapshot);
-        if let Some(command) = command
-            && let Err(error) = self.vehicle.command(&command)
-        {
-            return self.end(Outcome::Failed, &error.to_string());
-        }
+        let sent = command.map_or(Ok(()), |command| self.vehicle.command(&command));
         let events = self.machine.events().to_vec();
         self.note(tick, &events);
+        self.journal.tick(tick, &self.snapshot, command.as_ref(), &events);
+        if let Err(error) = sent {
+            return self.end(Outcome::Failed, &error.to_string());
+        }
         match self.machine.outcome() {
-            Some(outcome) => self.finish(outcome),
+            Some(outcome) => self.finish(outcome, Vec::new()),
             None => Running::On,
         }
     }
@@ -243,17 +276,22 @@ impl Run {
         let tick = self.tick();
         self.reason = reason.to_string();
         let events = self.machine.end(outcome).to_vec();
+        // What was sensed last belongs to the tick before, or to none.
+        self.snapshot.samples.clear();
         self.note(tick, &events);
-        self.finish(outcome)
+        self.finish(outcome, events)
     }
 
-    /// The release is always the last act.
-    fn finish(&mut self, outcome: Outcome) -> Running {
+    /// The release is always the last act; then it is only written down.
+    fn finish(&mut self, outcome: Outcome, events: Vec<Event>) -> Running {
         let released = self.vehicle.release();
         if let Err(error) = released {
             self.reason = error.to_string();
         }
-        self.trace.finish(outcome, self.tick(), &self.digest);
+        let ticks = self.tick();
+        self.trace.finish(outcome, ticks, &self.digest);
+        let (reason, digest) = (&self.reason, self.digest.value());
+        self.journal.close(|| Closing { outcome, reason: reason.clone(), ticks, events, digest });
         Running::Over(outcome)
     }
 

@@ -1,4 +1,4 @@
-//! What a run leaves behind for people: the behavior trace, the digest of the full-rate run, the picture.
+//! What a run leaves behind: the journal, the behavior trace, the digest of the full-rate run, the picture.
 //!
 //! Everything here is a pure function of what it is given: the same run gives the same bytes on every machine.
 
@@ -6,6 +6,7 @@ mod active;
 mod behavior;
 mod compare;
 mod digest;
+pub mod journal;
 mod names;
 mod picture;
 mod wording;

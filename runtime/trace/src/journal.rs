@@ -1,0 +1,194 @@
+//! The journal: every tick's inputs, command and events, in a file that stays readable wherever the writing of it stops.
+//!
+//! A journal is eight bytes (`ALBJ` and the version of this form), then records one after the other: the first tells what
+//! is run, one follows for each tick, the last tells how it ended. A record is
+//!
+//! ```text
+//! length of the payload   3 bytes, least first, and a fourth that is wrong whenever one of the three is
+//! payload                 the record in postcard's form
+//! CRC-32                  4 bytes, least first, of length and payload
+//! ```
+//!
+//! The length has a check of its own, because a wrong one would pass for a journal that was cut short.
+
+mod read;
+mod snapshot;
+mod write;
+
+pub use read::Reader;
+pub use write::Writer;
+
+use albacore_machine::{Event, Outcome};
+use albacore_vehicle::{Channel, Command, Snapshot};
+use serde::{Deserialize, Serialize};
+
+/// The version of this form.
+pub const JOURNAL_VERSION: u32 = 1;
+
+/// How every journal begins.
+const MAGIC: [u8; 4] = *b"ALBJ";
+/// Bytes of a length, and of a check.
+const WORD: usize = 4;
+/// The longest payload, in bytes: what three bytes can count.
+const PAYLOAD_MAX: usize = 0xff_ffff;
+/// The check of a length of zero, so that a file of zeros, which some disks leave behind, is no row of empty records.
+const LENGTH_SEAL: u8 = 0xa5;
+
+/// What is run: all that a replay needs beside the scripts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JournalHeader {
+    /// The version of the lowered program's form.
+    pub program_version: u32,
+    /// The mission.
+    pub mission: String,
+    /// The world's name.
+    pub scenario: String,
+    /// The seed of all that is random.
+    pub seed: u64,
+    /// One tick, in seconds.
+    pub tick_s: f64,
+    /// Every source that was read, the script's own file first.
+    pub sources: Vec<SourceDigest>,
+    /// The parameters changed for this run, as `NAME=VALUE`.
+    pub set: Vec<String>,
+    /// What the vehicle measures: a sample's channel is an index into it.
+    pub channels: Vec<Channel>,
+}
+
+/// A source file by its name and the digest of its text, so that a replay can say which of them has changed since.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SourceDigest {
+    /// What it is called in messages.
+    pub name: String,
+    /// The digest of its text.
+    pub digest: u64,
+}
+
+/// One tick.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Which one; the first is 0.
+    pub tick: u64,
+    /// All that came from the vehicle.
+    #[serde(with = "snapshot")]
+    pub snapshot: Snapshot,
+    /// What it was told, if anything.
+    pub command: Option<Command>,
+    /// What happened.
+    pub events: Vec<Event>,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Closing {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// Why, in words; empty when there is nothing to say.
+    pub reason: String,
+    /// How many ticks went by.
+    pub ticks: u64,
+    /// What happened after the last tick, when the end came from outside the mission: a person, a vehicle that failed.
+    pub events: Vec<Event>,
+    /// The digest of the full-rate run.
+    pub digest: u64,
+}
+
+/// A journal that has been read: as much of it as is whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Journal {
+    /// What was run.
+    pub header: JournalHeader,
+    /// Its ticks, in order and without gaps.
+    pub records: Vec<Record>,
+    /// How the journal ends.
+    pub ending: Ending,
+}
+
+/// How a journal ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// With the end of the run.
+    Complete(Closing),
+    /// In the middle: the writing stopped.
+    CutShort(Flaw),
+    /// With something that was never written so.
+    Damaged(Flaw),
+}
+
+/// Where a journal is not as it should be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Flaw {
+    /// The first byte that belongs to no whole record: all before it is good.
+    pub at: usize,
+    /// What should stand there.
+    pub expected: String,
+}
+
+/// What begins too badly to be read as a journal at all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unreadable {
+    /// It ends before it has told what is run.
+    CutShort(Flaw),
+    /// Its beginning is damaged, or it never was a journal.
+    Damaged(Flaw),
+    /// It has the form of another version.
+    Version(u32),
+}
+
+impl Journal {
+    /// Reads a whole journal. One that fits memory badly is better read tick by tick, with [`Reader`].
+    pub fn read(bytes: &[u8]) -> Result<Self, Unreadable> {
+        let mut reader = Reader::new(bytes)?;
+        let records: Vec<Record> = reader.by_ref().collect();
+        let header = reader.header().clone();
+        Ok(Journal { header, records, ending: reader.into_ending() })
+    }
+}
+
+impl std::fmt::Display for Flaw {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "at byte {}, where {} was expected", self.at, self.expected)
+    }
+}
+
+impl std::fmt::Display for Unreadable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unreadable::CutShort(flaw) => write!(f, "the journal is cut short {flaw}"),
+            Unreadable::Damaged(flaw) => write!(f, "this is no journal, or a damaged one: {flaw}"),
+            Unreadable::Version(version) => {
+                write!(f, "the journal has the form of version {version}, and only {JOURNAL_VERSION} can be read")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Unreadable {}
+
+/// A payload as it is read.
+#[derive(Deserialize)]
+enum Entry {
+    Header(JournalHeader),
+    Tick(Record),
+    Closing(Closing),
+}
+
+/// A payload as it is written: the same form, from borrowed parts.
+#[derive(Serialize)]
+enum Written<'a> {
+    Header(&'a JournalHeader),
+    Tick {
+        tick: u64,
+        #[serde(serialize_with = "snapshot::serialize")]
+        snapshot: &'a Snapshot,
+        command: Option<&'a Command>,
+        events: &'a [Event],
+    },
+    Closing(&'a Closing),
+}
+
+/// The four bytes of a length.
+fn sealed(length: usize) -> [u8; WORD] {
+    let [a, b, c, ..] = (length as u32).to_le_bytes();
+    [a, b, c, a ^ b ^ c ^ LENGTH_SEAL]
+}

@@ -1,0 +1,128 @@
+//! Reading a journal, as far as it is whole.
+
+use super::{Ending, Entry, Flaw, JOURNAL_VERSION, JournalHeader, MAGIC, Record, Unreadable, WORD, sealed};
+
+/// Gives the ticks of a journal one by one, and then how it ends.
+pub struct Reader<'a> {
+    bytes: &'a [u8],
+    header: JournalHeader,
+    /// The first byte that belongs to no record read so far.
+    at: usize,
+    /// The tick that comes next.
+    tick: u64,
+    /// How the journal ends, once that is known.
+    ending: Option<Ending>,
+}
+
+/// What stands at a place instead of a record.
+enum Gap {
+    Short(String),
+    Wrong(String),
+}
+
+impl<'a> Reader<'a> {
+    /// Reads how a journal begins.
+    pub fn new(bytes: &'a [u8]) -> Result<Self, Unreadable> {
+        let flaw = |at: usize, expected: &str| Flaw { at, expected: expected.to_string() };
+        let known = bytes.len().min(MAGIC.len());
+        if bytes[..known] != MAGIC[..known] {
+            return Err(Unreadable::Damaged(flaw(0, "the beginning of a journal")));
+        }
+        let Some(version) = word(bytes, MAGIC.len()) else {
+            return Err(Unreadable::CutShort(flaw(0, "the beginning of a journal")));
+        };
+        if version != JOURNAL_VERSION {
+            return Err(Unreadable::Version(version));
+        }
+        let start = MAGIC.len() + WORD;
+        match record(bytes, start) {
+            Ok((Entry::Header(header), at)) => Ok(Reader { bytes, header, at, tick: 0, ending: None }),
+            Ok(_) => Err(Unreadable::Damaged(flaw(start, "what is run"))),
+            Err(Gap::Short(expected)) => Err(Unreadable::CutShort(flaw(start, &expected))),
+            Err(Gap::Wrong(expected)) => Err(Unreadable::Damaged(flaw(start, &expected))),
+        }
+    }
+
+    /// What was run.
+    pub fn header(&self) -> &JournalHeader {
+        &self.header
+    }
+
+    /// How the journal ends; reads on to there.
+    pub fn into_ending(mut self) -> Ending {
+        loop {
+            if let Some(ending) = self.ending {
+                return ending;
+            }
+            self.next();
+        }
+    }
+
+    /// Reads the record that comes next, unless it is no tick: then the journal ends, one way or the other.
+    fn advance(&mut self) -> Result<Record, Ending> {
+        let flaw = |expected: String| Flaw { at: self.at, expected };
+        let next = format!("the record of tick {}", self.tick);
+        match record(self.bytes, self.at) {
+            Ok((Entry::Tick(record), at)) if record.tick == self.tick => {
+                self.at = at;
+                self.tick += 1;
+                Ok(record)
+            }
+            // A copy of the file's end behind itself, or of another file's, is made of records that are each whole.
+            Ok((Entry::Closing(closing), at)) if at == self.bytes.len() => Err(Ending::Complete(closing)),
+            Ok((Entry::Closing(_), at)) => {
+                Err(Ending::Damaged(Flaw { at, expected: "nothing more, behind the end of the run".into() }))
+            }
+            Ok(_) => Err(Ending::Damaged(flaw(next))),
+            Err(Gap::Short(expected)) => Err(Ending::CutShort(flaw(format!("{next}, {expected}")))),
+            Err(Gap::Wrong(expected)) => Err(Ending::Damaged(flaw(format!("{next}, {expected}")))),
+        }
+    }
+}
+
+impl Iterator for Reader<'_> {
+    type Item = Record;
+
+    fn next(&mut self) -> Option<Record> {
+        if self.ending.is_some() {
+            return None;
+        }
+        match self.advance() {
+            Ok(record) => Some(record),
+            Err(ending) => {
+                self.ending = Some(ending);
+                None
+            }
+        }
+    }
+}
+
+/// The record at a place, and the place behind it.
+fn record(bytes: &[u8], at: usize) -> Result<(Entry, usize), Gap> {
+    let rest = bytes.get(at..).unwrap_or_default();
+    let Some(head) = rest.get(..WORD) else {
+        return Err(Gap::Short("its length".into()));
+    };
+    let length = usize::from(head[0]) | usize::from(head[1]) << 8 | usize::from(head[2]) << 16;
+    if head != sealed(length) {
+        return Err(Gap::Wrong("a length that agrees with its check".into()));
+    }
+    let covered = WORD + length;
+    let Some(check) = word(rest, covered) else {
+        let missing = covered + WORD - rest.len();
+        return Err(Gap::Short(format!("{missing} bytes longer")));
+    };
+    if crc32fast::hash(&rest[..covered]) != check {
+        return Err(Gap::Wrong("bytes that agree with their check".into()));
+    }
+    match postcard::take_from_bytes(&rest[WORD..covered]) {
+        Ok((entry, [])) => Ok((entry, at + covered + WORD)),
+        _ => Err(Gap::Wrong("something that this version knows".into())),
+    }
+}
+
+/// Four bytes, least first.
+fn word(bytes: &[u8], at: usize) -> Option<u32> {
+    let four = bytes.get(at..at.checked_add(WORD)?)?;
+    Some(u32::from_le_bytes(four.try_into().ok()?))
+}

@@ -1,0 +1,43 @@
+//! A snapshot in the journal: of each reading only the numbers up to the last that is not zero, which halves the file.
+
+use albacore_vehicle::{Control, Reading, Sample, Snapshot};
+use serde::de::Error;
+use serde::ser::SerializeTuple;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+struct Samples<'a>(&'a [Sample]);
+struct Short<'a>(&'a Sample);
+
+pub(super) fn serialize<S: Serializer>(snapshot: &Snapshot, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut pair = serializer.serialize_tuple(2)?;
+    pair.serialize_element(&Samples(&snapshot.samples))?;
+    pair.serialize_element(&snapshot.control)?;
+    pair.end()
+}
+
+impl Serialize for Samples<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(Short))
+    }
+}
+
+impl Serialize for Short<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Sample { channel, reading } = self.0;
+        // By its bits: a negative zero is to come back as one.
+        let used = reading.iter().rposition(|x| x.to_bits() != 0).map_or(0, |last| last + 1);
+        (channel, &reading[..used]).serialize(serializer)
+    }
+}
+
+pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Snapshot, D::Error> {
+    let (samples, control) = <(Vec<(u16, Vec<f64>)>, Control)>::deserialize(deserializer)?;
+    let mut snapshot = Snapshot { samples: Vec::with_capacity(samples.len()), control };
+    for (channel, numbers) in samples {
+        if numbers.len() > Reading::default().len() {
+            return Err(D::Error::invalid_length(numbers.len(), &"a reading's numbers"));
+        }
+        snapshot.push(channel, &numbers);
+    }
+    Ok(snapshot)
+}

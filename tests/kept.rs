@@ -1,0 +1,155 @@
+//! What a run leaves on the disk: all of it, whatever ends the run; and what happens when the disk will not take it.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
+#![cfg(unix)]
+
+use albacore_trace::journal::{Ending, Journal};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+const BOX: &str = "missions/box.alb";
+
+/// A mission that goes on for days.
+const LONG: &str = "
+mission long in still within 200 h {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 200 m, width: 200 m)
+    recovery within 5 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    wait for 199 h
+}
+
+scenario still {
+    bottom(from: 20 m, to: 20 m)
+    vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 3 m)
+}
+";
+
+/// An empty folder of a test's own.
+fn empty(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn albacore(script: &str, out: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(["run", script, "--out"]).arg(out).current_dir(env!("CARGO_MANIFEST_DIR"));
+    command.env("NO_COLOR", "1").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn journal(out: &Path) -> Journal {
+    Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap()
+}
+
+/// Starts the long mission, and comes back when its journal has some bytes.
+fn long_run(out: &Path, bytes: u64) -> Child {
+    let script = out.with_extension("alb");
+    std::fs::write(&script, LONG).unwrap();
+    let child = albacore(&script.display().to_string(), out).spawn().unwrap();
+    for _ in 0..20_000 {
+        if std::fs::metadata(out.join("journal")).is_ok_and(|m| m.len() >= bytes) {
+            return child;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    panic!("the journal does not grow: {}", stderr(&child.wait_with_output().unwrap()));
+}
+
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+}
+
+#[test]
+fn a_run_leaves_journal_trace_and_picture() {
+    let out = empty("leaves");
+    let output = albacore(BOX, &out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert!(trace.starts_with("mission box  scenario tidal_stream  seed 1"), "{trace}");
+    assert!(std::fs::read_to_string(out.join("run.svg")).unwrap().contains("</svg>"));
+    let Ending::Complete(closing) = journal(&out).ending else { panic!("the journal is not complete") };
+    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("digest {:016x}", closing.digest)));
+}
+
+#[test]
+fn who_interrupts_a_run_has_all_of_it_up_to_there() {
+    for signal in ["-INT", "-TERM"] {
+        let out = empty(&format!("interrupted{signal}"));
+        let child = long_run(&out, 10_000);
+        send(signal, &child);
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{signal}: {}", stderr(&output));
+        let journal = journal(&out);
+        let Ending::Complete(closing) = journal.ending else { panic!("{signal}: {:?}", journal.ending) };
+        assert_eq!((closing.outcome.name(), closing.ticks), ("interrupted", journal.records.len() as u64));
+        let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+        assert!(trace.contains("interrupted"), "{signal}: {trace}");
+        assert!(trace.contains(&format!("{:016x}", closing.digest)), "{signal}: {trace}");
+        assert!(out.join("run.svg").exists());
+    }
+}
+
+#[test]
+fn who_kills_a_run_has_a_valid_prefix() {
+    for (round, bytes) in [1, 5_000, 50_000, 500_000].into_iter().enumerate() {
+        let out = empty(&format!("killed-{round}"));
+        std::fs::write(out.join("trace.txt"), "of another run").unwrap();
+        let mut child = long_run(&out, bytes);
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let journal = journal(&out);
+        assert!(matches!(journal.ending, Ending::CutShort(_)), "{:?}", journal.ending);
+        assert_eq!(journal.header.mission, "long");
+        assert!(bytes < 5_000 || !journal.records.is_empty());
+        assert!(!out.join("trace.txt").exists(), "another run's trace lies beside the journal");
+    }
+}
+
+#[test]
+fn a_full_disk_is_said_once_and_the_mission_goes_on() {
+    if !Path::new("/dev/full").exists() {
+        return;
+    }
+    let out = empty("full");
+    std::os::unix::fs::symlink("/dev/full", out.join("journal")).unwrap();
+    let output = albacore(BOX, &out).output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert_eq!(said.matches("error: ").count(), 1, "{said}");
+    assert!(said.contains("full/journal` cannot be written: "), "{said}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("completed"));
+    assert!(out.join("trace.txt").exists() && out.join("run.svg").exists());
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_said_once_and_the_mission_runs() {
+    let output = albacore(BOX, Path::new("Cargo.toml/out")).output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert_eq!(said.matches("error: ").count(), 1, "{said}");
+    assert!(said.contains("`Cargo.toml/out` cannot be written"), "{said}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("completed"));
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_said_before_the_first_tick() {
+    use std::io::{BufRead, BufReader};
+    let script = empty("before").join("long.alb");
+    std::fs::write(&script, LONG).unwrap();
+    let mut child = albacore(&script.display().to_string(), Path::new("Cargo.toml/out")).spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map_while(Result::ok);
+    let said = lines.any(|line| line.contains("`Cargo.toml/out` cannot be written"));
+    // The mission is days long.
+    let runs = child.try_wait().unwrap().is_none();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(said && runs, "said: {said}, and the mission still runs: {runs}");
+}
