@@ -5,6 +5,9 @@ use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource};
 use std::fmt;
 use std::io::{IsTerminal, Write};
 
+/// Lines longer than this, in bytes, are not drawn.
+const LINE_MAX: usize = 400;
+
 /// A finding in the form that the renderer takes. Labels in one file are drawn in one frame; those of other files follow
 /// as findings of their own.
 struct Shown<'a> {
@@ -105,6 +108,15 @@ impl miette::Diagnostic for Shown<'_> {
     }
 }
 
+/// A finding without its frame: for lines that no terminal could show.
+fn plain(finding: &Diagnostic, sources: &Sources) -> String {
+    let place = finding.span();
+    let (line, column) = sources.line_column(place);
+    let help = finding.help.as_ref().map(|h| format!("\n  help: {h}")).unwrap_or_default();
+    let name = &sources.get(place.file).name;
+    format!("{}\n\n  × {}\n    [{name}:{line}:{column}]{help}\n\n", finding.code, finding.message)
+}
+
 /// Prints findings, in order, and how many there are.
 pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     let theme = match (std::io::stderr().is_terminal(), std::env::var_os("NO_COLOR")) {
@@ -114,6 +126,10 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     let handler = GraphicalReportHandler::new_themed(theme).with_width(120).with_links(false);
     let mut text = String::new();
     for finding in findings {
+        if finding.labels.iter().any(|(span, _)| sources.line_length(*span) > LINE_MAX) {
+            text.push_str(&plain(finding, sources));
+            continue;
+        }
         let shown = Shown::new(finding, sources);
         if handler.render_report(&mut text, &shown).is_err() {
             text.push_str(&finding.message);

@@ -83,6 +83,13 @@ impl Sources {
         (line, column)
     }
 
+    /// The length in bytes of the line on which a span begins.
+    pub fn line_length(&self, span: Span) -> usize {
+        let text = &self.get(span.file).text;
+        let (before, after) = text.split_at_checked(span.start as usize).unwrap_or((text, ""));
+        before.rsplit('\n').next().map_or(0, str::len) + after.split('\n').next().map_or(0, str::len)
+    }
+
     /// `file:line` of a span, as traces print it: without its folders, so that a trace is the same wherever the script lies.
     pub fn place(&self, span: Span) -> String {
         let name = &self.get(span.file).name;

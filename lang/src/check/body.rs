@@ -10,6 +10,9 @@ use crate::source::Span;
 use crate::syntax::tree::{self, Action, Clause, ClauseKind, Condition, ForOver, TyKind};
 use crate::types::Type;
 
+/// A loop that takes no time goes round this often at most: every tick must end, and soon.
+const ROUNDS_MAX: f64 = 10_000.0;
+
 impl<'t> Checker<'t> {
     pub(super) fn check_fn(&mut self, m: usize, f: &'t tree::Function) {
         let Some(&super::Def::Fn(id)) = self.names[m].get(&f.name.node) else { return };
@@ -361,7 +364,10 @@ impl<'t> Checker<'t> {
                 c.scope.vars[var].range = Interval::new(first.range.low, end);
                 (var, c.block(block))
             });
-            if !end.is_finite() || !first.range.low.is_finite() {
+            // Written so that a bound that is no number counts as none.
+            let exact = first.range.low.abs().max(end.abs()) < super::expr::INT_MAX;
+            let bounded = exact && end - first.range.low <= ROUNDS_MAX;
+            if !bounded {
                 self.bounded_or_takes_time(&body, range.last.span, span);
             }
             let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };
@@ -479,9 +485,11 @@ impl<'t> Checker<'t> {
     fn bounded_or_takes_time(&mut self, body: &Block, range: Span, span: Span) {
         if !takes_time(body) {
             self.report(
-                Diagnostic::error("time::instant_loop", span, "this `for` has no bound and takes no time")
+                Diagnostic::error("time::instant_loop", span, "this `for` may go round too often without taking time")
                     .label(range, "how large can this be?")
-                    .help("give it a range, such as a parameter `n: Int in 1..10`, or hold it with `min(n, 10)`"),
+                    .help(format!(
+                        "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
+                    )),
             );
         }
     }

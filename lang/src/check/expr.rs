@@ -10,6 +10,9 @@ use crate::suggest;
 use crate::syntax::tree::{self, Condition, Unary};
 use crate::types::Type;
 
+/// Beyond this, 2^53, adding one changes nothing.
+pub(super) const INT_MAX: f64 = 9_007_199_254_740_992.0;
+
 /// What a path of names leads to.
 pub(super) enum Found {
     Def(Def),
@@ -220,6 +223,13 @@ impl<'t> Checker<'t> {
     fn number(&mut self, value: f64, unit: Option<&tree::Name>, span: Span) -> Expr {
         if !value.is_finite() {
             self.report(Diagnostic::error("types::number", span, "this number is too large to be calculated with"));
+            return self.unknown(span);
+        }
+        if unit.is_none() && value.abs() > INT_MAX {
+            self.report(
+                Diagnostic::error("types::number", span, "this whole number is too large to be counted exactly")
+                    .help(format!("whole numbers go to {INT_MAX}")),
+            );
             return self.unknown(span);
         }
         match unit {

@@ -10,6 +10,8 @@ use pest::iterators::{Pair, Pairs};
 pub(super) struct Builder {
     pub file: FileId,
     pub bad: Vec<Bad>,
+    /// Expressions that are too long.
+    pub long: Vec<Span>,
 }
 
 /// A stretch that the grammar could not read, and what was expected there.

@@ -6,6 +6,9 @@ use super::tree::*;
 use crate::source::Spanned;
 use pest::iterators::Pair;
 
+/// An expression has this many operands and operators at most: what is nested by operators is bounded like brackets.
+pub(super) const TERMS_MAX: usize = 256;
+
 type P<'a> = Pair<'a, Rule>;
 
 pub(super) fn name(b: &Builder, pair: P) -> Name {
@@ -92,7 +95,13 @@ fn prefix(rule: Rule) -> Option<(Unary, u8)> {
 }
 
 pub(super) fn expr(b: &mut Builder, pair: P) -> Expr {
+    let span = b.span(&pair);
     let pairs: Vec<P> = pair.into_inner().collect();
+    if pairs.len() > TERMS_MAX {
+        b.long.push(span);
+        // A name that nobody has: what cannot be read is unknown, and that is told once.
+        return Expr { kind: ExprKind::Name(String::new()), span };
+    }
     let mut at = 0;
     climb(b, &pairs, &mut at, 0)
 }

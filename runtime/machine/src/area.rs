@@ -1,5 +1,6 @@
 //! Areas in words: a count of corners, then for each its point and the outward normal of the edge that begins there.
 
+use crate::execute::bounded;
 use crate::state::Run;
 use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector};
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Slot};
@@ -22,8 +23,8 @@ impl Run {
     }
 
     pub fn set_vector(&mut self, at: Slot, v: Vector) {
-        self.set(at, v.north);
-        self.set(at + 1, v.east);
+        self.set(at, bounded(v.north));
+        self.set(at + 1, bounded(v.east));
     }
 
     pub fn line(&self, at: Slot) -> Line {

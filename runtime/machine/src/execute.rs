@@ -6,6 +6,9 @@ use albacore_geometry::{Area, Heading, Point, math, wrap_angle};
 use albacore_program::{Addr, Channel, Op, Program, Slot, Text, TextPart, header, number};
 use albacore_vehicle::{TICK_S, Vertical};
 
+/// The largest number that arithmetic gives: its square is a number still.
+const LARGEST: f64 = 1e150;
+
 /// Why code stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Flow {
@@ -61,16 +64,16 @@ impl Run {
                 Op::Clear { to, words } => self.state.words[b(to) as usize..(b(to) + words) as usize].fill(0.0),
                 Op::Global { to, from, words } => self.copy(b(to), from, words),
 
-                Op::Add { to, a, b: c } => self.set(b(to), self.get(b(a)) + self.get(b(c))),
-                Op::Sub { to, a, b: c } => self.set(b(to), self.get(b(a)) - self.get(b(c))),
-                Op::Mul { to, a, b: c } => self.set(b(to), self.get(b(a)) * self.get(b(c))),
+                Op::Add { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) + self.get(b(c)))),
+                Op::Sub { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) - self.get(b(c)))),
+                Op::Mul { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) * self.get(b(c)))),
                 Op::Div { to, a, b: c } => {
                     let divisor = self.get(b(c));
-                    self.set(b(to), if divisor == 0.0 { 0.0 } else { self.get(b(a)) / divisor });
+                    self.set(b(to), if divisor == 0.0 { 0.0 } else { bounded(self.get(b(a)) / divisor) });
                 }
                 Op::Min { to, a, b: c } => self.set(b(to), self.get(b(a)).min(self.get(b(c)))),
                 Op::Max { to, a, b: c } => self.set(b(to), self.get(b(a)).max(self.get(b(c)))),
-                Op::Pow { to, a, b: c } => self.set(b(to), math::pow(self.get(b(a)), self.get(b(c)))),
+                Op::Pow { to, a, b: c } => self.set(b(to), bounded(math::pow(self.get(b(a)), self.get(b(c))))),
                 Op::Neg { to, a } => self.set(b(to), math::canonical_zero(-self.get(b(a)))),
                 Op::Abs { to, a } => self.set(b(to), self.get(b(a)).abs()),
                 Op::Sqrt { to, a } => self.set(b(to), self.get(b(a)).max(0.0).sqrt()),
@@ -101,8 +104,8 @@ impl Run {
                     self.set_vector(b(to), v);
                 }
                 Op::Direction { to, vector } => self.set(b(to), self.vector(b(vector)).toward().radians()),
-                Op::Length { to, vector } => self.set(b(to), self.vector(b(vector)).length()),
-                Op::Dot { to, a, b: c } => self.set(b(to), self.vector(b(a)).dot(self.vector(b(c)))),
+                Op::Length { to, vector } => self.set(b(to), bounded(self.vector(b(vector)).length())),
+                Op::Dot { to, a, b: c } => self.set(b(to), bounded(self.vector(b(a)).dot(self.vector(b(c))))),
                 Op::Along { to, vector, heading } => {
                     let along = self.vector(b(vector)).along(self.heading_at(b(heading)));
                     self.set(b(to), along);
@@ -287,6 +290,11 @@ impl Run {
         }
         out
     }
+}
+
+/// What would be too large for a number is the largest: no arithmetic fails in the water.
+pub(crate) fn bounded(x: f64) -> f64 {
+    if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) }
 }
 
 fn truth(b: bool) -> f64 {
