@@ -113,21 +113,22 @@ impl Run {
         false
     }
 
-    /// The active behavior of a table, and when it is done the rules that mention `done` (rule 8).
+    /// The active behavior of a table, and when it is done the rules that mention `done` (rule 8). Without such a rule the
+    /// behavior that waits goes on in this same tick (rule 12), and may itself be done in it.
     fn step_table(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot) -> Status {
-        let Some(active) = self.active_behavior(activity, base) else { return Status::Running };
-        let entry = &table.behaviors[active as usize];
-        if self.step(p, entry.activity, base) == Status::Running || self.abort.is_some() {
-            return Status::Running;
-        }
-        match self.try_rules(p, activity, table, base, true) {
-            Switch::Finished => Status::Ended,
-            Switch::Entered => Status::Running,
-            Switch::None => {
-                self.go_back(p, activity, table, base, active);
-                Status::Running
+        while let Some(active) = self.active_behavior(activity, base) {
+            let entry = &table.behaviors[active as usize];
+            if self.step(p, entry.activity, base) == Status::Running || self.abort.is_some() {
+                return Status::Running;
+            }
+            match self.try_rules(p, activity, table, base, true) {
+                Switch::Finished => return Status::Ended,
+                Switch::Entered => return Status::Running,
+                Switch::None if self.go_back(p, activity, table, base, active) => {}
+                Switch::None => return Status::Running,
             }
         }
+        Status::Running
     }
 
     fn active_behavior(&self, activity: &Activity, base: Slot) -> Option<u32> {
@@ -135,12 +136,12 @@ impl Run {
         (child > 0.0).then(|| child as u32 - 1)
     }
 
-    /// Rule 12: a behavior that is done makes room for the one that waits.
-    fn go_back(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot, done: u32) {
+    /// Rule 12: a behavior that is done makes room for the one that waits, if one does.
+    fn go_back(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot, done: u32) -> bool {
         let behavior = &p.activities[table.behaviors[done as usize].activity as usize];
         let waiting = self.head(behavior, base, header::BACK_TO);
         if waiting == 0.0 {
-            return;
+            return false;
         }
         let waiting = waiting as u32 - 1;
         self.set_head(behavior, base, header::BACK_TO, 0.0);
@@ -149,7 +150,7 @@ impl Run {
         self.set_head(&p.activities[id as usize], base, header::STATE, header::ACTIVE);
         self.set_head(activity, base, header::CHILD, f64::from(waiting + 1));
         self.events.push(Event::Resumed(id));
-        self.step(p, id, base);
+        true
     }
 
     /// Tries the rules of the active behavior; `done` tells whether its body came to its end in this tick.

@@ -45,12 +45,27 @@ impl Run {
         let mut chain = Vec::new();
         self.chain(p, &mut |id, base| chain.push((id, base)));
         let mut course = asked;
-        for (id, base) in chain.into_iter().rev() {
+        for &(id, base) in chain.iter().rev() {
             for &overlay in &p.activities[id as usize].overlays {
                 course = self.amend(p, overlay, base, course);
             }
         }
+        self.end_amending_of_suspended(p, &chain);
         course
+    }
+
+    /// An overlay whose wearer is suspended amends nothing until that goes on.
+    fn end_amending_of_suspended(&mut self, p: &Program, chain: &[(u32, Slot)]) {
+        if !self.state.amending.contains(&true) {
+            return;
+        }
+        let worn = |overlay: u32| chain.iter().any(|(id, _)| p.activities[*id as usize].overlays.contains(&overlay));
+        for (overlay, site) in p.overlays.iter().enumerate() {
+            if self.state.amending[overlay] && !worn(overlay as u32) {
+                self.state.amending[overlay] = false;
+                self.events.push(Event::AmendingEnded(site.activity));
+            }
+        }
     }
 
     fn amend(&mut self, p: &Program, overlay: u32, base: Slot, asked: Heading) -> Heading {
@@ -82,7 +97,16 @@ impl Run {
 
     /// The active activities from outside in, with the bases of their frames.
     pub fn chain(&self, p: &Program, visit: &mut impl FnMut(u32, Slot)) {
-        let mut next = Some((p.mission.activity, p.mission.base));
+        let base = p.mission.base;
+        self.chain_from(p, p.mission.activity, base, visit);
+        // The recovery runs beside the mission's body, in its frame.
+        if let Some(recovery) = p.mission.recovery {
+            self.chain_from(p, recovery.activity, base, visit);
+        }
+    }
+
+    fn chain_from(&self, p: &Program, id: u32, base: Slot, visit: &mut impl FnMut(u32, Slot)) {
+        let mut next = Some((id, base));
         while let Some((id, base)) = next {
             let activity = &p.activities[id as usize];
             if self.get(base + activity.header + header::STATE) != header::ACTIVE {
@@ -90,40 +114,27 @@ impl Run {
             }
             visit(id, base);
             let child = self.get(base + activity.header + header::CHILD);
-            next = if child == 0.0 {
-                None
-            } else {
-                match &activity.body {
-                    Body::Table(table) => Some((table.behaviors[child as usize - 1].activity, base)),
-                    _ => {
-                        let site = &p.calls[child as usize - 1];
-                        Some((site.activity, base + site.base))
-                    }
-                }
-            };
-        }
-        // The recovery runs beside the mission's body, in its frame.
-        if let Some(recovery) = p.mission.recovery {
-            let activity = &p.activities[recovery.activity as usize];
-            let base = p.mission.base;
-            if self.get(base + activity.header + header::STATE) == header::ACTIVE {
-                visit(recovery.activity, base);
-                let child = self.get(base + activity.header + header::CHILD);
-                if child > 0.0 {
+            next = (child != 0.0).then(|| match &activity.body {
+                Body::Table(table) => (table.behaviors[child as usize - 1].activity, base),
+                _ => {
                     let site = &p.calls[child as usize - 1];
-                    visit(site.activity, base + site.base);
+                    (site.activity, base + site.base)
                 }
-            }
+            });
         }
     }
 
     fn limit_vertical(&mut self, asked: Vertical) -> Vertical {
+        // Depth and altitude are bound to one another where the water depth is known: the limits of both hold.
+        let water = self.water_depth();
+        let Limits { altitude, depth, .. } = self.state.limits;
         match asked {
-            Vertical::Altitude(metres) => Vertical::Altitude(self.limit(Channel::Altitude, metres)),
+            Vertical::Altitude(metres) => {
+                let deepest = water.map_or(0.0, |water| (water - depth.1).max(0.0));
+                Vertical::Altitude(self.limit(Channel::Altitude, metres).max(deepest))
+            }
             Vertical::Depth(metres) => {
-                // The bottom is nearer than the depth allows: the altitude limits hold too, where the water depth is known.
-                let floor =
-                    self.water_depth().map_or(f64::MAX, |water| (water - self.state.limits.altitude.0).max(0.0));
+                let floor = water.map_or(f64::MAX, |water| (water - altitude.0).max(0.0));
                 Vertical::Depth(self.limit(Channel::Depth, metres).min(floor))
             }
         }

@@ -156,14 +156,15 @@ impl Run {
             Phase::Running | Phase::Holding(_) => {
                 // The time limit bounds the run: it does not stand still while the mission is held.
                 let lived = (self.state.tick - self.state.began) as f64;
-                if self.state.within.is_some_and(|ticks| lived >= ticks) {
-                    self.events.push(Event::TimedOut);
-                    return self.recover(p, Outcome::TimedOut);
-                }
-                if let Some(command) = self.hold_while_stale(p) {
-                    return command;
+                let time_is_up = self.state.within.is_some_and(|ticks| lived >= ticks);
+                if let Some(held) = self.hold_while_stale(p, time_is_up) {
+                    return held;
                 }
                 let status = self.step(p, p.mission.activity, p.mission.base);
+                // Its own end on the very tick of the cut counts as such (rule 5).
+                if time_is_up && status == Status::Running && self.abort.is_none() {
+                    return self.time_out(p);
+                }
                 self.after_step(p, status)
             }
             Phase::Recovering(outcome, since) => self.step_recovery(p, outcome, since),
@@ -207,8 +208,14 @@ impl Run {
         self.compute_limits(p);
     }
 
-    /// Required inputs that are too old suspend the mission; too long, and they abort it.
-    fn hold_while_stale(&mut self, p: &Program) -> Option<Option<Command>> {
+    fn time_out(&mut self, p: &Program) -> Option<Command> {
+        self.events.push(Event::TimedOut);
+        self.recover(p, Outcome::TimedOut)
+    }
+
+    /// Required inputs that are too old suspend the mission; too long, and they abort it. Gives the command of a mission that
+    /// is held.
+    fn hold_while_stale(&mut self, p: &Program, time_is_up: bool) -> Option<Option<Command>> {
         let mut patience: Option<f64> = None;
         let mut stale_name = None;
         for (i, require) in p.mission.requires.iter().enumerate() {
@@ -240,6 +247,9 @@ impl Run {
             let why = format!("no fresh `{name}`");
             self.events.push(Event::Aborted(why));
             return Some(self.recover(p, Outcome::Aborted));
+        }
+        if time_is_up {
+            return Some(self.time_out(p));
         }
         let before = self.state.asked;
         self.state.asked.speed = 0.0;

@@ -285,11 +285,11 @@ impl Run {
     /// The release is always the last act; then it is only written down.
     fn finish(&mut self, outcome: Outcome, events: Vec<Event>) -> Running {
         let released = self.vehicle.release();
-        if let Err(error) = released {
+        if let Err(error) = &released {
             self.reason = error.to_string();
         }
         let ticks = self.tick();
-        self.trace.finish(outcome, ticks, &self.digest);
+        self.trace.finish(outcome, released.is_ok(), ticks, &self.digest);
         let (reason, digest) = (&self.reason, self.digest.value());
         self.journal.close(|| Closing { outcome, reason: reason.clone(), ticks, events, digest });
         Running::Over(outcome)

@@ -43,6 +43,7 @@ pub struct BehaviorTrace {
     sample_every_ticks: u64,
     next_sample: u64,
     ended: Option<Outcome>,
+    last_event: u64,
 }
 
 impl BehaviorTrace {
@@ -55,6 +56,7 @@ impl BehaviorTrace {
             sample_every_ticks: SAMPLE_EVERY_TICKS,
             next_sample: 0,
             ended: None,
+            last_event: 0,
         };
         let scenario =
             if header.scenario.is_empty() { String::new() } else { format!("  scenario {}", header.scenario) };
@@ -74,6 +76,7 @@ impl BehaviorTrace {
         if events.is_empty() {
             return;
         }
+        self.last_event = tick;
         let said = self.said_by_others(events);
         for (event, said) in events.iter().zip(said) {
             if let (false, Some((verb, line))) = (said, self.wording.line(event, events, &self.active, position)) {
@@ -104,11 +107,15 @@ impl BehaviorTrace {
         self.say(Kind::Sample, tick, "at", &line);
     }
 
-    /// Ends the trace: with the outcome, unless an event has told it, the length of the run, and the digest of all of it.
-    pub fn finish(&mut self, outcome: Outcome, ticks: u64, digest: &crate::Digest) {
+    /// Ends the trace: with the outcome, unless an event has told it, whether the vehicle was given back, the length of the
+    /// run, and the digest of all of it.
+    pub fn finish(&mut self, outcome: Outcome, released: bool, ticks: u64, digest: &crate::Digest) {
         if self.ended != Some(outcome) {
             self.say(Kind::Event, ticks, "end", outcome.name());
+            self.last_event = ticks;
         }
+        let control = if released { "released" } else { "not released: the vehicle could not be told" };
+        self.say(Kind::Event, self.last_event, "control", control);
         self.lines.push((Kind::Digest, format!("digest {digest}  {ticks} ticks")));
     }
 

@@ -132,7 +132,7 @@ fn run(program: &Program, shift: f64) -> BehaviorTrace {
         trace.tick(tick, position, &events);
         trace.sample(tick, position, heading, Some(2.0));
     }
-    trace.finish(Outcome::Completed, 9600, &Digest::new());
+    trace.finish(Outcome::Completed, true, 9600, &Digest::new());
     trace
 }
 
@@ -233,7 +233,7 @@ fn logs_and_memories_are_no_behavior() {
 #[test]
 fn the_end_is_told_once_and_always() {
     let mut trace = BehaviorTrace::new(&program(47), &header());
-    trace.finish(Outcome::LinkLost, 77, &Digest::new());
+    trace.finish(Outcome::LinkLost, false, 77, &Digest::new());
     assert_eq!(trace.switches(), "    7.7 s  end      link_lost\n");
     assert_eq!(run(&program(47), 0.0).to_string().matches("completed").count(), 1);
 }
