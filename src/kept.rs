@@ -85,7 +85,7 @@ fn forget(folder: &Path) -> io::Result<()> {
 }
 
 /// A whole file or none: what is half written goes under another name first.
-fn whole(path: &Path, text: &str) -> io::Result<()> {
+pub fn whole(path: &Path, text: &str) -> io::Result<()> {
     let part = path.with_extension("part");
     std::fs::write(&part, text)?;
     std::fs::rename(&part, path)

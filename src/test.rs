@@ -1,6 +1,7 @@
 //! `albacore test`: runs the `test` blocks of scripts and compares behavior traces with their snapshots.
 
 use crate::exit::Exit;
+use crate::kept::whole;
 use crate::message;
 use albacore_session::{Failure, PlanError, Script, TestResult, first_difference, run_test, same_behavior};
 use std::io::Write;
@@ -60,6 +61,13 @@ impl Test {
                 exit = failed;
             }
         }
+        if exit == Exit::Well && count.passed + count.failed == 0 {
+            let what = self.filter.as_ref().map_or("there are no tests here".to_string(), |text| {
+                format!("no test's name contains `{text}`")
+            });
+            message::error(&what, Some("`albacore test PATH` runs the `test` blocks of the scripts in PATH"));
+            return Exit::Usage;
+        }
         say(&format!("{} passed, {} failed\n", count.passed, count.failed));
         match exit {
             Exit::Well if count.failed > 0 => Exit::NotWell,
@@ -118,7 +126,7 @@ impl Test {
         }
         if self.accept {
             let written =
-                file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&file, trace));
+                file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
             return match written {
                 Ok(()) => {
                     say(&format!("        wrote {}\n", file.display()));

@@ -1,0 +1,114 @@
+//! `albacore test`: what it says, writes and ends with, for each way a test can go.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// North for a while, and a test of it; `SECONDS` and `METRES` are for each test to choose.
+const SCRIPT: &str = r#"
+mission north in still within 5 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 200 m)
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 5 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    steer 0 deg for SECONDS
+    report "there": position
+}
+
+scenario still {
+    bottom(from: 20 m, to: 20 m)
+    vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 3 m)
+}
+
+test "goes north" {
+    run north in still seeds 1..4
+    expect in 75 % of runs: distance(reported("there"), point(north: 10 m, east: 0 m)) < METRES
+    expect always north.op.gap(truth.position) > 0 m
+    snapshot switches of seed 2
+}
+"#;
+
+/// A script in an empty folder of a test's own.
+struct Project(PathBuf);
+
+impl Project {
+    fn new(name: &str, seconds: &str, metres: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("test-verb-{name}"));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        let project = Project(folder);
+        project.write(seconds, metres);
+        project
+    }
+
+    fn write(&self, seconds: &str, metres: &str) {
+        std::fs::write(self.0.join("north.alb"), SCRIPT.replace("SECONDS", seconds).replace("METRES", metres)).unwrap();
+    }
+
+    fn snapshot(&self) -> Option<String> {
+        std::fs::read_to_string(self.0.join("snapshots/north-goes_north-2.trace")).ok()
+    }
+
+    /// What `albacore test` ends with, prints and says.
+    fn test(&self, more: &[&str]) -> (Option<i32>, String) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+        command.arg("test").arg(&self.0).args(more).env("NO_COLOR", "1").stdin(Stdio::null());
+        let output = command.output().unwrap();
+        let said = [output.stdout, output.stderr].concat();
+        (output.status.code(), String::from_utf8_lossy(&said).replace(&self.0.display().to_string(), "."))
+    }
+}
+
+#[test]
+fn what_was_accepted_passes() {
+    let project = Project::new("accepted", "10 s", "5 m");
+    let (code, said) = project.test(&["--accept"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("wrote ./snapshots/north-goes_north-2.trace"), "{said}");
+    assert!(project.snapshot().unwrap().contains("report"));
+    let (code, said) = project.test(&[]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("1 passed, 0 failed"), "{said}");
+}
+
+#[test]
+fn a_test_without_its_snapshot_fails_and_writes_none() {
+    let project = Project::new("missing", "10 s", "5 m");
+    let (code, said) = project.test(&[]);
+    assert_eq!(code, Some(1), "{said}");
+    insta::assert_snapshot!(said);
+    assert_eq!(project.snapshot(), None);
+}
+
+#[test]
+fn a_changed_behavior_is_shown_and_the_snapshot_kept() {
+    let project = Project::new("changed", "10 s", "5 m");
+    project.test(&["--accept"]);
+    let accepted = project.snapshot();
+    project.write("11 s", "5 m");
+    let (code, said) = project.test(&[]);
+    assert_eq!(code, Some(1), "{said}");
+    insta::assert_snapshot!(said);
+    assert_eq!(project.snapshot(), accepted);
+}
+
+#[test]
+fn an_expectation_that_fails_says_where_how_often_and_what_was_found() {
+    let project = Project::new("fails", "10 s", "10 cm");
+    project.test(&["--accept"]);
+    let (code, said) = project.test(&[]);
+    assert_eq!(code, Some(1), "{said}");
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn a_filter_that_leaves_nothing_says_so() {
+    let project = Project::new("filter", "10 s", "5 m");
+    let (code, said) = project.test(&["--filter", "south"]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("no test's name contains `south`"), "{said}");
+    project.test(&["--accept"]);
+    let (code, said) = project.test(&["--filter", "north"]);
+    assert_eq!(code, Some(0), "{said}");
+}
