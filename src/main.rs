@@ -4,6 +4,7 @@ mod check;
 mod exit;
 mod kept;
 mod message;
+mod repl;
 mod run;
 mod test;
 
@@ -27,6 +28,8 @@ enum Verb {
     Check(check::Check),
     /// Run the tests of scripts.
     Test(test::Test),
+    /// Drive a simulated vehicle line by line.
+    Repl(repl::Repl),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
         Verb::Test(test) => test.run(),
+        Verb::Repl(repl) => repl.run(),
     };
     ExitCode::from(exit)
 }

@@ -140,7 +140,7 @@ impl Run {
 }
 
 /// A flag that Ctrl-C and the system's request to end raise.
-fn interruption() -> Arc<AtomicBool> {
+pub fn interruption() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.

@@ -27,6 +27,11 @@ impl<'t> Checker<'t> {
         let ((mut activity, params), scope) = self.within(scope, |c| {
             c.declare_params(&a.params, &signature.params);
             let params = c.scope.vars.len();
+            if signature.name == crate::prompt::MISSION {
+                for (name, ty) in &c.modules[m].known {
+                    c.declare_hidden(name.clone(), VarKind::Let, ty.clone(), signature.span);
+                }
+            }
             (c.activity(id, a, None), params)
         });
         activity.name = a.name.node.clone();

@@ -15,6 +15,7 @@ mod test;
 mod timed;
 
 pub use declare::Override;
+pub use table::never_ends;
 
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
@@ -26,7 +27,7 @@ use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A file with the name by which others import it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Module {
     /// `cpt`, or empty for the file that is run.
     pub name: String,
@@ -36,6 +37,10 @@ pub struct Module {
     pub imports: BTreeMap<String, usize>,
     /// Its names are known everywhere without being imported.
     pub prelude: bool,
+    /// A line of the prompt: the module whose names it knows as its own.
+    pub extends: Option<usize>,
+    /// A line of the prompt: names whose values are put in place before its mission begins.
+    pub known: Vec<(String, Type)>,
 }
 
 /// What a name of a module stands for.
@@ -262,8 +267,9 @@ impl<'t> Checker<'t> {
 
     /// The same among the definitions of some kind: a name before `(` is looked up among what can be called.
     fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
+        let own = std::iter::successors(Some(module), |&m| self.modules[m].extends);
         let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
-        std::iter::once(module).chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
+        own.chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
     }
 
     fn local(&self, name: &str) -> Option<VarId> {

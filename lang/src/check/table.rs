@@ -284,6 +284,14 @@ impl<'t> Checker<'t> {
     }
 }
 
+/// Whether a mission's statements never come to their end by themselves.
+pub fn never_ends(hir: &hir::Hir, mission: usize) -> bool {
+    match &hir.activities[mission].body {
+        Body::Sequence(block) => !can_end(block, hir, &mut Vec::new()),
+        _ => false,
+    }
+}
+
 /// Whether a body can come to its end. `path` holds the activities that are being asked already: recursion is an error of
 /// its own.
 fn can_end(block: &hir::Block, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {

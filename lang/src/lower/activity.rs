@@ -47,7 +47,7 @@ impl<'a> Lowering<'a> {
                 positions(e, &mut found);
             }
         }
-        self.origin = middle(&found);
+        self.origin = middle(&found).or(self.origin);
     }
 
     /// A declaration of the left margin with its own frame, lowered when first needed.

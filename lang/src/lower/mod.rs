@@ -92,6 +92,20 @@ pub fn mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) 
     mission_with(hir, types, sources, mission, None)
 }
 
+/// Lowers the mission that is a line of the prompt, in the frame of the vehicle that it drives.
+pub fn line(
+    hir: &Hir,
+    types: &TypeTable,
+    sources: &Sources,
+    mission: usize,
+    origin: Option<Geodetic>,
+) -> Result<Program, Vec<Diagnostic>> {
+    let mut lowering = Lowering::new(hir, types, sources);
+    lowering.origin = origin;
+    lowering.mission(mission);
+    if lowering.findings.is_empty() { Ok(lowering.program) } else { Err(lowering.findings) }
+}
+
 /// The same with arguments in place of the parameters' defaults.
 fn mission_with(
     hir: &Hir,

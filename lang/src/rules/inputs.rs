@@ -16,12 +16,10 @@ struct Walk<'a> {
 
 /// Finds the inputs that a mission reads, with all that it calls, and does not require.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
-    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new() };
-    walk.activity(mission);
     let activity = &hir.activities[mission];
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = Vec::new();
-    for (input, span) in walk.read {
+    for (input, span) in read(hir, mission) {
         if parts.requires.iter().any(|r| r.input == input) {
             continue;
         }
@@ -37,6 +35,13 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         );
     }
     findings
+}
+
+/// The inputs that a mission reads, with all that it calls, and for each the first place where it does.
+pub fn read(hir: &Hir, mission: usize) -> BTreeMap<usize, Span> {
+    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new() };
+    walk.activity(mission);
+    walk.read
 }
 
 impl Walk<'_> {

@@ -3,6 +3,8 @@
 mod channels;
 mod inputs;
 
+pub use inputs::read as inputs_read;
+
 use crate::diagnostic::Diagnostic;
 use crate::hir::Hir;
 

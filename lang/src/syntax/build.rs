@@ -283,15 +283,18 @@ fn name_ty(b: &mut Builder, pair: P) -> TyKind {
     TyKind::Named { path: path_, factors }
 }
 
+/// A block, or the lines of a prompt, which have no braces.
 pub(super) fn block(b: &mut Builder, pair: P) -> Block {
     let span = b.span(&pair);
     let mut clauses = Vec::new();
     for pair in pair.into_inner() {
-        if pair.as_rule() == Rule::bad {
-            b.bad(&pair, Place::Clause);
-        } else {
-            let span = b.span(&pair);
-            clauses.extend(clause(b, pair).map(|kind| Clause { kind, span }));
+        match pair.as_rule() {
+            Rule::EOI => {}
+            Rule::bad => b.bad(&pair, Place::Clause),
+            _ => {
+                let span = b.span(&pair);
+                clauses.extend(clause(b, pair).map(|kind| Clause { kind, span }));
+            }
         }
     }
     Block { clauses, span }

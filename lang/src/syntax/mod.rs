@@ -6,6 +6,7 @@ mod errors;
 mod scan;
 pub mod tree;
 
+pub use errors::begins_item;
 pub use scan::{Comment, NESTING_MAX};
 
 use crate::diagnostic::Diagnostic;
@@ -35,18 +36,42 @@ pub struct Parsed {
 
 /// Reads a source file.
 pub fn parse(file: FileId, source: &str) -> Parsed {
+    let (tree, findings, comments) = read(file, source, Rule::file, build::file);
+    Parsed { file: tree.unwrap_or_default(), findings, comments }
+}
+
+/// Reads statements that stand in no block: the lines of a prompt.
+pub fn parse_lines(file: FileId, source: &str) -> (tree::Block, Vec<Diagnostic>) {
+    let (block, findings, _) =
+        read(file, source, Rule::lines, |b, mut pairs| pairs.next().map(|pair| build::block(b, pair)));
+    let nothing = tree::Block { clauses: Vec::new(), span: Span { file, start: 0, end: source.len() as u32 } };
+    (block.flatten().unwrap_or(nothing), findings)
+}
+
+/// Whether a text wants another line: a bracket is open, or its last line says that it goes on.
+pub fn goes_on(source: &str) -> bool {
+    scan::scan(FileId(0), source).goes_on
+}
+
+/// Reads a source by a rule of the grammar: what was built of it, the findings, the comments.
+fn read<T>(
+    file: FileId,
+    source: &str,
+    rule: Rule,
+    build: impl FnOnce(&mut build::Builder, pest::iterators::Pairs<Rule>) -> T,
+) -> (Option<T>, Vec<Diagnostic>, Vec<Comment>) {
     let scanned = scan::scan(file, source);
     let mut findings = scanned.findings;
     // Too deep: the grammar itself would be at the mercy of the thread's stack.
     if findings.iter().any(|f| f.code == "syntax::nesting") {
-        return Parsed { file: tree::File::default(), findings, comments: scanned.comments };
+        return (None, findings, scanned.comments);
     }
     let mut builder = build::Builder { file, bad: Vec::new(), long: Vec::new() };
-    let tree = match Grammar::parse(Rule::file, &scanned.text) {
-        Ok(pairs) => build::file(&mut builder, pairs),
+    let built = match Grammar::parse(rule, &scanned.text) {
+        Ok(pairs) => Some(build(&mut builder, pairs)),
         Err(error) => {
             findings.push(errors::finding(file, &scanned.text, 0, &error));
-            tree::File::default()
+            None
         }
     };
     findings.extend(builder.long.iter().map(|&span| too_long(span)));
@@ -57,7 +82,7 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
             findings.push(errors::of_bad_stretch(file, &scanned.text, &bad));
         }
     }
-    Parsed { file: tree, findings, comments: scanned.comments }
+    (built, findings, scanned.comments)
 }
 
 /// Reads one expression, such as the value of `--set lambda=6s`.

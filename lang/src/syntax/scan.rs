@@ -34,6 +34,8 @@ pub struct Scanned {
     pub comments: Vec<Comment>,
     /// Brackets that do not fit, characters that deceive.
     pub findings: Vec<Diagnostic>,
+    /// The text ends where more must follow: in an open bracket, or after an operator.
+    pub goes_on: bool,
 }
 
 /// Prepares a source for the grammar.
@@ -49,8 +51,12 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         findings: Vec::new(),
     };
     scanner.run();
+    let goes_on = !scanner.open.is_empty() || scanner.last == Last::Goes;
+    for (bracket, at) in std::mem::take(&mut scanner.open) {
+        scanner.unclosed(bracket, at);
+    }
     let text = String::from_utf8(scanner.out).unwrap_or_default();
-    Scanned { text, comments: scanner.comments, findings: scanner.findings }
+    Scanned { text, comments: scanner.comments, findings: scanner.findings, goes_on }
 }
 
 /// What stood last on the line: decides whether a newline ends the statement.
@@ -108,9 +114,6 @@ impl<'a> Scanner<'a> {
                     self.last = Last::Ends;
                 }
             }
-        }
-        for (bracket, at) in std::mem::take(&mut self.open) {
-            self.unclosed(bracket, at);
         }
     }
 

@@ -3,6 +3,7 @@
 mod files;
 mod journal;
 mod picture;
+pub mod prompt;
 mod run;
 mod scenario;
 mod summary;
