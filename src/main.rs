@@ -1,9 +1,12 @@
 //! The command line: one file a verb. All that concerns terminals, files written and exit codes is here.
 
+mod campaign;
 mod check;
 mod exit;
+mod interruption;
 mod kept;
 mod message;
+mod plan;
 mod run;
 mod test;
 
@@ -27,6 +30,8 @@ enum Verb {
     Check(check::Check),
     /// Run the tests of scripts.
     Test(test::Test),
+    /// Run a mission with many seeds, on all cores, into a table.
+    Campaign(campaign::Campaign),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +48,7 @@ fn main() -> ExitCode {
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
         Verb::Test(test) => test.run(),
+        Verb::Campaign(campaign) => campaign.run(),
     };
     ExitCode::from(exit)
 }
