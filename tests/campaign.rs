@@ -1,4 +1,4 @@
-//! Campaigns through the binary: the same table on any number of threads and after any interruption, and never a mixed one.
+//! Campaigns through the binary: the same table on any number of threads and after any interruption, never a mixed one.
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]

@@ -1,7 +1,8 @@
 //! The table on the disk: whole rows in the order of the seeds, whenever and however the program ends.
 //!
-//! A row is written in one piece as soon as it is known. Only a machine that stops in the middle of that leaves a torn last
-//! line, which has no line end: whoever takes the campaign up again drops it, and goes on with the same bytes.
+//! A row is written in one piece as soon as it is known. Only what stops in the middle of that, a full disk or a dying
+//! machine, leaves a torn last line, which has no line end: who takes the campaign up again drops it, and goes on with the
+//! same bytes.
 
 use super::origin::Origin;
 use super::seeds::Seeds;
@@ -84,8 +85,8 @@ impl Table {
         Ok(table)
     }
 
-    /// The seeds that are still to be run. The last one of the table is run again: if its row comes out otherwise, this is
-    /// another interpreter, whatever its version says.
+    /// The seeds that are still to be run. The last one of the table is run again: if its row comes out otherwise, this
+    /// is another interpreter, whatever its version says.
     pub fn missing(&self, seeds: Seeds) -> std::ops::RangeInclusive<u64> {
         seeds.after(self.rows - u64::from(self.known.is_some()))
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The summary, as `--json` prints it. Where nothing was reported there are no quantiles, and without a source no errors.
+/// The summary, as `--json` prints it. Where nothing was reported there are no quantiles; without a source, no errors.
 #[derive(Serialize)]
 pub struct Told<'a> {
     mission: &'a str,

@@ -17,8 +17,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 
-/// So many runs a thread may be ahead of the oldest that is not over yet: enough that no core waits for a long run, and a
-/// bound to what is kept for later.
+/// So many runs a thread may be ahead of the oldest that is not over yet: enough that no core waits for a long run, and
+/// a bound to what is kept for later.
 const AHEAD_PER_THREAD: usize = 32;
 
 /// A mission in a scenario, to be run with many seeds.
@@ -39,9 +39,9 @@ impl Campaign {
         &self.columns
     }
 
-    /// Runs every seed and delivers its row: in the order of the seeds, each as soon as it and all before it are over, so
-    /// that the rows do not depend on the number of threads. Without `threads` there is one for each core. Whoever raises
-    /// `stop`, or breaks off, gets no further row. Gives whether all were delivered.
+    /// Runs every seed and delivers its row: in the order of the seeds, each as soon as it and all before it are over,
+    /// so that the rows do not depend on the number of threads. Without `threads` there is one for each core. Whoever
+    /// raises `stop`, or breaks off, gets no further row. Gives whether all were delivered.
     pub fn run(
         &self,
         seeds: RangeInclusive<u64>,
@@ -68,6 +68,7 @@ impl Campaign {
                     if let Some(row) = early.remove(&seed) {
                         break row;
                     }
+                    // `start` holds a sender: there is always someone to hear from.
                     early.extend(receiver.recv().ok());
                 };
                 let Some(row) = row else { return false };

@@ -43,8 +43,8 @@ pub struct Row {
 }
 
 impl Columns {
-    /// The columns for a program's runs. One that reports under several names has two columns for each of them, and under
-    /// whatever name two for each further report that is asked for: how often a loop reports shows only when it runs.
+    /// The columns for a program's runs. One that reports under several names has two columns for each of them, and for
+    /// each further report of a name that is asked for two more: how often a loop reports shows only when it runs.
     pub fn new(program: &Program, reports_of_each: usize) -> Self {
         let mut reported: Vec<&str> = Vec::new();
         for site in &program.reports {

@@ -10,8 +10,8 @@ pub const QUANTILE: &str = "nearest rank";
 /// The standard normal distribution has 2.5 % beyond this, on either side.
 const Z: f64 = 1.959_963_984_540_054;
 
-/// How many of how many, and where the true share lies with 95 % confidence: Wilson's score interval, which stays within
-/// 0 and 1 and is of use where nearly all runs succeed.
+/// How many of how many, and where the true share lies with 95 % confidence: Wilson's score interval, which stays
+/// within 0 and 1 and is of use where nearly all runs succeed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Share {
     /// How many.
