@@ -24,8 +24,7 @@ const REPORTS_MAX: usize = 1_000;
 /// Threads, at most.
 const THREADS_MAX: usize = 4_096;
 
-/// Run a mission with many seeds, on all cores, into a table: a row for each seed, in their order. The same bytes come
-/// out on any number of cores, and after any interruption. Ends with 0 when every seed was run, whatever came of it.
+/// Run a mission with many seeds, on all cores, into a table.
 #[derive(clap::Args)]
 pub struct Campaign {
     /// The script.

@@ -31,6 +31,9 @@ enum Verb {
     /// Run the tests of scripts.
     Test(test::Test),
     /// Run a mission with many seeds, on all cores, into a table.
+    ///
+    /// A row for each seed, in their order: the same bytes on any number of cores and after any interruption. Ends with 0
+    /// when every seed was run, whatever came of it; with 1 when interrupted.
     Campaign(campaign::Campaign),
 }
 
