@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use crate::message;
-use crate::run::interruption;
+use crate::interruption;
 use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
 use rustyline::error::ReadlineError;
 use rustyline::history::MemHistory;
@@ -60,7 +60,7 @@ impl Repl {
                 return Exit::Usage;
             }
         };
-        let interrupted = interruption();
+        let interrupted = interruption::flag();
         if std::io::stdin().is_terminal() { typed(&mut prompt, &interrupted) } else { piped(&mut prompt, &interrupted) }
     }
 }
