@@ -1,8 +1,8 @@
 //! `albacore repl`: a simulated vehicle that does what is typed.
 
 use crate::exit::Exit;
-use crate::message;
 use crate::interruption;
+use crate::message;
 use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
 use rustyline::error::ReadlineError;
 use rustyline::history::MemHistory;
