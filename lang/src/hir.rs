@@ -498,28 +498,42 @@ pub struct Test {
     /// The variables that expectations speak of.
     pub vars: Vec<Var>,
     /// Which of them is what.
-    pub known: TestVars,
+    pub known: TestNames<VarId>,
 }
 
-/// What expectations can speak of.
+/// What the expectations of a test speak of: variables here, the words that hold them once lowered.
 #[derive(Clone, Debug)]
-pub struct TestVars {
+pub struct TestNames<T> {
     /// The vehicle's true position.
-    pub position: VarId,
+    pub position: T,
     /// The true source nearest to the latest report, else to the vehicle.
-    pub nearest_source: VarId,
-    /// Since the run began.
-    pub time: VarId,
+    pub nearest_source: T,
+    /// Seconds since the run began.
+    pub time: T,
     /// Whether the mission came to its own end.
-    pub completed: VarId,
+    pub completed: T,
     /// The mission's area.
-    pub area: VarId,
-    /// The mission.
-    pub mission: ActivityId,
-    /// By name, where it was first reported.
-    pub reported: Vec<(String, VarId)>,
-    /// By name, when it was first reported.
-    pub reported_at: Vec<(String, VarId)>,
+    pub area: T,
+    /// By name, where it was first reported, if it was.
+    pub reported: Vec<(String, T)>,
+    /// By name, the seconds until it was first reported, if it was.
+    pub reported_at: Vec<(String, T)>,
+}
+
+impl<T: Copy> TestNames<T> {
+    /// The same names for something else.
+    pub fn map<U>(&self, f: impl Fn(T) -> U) -> TestNames<U> {
+        let each = |list: &[(String, T)]| list.iter().map(|(name, x)| (name.clone(), f(*x))).collect();
+        TestNames {
+            position: f(self.position),
+            nearest_source: f(self.nearest_source),
+            time: f(self.time),
+            completed: f(self.completed),
+            area: f(self.area),
+            reported: each(&self.reported),
+            reported_at: each(&self.reported_at),
+        }
+    }
 }
 
 /// An expectation.

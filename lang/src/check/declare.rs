@@ -502,14 +502,7 @@ impl<'t> Checker<'t> {
         if let Some(ty) = simple {
             return ty;
         }
-        let found = match path.parts.as_slice() {
-            [name] => self.lookup(m, &name.node).cloned(),
-            [module, name] => {
-                self.modules[m].imports.get(&module.node).and_then(|&i| self.names[i].get(&name.node)).cloned()
-            }
-            _ => None,
-        };
-        match found {
+        match self.resolve(m, path).cloned() {
             Some(Def::Record(id)) => Type::Record(id),
             Some(Def::Enum(id)) => Type::Enum(id),
             Some(def) => {

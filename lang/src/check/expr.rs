@@ -379,8 +379,7 @@ impl<'t> Checker<'t> {
             }
             K::Member(base, member) => match &base.kind {
                 K::Name(module) if self.local(module).is_none() => {
-                    let imports = &self.modules[self.scope.module].imports;
-                    let def = imports.get(module).and_then(|&i| self.names[i].get(&member.node));
+                    let def = self.imported(self.scope.module, module, &member.node);
                     def.cloned().map_or(Found::Nothing, Found::Def)
                 }
                 _ => Found::Nothing,

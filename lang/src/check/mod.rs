@@ -176,8 +176,8 @@ pub struct Checker<'t> {
     types: TypeTable,
     hir: Hir,
     scope: Scope,
-    /// What a test's expectations speak of, while one is being checked.
-    test_vars: Option<hir::TestVars>,
+    /// The test that is being checked, while its expectations are.
+    test: Option<test::TestScope>,
     findings: Vec<Diagnostic>,
 }
 
@@ -207,7 +207,7 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
         types: TypeTable::default(),
         hir: Hir::default(),
         scope: Scope::new(0, Setting::Constant),
-        test_vars: None,
+        test: None,
         findings: Vec::new(),
     };
     checker.run();
@@ -264,6 +264,20 @@ impl<'t> Checker<'t> {
     fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
         let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
         std::iter::once(module).chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
+    }
+
+    /// What a module of its imports defines under a name.
+    fn imported(&self, module: usize, from: &str, name: &str) -> Option<&Def> {
+        self.modules[module].imports.get(from).and_then(|&i| self.names[i].get(name))
+    }
+
+    /// What `name` or `module.name` stands for where a path is written.
+    fn resolve(&self, module: usize, path: &tree::Path) -> Option<&Def> {
+        match path.parts.as_slice() {
+            [name] => self.lookup(module, &name.node),
+            [from, name] => self.imported(module, &from.node, &name.node),
+            _ => None,
+        }
     }
 
     fn local(&self, name: &str) -> Option<VarId> {

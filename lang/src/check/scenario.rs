@@ -42,15 +42,7 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn scenario_named(&mut self, path: &tree::Path) -> Option<usize> {
-        let module = self.scope.module;
-        let found = match path.parts.as_slice() {
-            [name] => self.lookup(module, &name.node).cloned(),
-            [head, name] => {
-                self.modules[module].imports.get(&head.node).and_then(|&i| self.names[i].get(&name.node)).cloned()
-            }
-            _ => None,
-        };
-        match found {
+        match self.resolve(self.scope.module, path).cloned() {
             Some(Def::Scenario(id)) => Some(id),
             // A scenario may also be chosen on the command line: what is missing here is reported where it is run.
             Some(def) => {
