@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::facts;
-use super::{Checker, Scope, Setting, Temporal, body};
+use super::{Checker, Scope, Setting, Temporal, flow};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
@@ -205,7 +205,7 @@ impl<'t> Checker<'t> {
                 let finish = self.scope.finish.take();
                 let block = self.in_block(|c| c.block(block));
                 self.scope.finish = finish;
-                if let Some(place) = body::aborts(&block) {
+                if let Some(place) = flow::aborts(&block) {
                     self.report(
                         Diagnostic::error(
                             "missions::recovery",
@@ -344,7 +344,7 @@ impl<'t> Checker<'t> {
     /// A body's end: what must finish does, and what ends says so.
     fn sequence_ends(&mut self, a: &tree::Activity, kind: Kind, result: Option<&Type>, block: &hir::Block) {
         if let Some(result) = result
-            && !body::leaves(block)
+            && !flow::leaves(block)
         {
             let ty = self.type_name(result);
             self.report(
@@ -356,7 +356,7 @@ impl<'t> Checker<'t> {
                 .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
             );
         }
-        if matches!(kind, Kind::Sets(_)) && !body::leaves(block) {
+        if matches!(kind, Kind::Sets(_)) && !flow::leaves(block) {
             self.report(
                 Diagnostic::error(
                     "channels::ends",

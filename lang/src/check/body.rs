@@ -1,17 +1,13 @@
 //! Blocks and the statements in them.
 
 use super::expr::article;
-use super::facts;
-use super::{Checker, Setting, Temporal};
+use super::{Checker, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{self, Block, Expr, ExprKind, Interval, Order, Stmt, StmtKind, VarKind};
+use crate::hir::{self, Block, Expr, Interval, Order, Stmt, StmtKind, VarKind};
 use crate::source::Span;
-use crate::syntax::tree::{self, Action, Clause, ClauseKind, Condition, ForOver, TyKind};
+use crate::syntax::tree::{self, Action, Clause, ClauseKind, TyKind};
 use crate::types::Type;
-
-/// A loop that takes no time goes round this often at most: every tick must end, and soon.
-const ROUNDS_MAX: f64 = 10_000.0;
 
 impl<'t> Checker<'t> {
     pub(super) fn check_fn(&mut self, m: usize, f: &'t tree::Function) {
@@ -353,147 +349,6 @@ impl<'t> Checker<'t> {
         value
     }
 
-    fn for_stmt(&mut self, name: &tree::Name, over: &ForOver, block: &tree::Block, span: Span) -> Option<Stmt> {
-        if let ForOver::Range(range) = over {
-            let first = self.expr_as(&range.first, &Type::Int, "the beginning of the range");
-            let last = self.expr_as(&range.last, &Type::Int, "the end of the range");
-            self.enter_loop();
-            let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
-            let (var, body) = self.in_block(|c| {
-                let var = c.declare(name, VarKind::Loop, Type::Int);
-                c.scope.vars[var].range = Interval::new(first.range.low, end);
-                (var, c.block(block))
-            });
-            // Written so that a bound that is no number counts as none.
-            let exact = first.range.low.abs().max(end.abs()) < super::expr::INT_MAX;
-            let bounded = exact && end - first.range.low <= ROUNDS_MAX;
-            if !bounded {
-                self.bounded_or_takes_time(&body, range.last.span, span);
-            }
-            let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };
-            return Some(Stmt { kind, span });
-        }
-        let ForOver::List(written) = over else { return None };
-        // `area.edges` is walked without being made a list.
-        if let tree::ExprKind::Member(base, member) = &written.kind
-            && member.node == "edges"
-            && self.module_named(base).is_none()
-        {
-            let area = self.expr(base, None);
-            if area.ty == Type::Area {
-                self.enter_loop();
-                let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, Type::Edge), c.block(block)));
-                return Some(Stmt { kind: StmtKind::ForEdges { var, area, body }, span });
-            }
-        }
-        let list = self.expr(written, None);
-        let element = match &list.ty {
-            Type::List(inner, _) => (**inner).clone(),
-            Type::Unknown => Type::Unknown,
-            other => {
-                let ty = self.type_name(other);
-                self.report(
-                    Diagnostic::error(
-                        "types::for",
-                        written.span,
-                        format!("`for` walks a list or a range, this is {}", article(&ty)),
-                    )
-                    .help("ranges are `0..<n` and `1..n`"),
-                );
-                Type::Unknown
-            }
-        };
-        self.enter_loop();
-        let constants =
-            matches!(&list.kind, ExprKind::List(elements) if elements.iter().all(|e| e.range.constant().is_some()));
-        let (var, body) = self.in_block(|c| {
-            let var = c.declare(name, VarKind::Loop, element);
-            c.scope.vars[var].walks_constants = constants;
-            (var, c.block(block))
-        });
-        Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
-    }
-
-    fn while_stmt(&mut self, condition: &Condition, block: &tree::Block, span: Span) -> Option<Stmt> {
-        self.enter_loop();
-        let (condition, bind, body) = match condition {
-            Condition::Holds(e) => {
-                let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
-                let facts = facts::shown(&condition, true);
-                let body = self.in_block(|c| {
-                    c.scope.facts.learn(facts);
-                    c.block(block)
-                });
-                (condition, None, body)
-            }
-            Condition::Let { name, value } => {
-                let value = self.expr(value, None);
-                let (bind, body) = self.in_block(|c| {
-                    let bind = c.bind_present(name, &value);
-                    (bind, c.block(block))
-                });
-                (value, Some(bind), body)
-            }
-        };
-        self.loop_takes_time(&body, span, "while");
-        Some(Stmt { kind: StmtKind::While { condition, bind, body }, span })
-    }
-
-    /// The name of `if let` and `while let`.
-    fn bind_present(&mut self, name: &tree::Name, value: &Expr) -> usize {
-        let ty = match &value.ty {
-            Type::Optional(inner) => (**inner).clone(),
-            Type::Unknown => Type::Unknown,
-            other => {
-                let ty = self.type_name(other);
-                self.report(
-                    Diagnostic::error(
-                        "absent::let",
-                        value.span,
-                        format!("this is never absent: it is {}", article(&ty)),
-                    )
-                    .help("name it with a plain `let`"),
-                );
-                Type::Unknown
-            }
-        };
-        self.declare(name, VarKind::Let, ty)
-    }
-
-    /// In a loop nothing holds of what its body may change.
-    fn enter_loop(&mut self) {
-        let vars = std::mem::take(&mut self.scope.vars);
-        self.scope.facts.forget_changeable(&vars);
-        self.scope.vars = vars;
-    }
-
-    /// Time goes by: memory, signals and inputs may have changed.
-    pub(super) fn time_passes(&mut self) {
-        self.enter_loop();
-    }
-
-    fn loop_takes_time(&mut self, body: &Block, span: Span, word: &str) {
-        if !takes_time(body) {
-            self.report(
-                Diagnostic::error("time::instant_loop", span, format!("this `{word}` can go round without taking time"))
-                    .here("every tick must end")
-                    .help("put a statement that takes time on every path through it, such as `wait for 1 s`, or walk a list or a range with `for`"),
-            );
-        }
-    }
-
-    fn bounded_or_takes_time(&mut self, body: &Block, range: Span, span: Span) {
-        if !takes_time(body) {
-            self.report(
-                Diagnostic::error("time::instant_loop", span, "this `for` may go round too often without taking time")
-                    .label(range, "how large can this be?")
-                    .help(format!(
-                        "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
-                    )),
-            );
-        }
-    }
-
     fn finish(&mut self, value: Option<&tree::Expr>, span: Span) -> Option<Stmt> {
         self.body_only(span, "`finish`");
         let wanted = self.scope.finish.clone();
@@ -570,65 +425,6 @@ impl<'t> Checker<'t> {
         );
     }
 
-    fn if_stmt(
-        &mut self,
-        condition: &Condition,
-        then: &tree::Block,
-        otherwise: Option<&tree::Block>,
-        span: Span,
-    ) -> Option<Stmt> {
-        match condition {
-            Condition::Holds(e) => {
-                let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
-                let known = |c: &mut Self, holds: bool, block: &tree::Block| {
-                    let facts = facts::shown(&condition, holds);
-                    c.in_block(|c| {
-                        c.scope.facts.learn(facts);
-                        c.block(block)
-                    })
-                };
-                let then = known(self, true, then);
-                let otherwise = otherwise.map(|b| known(self, false, b)).unwrap_or_default();
-                self.time_may_pass([&then, &otherwise].into_iter());
-                // After `if not x { finish }` x is known.
-                if leaves(&then) {
-                    self.scope.facts.learn(facts::shown(&condition, false));
-                } else if leaves(&otherwise) {
-                    self.scope.facts.learn(facts::shown(&condition, true));
-                }
-                Some(Stmt { kind: StmtKind::If(condition, then, otherwise), span })
-            }
-            Condition::Let { name, value } => {
-                let value = self.expr(value, None);
-                let present = self.truth(value.clone());
-                let then = self.in_block(|c| {
-                    let bind = c.bind_present(name, &value);
-                    let ty = c.scope.vars[bind].ty.clone();
-                    let unwrapped = c.make(ExprKind::Unwrap(Box::new(value)), ty, span);
-                    let mut block = c.block(then);
-                    block.stmts.insert(0, Stmt { kind: StmtKind::Set(bind, unwrapped), span });
-                    block
-                });
-                let otherwise = otherwise.map(|b| self.in_block(|c| c.block(b))).unwrap_or_default();
-                self.time_may_pass([&then, &otherwise].into_iter());
-                Some(Stmt { kind: StmtKind::If(present, then, otherwise), span })
-            }
-        }
-    }
-
-    fn time_may_pass<'a>(&mut self, blocks: impl Iterator<Item = &'a Block>) {
-        let mut assigned = Vec::new();
-        for block in blocks {
-            if may_take_time(block) {
-                self.time_passes();
-            }
-            assigned_in(block, &mut assigned);
-        }
-        for var in assigned {
-            self.scope.facts.forget(var);
-        }
-    }
-
     fn list_change(&mut self, base: &tree::Expr, what: &str, args: &[tree::Arg], span: Span) -> Option<Stmt> {
         let tree::ExprKind::Name(name) = &base.kind else {
             self.report(
@@ -667,96 +463,5 @@ impl<'t> Checker<'t> {
             self.report(Diagnostic::error("ranges::negative", value.span, format!("{what} is negative")));
         }
         value
-    }
-}
-
-/// Whether every path through a block takes time, or leaves it for good.
-pub(super) fn takes_time(block: &Block) -> bool {
-    block.stmts.iter().any(|stmt| match &stmt.kind {
-        StmtKind::Timed(_) | StmtKind::Loop(_) | StmtKind::Finish(_) | StmtKind::Abort(_) => true,
-        StmtKind::If(_, a, b) => takes_time(a) && takes_time(b),
-        StmtKind::Match(_, arms, otherwise) => {
-            arms.iter().all(|(_, b)| takes_time(b)) && otherwise.as_ref().is_none_or(takes_time) && !arms.is_empty()
-        }
-        StmtKind::With(_, body) => takes_time(body),
-        // A range that holds at least one number goes round at least once.
-        StmtKind::ForRange { first, last, inclusive, body, .. } => {
-            let least = last.range.low - first.range.high + if *inclusive { 1.0 } else { 0.0 };
-            least >= 1.0 && takes_time(body)
-        }
-        StmtKind::ForEdges { body, .. } => takes_time(body),
-        _ => false,
-    })
-}
-
-/// Whether some path through a block takes time.
-pub(super) fn may_take_time(block: &Block) -> bool {
-    block.stmts.iter().any(|stmt| match &stmt.kind {
-        StmtKind::Timed(_) | StmtKind::Loop(_) => true,
-        StmtKind::If(_, a, b) => may_take_time(a) || may_take_time(b),
-        StmtKind::Match(_, arms, otherwise) => {
-            arms.iter().any(|(_, b)| may_take_time(b)) || otherwise.as_ref().is_some_and(may_take_time)
-        }
-        StmtKind::With(_, body)
-        | StmtKind::ForRange { body, .. }
-        | StmtKind::ForList { body, .. }
-        | StmtKind::ForEdges { body, .. }
-        | StmtKind::While { body, .. } => may_take_time(body),
-        _ => false,
-    })
-}
-
-/// The first `abort` in a block.
-pub(super) fn aborts(block: &Block) -> Option<Span> {
-    block.stmts.iter().find_map(|stmt| match &stmt.kind {
-        StmtKind::Abort(_) => Some(stmt.span),
-        StmtKind::If(_, a, b) => aborts(a).or_else(|| aborts(b)),
-        StmtKind::Match(_, arms, otherwise) => arms.iter().map(|(_, b)| b).chain(otherwise).find_map(aborts),
-        StmtKind::With(_, body)
-        | StmtKind::Loop(body)
-        | StmtKind::ForRange { body, .. }
-        | StmtKind::ForList { body, .. }
-        | StmtKind::ForEdges { body, .. }
-        | StmtKind::While { body, .. } => aborts(body),
-        _ => None,
-    })
-}
-
-/// Whether a block never comes to its end.
-pub(super) fn leaves(block: &Block) -> bool {
-    block.stmts.last().is_some_and(|stmt| match &stmt.kind {
-        StmtKind::Finish(_) | StmtKind::Abort(_) | StmtKind::Loop(_) => true,
-        StmtKind::If(_, a, b) => leaves(a) && leaves(b),
-        StmtKind::With(_, body) => leaves(body),
-        StmtKind::Match(_, arms, otherwise) => {
-            !arms.is_empty() && arms.iter().all(|(_, b)| leaves(b)) && otherwise.as_ref().is_none_or(leaves)
-        }
-        _ => false,
-    })
-}
-
-fn assigned_in(block: &Block, out: &mut Vec<usize>) {
-    for stmt in &block.stmts {
-        match &stmt.kind {
-            StmtKind::Set(var, _) | StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) => {
-                out.push(*var)
-            }
-            StmtKind::If(_, a, b) => {
-                assigned_in(a, out);
-                assigned_in(b, out);
-            }
-            StmtKind::Match(_, arms, otherwise) => {
-                for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
-                    assigned_in(block, out);
-                }
-            }
-            StmtKind::With(_, body)
-            | StmtKind::Loop(body)
-            | StmtKind::ForRange { body, .. }
-            | StmtKind::ForList { body, .. }
-            | StmtKind::ForEdges { body, .. }
-            | StmtKind::While { body, .. } => assigned_in(body, out),
-            _ => {}
-        }
     }
 }

@@ -1,7 +1,8 @@
 //! Fields and methods of values: what stands after a dot.
 
 use super::Checker;
-use super::expr::{Found, article};
+use super::expr::article;
+use super::names::Found;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};

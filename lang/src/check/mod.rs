@@ -3,22 +3,29 @@
 mod activity;
 mod args;
 mod body;
+mod choice;
 mod constant;
+mod convert;
 mod declare;
 mod expr;
 mod facts;
+mod flow;
+mod loops;
 mod members;
+mod names;
 mod operators;
+mod params;
 mod scenario;
 mod table;
 mod test;
 mod timed;
+mod written;
 
-pub use declare::Override;
+pub use params::Override;
 
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
-use crate::hir::{self, Hir, Interval, VarId, VarKind};
+use crate::hir::{self, Hir, Interval, VarId};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
@@ -253,71 +260,5 @@ impl<'t> Checker<'t> {
         let result = work(self);
         self.scope.setting = outer;
         result
-    }
-
-    /// A name that a module defines, or that everyone knows.
-    fn lookup(&self, module: usize, name: &str) -> Option<&Def> {
-        self.lookup_if(module, name, |_| true)
-    }
-
-    /// The same among the definitions of some kind: a name before `(` is looked up among what can be called.
-    fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
-        let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
-        std::iter::once(module).chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
-    }
-
-    /// What a module of its imports defines under a name.
-    fn imported(&self, module: usize, from: &str, name: &str) -> Option<&Def> {
-        self.modules[module].imports.get(from).and_then(|&i| self.names[i].get(name))
-    }
-
-    /// What `name` or `module.name` stands for where a path is written.
-    fn resolve(&self, module: usize, path: &tree::Path) -> Option<&Def> {
-        match path.parts.as_slice() {
-            [name] => self.lookup(module, &name.node),
-            [from, name] => self.imported(module, &from.node, &name.node),
-            _ => None,
-        }
-    }
-
-    fn local(&self, name: &str) -> Option<VarId> {
-        self.scope.visible.iter().rev().find(|(n, _)| n == name).map(|&(_, id)| id)
-    }
-
-    /// Makes a variable known from here on.
-    fn declare(&mut self, name: &tree::Name, kind: VarKind, ty: Type) -> VarId {
-        let earlier = self.local(&name.node).map(|id| self.scope.vars[id].span);
-        let finding = |what: &str| {
-            Diagnostic::error("names::shadowed", name.span, format!("`{}` is the name of {what} already", name.node))
-                .here("nothing can be shadowed")
-                .help("choose another name")
-        };
-        if let Some(span) = earlier {
-            self.report(finding("something").label(span, "declared here"));
-        } else if let Some(def) = self.lookup(self.scope.module, &name.node) {
-            let callable =
-                matches!(def, Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_) | Def::Scenario(_));
-            // A name before `(` is looked up among what can be called, any other among values.
-            if !callable {
-                let finding = finding(def.what());
-                self.report(finding);
-            }
-        }
-        self.declare_hidden(name.node.clone(), kind, ty, name.span)
-    }
-
-    fn declare_hidden(&mut self, name: String, kind: VarKind, ty: Type, span: Span) -> VarId {
-        let id = self.scope.vars.len();
-        self.scope.vars.push(hir::Var {
-            name: name.clone(),
-            kind,
-            ty,
-            span,
-            range: Interval::ANY,
-            walks_constants: false,
-            order: None,
-        });
-        self.scope.visible.push((name, id));
-        id
     }
 }

@@ -1,7 +1,7 @@
 //! Scenarios: clauses with typed arguments. What a clause means is for the simulator; its parameters are declared in
 //! the standard library like those of any function.
 
-use super::expr::Found;
+use super::names::Found;
 use super::{Checker, Def, Scope, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};

@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::facts;
-use super::{Checker, Setting, body};
+use super::{Checker, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
 use crate::suggest;
@@ -287,7 +287,7 @@ impl<'t> Checker<'t> {
 /// Whether a body can come to its end. `path` holds the activities that are being asked already: recursion is an error of
 /// its own.
 fn can_end(block: &hir::Block, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
-    if body::leaves(block) {
+    if flow::leaves(block) {
         return finishes(block);
     }
     !block.stmts.iter().any(|stmt| match &stmt.kind {

@@ -1,6 +1,7 @@
 //! Statements that take time: guidance, calls, and the modifiers that bound them; `with`.
 
-use super::expr::{Found, article};
+use super::expr::article;
+use super::names::Found;
 use super::{Checker, Def, ParamInfo, Setting, Temporal};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;

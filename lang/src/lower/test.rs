@@ -1,9 +1,8 @@
 //! Tests to code: each expectation, and what is printed of it when it fails.
 
 use super::Lowering;
-use super::watch::children;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, When};
+use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, When, children};
 use crate::source::Sources;
 use crate::types::TypeTable;
 use albacore_program::{Code, Program, Shape, Slot};

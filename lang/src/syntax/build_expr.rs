@@ -1,7 +1,8 @@
 //! From the grammar's pairs to the tree: expressions, by precedence climbing over the flat list that the grammar gives.
 
 use super::Rule;
-use super::build::{Builder, block, modified, parts};
+use super::build::{Builder, parts};
+use super::build_block::{block, modified};
 use super::tree::*;
 use crate::source::Spanned;
 use pest::iterators::Pair;

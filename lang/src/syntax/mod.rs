@@ -1,10 +1,12 @@
 //! Text to tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
 
 mod build;
+mod build_block;
 mod build_expr;
 mod errors;
 mod scan;
 pub mod tree;
+mod words;
 
 pub use scan::{Comment, NESTING_MAX};
 
