@@ -6,7 +6,6 @@ use super::{Checker, Scope, Setting, Temporal, flow};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
-use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
 use crate::types::Type;
 use albacore_program::Channel;
@@ -287,7 +286,7 @@ impl<'t> Checker<'t> {
                         ),
                     };
                     let known: Vec<String> = self.hir.inputs.iter().map(|i| i.name.clone()).collect();
-                    let finding = match suggest::nearest(&name.node, known.iter().map(String::as_str)) {
+                    let finding = match self.nearest(&name.node, known.iter().map(String::as_str)) {
                         Some(near) => finding.help(format!("did you mean `{near}`?")),
                         None => finding,
                     };

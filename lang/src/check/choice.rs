@@ -229,7 +229,7 @@ impl<'t> Checker<'t> {
                             name.span,
                             format!("there is no variant `{}`", name.node),
                         );
-                        let finding = match suggest::help(&name.node, variants.iter().map(String::as_str)) {
+                        let finding = match self.suggestion(&name.node, variants.iter().map(String::as_str)) {
                             Some(help) => finding.help(help),
                             None => finding,
                         };

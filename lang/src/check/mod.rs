@@ -27,10 +27,15 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
 use crate::hir::{self, Hir, Interval, VarId};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Beyond this many findings no name is searched for what it may have meant: each search looks at all names, and nobody
+/// reads so far.
+const HELPED_MAX: usize = 200;
 
 /// A file with the name by which others import it.
 #[derive(Clone, Debug)]
@@ -224,6 +229,16 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
 impl<'t> Checker<'t> {
     fn report(&mut self, finding: Diagnostic) {
         self.findings.push(finding);
+    }
+
+    /// The name that was probably meant.
+    fn nearest<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+        if self.findings.len() < HELPED_MAX { suggest::nearest(name, known) } else { None }
+    }
+
+    /// "did you mean `x`?", or else what there is.
+    fn suggestion<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str> + Clone) -> Option<String> {
+        if self.findings.len() < HELPED_MAX { suggest::help(name, known) } else { None }
     }
 
     fn type_name(&self, ty: &Type) -> String {

@@ -5,7 +5,6 @@ use super::{Checker, Def, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 
@@ -148,7 +147,7 @@ impl<'t> Checker<'t> {
         let finding = if self.modules[self.scope.module].imports.contains_key(name) {
             Diagnostic::error("names::module", span, format!("`{name}` is a module, no value"))
                 .help(format!("write `{name}.NAME`"))
-        } else if let Some(near) = suggest::nearest(name, self.known_names().iter().map(String::as_str)) {
+        } else if let Some(near) = self.nearest(name, self.known_names()) {
             finding.help(format!("did you mean `{near}`?"))
         } else if let Some(module) = self.module_that_has(name) {
             finding.help(format!("the module `{module}` has one: write `{module}.{name}`"))
@@ -163,15 +162,23 @@ impl<'t> Checker<'t> {
         imports.iter().find(|(_, i)| self.names[**i].contains_key(name)).map(|(module, _)| module.as_str())
     }
 
-    fn known_names(&self) -> Vec<String> {
-        let mut names: Vec<String> = self.scope.visible.iter().map(|(n, _)| n.clone()).collect();
-        let modules = (0..self.modules.len()).filter(|&m| m == self.scope.module || self.modules[m].prelude);
-        for m in modules {
-            let values =
-                self.names[m].iter().filter(|(_, d)| !matches!(d, Def::Scenario(_) | Def::Clause(_) | Def::Unit(_)));
-            names.extend(values.map(|(n, _)| n.clone()));
-        }
-        names
+    fn known_names(&self) -> impl Iterator<Item = &str> {
+        let module = self.scope.module;
+        let modules = (0..self.modules.len()).filter(move |&m| m == module || self.modules[m].prelude);
+        let values = modules.flat_map(|m| {
+            self.names[m].iter().filter(|(_, d)| !matches!(d, Def::Scenario(_) | Def::Clause(_) | Def::Unit(_)))
+        });
+        self.scope.visible.iter().map(|(n, _)| n.as_str()).chain(values.map(|(n, _)| n.as_str()))
+    }
+
+    /// What can be called without a module's name before it.
+    pub(super) fn callable_names(&self) -> impl Iterator<Item = &str> {
+        let module = self.scope.module;
+        let modules = (0..self.modules.len()).filter(move |&m| m == module || self.modules[m].prelude);
+        modules.flat_map(|m| {
+            let callable = |d: &Def| matches!(d, Def::Fn(_) | Def::Record(_) | Def::Activity(_));
+            self.names[m].iter().filter(move |(_, d)| callable(d)).map(|(n, _)| n.as_str())
+        })
     }
 
     /// What `module.name` or `name` before parentheses leads to, when its head is no variable.

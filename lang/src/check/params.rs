@@ -5,7 +5,6 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Interval};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 
@@ -95,7 +94,7 @@ impl<'t> Checker<'t> {
             unused.value.span,
             format!("`{}` has no parameter `{}`", unused.declaration, unused.param),
         );
-        let finding = match suggest::help(&unused.param, all.iter().map(String::as_str)) {
+        let finding = match self.suggestion(&unused.param, all.iter().map(String::as_str)) {
             Some(help) => finding.help(help),
             None => finding.help(format!("nothing named `{}` takes parameters", unused.declaration)),
         };

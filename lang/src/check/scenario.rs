@@ -5,7 +5,6 @@ use super::names::Found;
 use super::{Checker, Def, Scope, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
-use crate::suggest;
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
 
@@ -60,7 +59,7 @@ impl<'t> Checker<'t> {
                     path.span,
                     format!("there is no scenario `{}`", path.text()),
                 );
-                let finding = match suggest::help(&path.text(), known.iter().map(String::as_str)) {
+                let finding = match self.suggestion(&path.text(), known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
                     None => finding,
                 };
@@ -124,7 +123,7 @@ impl<'t> Checker<'t> {
                 .filter(|c| c.kind.is_some() == as_value)
                 .map(|c| c.signature.name.clone())
                 .collect();
-            let finding = match suggest::help(&name, known.iter().map(String::as_str)) {
+            let finding = match self.suggestion(&name, known.iter().map(String::as_str)) {
                 Some(help) => finding.help(help),
                 None => finding,
             };

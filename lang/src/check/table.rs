@@ -5,7 +5,6 @@ use super::facts;
 use super::{Checker, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
-use crate::suggest;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
 
@@ -111,7 +110,7 @@ impl<'t> Checker<'t> {
         if found.is_none() {
             let finding =
                 Diagnostic::error("rules::unknown", name.span, format!("there is no behavior `{}` here", name.node));
-            let finding = match suggest::help(&name.node, names.iter().map(|n| n.node.as_str())) {
+            let finding = match self.suggestion(&name.node, names.iter().map(|n| n.node.as_str())) {
                 Some(help) => finding.help(help),
                 None => finding,
             };

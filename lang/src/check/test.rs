@@ -5,7 +5,6 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Expect, Expr, ExprKind, Interval, Test, TestNames, VarKind, When};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind, ExpectMode, Item, TestClause};
 use crate::types::Type;
 
@@ -113,7 +112,7 @@ impl<'t> Checker<'t> {
                     self.mission_ids.iter().map(|&id| self.activity_signatures[id].name.clone()).collect();
                 let finding =
                     Diagnostic::error("tests::mission", path.span, format!("there is no mission `{}`", path.text()));
-                let finding = match suggest::help(&path.text(), known.iter().map(String::as_str)) {
+                let finding = match self.suggestion(&path.text(), known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
                     None => finding,
                 };

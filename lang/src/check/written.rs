@@ -120,7 +120,7 @@ impl<'t> Checker<'t> {
                 let declared = self.names[m].iter().filter(|(_, d)| matches!(d, Def::Record(_) | Def::Enum(_)));
                 known.extend(declared.map(|(n, _)| n.as_str()));
                 let finding = Diagnostic::error("types::unknown", path.span, format!("there is no type `{name}`"));
-                let finding = match suggest::nearest(&name, known) {
+                let finding = match self.nearest(&name, known) {
                     Some(near) => finding.help(format!("did you mean `{near}`?")),
                     None => finding.help("types are Length, Duration, Speed, Angle, Heading, Depth, Altitude, Point, Vector, Int, Bool, … and the records and enums declared"),
                 };

@@ -5,6 +5,7 @@ use super::build_block::block;
 use super::build_expr::{cond, expr, name, path, text};
 use super::tree::*;
 use super::words::is_word;
+use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span, Spanned};
 use pest::iterators::{Pair, Pairs};
 
@@ -12,8 +13,10 @@ use pest::iterators::{Pair, Pairs};
 pub(super) struct Builder {
     pub file: FileId,
     pub bad: Vec<Bad>,
-    /// Expressions that are too long.
-    pub long: Vec<Span>,
+    /// What is read and still refused.
+    pub refused: Vec<Diagnostic>,
+    /// How deep the deepest of the expressions built so far is nested, in the one around them.
+    pub height: usize,
 }
 
 /// A stretch that the grammar could not read, and what was expected there.
@@ -33,6 +36,10 @@ pub(super) enum Place {
 pub(super) type P<'a> = Pair<'a, Rule>;
 
 impl Builder {
+    pub fn new(file: FileId) -> Self {
+        Builder { file, bad: Vec::new(), refused: Vec::new(), height: 0 }
+    }
+
     pub fn span(&self, pair: &P) -> Span {
         let span = pair.as_span();
         Span {

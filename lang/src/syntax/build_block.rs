@@ -1,9 +1,10 @@
 //! From the grammar's pairs to the tree: blocks and their clauses.
 
-use super::Rule;
 use super::build::{Builder, P, Place, activity, parts, range, take, ty};
 use super::build_expr::{cond, expr, expr_stmt, name, text};
 use super::tree::*;
+use super::{NESTING_MAX, Rule};
+use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
 pub(super) fn block(b: &mut Builder, pair: P) -> Block {
@@ -16,6 +17,15 @@ pub(super) fn block(b: &mut Builder, pair: P) -> Block {
             let span = b.span(&pair);
             clauses.extend(clause(b, pair).map(|kind| Clause { kind, span }));
         }
+    }
+    // Each `with` holds what comes after it: so many of them nest as deep as so many brackets.
+    let is_with = |c: &&Clause| matches!(c.kind, ClauseKind::With(_));
+    if let Some(at) = clauses.iter().filter(is_with).nth(NESTING_MAX).map(|c| c.span) {
+        b.refused.push(
+            Diagnostic::error("syntax::nesting", at, format!("more than {NESTING_MAX} `with` stand in this block"))
+                .help("write what holds together in one `with`, between commas"),
+        );
+        clauses.truncate(NESTING_MAX);
     }
     Block { clauses, span }
 }

@@ -43,7 +43,7 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
     if findings.iter().any(|f| f.code == "syntax::nesting") {
         return Parsed { file: tree::File::default(), findings, comments: scanned.comments };
     }
-    let mut builder = build::Builder { file, bad: Vec::new(), long: Vec::new() };
+    let mut builder = build::Builder::new(file);
     let tree = match Grammar::parse(Rule::file, &scanned.text) {
         Ok(pairs) => build::file(&mut builder, pairs),
         Err(error) => {
@@ -51,7 +51,7 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
             tree::File::default()
         }
     };
-    findings.extend(builder.long.iter().map(|&span| too_long(span)));
+    findings.append(&mut builder.refused);
     for bad in builder.bad {
         // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
         let known = findings.iter().any(|f| f.code.starts_with("syntax::") && touches(f.span(), bad.span));
@@ -69,22 +69,17 @@ pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagno
         return Err(finding);
     }
     let text = scanned.text.trim_end();
-    let mut builder = build::Builder { file, bad: Vec::new(), long: Vec::new() };
+    let mut builder = build::Builder::new(file);
     match Grammar::parse(Rule::expr_only, text) {
         Ok(mut pairs) => match pairs.next() {
             Some(pair) => {
                 let value = build_expr::expr(&mut builder, pair);
-                builder.long.first().map_or(Ok(value), |&span| Err(too_long(span)))
+                builder.refused.into_iter().next().map_or(Ok(value), Err)
             }
             None => Err(Diagnostic::error("syntax::expected", Span { file, start: 0, end: 0 }, "a value is missing")),
         },
         Err(error) => Err(errors::finding(file, text, 0, &error)),
     }
-}
-
-fn too_long(span: Span) -> Diagnostic {
-    Diagnostic::error("syntax::nesting", span, format!("this expression has more than {} parts", build_expr::TERMS_MAX))
-        .help("name parts of it with `let`")
 }
 
 fn touches(a: Span, b: Span) -> bool {
