@@ -98,6 +98,12 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
             findings.extend(rules::check(&checked.hir, *id));
         }
     }
+    let meant: Vec<usize> = missions
+        .iter()
+        .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))
+        .map(|(_, id)| *id)
+        .collect();
+    findings.extend(rules::unreached(&checked.hir, &meant, &checked.overrides));
     diagnostic::settle(&mut findings);
     Script { sources, findings, hir: checked.hir, types: checked.types, missions }
 }
@@ -259,7 +265,7 @@ fn overrides(
                     Some((declaration, param)) => (declaration.to_string(), param.to_string()),
                     None => (owner_of(place.trim(), mission, tree), place.trim().to_string()),
                 };
-                overrides.push(Override { declaration, param, value, used: false });
+                overrides.push(Override { declaration, param, value, found: None });
             }
             Err(finding) => findings.push(finding),
         }

@@ -260,6 +260,7 @@ impl<'t> Checker<'t> {
             }
         };
         let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
+        self.not_negative(&value, "the limit");
         if mission.limits.iter().any(|(c, l, _)| *c == channel.0 && *l == least) {
             self.report(Diagnostic::error("missions::twice", limit.span, "this limit is set twice"));
         }

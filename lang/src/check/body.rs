@@ -3,7 +3,6 @@
 use super::expr::article;
 use super::{Checker, Setting};
 use crate::diagnostic::Diagnostic;
-use crate::dimension::Dimension;
 use crate::hir::{self, Block, Expr, Interval, Order, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Action, Clause, ClauseKind, TyKind};
@@ -454,14 +453,5 @@ impl<'t> Checker<'t> {
             if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
         };
         Some(Stmt { kind, span })
-    }
-
-    /// The duration of `for T` and `within T`.
-    pub(super) fn duration(&mut self, e: &tree::Expr, what: &str) -> Expr {
-        let value = self.expr_as(e, &Type::Quantity(Dimension::TIME), what);
-        if value.range.high < 0.0 {
-            self.report(Diagnostic::error("ranges::negative", value.span, format!("{what} is negative")));
-        }
-        value
     }
 }

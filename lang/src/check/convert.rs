@@ -43,9 +43,13 @@ impl<'t> Checker<'t> {
                 return Expr { ty: Type::Int, ..value };
             }
             (Type::Quantity(d), Type::Heading) if *d == Dimension::ANGLE && is_constant => {
+                if let Some(angle) = constant {
+                    self.within_a_turn(angle, span);
+                }
                 return self.operation(Builtin::Heading, vec![value], Type::Heading, span);
             }
             (Type::Quantity(d), Type::Depth | Type::Altitude) if *d == Dimension::LENGTH && is_constant => {
+                self.below_the_surface(&value, ty, what);
                 return Expr { ty: ty.clone(), ..value };
             }
             (Type::List(a, n), Type::List(b, m)) if n <= m => {

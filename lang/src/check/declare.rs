@@ -25,7 +25,7 @@ impl<'t> Checker<'t> {
                 self.declare_signature(m, item);
             }
         }
-        for unused in self.overrides.clone().into_iter().filter(|o| !o.used) {
+        for unused in self.overrides.clone().into_iter().filter(|o| o.found.is_none()) {
             self.unknown_override(&unused);
         }
         self.make_room();

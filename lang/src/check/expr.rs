@@ -1,6 +1,7 @@
 //! Expressions: names, literals, conversions, conditions.
 
 use super::facts::Place;
+use super::sense::INT_MAX;
 use super::{Checker, Temporal};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -8,9 +9,6 @@ use crate::hir::{Builtin, Expr, ExprKind, Interval, TextPart};
 use crate::source::Span;
 use crate::syntax::tree::{self, Unary};
 use crate::types::Type;
-
-/// Beyond this, 2^53, adding one changes nothing.
-pub(super) const INT_MAX: f64 = 9_007_199_254_740_992.0;
 
 impl<'t> Checker<'t> {
     pub(super) fn unknown(&self, span: Span) -> Expr {
@@ -95,10 +93,6 @@ impl<'t> Checker<'t> {
     }
 
     fn number(&mut self, value: f64, unit: Option<&tree::Name>, span: Span) -> Expr {
-        if !value.is_finite() {
-            self.report(Diagnostic::error("types::number", span, "this number is too large to be calculated with"));
-            return self.unknown(span);
-        }
         if unit.is_none() && value.abs() > INT_MAX {
             self.report(
                 Diagnostic::error("types::number", span, "this whole number is too large to be counted exactly")
@@ -110,8 +104,10 @@ impl<'t> Checker<'t> {
             None if value.fract() == 0.0 => self.make(ExprKind::Number(value), Type::Int, span),
             None => self.make(ExprKind::Number(value), Type::Quantity(Dimension::NONE), span),
             Some(word) => match self.unit(self.scope.module, word) {
-                Some(unit) => self.make(ExprKind::Number(value * unit.scale), Type::Quantity(unit.dimension), span),
-                None => self.unknown(span),
+                Some(unit) if self.sensible_quantity(value * unit.scale, span) => {
+                    self.make(ExprKind::Number(value * unit.scale), Type::Quantity(unit.dimension), span)
+                }
+                _ => self.unknown(span),
             },
         }
     }
@@ -213,7 +209,7 @@ impl<'t> Checker<'t> {
         }
         self.temporal_allowed(span, "for");
         let holds = self.condition(holds);
-        let duration = self.expr_as(duration, &Type::Quantity(Dimension::TIME), "the time after `for`");
+        let duration = self.duration(duration, "the time after `for`");
         self.make(ExprKind::HeldFor(Box::new(holds), Box::new(duration)), Type::Bool, span)
     }
 
@@ -240,7 +236,7 @@ impl<'t> Checker<'t> {
             }
             Unary::After => {
                 self.temporal_allowed(span, "after");
-                let time = self.expr_as(operand, &Type::Quantity(Dimension::TIME), "the time after `after`");
+                let time = self.duration(operand, "the time after `after`");
                 self.make(ExprKind::After(Box::new(time)), Type::Bool, span)
             }
             Unary::Pos => {

@@ -4,7 +4,7 @@ use super::expr::article;
 use super::flow::takes_time;
 use super::{Checker, Temporal, facts};
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Block, ExprKind, Interval, Stmt, StmtKind, VarKind};
+use crate::hir::{Block, Expr, ExprKind, Interval, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Condition, ForOver};
 use crate::types::Type;
@@ -23,6 +23,7 @@ impl<'t> Checker<'t> {
         if let ForOver::Range(range) = over {
             let first = self.expr_as(&range.first, &Type::Int, "the beginning of the range");
             let last = self.expr_as(&range.last, &Type::Int, "the end of the range");
+            self.range_holds_something(range, &first, &last);
             self.enter_loop();
             let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
             let (var, body) = self.in_block(|c| {
@@ -31,7 +32,7 @@ impl<'t> Checker<'t> {
                 (var, c.block(block))
             });
             // Written so that a bound that is no number counts as none.
-            let exact = first.range.low.abs().max(end.abs()) < super::expr::INT_MAX;
+            let exact = first.range.low.abs().max(end.abs()) < super::sense::INT_MAX;
             let bounded = exact && end - first.range.low <= ROUNDS_MAX;
             if !bounded {
                 self.bounded_or_takes_time(&body, range.last.span, span);
@@ -78,6 +79,23 @@ impl<'t> Checker<'t> {
             (var, c.block(block))
         });
         Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
+    }
+
+    /// A range that runs backwards: a loop over it would never go round.
+    fn range_holds_something(&mut self, range: &tree::Range, first: &Expr, last: &Expr) {
+        let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
+        if end >= first.range.low {
+            return;
+        }
+        let finding =
+            Diagnostic::error("ranges::empty", range.first.span.to(range.last.span), "this range holds nothing");
+        let finding = match (first.range.constant(), last.range.constant()) {
+            (Some(first), Some(last)) if first > last => {
+                finding.help(format!("write `{last}..{first}`; to count down take `{} - i` in the loop", first + last))
+            }
+            _ => finding.help("`a..b` holds both ends, `a..<b` all but the last; the smaller end comes first"),
+        };
+        self.report(finding);
     }
 
     pub(super) fn while_stmt(&mut self, condition: &Condition, block: &tree::Block, span: Span) -> Option<Stmt> {

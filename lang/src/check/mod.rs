@@ -16,6 +16,7 @@ mod names;
 mod operators;
 mod params;
 mod scenario;
+mod sense;
 mod table;
 mod test;
 mod timed;
@@ -199,6 +200,8 @@ pub struct Checked {
     pub hir: Hir,
     /// Its declared types.
     pub types: TypeTable,
+    /// What was set from outside, and where it went.
+    pub overrides: Vec<Override>,
     /// What is wrong with it.
     pub findings: Vec<Diagnostic>,
 }
@@ -223,7 +226,7 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
         findings: Vec::new(),
     };
     checker.run();
-    Checked { hir: checker.hir, types: checker.types, findings: checker.findings }
+    Checked { hir: checker.hir, types: checker.types, overrides: checker.overrides, findings: checker.findings }
 }
 
 impl<'t> Checker<'t> {

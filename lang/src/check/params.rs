@@ -17,8 +17,8 @@ pub struct Override {
     pub param: String,
     /// The value.
     pub value: tree::Expr,
-    /// Whether it has found its parameter.
-    pub used: bool,
+    /// The declaration that has it, by its full name, once that is found.
+    pub found: Option<String>,
 }
 
 impl<'t> Checker<'t> {
@@ -58,8 +58,10 @@ impl<'t> Checker<'t> {
                 let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, "the default"));
                 value
             });
-            if let (Some(default), Some(range)) = (&default, range) {
-                self.in_range(default, range, &param.name.node, param.name.span);
+            match (&default, range) {
+                (Some(default), Some(range)) => self.in_range(default, range, &param.name.node, param.name.span),
+                (Some(default), None) if owner.is_some() => self.sensible_default(default, &param.name.node),
+                _ => {}
             }
             infos.push(ParamInfo { name: param.name.node.clone(), ty, default, range, span: param.name.span });
         }
@@ -72,7 +74,7 @@ impl<'t> Checker<'t> {
             .overrides
             .iter_mut()
             .find(|o| o.param == param && (o.declaration == owner || o.declaration == full))?;
-        found.used = true;
+        found.found = Some(if self.modules[m].name.is_empty() { owner.to_string() } else { full });
         Some(found.value.clone())
     }
 
@@ -146,7 +148,7 @@ impl<'t> Checker<'t> {
         self.report(finding.label(declared, format!("`{param}` is in {bounds}")));
     }
 
-    fn shown_number(&self, x: f64, ty: &Type) -> String {
+    pub(super) fn shown_number(&self, x: f64, ty: &Type) -> String {
         let display = match ty {
             Type::Quantity(d) if !d.is_none() => d.display(),
             Type::Heading => Dimension::ANGLE.display(),

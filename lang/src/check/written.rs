@@ -20,6 +20,7 @@ impl<'t> Checker<'t> {
             return None;
         };
         let base = self.unit(m, unit)?;
+        self.sensible_quantity(base.scale * number, value.span).then_some(())?;
         Some(Unit { dimension: base.dimension, scale: base.scale * number })
     }
 

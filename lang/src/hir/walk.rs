@@ -1,6 +1,59 @@
 //! Walks over the checked program: the statements of a block, the expressions of anything.
 
-use super::{Action, Activity, Block, Body, Decl, Expr, ExprKind, InputPart, Stmt, StmtKind, Target, TextPart, With};
+use super::{
+    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, Hir, InputPart, Stmt, StmtKind, Target, TextPart,
+    With,
+};
+use std::collections::BTreeSet;
+
+impl Hir {
+    /// An activity and all to which it leads: its own behaviors, what it calls, the overlays that it puts on.
+    pub fn called_from(&self, activity: ActivityId) -> BTreeSet<ActivityId> {
+        let mut called = BTreeSet::new();
+        let mut ahead = vec![activity];
+        while let Some(id) = ahead.pop() {
+            if called.insert(id) {
+                ahead.extend(self.activities[id].calls());
+            }
+        }
+        called
+    }
+}
+
+impl Activity {
+    /// The activities that it names itself.
+    fn calls(&self) -> Vec<ActivityId> {
+        let mut calls = Vec::new();
+        let mut blocks: Vec<&Block> = Vec::new();
+        match &self.body {
+            Body::Sequence(block) | Body::Amend { block, .. } => blocks.push(block),
+            Body::Table { behaviors, .. } => calls.extend(behaviors),
+        }
+        blocks.extend(self.mission.iter().filter_map(|m| m.recovery.as_ref()).map(|(_, block)| block));
+        for decl in &self.decls {
+            if let Decl::With(items) = decl {
+                calls.extend(overlays(items));
+            }
+        }
+        for block in blocks {
+            block.each(&mut |stmt| match &stmt.kind {
+                StmtKind::With(items, _) => calls.extend(overlays(items)),
+                StmtKind::Timed(timed) => {
+                    if let Action::Call(id, _) = timed.action {
+                        calls.push(id);
+                    }
+                }
+                _ => {}
+            });
+        }
+        calls
+    }
+}
+
+/// The overlays among what `with` puts in force.
+fn overlays(items: &[With]) -> impl Iterator<Item = ActivityId> {
+    items.iter().filter_map(|item| if let With::Overlay(id, _) = item { Some(*id) } else { None })
+}
 
 impl Stmt {
     /// The blocks directly inside it.

@@ -2,6 +2,9 @@
 
 mod channels;
 mod inputs;
+mod unreached;
+
+pub use unreached::check as unreached;
 
 use crate::diagnostic::Diagnostic;
 use crate::hir::Hir;
