@@ -95,6 +95,12 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
             findings.extend(rules::check(&checked.hir, *id));
         }
     }
+    let meant: Vec<usize> = missions
+        .iter()
+        .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))
+        .map(|(_, id)| *id)
+        .collect();
+    findings.extend(rules::unreached(&checked.hir, &meant, &checked.overrides));
     diagnostic::settle(&mut findings);
     Script { sources: sources.clone(), findings, hir: checked.hir, types: checked.types, missions, overrides }
 }
@@ -272,7 +278,7 @@ fn overrides(
                     Some((declaration, param)) => (declaration.to_string(), param.to_string()),
                     None => (owner_of(place.trim(), mission, tree), place.trim().to_string()),
                 };
-                overrides.push(Override { declaration, param, value, used: false });
+                overrides.push(Override { declaration, param, value, found: None });
             }
             Err(finding) => findings.push(finding),
         }

@@ -311,7 +311,7 @@ impl Prompt {
         module.known = known.iter().map(|n| (n.name.clone(), n.ty.clone())).collect();
         let mut modules = self.modules.clone();
         modules.push(module);
-        let check::Checked { hir, types, findings } = check::check(&modules, self.overrides.clone());
+        let check::Checked { hir, types, findings, .. } = check::check(&modules, self.overrides.clone());
         let mission = hir.activities.iter().rposition(|a| a.full_name == MISSION).unwrap_or_default();
         // A line has no area, no limit in time and no recovery: the person at the prompt is there. Other findings are of
         // sources that were looked at before.

@@ -6,12 +6,12 @@
 
 mod activity;
 mod expr;
+mod prepare;
 mod scenario;
 mod stmt;
+mod table;
 mod test;
 mod watch;
-
-pub(crate) use watch::{activity_children, children};
 
 pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 

@@ -1,9 +1,8 @@
 //! Tests to code: each expectation, and what is printed of it when it fails.
 
 use super::Lowering;
-use super::watch::children;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, When};
+use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, When, children};
 use crate::source::Sources;
 use crate::types::TypeTable;
 use albacore_program::{Code, Program, Shape, Slot};
@@ -31,24 +30,8 @@ pub struct TestProgram {
     pub slots: TestSlots,
 }
 
-/// Where expectations find what they speak of.
-#[derive(Clone, Debug)]
-pub struct TestSlots {
-    /// The vehicle's true position (2 words).
-    pub position: Slot,
-    /// The true source nearest to the latest report, else to the vehicle (2 words).
-    pub nearest_source: Slot,
-    /// Seconds since the run began.
-    pub time: Slot,
-    /// Whether the mission came to its own end.
-    pub completed: Slot,
-    /// The mission's area.
-    pub area: Slot,
-    /// For each name that is asked for: presence, then the position of its first report.
-    pub reported: Vec<(String, Slot)>,
-    /// For each name that is asked for: presence, then the seconds until its first report.
-    pub reported_at: Vec<(String, Slot)>,
-}
+/// Where expectations find what they speak of. Positions are two words; what was reported begins with its presence.
+pub type TestSlots = TestNames<Slot>;
 
 /// An expectation.
 #[derive(Clone, Debug)]
@@ -80,15 +63,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     let words = lowering.twice(&test.vars, 0, |l| {
         let at = |id: usize| l.frame.vars[id];
         let known = &test.known;
-        let slots = TestSlots {
-            position: at(known.position),
-            nearest_source: at(known.nearest_source),
-            time: at(known.time),
-            completed: at(known.completed),
-            area: at(known.area),
-            reported: known.reported.iter().map(|(name, id)| (name.clone(), at(*id))).collect(),
-            reported_at: known.reported_at.iter().map(|(name, id)| (name.clone(), at(*id))).collect(),
-        };
+        let slots = known.map(at);
         let reports: Vec<(usize, Slot)> =
             known.reported.iter().chain(&known.reported_at).map(|(_, id)| (*id, at(*id))).collect();
         let expects = test

@@ -1,8 +1,7 @@
 //! Inputs that are read and not required: nobody has said how old they may be.
 
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With};
-use crate::lower::{activity_children, children};
+use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With, activity_children, children};
 use crate::source::Span;
 use albacore_program::Guide;
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,7 +50,7 @@ impl Walk<'_> {
         }
     }
 
-    fn activity(&mut self, id: usize) {
+    pub(super) fn activity(&mut self, id: usize) {
         if !self.seen.insert(id) {
             return;
         }
@@ -90,38 +89,19 @@ impl Walk<'_> {
 
     /// Guidance reads inputs of its own, and calls lead on.
     fn block(&mut self, block: &Block) {
-        for stmt in &block.stmts {
-            match &stmt.kind {
-                StmtKind::If(_, a, b) => {
-                    self.block(a);
-                    self.block(b);
+        block.each(&mut |stmt| match &stmt.kind {
+            StmtKind::With(items, _) => self.with(items),
+            StmtKind::Timed(timed) => match &timed.action {
+                Action::Call(id, _) => self.activity(*id),
+                Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, _) => {
+                    self.note("position", stmt.span);
+                    self.note("course", stmt.span);
+                    self.note("heading", stmt.span);
                 }
-                StmtKind::Match(_, arms, otherwise) => {
-                    for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
-                        self.block(block);
-                    }
-                }
-                StmtKind::ForRange { body, .. }
-                | StmtKind::ForList { body, .. }
-                | StmtKind::ForEdges { body, .. }
-                | StmtKind::While { body, .. }
-                | StmtKind::Loop(body) => self.block(body),
-                StmtKind::With(items, body) => {
-                    self.with(items);
-                    self.block(body);
-                }
-                StmtKind::Timed(timed) => match &timed.action {
-                    Action::Call(id, _) => self.activity(*id),
-                    Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, _) => {
-                        self.note("position", stmt.span);
-                        self.note("course", stmt.span);
-                        self.note("heading", stmt.span);
-                    }
-                    Action::Guide(Guide::Wait, _) => {}
-                    _ => self.note("heading", stmt.span),
-                },
-                _ => {}
-            }
-        }
+                Action::Guide(Guide::Wait, _) => {}
+                _ => self.note("heading", stmt.span),
+            },
+            _ => {}
+        });
     }
 }

@@ -2,6 +2,9 @@
 
 mod channels;
 mod inputs;
+mod unreached;
+
+pub use unreached::check as unreached;
 
 pub use inputs::read as inputs_read;
 

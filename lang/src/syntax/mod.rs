@@ -1,10 +1,12 @@
 //! Text to tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
 
 mod build;
+mod build_block;
 mod build_expr;
 mod errors;
 mod scan;
 pub mod tree;
+mod words;
 
 pub use errors::begins_item;
 pub use scan::{Comment, NESTING_MAX};
@@ -43,7 +45,7 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
 /// Reads statements that stand in no block: the lines of a prompt.
 pub fn parse_lines(file: FileId, source: &str) -> (tree::Block, Vec<Diagnostic>) {
     let (block, findings, _) =
-        read(file, source, Rule::lines, |b, mut pairs| pairs.next().map(|pair| build::block(b, pair)));
+        read(file, source, Rule::lines, |b, mut pairs| pairs.next().map(|pair| build_block::block(b, pair)));
     let nothing = tree::Block { clauses: Vec::new(), span: Span { file, start: 0, end: source.len() as u32 } };
     (block.flatten().unwrap_or(nothing), findings)
 }
@@ -66,7 +68,7 @@ fn read<T>(
     if findings.iter().any(|f| f.code == "syntax::nesting") {
         return (None, findings, scanned.comments);
     }
-    let mut builder = build::Builder { file, bad: Vec::new(), long: Vec::new() };
+    let mut builder = build::Builder::new(file);
     let built = match Grammar::parse(rule, &scanned.text) {
         Ok(pairs) => Some(build(&mut builder, pairs)),
         Err(error) => {
@@ -74,7 +76,7 @@ fn read<T>(
             None
         }
     };
-    findings.extend(builder.long.iter().map(|&span| too_long(span)));
+    findings.append(&mut builder.refused);
     for bad in builder.bad {
         // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
         let known = findings.iter().any(|f| f.code.starts_with("syntax::") && touches(f.span(), bad.span));
@@ -92,22 +94,17 @@ pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagno
         return Err(finding);
     }
     let text = scanned.text.trim_end();
-    let mut builder = build::Builder { file, bad: Vec::new(), long: Vec::new() };
+    let mut builder = build::Builder::new(file);
     match Grammar::parse(Rule::expr_only, text) {
         Ok(mut pairs) => match pairs.next() {
             Some(pair) => {
                 let value = build_expr::expr(&mut builder, pair);
-                builder.long.first().map_or(Ok(value), |&span| Err(too_long(span)))
+                builder.refused.into_iter().next().map_or(Ok(value), Err)
             }
             None => Err(Diagnostic::error("syntax::expected", Span { file, start: 0, end: 0 }, "a value is missing")),
         },
         Err(error) => Err(errors::finding(file, text, 0, &error)),
     }
-}
-
-fn too_long(span: Span) -> Diagnostic {
-    Diagnostic::error("syntax::nesting", span, format!("this expression has more than {} parts", build_expr::TERMS_MAX))
-        .help("name parts of it with `let`")
 }
 
 fn touches(a: Span, b: Span) -> bool {
