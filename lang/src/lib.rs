@@ -28,6 +28,10 @@ use syntax::tree::{self, ActivityKind, Item};
 /// A script imports this many modules at most, all in all.
 const MODULES_MAX: usize = 256;
 
+/// What is found missing when something could not be read: no second mistake.
+const ECHOES: [&str; 6] =
+    ["names::unknown", "types::result", "types::if_value", "rules::start", "rules::unreachable", "rules::ending"];
+
 /// Where imported modules come from.
 pub trait Library {
     /// The modules whose names every script knows.
@@ -78,8 +82,7 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
     let overrides = overrides(&mut sources, set, chosen.as_ref(), &modules[main].tree, &mut findings);
     let unreadable = findings.iter().any(|f| f.code.starts_with("syntax::"));
     let checked = check::check(&modules, overrides);
-    // What could not be read is missing everywhere: names that it would have declared are no second mistake.
-    let later = checked.findings.into_iter().filter(|f| !(unreadable && f.code == "names::unknown"));
+    let later = checked.findings.into_iter().filter(|f| !(unreadable && is_echo(f)));
     findings.extend(later);
     let mut missions = Vec::new();
     for item in &modules[main].tree.items {
@@ -210,6 +213,12 @@ impl Loader<'_> {
         let name = parts.last().cloned().unwrap_or_default();
         Some(self.read(source, name, false, path))
     }
+}
+
+/// Whether a finding may only miss what could not be read.
+fn is_echo(finding: &Diagnostic) -> bool {
+    let misspelt = finding.help.as_ref().is_some_and(|help| help.starts_with("did you mean"));
+    ECHOES.contains(&finding.code) || (finding.code == "rules::unknown" && !misspelt)
 }
 
 fn module_name(file: &str) -> String {

@@ -39,6 +39,11 @@ impl<'t> Checker<'t> {
                 && dimension::unit(unit, &own).is_some()
             {
                 finding.help(format!("to divide by a variable, write a blank: `{unit} / {name}`"))
+            } else if word.node.len() > 1
+                && word.node.starts_with('x')
+                && word.node[1..].chars().all(|c| c.is_ascii_hexdigit())
+            {
+                finding.help("numbers are decimal: write this one with the digits 0 to 9")
             } else if let Some(near) = nearest_unit(&word.node, &known) {
                 finding.help(format!("did you mean `{near}`?"))
             } else {
