@@ -70,7 +70,9 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
         known: BTreeMap::new(),
         findings: Vec::new(),
     };
-    let main = loader.read(entry.clone(), String::new(), false, &mut Vec::new());
+    // A file of the prelude is checked as what it is: what it declares is known everywhere.
+    let is_prelude = library.prelude().iter().any(|source| source.name == entry.name);
+    let main = loader.read(entry.clone(), String::new(), is_prelude, &mut Vec::new());
     for source in library.prelude() {
         if !loader.known.contains_key(&*source.name) {
             let name = module_name(&source.name);

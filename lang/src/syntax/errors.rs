@@ -55,6 +55,9 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             None if bad.place == Place::Item => {
                 finding.help("a file holds behaviors, strategies, missions, scenarios, …")
             }
+            None if word == "return" => {
+                finding.help("a function gives its last expression, and a behavior ends with `finish`")
+            }
             None => finding
                 .help(format!("after a name comes `=`, `(`, or in a switching table `->`; not {}", found(after_word))),
         };

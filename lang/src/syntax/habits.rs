@@ -21,6 +21,7 @@ pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
         ("->", "a rule is `A -> B on X`, in a strategy or a mission"),
         ("'", "texts stand between `\"`"),
         ("#", "comments begin with `//`"),
+        ("%", "`%` is the unit percent; for the remainder of whole numbers write `a - b * floor(a / b)`"),
     ];
     if before.trim_start().starts_with("use ") {
         return only(
@@ -29,6 +30,25 @@ pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     }
     if let Some((_, help)) = signs.iter().find(|(sign, _)| rest.starts_with(sign)) {
         return only(help);
+    }
+    if rest.starts_with('=') {
+        return match before.trim_end().strip_suffix(['+', '-', '*', '/']) {
+            Some(_) => only("an assignment names both sides: `n = n + 1`"),
+            None if expected.contains("`{`") => only("to compare write `==`"),
+            None => None,
+        };
+    }
+    if expected.contains("`{`") && rest.starts_with('\n') && rest.trim_start().starts_with('{') {
+        return only("the `{` stands on the same line");
+    }
+    if let Some(word) = before.split_whitespace().next_back().filter(|word| ["wait", "hold"].contains(word))
+        && rest.starts_with(|c: char| c.is_ascii_digit())
+    {
+        let time = rest.split(['\n', ';', '}']).next().unwrap_or("").trim();
+        return Some(Habit {
+            message: Some(format!("`for` is missing after `{word}`")),
+            help: format!("write `{word} for {time}`"),
+        });
     }
     number(before, rest).or_else(|| setpoint(before, rest, expected)).or_else(|| crowded(rest))
 }
