@@ -1,11 +1,13 @@
 //! The command line: one file a verb. All that concerns terminals, files written and exit codes is here.
 
 mod check;
+mod clock;
 mod exit;
 mod kept;
 mod message;
 mod run;
 mod test;
+mod vehicle;
 
 use clap::{Parser, Subcommand};
 use exit::Exit;
@@ -27,6 +29,8 @@ enum Verb {
     Check(check::Check),
     /// Run the tests of scripts.
     Test(test::Test),
+    /// Serve a simulated vehicle at the far end of a link.
+    Vehicle(vehicle::Vehicle),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +47,7 @@ fn main() -> ExitCode {
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
         Verb::Test(test) => test.run(),
+        Verb::Vehicle(vehicle) => vehicle.run(),
     };
     ExitCode::from(exit)
 }

@@ -1,15 +1,17 @@
 //! `albacore run`: checks a mission and runs it.
 
+use crate::clock::{self, Pace, now};
 use crate::exit::Exit;
 use crate::kept::Kept;
 use crate::message;
-use albacore_session::{Outcome, Plan, PlanError, Run as MissionRun, Running, Script, Summary};
+use crate::vehicle::told;
+use albacore_session::{HostClock, Outcome, Plan, PlanError, Run as MissionRun, Running, Script, Summary, Url};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Ticks between two looks of the person at the progress.
 const TICKS_AT_ONCE: u64 = 100;
@@ -32,6 +34,13 @@ pub struct Run {
     /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Drive a vehicle at the end of a link instead of a simulated one: `serial:/dev/ttyUSB0?dialect=recon`,
+    /// `udp:HOST:PORT?dialect=recon`.
+    #[arg(long, value_name = "URL", conflicts_with = "scenario")]
+    link: Option<String>,
+    /// How many times faster than real time; else a simulation runs as fast as it can, and a vehicle in real time.
+    #[arg(long, value_name = "N", value_parser = clock::rate)]
+    rate: Option<f64>,
     /// The folder for the journal, the trace and the picture; else `albacore-runs/MISSION-SEED`.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -57,15 +66,10 @@ impl Run {
         if !script.is_sound() {
             return Exit::Script;
         }
-        let file = self.script.display().to_string();
-        let plan = match Plan::new(&script, &file, self.mission.as_deref(), self.scenario.as_deref()) {
-            Ok(plan) => plan,
-            Err(error) => return refused(&error, &script),
-        };
         let started = now();
-        let mut run = match MissionRun::new(&plan, self.seed) {
-            Ok(run) => run,
-            Err(error) => return refused(&error, &script),
+        let (plan, mut run) = match self.prepare(&script) {
+            Ok(prepared) => prepared,
+            Err(exit) => return exit,
         };
         let interrupted = interruption();
         let mut kept = self.folder(&plan).map_or_else(Kept::nothing, Kept::begin);
@@ -73,15 +77,37 @@ impl Run {
             run.with_journal(Box::new(journal), &self.set);
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
-        let summary = run.summary(started.elapsed().as_secs_f64());
+        let summary = run.summary(now().duration_since(started).as_secs_f64());
+        if self.link.is_some() && outcome != Outcome::Completed && !summary.reason.is_empty() {
+            message::error(&summary.reason, None);
+        }
         let picture = kept.finish(&run);
         self.tell(&summary, picture.as_deref());
         match outcome {
-            _ if kept.has_failed() => Exit::Failed,
+            _ if kept.has_failed() || run.release_failed() => Exit::Failed,
             Outcome::Failed | Outcome::LinkLost => Exit::Failed,
             Outcome::Completed => Exit::Well,
             _ => Exit::NotWell,
         }
+    }
+
+    /// The plan, and a run of it at its first tick: in a simulated world or on a link.
+    fn prepare(&self, script: &Script) -> Result<(Plan, MissionRun), Exit> {
+        let file = self.script.display().to_string();
+        let (mission, scenario) = (self.mission.as_deref(), self.scenario.as_deref());
+        let refused = |error| refused(&error, script);
+        let Some(link) = &self.link else {
+            let plan = Plan::new(script, &file, mission, scenario).map_err(refused)?;
+            let run = MissionRun::new(&plan, self.seed).map_err(refused)?;
+            return Ok((plan, run));
+        };
+        let url = Url::parse(link).map_err(|error| told(&error, Exit::Usage))?;
+        let plan = Plan::on_link(script, &file, mission, &url.to_string()).map_err(refused)?;
+        let vehicle = albacore_session::call(&url, &plan, self.rate.unwrap_or(1.0), host_clock())
+            .map_err(|error| told(&error, Exit::Failed))?;
+        let run = MissionRun::on_link(&plan, self.seed, vehicle).map_err(refused)?;
+        message::write(&format!("link open to {url}\n"));
+        Ok((plan, run))
     }
 
     /// Where files go, if any are wanted.
@@ -93,10 +119,19 @@ impl Run {
     /// Ticks until the mission ends or the person interrupts it.
     fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut Kept, interrupted: &AtomicBool) -> Outcome {
         let bar = self.bar(plan);
+        // A vehicle at the end of a link has a time of its own.
+        let mut pace = self.rate.filter(|_| self.link.is_none()).map(Pace::new);
         loop {
+            if let Some(pace) = &mut pace {
+                std::thread::sleep(pace.left(false));
+                pace.begin();
+            }
             let running = if interrupted.load(Ordering::Relaxed) { run.interrupt() } else { run.step() };
             if let Some(error) = run.journal_failure() {
                 bar.suspend(|| kept.journal_failed(&error));
+            }
+            for notice in run.take_notices() {
+                bar.suspend(|| message::write(&format!("link: {notice}\n")));
             }
             if let Running::Over(outcome) = running {
                 bar.finish_and_clear();
@@ -140,7 +175,7 @@ impl Run {
 }
 
 /// A flag that Ctrl-C and the system's request to end raise.
-fn interruption() -> Arc<AtomicBool> {
+pub fn interruption() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.
@@ -185,7 +220,8 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
     text
 }
 
-fn refused(error: &PlanError, script: &Script) -> Exit {
+/// Tells why a script cannot be run as asked.
+pub fn refused(error: &PlanError, script: &Script) -> Exit {
     match error {
         PlanError::Script(findings) => {
             message::findings(findings, &script.sources);
@@ -198,8 +234,8 @@ fn refused(error: &PlanError, script: &Script) -> Exit {
     }
 }
 
-/// The wall clock, which only the command line may read.
-#[expect(clippy::disallowed_methods, reason = "how long a run took is told to the person and is no part of its result")]
-fn now() -> Instant {
-    Instant::now()
+/// The time since the run began, by the wall clock.
+fn host_clock() -> HostClock {
+    let begun = now();
+    Box::new(move || now().duration_since(begun))
 }
