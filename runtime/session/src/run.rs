@@ -21,6 +21,8 @@ use std::sync::Arc;
 const TICKS_MAX: u64 = 8_640_000;
 /// Ticks between the points of the track that the picture draws.
 const TRACK_EVERY_TICKS: u64 = 5;
+/// Notices of a link that wait to be taken; the oldest are dropped.
+const NOTICES_MAX: usize = 64;
 /// Detections in the picture: readings at or above this share of full scale, the papers' threshold.
 const DETECTION: f64 = 0.04;
 
@@ -357,7 +359,10 @@ impl Run {
         let released = self.vehicle.port().release();
         self.hear();
         if let Err(error) = released {
-            self.reason = error.to_string();
+            // What ended the run comes first.
+            if self.reason.is_empty() {
+                self.reason = error.to_string();
+            }
             self.release_failed = true;
         }
         let ticks = self.tick();
@@ -368,7 +373,10 @@ impl Run {
     }
 
     fn hear(&mut self) {
-        self.notices.extend(self.vehicle.port().notices());
+        let heard = self.vehicle.port().notices();
+        self.notices.extend(heard);
+        let surplus = self.notices.len().saturating_sub(NOTICES_MAX);
+        self.notices.drain(..surplus);
     }
 
     /// The latest numbers of a channel in this tick.

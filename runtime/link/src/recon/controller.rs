@@ -115,6 +115,7 @@ pub struct Controller {
     out: Vec<u8>,
     count: Count,
     notices: Vec<String>,
+    told: String,
 }
 
 impl Controller {
@@ -139,6 +140,7 @@ impl Controller {
             out: Vec::new(),
             count: Count::default(),
             notices: Vec::new(),
+            told: String::new(),
         }
     }
 
@@ -401,9 +403,10 @@ impl Controller {
         self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
     }
 
-    /// What is told once is not told again at once.
+    /// What was told last is not told again.
     fn notice(&mut self, text: String) {
-        if self.notices.len() < NOTICES_MAX && self.notices.last() != Some(&text) {
+        if self.notices.len() < NOTICES_MAX && self.told != text {
+            self.told.clone_from(&text);
             self.notices.push(text);
         }
     }

@@ -73,19 +73,19 @@ impl Deframer {
     /// Takes in bytes, and gives each body that they complete, or why a line is none. Empty lines say nothing.
     pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<&str, Unreadable>)) {
         for &byte in bytes {
-            if byte == b'\n' {
-                let line = std::mem::take(&mut self.line);
-                if !std::mem::take(&mut self.dropping) && !line.trim_ascii().is_empty() {
-                    each(unseal(&line));
+            match byte {
+                b'\n' => {
+                    if !std::mem::take(&mut self.dropping) && !self.line.trim_ascii().is_empty() {
+                        each(unseal(&self.line));
+                    }
+                    self.line.clear();
                 }
-                self.line = line;
-                self.line.clear();
-            } else if self.dropping {
-            } else if self.line.len() == LINE_MAX {
-                self.dropping = true;
-                each(Err(Unreadable::TooLong));
-            } else {
-                self.line.push(byte);
+                _ if self.dropping => {}
+                _ if self.line.len() == LINE_MAX => {
+                    self.dropping = true;
+                    each(Err(Unreadable::TooLong));
+                }
+                _ => self.line.push(byte),
             }
         }
     }

@@ -129,6 +129,8 @@ pub struct FrontSeat<V> {
     senses: Senses,
     command: Option<Command>,
     unreadable: u64,
+    /// Why something was refused last, and when.
+    refused: Option<(&'static str, u64)>,
     out: Vec<u8>,
     happenings: Vec<Happening>,
 }
@@ -154,6 +156,7 @@ impl<V: Vehicle> FrontSeat<V> {
             senses: Senses { position: start.0, heading: start.1, course: start.1, battery: 1.0, ..Senses::default() },
             command: None,
             unreadable: 0,
+            refused: None,
             out: Vec::new(),
             happenings,
         }
@@ -278,10 +281,12 @@ impl<V: Vehicle> FrontSeat<V> {
 
     fn refuse(&mut self, what: &ToVehicle, code: u32, why: &'static str) {
         self.say(&FromVehicle::Error(code, why.to_string()));
-        let happening = Happening::Refused(format!("#{what}"), why);
-        if self.happenings.last() != Some(&happening) {
-            self.happenings.push(happening);
+        // Who does not listen says it again and again; who watches need not hear it as often.
+        let again = self.refused.is_some_and(|(last, tick)| last == why && self.tick - tick < TIMEOUT_TICKS);
+        if !again {
+            self.happenings.push(Happening::Refused(format!("#{what}"), why));
         }
+        self.refused = Some((why, self.tick));
     }
 
     /// Back to where the guest took over, or to the closest point of the row.
