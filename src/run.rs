@@ -78,7 +78,7 @@ impl Run {
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(now().duration_since(started).as_secs_f64());
-        if self.link.is_some() && outcome != Outcome::Completed && !summary.reason.is_empty() {
+        if self.link.is_some() && outcome == Outcome::Failed {
             message::error(&summary.reason, None);
         }
         let picture = kept.finish(&run);

@@ -51,6 +51,12 @@ fn eventually<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     panic!("in vain: {what}");
 }
 
+/// Waits until a file has so many bytes: the mission of its journal is then well under way.
+#[track_caller]
+fn grown(path: &Path, bytes: u64) {
+    eventually("a journal", || std::fs::metadata(path).ok().filter(|m| m.len() > bytes));
+}
+
 /// The far end, and what it says.
 struct Vehicle {
     child: Child,
@@ -160,7 +166,7 @@ fn a_vehicle_whose_guest_is_killed_goes_back_to_its_rows() {
     let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
     let out = folder.join("run");
     let mut run = vehicle.driven(&["--out", &out.display().to_string()]);
-    eventually("a journal", || std::fs::metadata(out.join("journal")).ok().filter(|m| m.len() > 2000));
+    grown(&out.join("journal"), 2000);
     run.kill().unwrap();
     run.wait().unwrap();
     vehicle.says("override timed out: no message for 5 s");
@@ -200,11 +206,14 @@ fn a_vehicle_that_goes_away_is_told_with_4() {
 fn a_vehicle_that_falls_silent_is_told_with_4() {
     let folder = empty("silent");
     let vehicle = Vehicle::serve("udp:127.0.0.1:0?dialect=recon", &folder);
-    let run = vehicle.driven(&["--no-out"]);
+    let out = folder.join("run");
+    let run = vehicle.driven(&["--out", &out.display().to_string()]);
+    grown(&out.join("journal"), 20_000);
     assert_eq!(vehicle.stop().0, Some(0));
     let output = run.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("link lost"));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("link lost"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("leaves override by itself"), "{}", stderr(&output));
 }
 
 /// Runs the mission against a peer that says the same line again and again.

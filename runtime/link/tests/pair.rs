@@ -233,15 +233,18 @@ fn who_falls_silent_loses_control_after_five_seconds_exactly() {
 }
 
 #[test]
-fn a_keep_alive_is_enough_to_stay_in_control() {
+fn who_commands_nothing_stays_in_control() {
     let mut pair = excursion(1, 0.0);
-    for _ in 0..10 {
-        pair.controller.hello();
-        pair.send();
-        for _ in 0..40 {
-            let bytes = std::mem::take(&mut pair.to_vehicle);
-            pair.vehicle.tick(&bytes).unwrap();
-        }
+    pair.ticks(300, None);
+    assert!(!pair.happenings.contains(&Happening::TimedOut));
+    assert_eq!(pair.controls.last(), Some(&Control::InControl));
+}
+
+#[test]
+fn a_keep_alive_every_five_seconds_is_enough() {
+    let mut pair = excursion(1, 0.0);
+    for tick in 0..500 {
+        pair.vehicle.tick(if tick % 50 == 0 { b"#V,0.000000,*79\n" } else { b"" }).unwrap();
     }
     assert!(!pair.vehicle.take_happenings().contains(&Happening::TimedOut));
 }

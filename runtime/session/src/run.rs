@@ -359,10 +359,7 @@ impl Run {
         let released = self.vehicle.port().release();
         self.hear();
         if let Err(error) = released {
-            // What ended the run comes first.
-            if self.reason.is_empty() {
-                self.reason = error.to_string();
-            }
+            self.notices.push(error.to_string());
             self.release_failed = true;
         }
         let ticks = self.tick();

@@ -48,6 +48,8 @@ const ACKNOWLEDGED_TICKS: u64 = 2;
 /// Every goal is sent again after this many ticks, twice a second: goals latch, but a vehicle may lose one, and it leaves who
 /// is silent.
 const AGAIN_TICKS: u64 = 5;
+/// Who commands nothing says at least this often that it is there.
+const KEEP_ALIVE_TICKS: u64 = 10;
 /// A goal that is not acknowledged for this many ticks is one that the vehicle refuses.
 const IGNORED_TICKS: u64 = 30;
 /// A vehicle that answers, but does not let us drive for this many ticks, refuses.
@@ -111,7 +113,8 @@ pub struct Controller {
     want: Want,
     lost: bool,
     goals: [Goal; 3],
-    kept_alive: Option<u64>,
+    /// The tick in which something was said last.
+    spoke: u64,
     out: Vec<u8>,
     count: Count,
     notices: Vec<String>,
@@ -136,7 +139,7 @@ impl Controller {
             want: Want::Listen,
             lost: false,
             goals: Default::default(),
-            kept_alive: None,
+            spoke: 0,
             out: Vec::new(),
             count: Count::default(),
             notices: Vec::new(),
@@ -152,6 +155,11 @@ impl Controller {
     /// Who drives.
     pub fn control(&self) -> Control {
         self.control
+    }
+
+    /// What a person was told last: why the vehicle is no longer driven, when it is not.
+    pub fn why(&self) -> &str {
+        &self.told
     }
 
     /// How much came.
@@ -276,7 +284,10 @@ impl Controller {
         snapshot.control = self.control;
         match (self.want, self.control) {
             (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
-            (Want::Drive { .. }, Control::Suspended) => self.keep_alive(tick),
+            // The mission stands still, or has not begun: it commands nothing.
+            (Want::Drive { .. }, Control::InControl | Control::Suspended) if tick - self.spoke >= KEEP_ALIVE_TICKS => {
+                self.hello();
+            }
             _ => {}
         }
     }
@@ -362,13 +373,6 @@ impl Controller {
         self.say(message);
     }
 
-    fn keep_alive(&mut self, tick: u64) {
-        if self.kept_alive.is_none_or(|last| tick - last >= AGAIN_TICKS) {
-            self.kept_alive = Some(tick);
-            self.hello();
-        }
-    }
-
     /// Says that we are here, without asking for anything.
     pub fn hello(&mut self) {
         self.say(&ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into()));
@@ -400,6 +404,7 @@ impl Controller {
     }
 
     fn say(&mut self, message: &ToVehicle) {
+        self.spoke = self.next_tick.saturating_sub(1);
         self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
     }
 

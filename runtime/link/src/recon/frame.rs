@@ -125,6 +125,21 @@ mod tests {
         }
     }
 
+    /// A sum of 8 bits notices every single wrong byte, though not every two.
+    #[test]
+    fn no_single_wrong_byte_goes_unnoticed() {
+        let body = "S,T15:08:37.672,LAT39N30.5553,LON74W19.4386,D-0.10,DG0.00,A0.00,M10,l0";
+        let line = seal(body).into_bytes();
+        for at in 0..line.len() {
+            for wrong in 0..=255 {
+                let mut changed = line.clone();
+                changed[at] = wrong;
+                let found = read(&changed);
+                assert!(found.iter().flatten().all(|b| b == body), "byte {at} as {wrong}: {found:?}");
+            }
+        }
+    }
+
     #[test]
     fn the_comma_before_the_star_belongs_to_the_frame() {
         let sum = "#E,1*".bytes().fold(0_u8, u8::wrapping_add);

@@ -95,9 +95,9 @@ impl ReconVehicle {
             )
         } else {
             format!(
-                "{} messages came from `{url}` and {} lines that are none, but no state (`#S`) with a running clock in the \
-                 last {seconds} s: check that the vehicle sends it",
-                count.messages, count.unreadable
+                "{} messages came from `{url}`, but no state (`#S`) with a running clock in the last {seconds} s: check that \
+                 the vehicle sends it",
+                count.messages
             )
         })
     }
@@ -109,6 +109,10 @@ impl Vehicle for ReconVehicle {
     }
 
     fn ready(&mut self) -> Result<bool, VehicleError> {
+        // That was told, and a mission that is under way ends of it. One that is not would wait for ever.
+        if matches!(self.controller.control(), Control::Released | Control::TimedOut) {
+            return Err(VehicleError(format!("before the mission began: {}", self.controller.why())));
+        }
         if !self.controller.is_due() {
             self.look()?;
         }
@@ -129,7 +133,12 @@ impl Vehicle for ReconVehicle {
         }
         match self.controller.control() {
             Control::InControl | Control::Suspended => {
-                self.controller.lose(self.diagnosis().0);
+                self.controller.lose(format!(
+                    "no state (`#S`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us \
+                     leaves override by itself",
+                    self.url,
+                    self.silence.as_secs_f64()
+                ));
                 Ok(true)
             }
             _ => Err(self.diagnosis()),
