@@ -223,11 +223,7 @@ fn who_falls_silent_loses_control_after_five_seconds_exactly() {
         pair.happenings.extend(pair.vehicle.take_happenings());
     }
     assert!(pair.happenings.contains(&Happening::TimedOut));
-    let said = pair.vehicle.take_output();
-    pair.controller.hear(&said);
-    while pair.controller.is_due() {
-        pair.controller.sense(&mut pair.snapshot);
-    }
+    pair.ticks(3, None);
     assert_eq!(pair.snapshot.control, Control::Released, "and the controller, back again, is told");
     pair.until(1500, |h| matches!(h, Happening::Resumed(_, 1)));
 }

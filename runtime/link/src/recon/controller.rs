@@ -54,6 +54,8 @@ const KEEP_ALIVE_TICKS: u64 = 10;
 const IGNORED_TICKS: u64 = 30;
 /// A vehicle that answers, but does not let us drive for this many ticks, refuses.
 const REQUEST_TICKS: u64 = 300;
+/// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
+const LEFT_TICKS: u64 = 3;
 /// Frames that wait for their tick; the oldest are given up.
 const WAITING_MAX: usize = 4096;
 /// Notices that wait to be read.
@@ -112,6 +114,8 @@ pub struct Controller {
     control: Control,
     want: Want,
     lost: bool,
+    /// Ticks for which the vehicle has said that we do not drive, although we did.
+    left: u64,
     goals: [Goal; 3],
     /// The tick in which something was said last.
     spoke: u64,
@@ -138,6 +142,7 @@ impl Controller {
             control: Control::Disconnected,
             want: Want::Listen,
             lost: false,
+            left: 0,
             goals: Default::default(),
             spoke: 0,
             out: Vec::new(),
@@ -301,15 +306,23 @@ impl Controller {
         let active = mode.has(Mode::ACTIVE);
         let driven = matches!(self.control, Control::InControl | Control::Suspended);
         let Want::Drive { since } = self.want else { return Control::Monitoring };
+        let suspended = mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over;
+        if driven && !suspended && !(active && mode.phase() == Phase::InMission) {
+            self.left += 1;
+            if self.left < LEFT_TICKS {
+                return self.control;
+            }
+        } else {
+            self.left = 0;
+        }
         match (mode.phase(), self.control) {
             (_, ended @ (Control::Released | Control::Refused)) => ended,
             (Phase::Over, _) if driven => self.end(Control::Released, "the vehicle's own mission is over"),
             (Phase::Over, _) => {
                 self.end(Control::Refused, "the vehicle's own mission is over: nothing can be overridden")
             }
-            (Phase::Suspended, _) if driven => Control::Suspended,
-            _ if driven && mode.has(Mode::NOT_ALLOWED) => Control::Suspended,
-            (Phase::InMission, _) if active && !mode.has(Mode::NOT_ALLOWED) => Control::InControl,
+            _ if driven && suspended => Control::Suspended,
+            (Phase::InMission, _) if active && !suspended => Control::InControl,
             _ if driven => self.end(Control::Released, "the vehicle has left override by itself"),
             (phase, _) if tick - since > REQUEST_TICKS => {
                 let why = match phase {
