@@ -2,6 +2,7 @@
 
 mod campaign;
 mod check;
+mod clock;
 mod exit;
 mod interruption;
 mod kept;
@@ -10,6 +11,7 @@ mod plan;
 mod repl;
 mod run;
 mod test;
+mod vehicle;
 
 use clap::{Parser, Subcommand};
 use exit::Exit;
@@ -38,6 +40,8 @@ enum Verb {
     /// A row for each seed, in their order: the same bytes on any number of cores and after any interruption. Ends with 0
     /// when every seed was run, whatever came of it; with 1 when interrupted.
     Campaign(campaign::Campaign),
+    /// Serve a simulated vehicle at the far end of a link.
+    Vehicle(vehicle::Vehicle),
 }
 
 fn main() -> ExitCode {
@@ -56,6 +60,7 @@ fn main() -> ExitCode {
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
         Verb::Campaign(campaign) => campaign.run(),
+        Verb::Vehicle(vehicle) => vehicle.run(),
     };
     ExitCode::from(exit)
 }

@@ -5,6 +5,16 @@ use crate::message;
 use albacore_session::{Plan, PlanError, Script};
 use std::path::Path;
 
+/// Loads a script, or says what is wrong and how the program ends.
+pub fn script(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script, Exit> {
+    let script = albacore_session::load(path, mission, set).map_err(|error| {
+        message::error(&error.message, error.help.as_deref());
+        Exit::Usage
+    })?;
+    message::findings(&script.findings, &script.sources);
+    if script.is_sound() { Ok(script) } else { Err(Exit::Script) }
+}
+
 /// Loads a script and plans a mission of it, or says what is wrong and how the program ends.
 pub fn plan(
     path: &Path,
@@ -12,17 +22,7 @@ pub fn plan(
     scenario: Option<&str>,
     set: &[String],
 ) -> Result<(Script, Plan), Exit> {
-    let script = match albacore_session::load(path, mission, set) {
-        Ok(script) => script,
-        Err(error) => {
-            message::error(&error.message, error.help.as_deref());
-            return Err(Exit::Usage);
-        }
-    };
-    message::findings(&script.findings, &script.sources);
-    if !script.is_sound() {
-        return Err(Exit::Script);
-    }
+    let script = script(path, mission, set)?;
     match Plan::new(&script, &path.display().to_string(), mission, scenario) {
         Ok(plan) => Ok((script, plan)),
         Err(error) => Err(refused(&error, &script)),

@@ -1,14 +1,16 @@
 //! `albacore run`: checks a mission and runs it.
 
+use crate::clock::{self, Pace, now};
 use crate::exit::Exit;
 use crate::kept::Kept;
+use crate::vehicle::told;
 use crate::{interruption, message, plan};
-use albacore_session::{Outcome, Plan, Run as MissionRun, Running, Summary};
+use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Summary, Url};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Ticks between two looks of the person at the progress.
 const TICKS_AT_ONCE: u64 = 100;
@@ -31,6 +33,13 @@ pub struct Run {
     /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Drive a vehicle at the end of a link instead of a simulated one: `serial:/dev/ttyUSB0?dialect=recon`,
+    /// `udp:HOST:PORT?dialect=recon`.
+    #[arg(long, value_name = "URL", conflicts_with = "scenario")]
+    link: Option<String>,
+    /// How many times faster than real time; else a simulation runs as fast as it can, and a vehicle in real time.
+    #[arg(long, value_name = "N", value_parser = clock::rate)]
+    rate: Option<f64>,
     /// The folder for the journal, the trace and the picture; else `albacore-runs/MISSION-SEED`.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -45,15 +54,14 @@ pub struct Run {
 impl Run {
     /// Runs the mission to its end.
     pub fn run(&self) -> Exit {
-        let (mission, scenario) = (self.mission.as_deref(), self.scenario.as_deref());
-        let (script, plan) = match plan::plan(&self.script, mission, scenario, &self.set) {
-            Ok(planned) => planned,
+        let script = match plan::script(&self.script, self.mission.as_deref(), &self.set) {
+            Ok(script) => script,
             Err(exit) => return exit,
         };
         let started = now();
-        let mut run = match MissionRun::new(&plan, self.seed) {
-            Ok(run) => run,
-            Err(error) => return plan::refused(&error, &script),
+        let (plan, mut run) = match self.prepare(&script) {
+            Ok(prepared) => prepared,
+            Err(exit) => return exit,
         };
         let interrupted = interruption::flag();
         let mut kept = self.folder(&plan).map_or_else(Kept::nothing, Kept::begin);
@@ -61,15 +69,37 @@ impl Run {
             run.with_journal(Box::new(journal), &self.set);
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
-        let summary = run.summary(started.elapsed().as_secs_f64());
+        let summary = run.summary(now().duration_since(started).as_secs_f64());
+        if self.link.is_some() && outcome == Outcome::Failed {
+            message::error(&summary.reason, None);
+        }
         let picture = kept.finish(&run);
         self.tell(&summary, picture.as_deref());
         match outcome {
-            _ if kept.has_failed() => Exit::Failed,
+            _ if kept.has_failed() || run.release_failed() => Exit::Failed,
             Outcome::Failed | Outcome::LinkLost => Exit::Failed,
             Outcome::Completed => Exit::Well,
             _ => Exit::NotWell,
         }
+    }
+
+    /// The plan, and a run of it at its first tick: in a simulated world or on a link.
+    fn prepare(&self, script: &Script) -> Result<(Plan, MissionRun), Exit> {
+        let file = self.script.display().to_string();
+        let (mission, scenario) = (self.mission.as_deref(), self.scenario.as_deref());
+        let refused = |error| plan::refused(&error, script);
+        let Some(link) = &self.link else {
+            let plan = Plan::new(script, &file, mission, scenario).map_err(refused)?;
+            let run = MissionRun::new(&plan, self.seed).map_err(refused)?;
+            return Ok((plan, run));
+        };
+        let url = Url::parse(link).map_err(|error| told(&error, Exit::Usage))?;
+        let plan = Plan::on_link(script, &file, mission, &url.to_string()).map_err(refused)?;
+        let vehicle = albacore_session::call(&url, &plan, self.rate.unwrap_or(1.0), host_clock())
+            .map_err(|error| told(&error, Exit::Failed))?;
+        let run = MissionRun::on_link(&plan, self.seed, vehicle).map_err(refused)?;
+        message::write(&format!("link open to {url}\n"));
+        Ok((plan, run))
     }
 
     /// Where files go, if any are wanted.
@@ -81,10 +111,19 @@ impl Run {
     /// Ticks until the mission ends or the person interrupts it.
     fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut Kept, interrupted: &AtomicBool) -> Outcome {
         let bar = self.bar(plan);
+        // A vehicle at the end of a link has a time of its own.
+        let mut pace = self.rate.filter(|_| self.link.is_none()).map(Pace::new);
         loop {
+            if let Some(pace) = &mut pace {
+                std::thread::sleep(pace.left(false));
+                pace.begin();
+            }
             let running = if interrupted.load(Ordering::Relaxed) { run.interrupt() } else { run.step() };
             if let Some(error) = run.journal_failure() {
                 bar.suspend(|| kept.journal_failed(&error));
+            }
+            for notice in run.take_notices() {
+                bar.suspend(|| message::write(&format!("link: {notice}\n")));
             }
             if let Running::Over(outcome) = running {
                 bar.finish_and_clear();
@@ -164,8 +203,8 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
     text
 }
 
-/// The wall clock, which only the command line may read.
-#[expect(clippy::disallowed_methods, reason = "how long a run took is told to the person and is no part of its result")]
-fn now() -> Instant {
-    Instant::now()
+/// The time since the run began, by the wall clock.
+fn host_clock() -> HostClock {
+    let begun = now();
+    Box::new(move || now().duration_since(begun))
 }

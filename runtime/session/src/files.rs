@@ -44,6 +44,12 @@ pub fn load(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script
     Ok(albacore_lang::load(source, &files, mission, set))
 }
 
+/// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it.
+pub fn load_library() -> Script {
+    let nothing = Source { name: "the standard library".into(), text: "".into() };
+    albacore_lang::load(nothing, &Files::around(Path::new("")), None, &[])
+}
+
 /// Reads a source file as text.
 pub(crate) fn read(path: &Path) -> Result<Source, FileError> {
     let name = path.display().to_string();

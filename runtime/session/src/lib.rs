@@ -1,21 +1,28 @@
 //! Load, check and step a mission: the few types that the command line, the tests and the prompt all use.
 
 pub mod campaign;
+mod craft;
 mod files;
 mod journal;
+mod link;
 mod picture;
 pub mod prompt;
 mod run;
 mod scenario;
 mod summary;
 mod tests;
+mod world;
 
 pub use albacore_lang::Script;
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::source::{FileId, Source, Sources, Span};
+pub use albacore_link::recon::{HostClock, Rows};
+pub use albacore_link::{LinkError, Transport, Url, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
-pub use files::{FileError, Files, load};
+pub use files::{FileError, Files, load, load_library};
+pub use link::{Called, call};
 pub use run::{Plan, PlanError, Run, Running};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, run_test};
+pub use world::{FarEnd, World};

@@ -7,7 +7,8 @@ mod command;
 mod moment;
 
 use crate::files::Files;
-use crate::run::{Plan, PlanError, world};
+use crate::run::{Plan, PlanError};
+use crate::world;
 use crate::{FileError, Script};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::prompt::{Drive, Left, Line, Named, Prompt as Lines};
@@ -114,9 +115,9 @@ impl Prompt {
             let plan = Plan::new(&script, &name, opening.mission, opening.scenario).map_err(refused)?;
             (Some(plan.program), plan.scenario_name, plan.scenario)
         } else {
-            let (name, scenario) =
-                world(&script, opening.scenario.unwrap_or(SCENARIO_AT_FIRST), None).map_err(refused)?;
-            (None, name, Arc::new(scenario))
+            let wanted = opening.scenario.unwrap_or(SCENARIO_AT_FIRST);
+            let (lowered, scenario) = world::scenario(&script, wanted, None).map_err(refused)?;
+            (None, lowered.name, Arc::new(scenario))
         };
         let now = Moment::first(vehicle(&scenario, opening.seed)?)
             .map_err(|error| OpenError::Asked(error.to_string(), None))?;

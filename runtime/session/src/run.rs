@@ -1,10 +1,11 @@
-//! One run of a mission in a simulated world, tick by tick, with its journal, trace, digest and picture.
+//! One run of a mission, tick by tick, with its journal, trace, digest and picture: in a simulated world or on a link.
 
+use crate::craft::{Craft, Odometer};
 use crate::journal::Keeper;
 use crate::picture;
-use crate::scenario;
 use crate::summary::{Report, Summary};
-use albacore_geometry::{Geodetic, Point, TangentFrame, Vector};
+use crate::world;
+use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{Script, suggestion};
 use albacore_machine::{Event, Machine, Outcome};
@@ -20,6 +21,8 @@ use std::sync::Arc;
 const TICKS_MAX: u64 = 8_640_000;
 /// Ticks between the points of the track that the picture draws.
 const TRACK_EVERY_TICKS: u64 = 5;
+/// Notices of a link that wait to be taken; the oldest are dropped.
+const NOTICES_MAX: usize = 64;
 /// Detections in the picture: readings at or above this share of full scale, the papers' threshold.
 const DETECTION: f64 = 0.04;
 
@@ -49,35 +52,7 @@ impl Plan {
     /// Chooses the mission (by name, else the one named like the file, else the only one) and the scenario (by name, else
     /// the mission's own).
     pub fn new(script: &Script, file: &str, mission: Option<&str>, scenario: Option<&str>) -> Result<Self, PlanError> {
-        let names: Vec<&str> = script.missions().map(|m| m.name.as_str()).collect();
-        let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-        let name = match mission {
-            Some(name) if names.contains(&name) => name.to_string(),
-            Some(name) => {
-                let message = format!("`{file}` has no mission `{name}`");
-                return Err(PlanError::Asked(message, suggestion(name, names.iter().copied())));
-            }
-            None if names.contains(&stem.as_str()) => stem,
-            None => match names.as_slice() {
-                [only] => (*only).to_string(),
-                [] => {
-                    return Err(PlanError::Asked(
-                        format!("`{file}` has no mission"),
-                        Some("write `mission NAME { … }`".into()),
-                    ));
-                }
-                several => {
-                    let message = format!("`{file}` has several missions");
-                    let help = format!("choose one with `--mission`: {}", several.join(", "));
-                    return Err(PlanError::Asked(message, Some(help)));
-                }
-            },
-        };
-        let program = match script.mission(&name) {
-            Some(Ok(program)) => program,
-            Some(Err(findings)) => return Err(PlanError::Script(findings)),
-            None => return Err(PlanError::Asked(format!("`{file}` has no mission `{name}`"), None)),
-        };
+        let (name, program) = chosen(script, file, mission)?;
         let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
         let known: Vec<&str> = script.scenarios().collect();
         let Some(wanted) = scenario.map(str::to_string).or(own) else {
@@ -89,35 +64,73 @@ impl Plan {
         Plan::with(script, Arc::new(program), &wanted)
     }
 
+    /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.
+    pub fn on_link(script: &Script, file: &str, mission: Option<&str>, link: &str) -> Result<Self, PlanError> {
+        let (name, program) = chosen(script, file, mission)?;
+        if program.mission.origin.is_none() {
+            let message = format!("the mission `{name}` has no place on the globe, and a vehicle has no other");
+            let help =
+                "give a corner or the center of its area as latitude and longitude, such as `36°10.8'N 75°44.4'W`";
+            return Err(PlanError::Asked(message, Some(help.into())));
+        }
+        let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
+        Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script) })
+    }
+
+    /// The frame of the mission, if it lies on the globe.
+    pub fn frame(&self) -> Option<TangentFrame> {
+        self.program.mission.origin.map(|origin| TangentFrame { origin })
+    }
+
     /// A mission that is lowered already, in a scenario of the script.
     pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
-        let (scenario_name, world) = world(script, wanted, program.mission.origin)?;
-        let sources = script.sources.iter().map(|source| {
-            let mut digest = Digest::new();
-            digest.text(&source.text);
-            SourceDigest { name: source.name.to_string(), digest: digest.value() }
-        });
-        Ok(Plan { program, scenario: Arc::new(world), scenario_name, sources: sources.collect() })
+        let (lowered, world) = world::scenario(script, wanted, program.mission.origin)?;
+        let (scenario, scenario_name) = (Arc::new(world), lowered.name);
+        Ok(Plan { program, scenario, scenario_name, sources: sources(script) })
     }
 }
 
-/// A scenario of a script by its name, as numbers in the frame about `origin`.
-pub(crate) fn world(script: &Script, wanted: &str, origin: Option<Geodetic>) -> Result<(String, Scenario), PlanError> {
-    let lowered = match script.scenario(wanted, origin) {
-        Some(Ok(lowered)) => lowered,
-        Some(Err(findings)) => return Err(PlanError::Script(findings)),
-        None => {
-            let known: Vec<&str> = script.scenarios().collect();
-            let message = format!("there is no scenario `{wanted}`");
-            return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
+/// The mission that is meant, by its name, and ready to run.
+fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String, Program), PlanError> {
+    let names: Vec<&str> = script.missions().map(|m| m.name.as_str()).collect();
+    let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = match mission {
+        Some(name) if names.contains(&name) => name.to_string(),
+        Some(name) => {
+            let message = format!("`{file}` has no mission `{name}`");
+            return Err(PlanError::Asked(message, suggestion(name, names.iter().copied())));
         }
+        None if names.contains(&stem.as_str()) => stem,
+        None => match names.as_slice() {
+            [only] => (*only).to_string(),
+            [] => {
+                return Err(PlanError::Asked(
+                    format!("`{file}` has no mission"),
+                    Some("write `mission NAME { … }`".into()),
+                ));
+            }
+            several => {
+                let message = format!("`{file}` has several missions");
+                let help = format!("choose one with `--mission`: {}", several.join(", "));
+                return Err(PlanError::Asked(message, Some(help)));
+            }
+        },
     };
-    let world = scenario::scenario(&lowered).map_err(|what| PlanError::Asked(what, None))?;
-    world.validate().map_err(|error| {
-        let message = format!("the scenario `{}` cannot be", lowered.name);
-        PlanError::Asked(message, Some(error.faults.join("; ")))
-    })?;
-    Ok((lowered.name, world))
+    match script.mission(&name) {
+        Some(Ok(program)) => Ok((name, program)),
+        Some(Err(findings)) => Err(PlanError::Script(findings)),
+        None => Err(PlanError::Asked(format!("`{file}` has no mission `{name}`"), None)),
+    }
+}
+
+/// What a script was made from.
+fn sources(script: &Script) -> Vec<SourceDigest> {
+    let digest = |source: &albacore_lang::source::Source| {
+        let mut digest = Digest::new();
+        digest.text(&source.text);
+        SourceDigest { name: source.name.to_string(), digest: digest.value() }
+    };
+    script.sources.iter().map(digest).collect()
 }
 
 /// A run under way.
@@ -125,7 +138,7 @@ pub struct Run {
     plan: Plan,
     seed: u64,
     machine: Machine,
-    vehicle: Simulator,
+    vehicle: Craft,
     snapshot: Snapshot,
     trace: BehaviorTrace,
     digest: Digest,
@@ -133,10 +146,13 @@ pub struct Run {
     reports: Vec<Report>,
     reason: String,
     switches: u64,
-    path_length_m: f64,
-    last_truth: Point,
+    odometer: Odometer,
     picture: picture::Sketch,
+    /// Where the vehicle was first, for the picture.
+    start: Option<Point>,
     asked_for_control: bool,
+    notices: Vec<String>,
+    release_failed: bool,
 }
 
 /// Whether a run goes on.
@@ -149,10 +165,19 @@ pub enum Running {
 }
 
 impl Run {
-    /// A run with a seed, at its first tick.
+    /// A run in the plan's world with a seed, at its first tick.
     pub fn new(plan: &Plan, seed: u64) -> Result<Self, PlanError> {
-        let vehicle = Simulator::new(&plan.scenario, seed)
+        let simulator = Simulator::new(&plan.scenario, seed)
             .map_err(|error| PlanError::Asked("the scenario cannot be".into(), Some(error.faults.join("; "))))?;
+        Run::with(plan, seed, Craft::Simulated(Box::new(simulator)), Some(plan.scenario.vehicle.start))
+    }
+
+    /// A run on a vehicle at the end of a link, at its first tick; the seed only names it.
+    pub fn on_link(plan: &Plan, seed: u64, vehicle: Box<dyn Vehicle>) -> Result<Self, PlanError> {
+        Run::with(plan, seed, Craft::Linked(vehicle), None)
+    }
+
+    fn with(plan: &Plan, seed: u64, vehicle: Craft, start: Option<Point>) -> Result<Self, PlanError> {
         let machine = Machine::new(Arc::clone(&plan.program), vehicle.channels())
             .map_err(|missing| PlanError::Asked(missing.to_string(), None))?;
         let header = Header {
@@ -162,7 +187,7 @@ impl Run {
             tick_s: TICK_S,
         };
         let trace = BehaviorTrace::new(&plan.program, &header);
-        let last_truth = vehicle.truth().position;
+        let odometer = Odometer::new(&vehicle);
         Ok(Run {
             plan: plan.clone(),
             seed,
@@ -175,10 +200,12 @@ impl Run {
             reports: Vec::new(),
             reason: String::new(),
             switches: 0,
-            path_length_m: 0.0,
-            last_truth,
+            odometer,
             picture: picture::Sketch::default(),
+            start,
             asked_for_control: false,
+            notices: Vec::new(),
+            release_failed: false,
         })
     }
 
@@ -214,9 +241,20 @@ impl Run {
         self.machine.active().into_iter().map(|id| program.activities[id as usize].name.as_str()).collect()
     }
 
-    /// Where the vehicle truly is.
+    /// Where the vehicle truly is; on a link, where it believes to be.
     pub fn true_position(&self) -> Point {
-        self.vehicle.truth().position
+        let truth = self.vehicle.truth().map(|truth| truth.position);
+        truth.or_else(|| self.machine.position()).unwrap_or(Point::ORIGIN)
+    }
+
+    /// What a person should hear of the link; taken once.
+    pub fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// Whether the vehicle has not said that it took control back at the end.
+    pub fn release_failed(&self) -> bool {
+        self.release_failed
     }
 
     /// The true source that is nearest to a place.
@@ -232,7 +270,8 @@ impl Run {
         self.machine.state().words.get(at..at + AREA_WORDS as usize)
     }
 
-    /// Lets one tick go by.
+    /// Lets one tick go by. On a link the vehicle's time may not have come to it yet: then only some hundredths of a second of
+    /// ours go by, so that who steps can look at other things.
     pub fn step(&mut self) -> Running {
         if let Some(outcome) = self.machine.outcome() {
             return Running::Over(outcome);
@@ -241,18 +280,27 @@ impl Run {
         if tick >= TICKS_MAX {
             return self.end(Outcome::Failed, "the run is longer than ten days");
         }
-        if let Err(error) = self.vehicle.sense(&mut self.snapshot) {
+        match self.vehicle.port().ready() {
+            Ok(true) => {}
+            Ok(false) => {
+                self.hear();
+                return Running::On;
+            }
+            Err(error) => return self.end(Outcome::Failed, &error.to_string()),
+        }
+        if let Err(error) = self.vehicle.port().sense(&mut self.snapshot) {
             return self.end(Outcome::Failed, &error.to_string());
         }
         if !self.asked_for_control {
             self.asked_for_control = true;
-            if let Err(error) = self.vehicle.take_over() {
+            if let Err(error) = self.vehicle.port().take_over() {
                 return self.end(Outcome::Failed, &error.to_string());
             }
         }
         let command = self.machine.step(&self.snapshot);
-        let sent = command.map_or(Ok(()), |command| self.vehicle.command(&command));
+        let sent = command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
         let events = self.machine.events().to_vec();
+        self.hear();
         self.note(tick, &events);
         self.journal.tick(tick, &self.snapshot, command.as_ref(), &events);
         if let Err(error) = sent {
@@ -290,9 +338,16 @@ impl Run {
 
     /// The release is always the last act; then it is only written down.
     fn finish(&mut self, outcome: Outcome, events: Vec<Event>) -> Running {
-        let released = self.vehicle.release();
+        if matches!(outcome, Outcome::Refused | Outcome::ReleasedByVehicle | Outcome::LinkLost)
+            && self.reason.is_empty()
+        {
+            self.reason = self.notices.last().cloned().unwrap_or_default();
+        }
+        let released = self.vehicle.port().release();
+        self.hear();
         if let Err(error) = &released {
-            self.reason = error.to_string();
+            self.notices.push(error.to_string());
+            self.release_failed = true;
         }
         let ticks = self.tick();
         self.trace.finish(outcome, released.is_ok(), ticks, &self.digest);
@@ -301,13 +356,29 @@ impl Run {
         Running::Over(outcome)
     }
 
+    fn hear(&mut self) {
+        let heard = self.vehicle.port().notices();
+        self.notices.extend(heard);
+        let surplus = self.notices.len().saturating_sub(NOTICES_MAX);
+        self.notices.drain(..surplus);
+    }
+
+    /// The latest numbers of a channel in this tick.
+    fn sensed(&self, channel: &str) -> Option<[f64; 4]> {
+        let index = self.vehicle.channels().iter().position(|c| c.name == channel)?;
+        self.snapshot.samples.iter().rev().find(|s| usize::from(s.channel) == index).map(|s| s.reading)
+    }
+
     /// Takes down what happened in a tick.
     fn note(&mut self, tick: u64, events: &[Event]) {
         let truth = self.vehicle.truth();
         self.hash(tick, events);
-        self.path_length_m += truth.position.distance(self.last_truth);
-        self.last_truth = truth.position;
         let believed = self.machine.position();
+        let here = truth.map(|truth| truth.position).or(believed);
+        self.start = self.start.or(here);
+        if let Some(here) = here {
+            self.odometer.reach(here);
+        }
         for event in events {
             match event {
                 Event::Switched { .. } => self.switches += 1,
@@ -318,17 +389,26 @@ impl Run {
             }
         }
         self.trace.tick(tick, believed, events);
-        self.trace.sample(tick, believed, Some(truth.heading), Some(truth.depth));
+        let heading = truth
+            .map(|truth| truth.heading)
+            .or_else(|| self.sensed("heading").map(|reading| Heading::from_radians(reading[0])));
+        let depth = truth.map(|truth| truth.depth).or_else(|| self.sensed("depth").map(|reading| reading[0]));
+        self.trace.sample(tick, believed, heading, depth);
         if (tick.is_multiple_of(TRACK_EVERY_TICKS) || !events.is_empty())
             && let Some(behavior) = self.shown_behavior()
+            && let Some(at) = believed.or(here)
         {
-            self.picture.track(believed.unwrap_or(truth.position), behavior);
+            self.picture.track(at, behavior);
         }
         let chemical = self.vehicle.channels().iter().position(|c| c.name == "chemical");
         let detected =
             self.snapshot.samples.iter().any(|s| Some(s.channel as usize) == chemical && s.reading[0] >= DETECTION);
-        if detected && self.plan.scenario.plume.is_some() {
-            self.picture.detection(believed.unwrap_or(truth.position));
+        // A simulated world without a plume has nothing to detect; of a real one we know no better.
+        if detected
+            && (truth.is_none() || self.plan.scenario.plume.is_some())
+            && let Some(at) = believed.or(here)
+        {
+            self.picture.detection(at);
         }
     }
 
@@ -371,7 +451,7 @@ impl Run {
         let program = Arc::clone(&self.plan.program);
         let site = &program.reports[site as usize];
         let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
-        let frame = program.mission.origin.map(|origin| TangentFrame { origin });
+        let frame = self.plan.frame();
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
         let error_m = place.and_then(|p| Some(self.nearest_source(p)?.distance(p)));
         if let Some(place) = place {
@@ -400,7 +480,7 @@ impl Run {
             ticks: self.tick(),
             sim_time_s: self.tick() as f64 / (1.0 / TICK_S),
             wall_s,
-            path_length_m: self.path_length_m,
+            path_length_m: self.odometer.length(),
             switches: self.switches,
             reports: self.reports.clone(),
             digest: self.digest.to_string(),
@@ -425,9 +505,9 @@ impl Run {
         self.picture.svg(
             &summary,
             area.unwrap_or_default(),
-            self.vehicle.filaments().collect(),
+            self.vehicle.filaments(),
             sources,
-            scenario.vehicle.start,
+            self.start.unwrap_or(Point::ORIGIN),
             flow,
         )
     }

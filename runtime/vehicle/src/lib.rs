@@ -102,6 +102,12 @@ pub trait Vehicle {
     /// What it measures, in a fixed order.
     fn channels(&self) -> &[Channel];
 
+    /// Whether the next tick has come. A simulated one always has; a vehicle that lives in time of its own may wait here for
+    /// some hundredths of a second, and is asked again.
+    fn ready(&mut self) -> Result<bool, VehicleError> {
+        Ok(true)
+    }
+
     /// Lets one tick go by and gives what was sensed in it. The first call gives the state at tick 0.
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError>;
 
@@ -113,4 +119,9 @@ pub trait Vehicle {
 
     /// Gives control back. Always the last act.
     fn release(&mut self) -> Result<(), VehicleError>;
+
+    /// What a person should hear of the link since they were last told. No mission can read it.
+    fn notices(&mut self) -> Vec<String> {
+        Vec::new()
+    }
 }

@@ -1,0 +1,431 @@
+//! The controller's side: a state machine of the bytes that come from the vehicle and the ticks that are taken from it.
+//!
+//! It has no clock. The vehicle's time stamps make the ticks, and everything that is sent is sent in one of them, so that the
+//! same bytes give the same run however late they are read.
+
+use super::frame::{Deframer, seal};
+use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
+use super::mode::{Mode, Phase};
+use super::vehicle_time::{Stamp, VehicleTime};
+use albacore_geometry::math::atan2;
+use albacore_geometry::{TangentFrame, Vector};
+use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
+use std::collections::VecDeque;
+
+/// What a vehicle of this dialect measures, and how many numbers each takes.
+const CHANNELS: [(&str, usize); 10] = [
+    ("position", 3),
+    ("course", 1),
+    ("heading", 1),
+    ("speed", 1),
+    ("depth", 1),
+    ("altitude", 1),
+    ("water_depth", 1),
+    ("flow", 2),
+    ("chemical", 1),
+    ("battery", 1),
+];
+const POSITION: u16 = 0;
+const COURSE: u16 = 1;
+const HEADING: u16 = 2;
+const SPEED: u16 = 3;
+const DEPTH: u16 = 4;
+const ALTITUDE: u16 = 5;
+const WATER_DEPTH: u16 = 6;
+const FLOW: u16 = 7;
+const CHEMICAL: u16 = 8;
+const BATTERY: u16 = 9;
+
+/// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
+/// 2 m comes to, m an axis.
+const POSITION_SIGMA: f64 = 3.0;
+/// The fluorometer's full scale: 5 V, as the 2003 trials' Seapoint gives. The sources give no unit.
+pub(super) const FULL_SCALE_VOLTS: f64 = 5.0;
+/// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
+const DRIFT_TICKS: u64 = 50;
+/// A goal that is not acknowledged is sent again after this many ticks; public controllers leave 100 ms between commands.
+const ACKNOWLEDGED_TICKS: u64 = 2;
+/// Every goal is sent again after this many ticks, twice a second: goals latch, but a vehicle may lose one, and it leaves who
+/// is silent.
+const AGAIN_TICKS: u64 = 5;
+/// Who commands nothing says at least this often that it is there.
+const KEEP_ALIVE_TICKS: u64 = 10;
+/// A goal that is not acknowledged for this many ticks is one that the vehicle refuses.
+const IGNORED_TICKS: u64 = 30;
+/// A vehicle that answers, but does not let us drive for this many ticks, refuses.
+const REQUEST_TICKS: u64 = 300;
+/// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
+const LEFT_TICKS: u64 = 3;
+/// Frames that wait for their tick; the oldest are given up.
+const WAITING_MAX: usize = 4096;
+/// Notices that wait to be read.
+const NOTICES_MAX: usize = 64;
+
+/// What the host wants of the vehicle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Want {
+    Listen,
+    Drive { since: u64 },
+    Leave,
+}
+
+/// A goal as it was last sent.
+#[derive(Clone, Debug, Default)]
+struct Goal {
+    text: String,
+    sent: u64,
+    since: u64,
+    acknowledged: bool,
+    told: bool,
+}
+
+/// What the vehicle said up to a tick.
+struct Heard {
+    tick: u64,
+    mode: Mode,
+    samples: Vec<Sample>,
+}
+
+/// How much came, and how much of it made sense.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Bytes.
+    pub bytes: u64,
+    /// Lines that were messages.
+    pub messages: u64,
+    /// Lines that were none.
+    pub unreadable: u64,
+}
+
+/// The controller's side of the dialect.
+pub struct Controller {
+    channels: Vec<Channel>,
+    frame: TangentFrame,
+    deframer: Deframer,
+    time: VehicleTime,
+    heard: VecDeque<Heard>,
+    /// Samples of messages that belong to the next `#S`.
+    gathered: Vec<Sample>,
+    /// How far the course is clockwise of the heading, rad, and the tick that it is of.
+    drift: Option<(f64, u64)>,
+    latest_tick: Option<u64>,
+    next_tick: u64,
+    mode: Mode,
+    control: Control,
+    want: Want,
+    lost: bool,
+    /// Ticks for which the vehicle has said that we do not drive, although we did.
+    left: u64,
+    goals: [Goal; 3],
+    /// The tick in which something was said last.
+    spoke: u64,
+    out: Vec<u8>,
+    count: Count,
+    notices: Vec<String>,
+    told: String,
+}
+
+impl Controller {
+    /// Hears a vehicle, in the mission's frame; nothing is sent before [`Controller::take_over`].
+    pub fn new(frame: TangentFrame) -> Self {
+        Controller {
+            channels: CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect(),
+            frame,
+            deframer: Deframer::default(),
+            time: VehicleTime::default(),
+            heard: VecDeque::new(),
+            gathered: Vec::new(),
+            drift: None,
+            latest_tick: None,
+            next_tick: 0,
+            mode: Mode::default(),
+            control: Control::Disconnected,
+            want: Want::Listen,
+            lost: false,
+            left: 0,
+            goals: Default::default(),
+            spoke: 0,
+            out: Vec::new(),
+            count: Count::default(),
+            notices: Vec::new(),
+            told: String::new(),
+        }
+    }
+
+    /// What the vehicle measures.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Who drives.
+    pub fn control(&self) -> Control {
+        self.control
+    }
+
+    /// What a person was told last: why the vehicle is no longer driven, when it is not.
+    pub fn why(&self) -> &str {
+        &self.told
+    }
+
+    /// How much came.
+    pub fn count(&self) -> Count {
+        self.count
+    }
+
+    /// What is to be sent; taken once.
+    pub fn take_output(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.out)
+    }
+
+    /// What a person should hear of; taken once.
+    pub fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// Whether the vehicle's time has come to the next tick.
+    pub fn is_due(&self) -> bool {
+        self.lost || self.latest_tick.is_some_and(|latest| self.next_tick <= latest)
+    }
+
+    /// Takes in bytes, however they are cut.
+    pub fn hear(&mut self, bytes: &[u8]) {
+        self.count.bytes += bytes.len() as u64;
+        let mut deframer = std::mem::take(&mut self.deframer);
+        deframer.push(bytes, |frame| {
+            // A line that is no frame and a frame that is no message come to the same: noise.
+            if let Some(message) = frame.ok().and_then(|body| FromVehicle::parse(body).ok()) {
+                self.count.messages += 1;
+                self.take_in(message);
+            } else {
+                self.count.unreadable += 1;
+            }
+        });
+        self.deframer = deframer;
+    }
+
+    fn take_in(&mut self, message: FromVehicle) {
+        match message {
+            FromVehicle::State(state) => self.take_in_state(&state),
+            FromVehicle::Adcp(adcp) => self.take_in_adcp(&adcp),
+            FromVehicle::Fluorometer { value, .. } => self.gather(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
+            FromVehicle::Battery { percent, .. } => self.gather(BATTERY, &[percent / 100.0]),
+            FromVehicle::Accepted(text) => {
+                for goal in self.goals.iter_mut().filter(|g| g.text.strip_prefix("C,") == Some(&text)) {
+                    goal.acknowledged = true;
+                }
+            }
+            FromVehicle::Error(code, text) => self.notice(format!("the vehicle says: error {code}, {text}")),
+            FromVehicle::Ctd(_) | FromVehicle::Version(_) | FromVehicle::Other(_) => {}
+        }
+    }
+
+    fn take_in_state(&mut self, state: &State) {
+        let tick = match self.time.hear(state.time_ms) {
+            Stamp::Late => return,
+            Stamp::Tick(tick) => tick,
+            Stamp::ClockSet(tick) => {
+                self.notice("the vehicle's clock was set; the mission's time goes on".to_string());
+                tick
+            }
+        };
+        self.latest_tick = Some(tick);
+        let position = self.frame.to_point(state.position);
+        self.gather(POSITION, &[position.north, position.east, POSITION_SIGMA]);
+        if let Some((angle, _)) = self.drift.filter(|(_, of)| tick.saturating_sub(*of) <= DRIFT_TICKS) {
+            self.gather(COURSE, &[(state.heading + angle).radians()]);
+        }
+        self.gather(HEADING, &[state.heading.radians()]);
+        self.gather(SPEED, &[state.speed]);
+        self.gather(DEPTH, &[state.depth]);
+        if let Some(altitude) = state.altitude {
+            self.gather(ALTITUDE, &[altitude]);
+            self.gather(WATER_DEPTH, &[state.depth + altitude]);
+        }
+        let samples = std::mem::take(&mut self.gathered);
+        if self.heard.len() == WAITING_MAX {
+            self.heard.pop_front();
+        }
+        self.heard.push_back(Heard { tick, mode: state.mode, samples });
+    }
+
+    fn take_in_adcp(&mut self, adcp: &Adcp) {
+        // A vehicle that stands still over ground has no course.
+        if adcp.ahead != 0.0 || adcp.starboard != 0.0 {
+            self.drift = Some((atan2(adcp.starboard, adcp.ahead), self.latest_tick.unwrap_or(0)));
+        }
+        if let Some((ahead, starboard)) = adcp.current {
+            let unit = adcp.heading.unit();
+            let flow =
+                Vector::new(ahead * unit.north - starboard * unit.east, ahead * unit.east + starboard * unit.north);
+            self.gather(FLOW, &[flow.north, flow.east]);
+        }
+    }
+
+    fn gather(&mut self, channel: u16, numbers: &[f64]) {
+        let mut reading = [0.0; 4];
+        reading[..numbers.len()].copy_from_slice(numbers);
+        if self.gathered.len() < WAITING_MAX {
+            self.gathered.push(Sample { channel, reading });
+        }
+    }
+
+    /// One tick: what was heard up to it, who drives, and what has to be said besides commands.
+    pub fn sense(&mut self, snapshot: &mut Snapshot) {
+        let tick = self.next_tick;
+        self.next_tick += 1;
+        snapshot.samples.clear();
+        let until = self.heard.iter().take_while(|heard| heard.tick <= tick).count();
+        for heard in self.heard.drain(..until) {
+            self.mode = heard.mode;
+            snapshot.samples.extend(heard.samples);
+        }
+        let before = self.control;
+        self.control = self.judge(tick);
+        if self.control == Control::InControl && before != Control::InControl {
+            // The first commands of the first override are accepted after a question only.
+            self.say(&ToVehicle::Query("Depth".into()));
+            self.goals = Default::default();
+        }
+        snapshot.control = self.control;
+        match (self.want, self.control) {
+            (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
+            // The mission stands still, or has not begun: it commands nothing.
+            (Want::Drive { .. }, Control::InControl | Control::Suspended) if tick - self.spoke >= KEEP_ALIVE_TICKS => {
+                self.hello();
+            }
+            _ => {}
+        }
+    }
+
+    /// Who drives, by the mode that the vehicle reports.
+    fn judge(&mut self, tick: u64) -> Control {
+        if self.lost {
+            return Control::TimedOut;
+        }
+        let mode = self.mode;
+        let active = mode.has(Mode::ACTIVE);
+        let driven = matches!(self.control, Control::InControl | Control::Suspended);
+        let Want::Drive { since } = self.want else { return Control::Monitoring };
+        let suspended = mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over;
+        if driven && !suspended && !(active && mode.phase() == Phase::InMission) {
+            self.left += 1;
+            if self.left < LEFT_TICKS {
+                return self.control;
+            }
+        } else {
+            self.left = 0;
+        }
+        match (mode.phase(), self.control) {
+            (_, ended @ (Control::Released | Control::Refused)) => ended,
+            (Phase::Over, _) if driven => self.end(Control::Released, "the vehicle's own mission is over"),
+            (Phase::Over, _) => {
+                self.end(Control::Refused, "the vehicle's own mission is over: nothing can be overridden")
+            }
+            _ if driven && suspended => Control::Suspended,
+            (Phase::InMission, _) if active && !suspended => Control::InControl,
+            _ if driven => self.end(Control::Released, "the vehicle has left override by itself"),
+            (phase, _) if tick - since > REQUEST_TICKS => {
+                let why = match phase {
+                    Phase::PreLaunch => "it is not launched yet",
+                    Phase::Suspended => "its mission is suspended",
+                    _ if mode.has(Mode::NOT_ALLOWED) => "it says that override is not allowed",
+                    _ => "it says that its mission goes on",
+                };
+                let seconds = REQUEST_TICKS as f64 * TICK_S;
+                self.end(Control::Refused, &format!("the vehicle did not let us drive for {seconds} s: {why}"))
+            }
+            _ => Control::Requesting,
+        }
+    }
+
+    fn end(&mut self, control: Control, why: &str) -> Control {
+        self.notice(why.to_string());
+        control
+    }
+
+    /// Asks for control; the following ticks tell how that goes.
+    pub fn take_over(&mut self) {
+        if self.want == Want::Listen {
+            self.want = Want::Drive { since: self.next_tick };
+            self.say(&ToVehicle::Override(true));
+        }
+    }
+
+    /// Sends what of a command has changed, was not acknowledged, or was sent half a second ago.
+    pub fn command(&mut self, command: &Command) {
+        if self.control != Control::InControl {
+            return;
+        }
+        let vertical = match command.vertical {
+            Vertical::Depth(depth) => ToVehicle::Depth(depth),
+            Vertical::Altitude(altitude) => ToVehicle::Altitude(altitude),
+        };
+        let speed = ToVehicle::Speed(SpeedGoal::MetresPerSecond(command.speed));
+        for (i, message) in [ToVehicle::Heading(command.heading), speed, vertical].iter().enumerate() {
+            self.send_goal(i, message);
+        }
+    }
+
+    fn send_goal(&mut self, index: usize, message: &ToVehicle) {
+        let now = self.next_tick;
+        let text = message.to_string();
+        let goal = &mut self.goals[index];
+        let changed = goal.text != text;
+        let ago = now - goal.sent;
+        if changed {
+            *goal = Goal { since: now, text, ..Goal::default() };
+        } else if ago < ACKNOWLEDGED_TICKS || goal.acknowledged && ago < AGAIN_TICKS {
+            return;
+        }
+        goal.sent = now;
+        let ignored = !goal.acknowledged && !goal.told && now - goal.since > IGNORED_TICKS;
+        goal.told |= ignored;
+        if ignored {
+            self.notice(format!("the vehicle does not accept `#{message}`; it may be protecting itself"));
+        }
+        self.say(message);
+    }
+
+    /// Says that we are here, without asking for anything.
+    pub fn hello(&mut self) {
+        self.say(&ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into()));
+    }
+
+    /// The host has heard nothing for too long: the next tick says so.
+    pub fn lose(&mut self, why: String) {
+        self.lost = true;
+        self.notice(why);
+    }
+
+    /// Gives control back: call it now and then until it is true, which it is when the vehicle's mode says so. Who never asked
+    /// for control has none to give.
+    pub fn release(&mut self) -> bool {
+        let heard = self.heard.drain(..).next_back().map(|heard| heard.mode);
+        match self.want {
+            Want::Listen => return true,
+            // What was heard before we asked is no answer.
+            Want::Drive { .. } => self.want = Want::Leave,
+            Want::Leave => {
+                if heard.is_some_and(|mode| !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)) {
+                    self.control = Control::Released;
+                    return true;
+                }
+            }
+        }
+        self.say(&ToVehicle::Override(false));
+        false
+    }
+
+    fn say(&mut self, message: &ToVehicle) {
+        self.spoke = self.next_tick.saturating_sub(1);
+        self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
+    }
+
+    /// What was told last is not told again.
+    fn notice(&mut self, text: String) {
+        if self.notices.len() < NOTICES_MAX && self.told != text {
+            self.told.clone_from(&text);
+            self.notices.push(text);
+        }
+    }
+}

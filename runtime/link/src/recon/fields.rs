@@ -1,0 +1,103 @@
+//! Fields: numbers, positions and times as they stand in a message.
+
+use albacore_geometry::Geodetic;
+use albacore_geometry::math::{degrees, radians};
+
+/// A day, in the milliseconds that times are counted in.
+pub const DAY_MS: u32 = 86_400_000;
+
+/// Ten-thousandths of a minute of arc in a degree: the grain of a position, about 0.2 m.
+const GRAINS: f64 = 600_000.0;
+
+/// A plain decimal number. What Rust reads besides (`inf`, `nan`, `1e9`) is none.
+pub fn number(text: &str) -> Option<f64> {
+    let plain = text.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
+    text.parse().ok().filter(|_| plain)
+}
+
+/// A number with so many decimals; a zero has no sign.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_string(),
+        _ => text,
+    }
+}
+
+/// Degrees and minutes, as in `39N30.5553`; radians, north and east positive. `beyond` is the largest number of degrees.
+pub fn angle(text: &str, signs: [char; 2], beyond: f64) -> Option<f64> {
+    let at = text.find(signs)?;
+    let (whole, minutes) = (number(&text[..at])?, number(&text[at + 1..])?);
+    let magnitude = whole + minutes / 60.0;
+    let sound = whole >= 0.0 && (0.0..60.0).contains(&minutes) && magnitude <= beyond;
+    sound.then(|| radians(if text[at..].starts_with(signs[0]) { magnitude } else { -magnitude }))
+}
+
+/// The text of an angle in radians, with so many digits for its degrees.
+fn angle_text(angle_rad: f64, signs: [char; 2], width: usize) -> String {
+    let grains = (degrees(angle_rad).abs() * GRAINS).round();
+    let whole = (grains / GRAINS).floor();
+    let minutes = (grains - whole * GRAINS) / 10_000.0;
+    let sign = if angle_rad < 0.0 { signs[1] } else { signs[0] };
+    format!("{whole:0width$.0}{sign}{minutes:07.4}")
+}
+
+/// `39N30.5553` and `74W19.4386`.
+pub fn position_texts(position: Geodetic) -> (String, String) {
+    (angle_text(position.latitude_rad, ['N', 'S'], 2), angle_text(position.longitude_rad, ['E', 'W'], 2))
+}
+
+/// A position from its two texts.
+pub fn position(latitude: &str, longitude: &str) -> Option<Geodetic> {
+    let latitude_rad = angle(latitude, ['N', 'S'], 90.0)?;
+    let longitude_rad = angle(longitude, ['E', 'W'], 180.0)?;
+    Some(Geodetic { latitude_rad, longitude_rad })
+}
+
+/// `15:08:37.672` as milliseconds of the day.
+pub fn time(text: &str) -> Option<u32> {
+    let mut parts = text.split(':').map(number);
+    let (hours, minutes, seconds) = (parts.next()??, parts.next()??, parts.next()??);
+    let sound = (0.0..24.0).contains(&hours) && (0.0..60.0).contains(&minutes) && (0.0..60.0).contains(&seconds);
+    let whole = hours.fract() == 0.0 && minutes.fract() == 0.0 && parts.next().is_none();
+    (sound && whole).then(|| ((hours * 3600.0 + minutes * 60.0 + seconds) * 1000.0).round() as u32 % DAY_MS)
+}
+
+/// The text of milliseconds of the day.
+pub fn time_text(ms: u32) -> String {
+    let s = ms / 1000;
+    format!("{:02}:{:02}:{:02}.{:03}", s / 3600 % 24, s / 60 % 60, s % 60, ms % 1000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_plain() {
+        assert_eq!(number("-0.10"), Some(-0.1));
+        for none in ["", "inf", "NaN", "1e9", "1.2.3", "--1", "0x1", " 1", "-"] {
+            assert_eq!(number(none), None, "{none}");
+        }
+        assert_eq!((fixed(-0.001, 2).as_str(), fixed(-0.1, 2).as_str()), ("0.00", "-0.10"));
+    }
+
+    #[test]
+    fn positions_carry_into_the_next_degree() {
+        let nearly = Geodetic::from_degrees(39.999_999_99, -75.999_999_99);
+        assert_eq!(position_texts(nearly), ("40N00.0000".into(), "76W00.0000".into()));
+        assert_eq!(position("39N60.0000", "74W19.4386"), None);
+        assert_eq!(position("91N00.0000", "74W19.4386"), None);
+        assert_eq!(position("39N30.5553", "181W00.0000"), None);
+        assert_eq!(position("-39N30.5553", "74W19.4386"), None);
+    }
+
+    #[test]
+    fn times_are_of_the_day() {
+        assert_eq!(time("15:08:37.672"), Some(54_517_672));
+        assert_eq!(time_text(54_517_672), "15:08:37.672");
+        for none in ["24:00:00", "1:60:00", "1:2", "1:2:3:4", "1.5:2:3", "x"] {
+            assert_eq!(time(none), None, "{none}");
+        }
+    }
+}

@@ -1,0 +1,434 @@
+//! The vehicle's side: its own computer in the front seat, which swims rows until a guest asks to drive.
+//!
+//! It serves any [`Vehicle`], one tick at a time, and is a function of the bytes that come in these ticks. On release, and when
+//! the guest is silent for 5 s, it returns to the point where the guest took over and goes on with its rows (the 2003 paper).
+
+use super::controller::FULL_SCALE_VOLTS;
+use super::fields::DAY_MS;
+use super::frame::{Deframer, seal};
+use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
+use super::mode::{Mode, Phase};
+use super::rows::{RowMission, Rows};
+use albacore_geometry::math::{cos, sin};
+use albacore_geometry::{Heading, Point, TangentFrame, Vector};
+use albacore_guidance::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
+use albacore_guidance::{Goto, through_water, turning_radius};
+use albacore_vehicle::{Command, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use std::fmt;
+
+/// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
+const TIMEOUT_TICKS: u64 = 50;
+/// Ticks without a message after which who serves faster than real time should wait for the guest.
+const PATIENCE_TICKS: u64 = 10;
+/// Ticks between messages of the profiler.
+const ADCP_TICKS: u64 = 10;
+/// The day's time at tick 0: noon.
+const BEGIN_MS: u64 = 12 * 3_600_000;
+/// Turns of the propeller a minute for 1 m/s. Ours: 1500 turns for the 2.6 m/s of a REMUS 100.
+const RPM_AT_1_MPS: f64 = 1500.0 / 2.6;
+/// The deepest, the nearest to the bottom, and the fastest that a guest may ask for: m, m, m/s. What is beyond is refused.
+const DEPTH_MAX: f64 = 100.0;
+const ALTITUDE_MIN: f64 = 1.0;
+const SPEED_MAX: f64 = 2.6;
+/// The battery of a REMUS 100, Wh.
+const CAPACITY_WH: f64 = 1000.0;
+
+/// Numbers of `#E`. Ours: the sources print one sample, of another error.
+const NOT_IN_OVERRIDE: u32 = 1;
+const OUT_OF_BOUNDS: u32 = 2;
+const NOT_SERVED: u32 = 3;
+
+/// What happened, for who watches.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happening {
+    /// A row begins, of so many.
+    Row(u32, u32),
+    /// A guest drives; from where, and on which row.
+    Taken(Point, u32),
+    /// The guest has given control back.
+    Released,
+    /// The guest is silent.
+    TimedOut,
+    /// The vehicle is back where the guest took over, and goes on with a row.
+    Resumed(Point, u32),
+    /// The rows are done.
+    Over,
+    /// Something that was asked for is not done, and why.
+    Refused(String, &'static str),
+}
+
+impl fmt::Display for Happening {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seconds = TIMEOUT_TICKS as f64 * TICK_S;
+        match self {
+            Happening::Row(row, of) => write!(f, "row {row} of {of}"),
+            Happening::Taken(at, row) => {
+                write!(f, "override taken at ({:.1}, {:.1}) m, on row {row}", at.north, at.east)
+            }
+            Happening::Released => f.write_str("override released; returns to the break-off point"),
+            Happening::TimedOut => {
+                write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
+            }
+            Happening::Resumed(at, row) => {
+                write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes row {row}", at.north, at.east)
+            }
+            Happening::Over => f.write_str("the rows are done: mission over"),
+            Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
+        }
+    }
+}
+
+/// Who steers, and where to.
+enum Drive {
+    Rows,
+    Override(Goals),
+    Return(Goto),
+    Over,
+}
+
+/// What a guest has asked for; it holds until something else is asked for.
+#[derive(Clone, Copy)]
+struct Goals {
+    heading: Heading,
+    /// Clockwise, rad/s.
+    rate: f64,
+    speed: f64,
+    vertical: Vertical,
+}
+
+/// What is known of the vehicle.
+#[derive(Clone, Copy, Default)]
+struct Senses {
+    position: Point,
+    course: Heading,
+    heading: Heading,
+    turn_rate: f64,
+    speed: f64,
+    depth: f64,
+    altitude: Option<f64>,
+    flow: Option<Vector>,
+    battery: f64,
+}
+
+/// A vehicle's own computer.
+pub struct FrontSeat<V> {
+    vehicle: V,
+    frame: TangentFrame,
+    rows: RowMission,
+    /// What it holds on its rows.
+    vertical: Vertical,
+    drive: Drive,
+    /// Where a guest took over, until the vehicle is back there.
+    break_off: Option<Point>,
+    to_closest_point: bool,
+    deframer: Deframer,
+    heard: Vec<ToVehicle>,
+    silent: u64,
+    tick: u64,
+    snapshot: Snapshot,
+    senses: Senses,
+    command: Option<Command>,
+    unreadable: u64,
+    /// Why something was refused last, and when.
+    refused: Option<(&'static str, u64)>,
+    out: Vec<u8>,
+    happenings: Vec<Happening>,
+}
+
+impl<V: Vehicle> FrontSeat<V> {
+    /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its rows.
+    pub fn new(vehicle: V, frame: TangentFrame, rows: Rows, start: (Point, Heading), vertical: Vertical) -> Self {
+        let rows = RowMission::new(rows, start.0, start.1);
+        let happenings = vec![Happening::Row(1, rows.count())];
+        FrontSeat {
+            vehicle,
+            frame,
+            rows,
+            vertical,
+            drive: Drive::Rows,
+            break_off: None,
+            to_closest_point: false,
+            deframer: Deframer::default(),
+            heard: Vec::new(),
+            silent: 0,
+            tick: 0,
+            snapshot: Snapshot::default(),
+            senses: Senses { position: start.0, heading: start.1, course: start.1, battery: 1.0, ..Senses::default() },
+            command: None,
+            unreadable: 0,
+            refused: None,
+            out: Vec::new(),
+            happenings,
+        }
+    }
+
+    /// What is to be sent; taken once.
+    pub fn take_output(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.out)
+    }
+
+    /// What happened; taken once.
+    pub fn take_happenings(&mut self) -> Vec<Happening> {
+        std::mem::take(&mut self.happenings)
+    }
+
+    /// Lines that could not be read.
+    pub fn unreadable(&self) -> u64 {
+        self.unreadable
+    }
+
+    /// Ticks that have passed.
+    pub fn ticks(&self) -> u64 {
+        self.tick
+    }
+
+    /// Where the vehicle believes to be.
+    pub fn position(&self) -> Point {
+        self.senses.position
+    }
+
+    /// Whether a guest drives and has not been heard for a second. Who lets the vehicle's time run faster than real time
+    /// should let it run no faster now: the guest may only be late, and its time-out is of the vehicle's time.
+    pub fn waits_for_guest(&self) -> bool {
+        matches!(self.drive, Drive::Override(_)) && self.silent >= PATIENCE_TICKS
+    }
+
+    /// One tick, with the bytes that came since the last.
+    pub fn tick(&mut self, bytes: &[u8]) -> Result<(), VehicleError> {
+        self.vehicle.sense(&mut self.snapshot)?;
+        if self.tick == 0 {
+            self.vehicle.take_over()?;
+        }
+        self.tell_samples();
+        self.hear(bytes);
+        let command = self.steer();
+        if let Some(command) = &command {
+            self.vehicle.command(command)?;
+        }
+        self.command = command;
+        self.tell_state();
+        self.tick += 1;
+        Ok(())
+    }
+
+    fn hear(&mut self, bytes: &[u8]) {
+        let (heard, unreadable) = (&mut self.heard, &mut self.unreadable);
+        self.deframer.push(bytes, |frame| match frame.ok().and_then(|body| ToVehicle::parse(body).ok()) {
+            Some(message) => heard.push(message),
+            None => *unreadable += 1,
+        });
+        self.silent = if self.heard.is_empty() { self.silent + 1 } else { 0 };
+        for message in std::mem::take(&mut self.heard) {
+            self.obey(&message);
+        }
+        if matches!(self.drive, Drive::Override(_)) && self.silent >= TIMEOUT_TICKS {
+            self.happenings.push(Happening::TimedOut);
+            self.go_back();
+        }
+    }
+
+    fn obey(&mut self, message: &ToVehicle) {
+        match message {
+            ToVehicle::Override(true) => self.give_over(),
+            ToVehicle::Override(false) => {
+                if matches!(self.drive, Drive::Override(_)) {
+                    self.happenings.push(Happening::Released);
+                    self.go_back();
+                }
+            }
+            ToVehicle::ClosestPoint(closest) => self.to_closest_point = *closest,
+            ToVehicle::VersionRequest => self.say(&FromVehicle::Version("albacore front seat".into())),
+            ToVehicle::Query(_) | ToVehicle::KeepAlive(_) | ToVehicle::Other(_) => {}
+            command => self.set_goal(command),
+        }
+    }
+
+    fn give_over(&mut self) {
+        match self.drive {
+            Drive::Override(_) | Drive::Over => return,
+            // Asked again on its way back, the vehicle still knows where its own mission waits.
+            Drive::Return(_) => {}
+            Drive::Rows => self.break_off = Some(self.senses.position),
+        }
+        self.happenings.push(Happening::Taken(self.senses.position, self.rows.number()));
+        let (heading, speed) = (self.senses.heading, self.rows.speed());
+        self.drive = Drive::Override(Goals { heading, rate: 0.0, speed, vertical: self.vertical });
+    }
+
+    fn set_goal(&mut self, command: &ToVehicle) {
+        let Drive::Override(goals) = &mut self.drive else {
+            return self.refuse(command, NOT_IN_OVERRIDE, "override is not active");
+        };
+        let wanted = match command {
+            ToVehicle::Heading(heading) => Goals { heading: *heading, rate: 0.0, ..*goals },
+            ToVehicle::HeadingRate(rate) if rate.abs() <= TURN_RATE_MAX => Goals { rate: *rate, ..*goals },
+            ToVehicle::Depth(depth) if (0.0..=DEPTH_MAX).contains(depth) => {
+                Goals { vertical: Vertical::Depth(*depth), ..*goals }
+            }
+            ToVehicle::Altitude(altitude) if *altitude >= ALTITUDE_MIN => {
+                Goals { vertical: Vertical::Altitude(*altitude), ..*goals }
+            }
+            ToVehicle::Speed(speed) if (0.0..=SPEED_MAX).contains(&metres_per_second(*speed)) => {
+                Goals { speed: metres_per_second(*speed), ..*goals }
+            }
+            ToVehicle::Triangle(_) => return self.refuse(command, NOT_SERVED, "this vehicle does not swim triangles"),
+            _ => return self.refuse(command, OUT_OF_BOUNDS, "out of this vehicle's bounds"),
+        };
+        *goals = wanted;
+        let echo = command.to_string();
+        self.say(&FromVehicle::Accepted(echo.strip_prefix("C,").unwrap_or(&echo).to_string()));
+    }
+
+    fn refuse(&mut self, what: &ToVehicle, code: u32, why: &'static str) {
+        self.say(&FromVehicle::Error(code, why.to_string()));
+        // Who does not listen says it again and again; who watches need not hear it as often.
+        let again = self.refused.is_some_and(|(last, tick)| last == why && self.tick - tick < TIMEOUT_TICKS);
+        if !again {
+            self.happenings.push(Happening::Refused(format!("#{what}"), why));
+        }
+        self.refused = Some((why, self.tick));
+    }
+
+    /// Back to where the guest took over, or to the closest point of the row.
+    fn go_back(&mut self) {
+        let position = self.senses.position;
+        let goal = if self.to_closest_point { self.rows.closest(position) } else { self.break_off.unwrap_or(position) };
+        self.break_off = Some(goal);
+        self.drive = Drive::Return(Goto::new(goal, ARRIVAL_RADIUS, turning_radius(self.rows.speed(), TURN_RATE_MAX)));
+    }
+
+    /// What to do in the coming tick.
+    fn steer(&mut self) -> Option<Command> {
+        let Senses { position, course, .. } = self.senses;
+        if let Drive::Return(goto) = &mut self.drive {
+            let guidance = goto.step(position, course);
+            if !guidance.arrived {
+                return Some(self.over_ground(guidance.course));
+            }
+            let from = self.break_off.take().unwrap_or(position);
+            self.rows.resume(from);
+            self.drive = Drive::Rows;
+            self.happenings.push(Happening::Resumed(from, self.rows.number()));
+        }
+        match &mut self.drive {
+            Drive::Override(goals) => {
+                goals.heading = goals.heading + goals.rate * TICK_S;
+                Some(Command { heading: goals.heading, speed: goals.speed, vertical: goals.vertical })
+            }
+            Drive::Rows => {
+                let before = self.rows.number();
+                let course = self.rows.step(position, course);
+                if self.rows.is_over() {
+                    self.drive = Drive::Over;
+                    self.happenings.push(Happening::Over);
+                } else if self.rows.number() != before {
+                    self.happenings.push(Happening::Row(self.rows.number(), self.rows.count()));
+                }
+                Some(self.over_ground(course))
+            }
+            // It floats up and waits to be found.
+            Drive::Over => Some(Command { heading: self.senses.heading, speed: 0.0, vertical: Vertical::Depth(0.0) }),
+            Drive::Return(_) => None,
+        }
+    }
+
+    /// A course over ground at the rows' speed, through water that moves.
+    fn over_ground(&self, course: Heading) -> Command {
+        let flow = self.senses.flow.unwrap_or(Vector::ZERO);
+        let water = through_water(course, self.rows.speed(), flow, SPEED_MAX);
+        Command { heading: water.heading, speed: water.speed, vertical: self.vertical }
+    }
+
+    /// Takes in what was sensed, and passes on what has messages of its own.
+    fn tell_samples(&mut self) {
+        let snapshot = std::mem::take(&mut self.snapshot);
+        let heading = self.senses.heading;
+        for sample in &snapshot.samples {
+            let Some(channel) = self.vehicle.channels().get(sample.channel as usize) else { continue };
+            let [a, b, ..] = sample.reading;
+            match channel.name.as_str() {
+                "position" => self.senses.position = Point::new(a, b),
+                "course" => self.senses.course = Heading::from_radians(a),
+                "heading" => self.senses.heading = Heading::from_radians(a),
+                "speed" => self.senses.speed = a,
+                "depth" => self.senses.depth = a,
+                "altitude" => self.senses.altitude = Some(a),
+                "flow" => self.senses.flow = Some(Vector::new(a, b)),
+                "chemical" => self.say(&FromVehicle::Fluorometer { gain: 1.0, value: a * FULL_SCALE_VOLTS }),
+                "battery" => {
+                    self.senses.battery = a;
+                    let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);
+                    self.say(&FromVehicle::Battery { capacity, available, percent });
+                }
+                _ => {}
+            }
+        }
+        self.senses.turn_rate = (self.senses.heading - heading) / TICK_S;
+        self.snapshot = snapshot;
+        if self.tick.is_multiple_of(ADCP_TICKS) {
+            self.tell_adcp();
+        }
+    }
+
+    fn tell_adcp(&mut self) {
+        let Senses { heading, course, speed, altitude, flow, .. } = self.senses;
+        let drift = course - heading;
+        self.say(&FromVehicle::Adcp(Adcp {
+            ahead: speed * cos(drift),
+            starboard: speed * sin(drift),
+            vertical: 0.0,
+            altitude,
+            heading,
+            current: flow.map(|flow| (flow.along(heading), flow.right_of(heading))),
+            look: 'U',
+        }));
+    }
+
+    fn mode(&self) -> Mode {
+        let closest = if self.to_closest_point { Mode::CLOSEST_POINT } else { 0 };
+        match self.drive {
+            Drive::Rows | Drive::Return(_) => Mode::new(Phase::InMission, closest),
+            Drive::Override(_) => Mode::new(Phase::InMission, closest | Mode::ENABLED | Mode::ACTIVE),
+            Drive::Over => Mode::new(Phase::Over, 0),
+        }
+    }
+
+    fn tell_state(&mut self) {
+        let s = self.senses;
+        let goal = self.command;
+        let depth_goal = match goal.map(|c| c.vertical) {
+            Some(Vertical::Depth(depth)) => depth,
+            Some(Vertical::Altitude(altitude)) => s.depth + s.altitude.unwrap_or(altitude) - altitude,
+            None => s.depth,
+        };
+        let speed_goal = goal.map_or(0.0, |c| c.speed);
+        self.say(&FromVehicle::State(State {
+            time_ms: ((BEGIN_MS + 100 * self.tick) % u64::from(DAY_MS)) as u32,
+            position: self.frame.to_geodetic(s.position),
+            depth: s.depth,
+            depth_goal,
+            altitude: s.altitude,
+            pitch: 0.0,
+            roll: 0.0,
+            rpm: s.speed * RPM_AT_1_MPS,
+            rpm_goal: speed_goal * RPM_AT_1_MPS,
+            speed: s.speed,
+            heading: s.heading,
+            heading_rate: s.turn_rate,
+            heading_goal: goal.map_or(s.heading, |c| c.heading),
+            mode: self.mode(),
+            leg: Some(self.rows.number()),
+        }));
+    }
+
+    fn say(&mut self, message: &FromVehicle) {
+        self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
+    }
+}
+
+fn metres_per_second(speed: SpeedGoal) -> f64 {
+    match speed {
+        SpeedGoal::Rpm(rpm) => rpm / RPM_AT_1_MPS,
+        SpeedGoal::MetresPerSecond(speed) | SpeedGoal::Knots(speed) => speed,
+    }
+}

@@ -1,0 +1,198 @@
+//! A vehicle at the end of a link: the controller's state machine, a transport, and the host's clock.
+
+use super::controller::Controller;
+use crate::transport::Transport;
+use crate::url::{Place, Url};
+use albacore_geometry::TangentFrame;
+use albacore_vehicle::{Channel, Command, Control, Snapshot, Vehicle, VehicleError, Vertical};
+use std::time::Duration;
+
+/// The host's time since any moment. Only the command line may read a clock; a test gives what it likes.
+pub type HostClock = Box<dyn FnMut() -> Duration>;
+
+/// How long a look for bytes waits, so that who waits can do something else now and then.
+const LOOK: Duration = Duration::from_millis(10);
+/// After this much of the host's time without a tick of the vehicle's time the link is lost.
+const SILENCE: Duration = Duration::from_secs(5);
+/// Until the vehicle is heard, it is greeted this often: a datagram has to come from somewhere to be answered.
+const HELLO: Duration = Duration::from_secs(1);
+/// The vehicle has this long to say that it has taken control back.
+const RELEASE: Duration = Duration::from_secs(3);
+/// ... and is told again this often.
+const RELEASE_AGAIN: Duration = Duration::from_millis(100);
+
+/// A vehicle that speaks `recon`.
+pub struct ReconVehicle {
+    controller: Controller,
+    transport: Box<dyn Transport>,
+    clock: HostClock,
+    url: Url,
+    silence: Duration,
+    /// When the last tick of the vehicle's time came.
+    ticked: Duration,
+    greeted: Option<Duration>,
+    /// The transport has failed: nothing more can be said.
+    broken: bool,
+}
+
+impl ReconVehicle {
+    /// A vehicle behind a transport, in the frame of a mission. `rate` is how many times faster than real time it runs: one
+    /// that runs slower may be silent for longer.
+    pub fn new(url: Url, transport: Box<dyn Transport>, frame: TangentFrame, rate: f64, mut clock: HostClock) -> Self {
+        let ticked = clock();
+        let silence = SILENCE.div_f64(rate.clamp(0.01, 1.0));
+        ReconVehicle {
+            controller: Controller::new(frame),
+            transport,
+            clock,
+            url,
+            silence,
+            ticked,
+            greeted: None,
+            broken: false,
+        }
+    }
+
+    /// Looks once for bytes, and sends what waits.
+    fn look(&mut self) -> Result<(), VehicleError> {
+        let mut bytes = Vec::new();
+        let received = self.transport.receive(&mut bytes, LOOK);
+        self.controller.hear(&bytes);
+        received.or_else(|error| self.fail(error))?;
+        self.send()
+    }
+
+    fn send(&mut self) -> Result<(), VehicleError> {
+        let out = self.controller.take_output();
+        if out.is_empty() { Ok(()) } else { self.transport.send(&out).or_else(|error| self.fail(error)) }
+    }
+
+    fn fail(&mut self, error: crate::LinkError) -> Result<(), VehicleError> {
+        self.broken = true;
+        Err(error.into())
+    }
+
+    /// Why nothing was heard, as far as it can be told from here, and what to look at.
+    fn diagnosis(&self) -> VehicleError {
+        let (url, count) = (&self.url, self.controller.count());
+        let seconds = self.silence.as_secs_f64();
+        let baud = match &url.place {
+            Place::Serial(_, baud) => format!("that the line runs at {baud} baud, "),
+            _ => String::new(),
+        };
+        let place = match &url.place {
+            Place::Udp { .. } => "the address and the port",
+            _ => "the cable and the device",
+        };
+        let dialect = url.dialect;
+        VehicleError(if count.bytes == 0 {
+            format!("nothing came from `{url}` in {seconds} s: check that the vehicle is on, {baud}and {place}")
+        } else if count.messages == 0 {
+            format!(
+                "{} bytes came from `{url}` in {} lines, and none of them can be read as `{dialect}`: check {baud}and that \
+                 the vehicle speaks `{dialect}`",
+                count.bytes, count.unreadable
+            )
+        } else {
+            format!(
+                "{} messages came from `{url}`, but no state (`#S`) with a running clock in the last {seconds} s: check that \
+                 the vehicle sends it",
+                count.messages
+            )
+        })
+    }
+}
+
+impl Vehicle for ReconVehicle {
+    fn channels(&self) -> &[Channel] {
+        self.controller.channels()
+    }
+
+    fn ready(&mut self) -> Result<bool, VehicleError> {
+        // That was told, and a mission that is under way ends of it. One that is not would wait for ever.
+        if matches!(self.controller.control(), Control::Released | Control::TimedOut) {
+            return Err(VehicleError(format!("before the mission began: {}", self.controller.why())));
+        }
+        if !self.controller.is_due() {
+            self.look()?;
+        }
+        let now = (self.clock)();
+        if self.controller.is_due() {
+            self.ticked = now;
+            return Ok(true);
+        }
+        if self.controller.control() == Control::Disconnected
+            && self.greeted.is_none_or(|last| now.saturating_sub(last) >= HELLO)
+        {
+            self.greeted = Some(now);
+            self.controller.hello();
+            self.send()?;
+        }
+        if now.saturating_sub(self.ticked) < self.silence {
+            return Ok(false);
+        }
+        match self.controller.control() {
+            Control::InControl | Control::Suspended => {
+                self.controller.lose(format!(
+                    "no state (`#S`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us \
+                     leaves override by itself",
+                    self.url,
+                    self.silence.as_secs_f64()
+                ));
+                Ok(true)
+            }
+            _ => Err(self.diagnosis()),
+        }
+    }
+
+    fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
+        while !self.ready()? {}
+        self.controller.sense(snapshot);
+        self.send()
+    }
+
+    fn take_over(&mut self) -> Result<(), VehicleError> {
+        self.controller.take_over();
+        self.send()
+    }
+
+    fn command(&mut self, command: &Command) -> Result<(), VehicleError> {
+        let (Vertical::Depth(height) | Vertical::Altitude(height)) = command.vertical;
+        if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
+            return Err(VehicleError("a command that is no finite number was not sent to the vehicle".into()));
+        }
+        self.controller.command(command);
+        self.send()
+    }
+
+    /// Waits until the vehicle's mode says that it has control, a few seconds at most. It leaves override by itself when
+    /// nothing is heard of us, so that a failure here is told, and no more can be done.
+    fn release(&mut self) -> Result<(), VehicleError> {
+        if self.broken {
+            return Ok(());
+        }
+        let begun = (self.clock)();
+        let mut asked: Option<Duration> = None;
+        loop {
+            let now = (self.clock)();
+            if asked.is_none_or(|last| now.saturating_sub(last) >= RELEASE_AGAIN) {
+                asked = Some(now);
+                if self.controller.release() {
+                    return Ok(());
+                }
+            }
+            if now.saturating_sub(begun) >= RELEASE {
+                return Err(VehicleError(
+                    "the vehicle did not say that it has taken control back: it leaves override by itself when nothing is \
+                     heard for 5 s"
+                        .into(),
+                ));
+            }
+            self.look()?;
+        }
+    }
+
+    fn notices(&mut self) -> Vec<String> {
+        self.controller.take_notices()
+    }
+}

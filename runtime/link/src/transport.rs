@@ -1,0 +1,64 @@
+//! Bytes over a wire. Nothing here waits longer than it was told to, and what the other end does not take is lost, as on a wire.
+
+mod tty;
+mod udp;
+
+use crate::error::LinkError;
+use crate::url::{Place, Url};
+use nix::errno::Errno;
+use nix::poll::{PollFd, PollFlags, poll};
+use std::os::fd::RawFd;
+use std::time::Duration;
+
+/// The most that one look takes in, so that who babbles cannot hold us.
+const LOOK_BYTES: usize = 64 * 1024;
+
+/// A wire with another end.
+pub trait Transport {
+    /// Adds the bytes that have come to `into`; when there are none, waits for some, at most for `wait`.
+    fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError>;
+
+    /// Sends whole lines.
+    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError>;
+}
+
+/// Opens a link to a vehicle.
+pub fn call(url: &Url) -> Result<Box<dyn Transport>, LinkError> {
+    match &url.place {
+        Place::Serial(path, baud) => Ok(Box::new(tty::Tty::open(path, *baud)?)),
+        Place::Udp { host, port, local } => Ok(Box::new(udp::Udp::call(host, *port, *local)?)),
+        Place::Pty => Err(LinkError::new(
+            "`pty:` makes a new terminal, at which no vehicle waits",
+            "open the one that `albacore vehicle` has made: `serial:/dev/pts/N?dialect=recon`",
+        )),
+    }
+}
+
+/// Opens the vehicle's end of a link, and says where the other end finds it.
+pub fn serve(url: &Url) -> Result<(Box<dyn Transport>, String), LinkError> {
+    match &url.place {
+        Place::Serial(path, baud) => Ok((Box::new(tty::Tty::open(path, *baud)?), url.to_string())),
+        Place::Udp { host, port, .. } => {
+            let (udp, at) = udp::Udp::serve(host, *port)?;
+            Ok((Box::new(udp), format!("udp:{at}?dialect={}", url.dialect)))
+        }
+        Place::Pty => {
+            let (tty, path) = tty::Tty::pair()?;
+            Ok((Box::new(tty), format!("serial:{path}?dialect={}", url.dialect)))
+        }
+    }
+}
+
+/// Waits until a descriptor can be read, or for a while. A signal may end the wait early.
+fn wait_for(descriptor: RawFd, wait: Duration) {
+    let ms = i32::try_from(wait.as_millis()).unwrap_or(i32::MAX);
+    if ms > 0 {
+        // What is wrong with the descriptor the next read tells.
+        let _ = poll(&mut [PollFd::new(descriptor, PollFlags::POLLIN)], ms);
+    }
+}
+
+/// Whether a call only has to be made again later.
+fn is_for_later(error: Errno) -> bool {
+    matches!(error, Errno::EAGAIN | Errno::EINTR)
+}

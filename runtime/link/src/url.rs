@@ -1,0 +1,216 @@
+//! Where a link goes and what is spoken on it: `serial:/dev/ttyUSB0?dialect=recon&baud=57600`.
+
+use crate::error::LinkError;
+use std::fmt;
+
+/// Bits a second of a serial line unless the URL says otherwise: what public controllers of the recon dialect set.
+const BAUD: u32 = 57_600;
+
+const SCHEMES: [&str; 3] = ["serial", "udp", "pty"];
+const DIALECTS: [&str; 1] = ["recon"];
+const SETTINGS: [&str; 3] = ["dialect", "baud", "local"];
+
+/// Where a link goes, and what is spoken on it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Url {
+    /// Where it goes.
+    pub place: Place,
+    /// What is spoken.
+    pub dialect: Dialect,
+}
+
+/// Where a link goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A serial line: the device's path, and bits a second; 8 data bits, no parity, one stop bit.
+    Serial(String, u32),
+    /// UDP, one message a datagram.
+    Udp {
+        /// The other end; for who serves, the address to listen at.
+        host: String,
+        /// Its port; for who serves, the port to listen at.
+        port: u16,
+        /// The port of this end; 0 takes any.
+        local: u16,
+    },
+    /// A new pseudo terminal, for who serves: the other end opens it like a serial line.
+    Pty,
+}
+
+/// What is spoken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dialect {
+    /// The dialect of [`crate::recon`].
+    Recon,
+}
+
+impl Url {
+    /// Reads a URL. An error says what is wrong with it and what there is instead.
+    pub fn parse(text: &str) -> Result<Self, LinkError> {
+        let (place, query) = text.split_once('?').unwrap_or((text, ""));
+        let Some((scheme, rest)) = place.split_once(':') else {
+            return Err(LinkError::new(format!("`{text}` is no link"), format!("write {EXAMPLES}")));
+        };
+        let settings = settings(query)?;
+        let get = |name: &str| settings.iter().find(|(n, _)| *n == name).map(|(_, value)| *value);
+        let only_for = |name: &str, wanted: &str| match get(name) {
+            Some(_) if scheme != wanted => Err(LinkError::new(
+                format!("`{name}` says nothing of `{scheme}:`"),
+                format!("leave it out; it belongs to `{wanted}:`"),
+            )),
+            _ => Ok(()),
+        };
+        only_for("baud", "serial")?;
+        only_for("local", "udp")?;
+        let place = match scheme {
+            "serial" if rest.is_empty() => {
+                return Err(LinkError::new("`serial:` names no device", "write `serial:/dev/ttyUSB0?dialect=recon`"));
+            }
+            "serial" => Place::Serial(rest.to_string(), whole("baud", get("baud"), BAUD)?),
+            "udp" => udp(rest, whole("local", get("local"), 0)?)?,
+            "pty" if rest.is_empty() => Place::Pty,
+            "pty" => {
+                let help =
+                    format!("write `pty:?dialect=recon` to make one, or `serial:{rest}` to open one that is there");
+                return Err(LinkError::new(format!("`pty:` makes a new terminal and takes no `{rest}`"), help));
+            }
+            _ => return Err(unknown("kind of link", scheme, &SCHEMES)),
+        };
+        let dialect = match get("dialect") {
+            Some("recon") => Dialect::Recon,
+            Some(other) => return Err(unknown("dialect", other, &DIALECTS)),
+            None => {
+                let sign = if query.is_empty() { '?' } else { '&' };
+                let help = format!("write `{text}{sign}dialect=recon`");
+                return Err(LinkError::new(format!("`{text}` does not say what the vehicle speaks"), help));
+            }
+        };
+        Ok(Url { place, dialect })
+    }
+}
+
+/// What a URL looks like, for those who write something else.
+const EXAMPLES: &str = "`serial:/dev/ttyUSB0?dialect=recon`, `udp:192.168.1.20:23456?dialect=recon` or, to serve, \
+                        `pty:?dialect=recon`";
+
+fn settings(query: &str) -> Result<Vec<(&str, &str)>, LinkError> {
+    let mut settings: Vec<(&str, &str)> = Vec::new();
+    for part in query.split('&').filter(|part| !part.is_empty()) {
+        let Some((name, value)) = part.split_once('=') else {
+            return Err(LinkError::new(format!("`{part}` sets nothing"), format!("write `{part}=VALUE`")));
+        };
+        if !SETTINGS.contains(&name) {
+            return Err(unknown("setting of a link", name, &SETTINGS));
+        }
+        if settings.iter().any(|(n, _)| *n == name) {
+            return Err(LinkError::new(format!("`{name}` is set twice"), "leave one of them out"));
+        }
+        settings.push((name, value));
+    }
+    Ok(settings)
+}
+
+fn udp(rest: &str, local: u16) -> Result<Place, LinkError> {
+    let missing = || {
+        LinkError::new(format!("`udp:{rest}` has no port"), "write `udp:HOST:PORT`; vehicles of this kind use 23456")
+    };
+    let (host, port) = rest.rsplit_once(':').ok_or_else(missing)?;
+    if port.is_empty() {
+        return Err(missing());
+    }
+    if host.is_empty() {
+        return Err(LinkError::new(
+            format!("`udp:{rest}` has no address"),
+            format!("write `udp:HOST:{port}`; who serves listens at `udp:0.0.0.0:{port}`"),
+        ));
+    }
+    let port = whole("port", Some(port), 0)?;
+    Ok(Place::Udp { host: host.to_string(), port, local })
+}
+
+/// A whole number that fits its place.
+fn whole<N: std::str::FromStr>(name: &str, text: Option<&str>, otherwise: N) -> Result<N, LinkError> {
+    let Some(text) = text else { return Ok(otherwise) };
+    text.parse().map_err(|_| {
+        let largest = if name == "baud" { "a number such as 57600" } else { "a number from 0 to 65535" };
+        LinkError::new(format!("`{text}` is no {name}"), format!("write {largest}"))
+    })
+}
+
+fn unknown(what: &str, name: &str, known: &[&str]) -> LinkError {
+    let near = known.iter().find(|k| strsim::osa_distance(&name.to_lowercase(), k) <= 2);
+    let help = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("there is `{}`", known.join("`, `")),
+    };
+    LinkError::new(format!("there is no {what} `{name}`"), help)
+}
+
+impl fmt::Display for Url {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}?dialect={}", self.place, self.dialect)
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Serial(path, _) => write!(f, "serial:{path}"),
+            Place::Udp { host, port, .. } => write!(f, "udp:{host}:{port}"),
+            Place::Pty => f.write_str("pty:"),
+        }
+    }
+}
+
+impl fmt::Display for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Dialect::Recon => f.write_str("recon"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_meant_is_read() {
+        let serial = Url::parse("serial:/dev/ttyUSB0?dialect=recon&baud=9600").unwrap();
+        assert_eq!(serial.place, Place::Serial("/dev/ttyUSB0".into(), 9600));
+        assert_eq!(serial.to_string(), "serial:/dev/ttyUSB0?dialect=recon");
+        let usual = Url::parse("serial:/dev/ttyS1?dialect=recon").unwrap();
+        assert_eq!(usual.place, Place::Serial("/dev/ttyS1".into(), 57_600));
+        let udp = Url::parse("udp:[::1]:23456?dialect=recon&local=23456").unwrap();
+        assert_eq!(udp.place, Place::Udp { host: "[::1]".into(), port: 23456, local: 23456 });
+        assert_eq!(Url::parse("pty:?dialect=recon").unwrap().place, Place::Pty);
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_remedy() {
+        for (text, message, help) in [
+            ("/dev/ttyUSB0", "is no link", "serial:/dev/ttyUSB0"),
+            ("seriel:/dev/x?dialect=recon", "no kind of link `seriel`", "did you mean `serial`?"),
+            ("carrier-pigeon:x?dialect=recon", "no kind of link", "`serial`, `udp`, `pty`"),
+            ("udp:10.0.0.1?dialect=recon", "has no port", "23456"),
+            ("udp:10.0.0.1:?dialect=recon", "has no port", "23456"),
+            ("udp::23456?dialect=recon", "has no address", "udp:0.0.0.0:23456"),
+            ("udp:10.0.0.1:70000?dialect=recon", "`70000` is no port", "65535"),
+            ("serial:?dialect=recon", "names no device", "/dev/ttyUSB0"),
+            ("serial:/dev/x", "does not say what the vehicle speaks", "`serial:/dev/x?dialect=recon`"),
+            ("serial:/dev/x?baud=9600", "does not say", "`serial:/dev/x?baud=9600&dialect=recon`"),
+            ("serial:/dev/x?dialect=recn", "no dialect `recn`", "did you mean `recon`?"),
+            ("serial:/dev/x?dialect=mavlink", "no dialect `mavlink`", "there is `recon`"),
+            ("serial:/dev/x?dialect=recon&baud=fast", "`fast` is no baud", "57600"),
+            ("serial:/dev/x?dialect=recon&bauds=9600", "no setting of a link `bauds`", "did you mean `baud`?"),
+            ("serial:/dev/x?dialect", "sets nothing", "dialect=VALUE"),
+            ("serial:/dev/x?dialect=recon&dialect=recon", "set twice", "leave one"),
+            ("udp:h:1?dialect=recon&baud=9600", "says nothing of `udp:`", "leave it out"),
+            ("pty:/dev/pts/3?dialect=recon", "makes a new terminal", "serial:/dev/pts/3"),
+        ] {
+            let error = Url::parse(text).unwrap_err();
+            assert!(error.message.contains(message), "{text}: {}", error.message);
+            assert!(error.help.contains(help), "{text}: {}", error.help);
+        }
+    }
+}

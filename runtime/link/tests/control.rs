@@ -1,0 +1,150 @@
+//! Who drives, as the controller concludes it from mode bytes that no front seat of ours sends.
+
+#![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
+
+use albacore_geometry::{Geodetic, Heading, TangentFrame};
+use albacore_link::recon::{Controller, Mode, State, seal};
+use albacore_vehicle::{Command, Control, Snapshot, Vertical};
+
+struct Vehicle {
+    controller: Controller,
+    snapshot: Snapshot,
+    time_ms: u32,
+}
+
+impl Vehicle {
+    fn new() -> Self {
+        let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
+        Vehicle { controller: Controller::new(frame), snapshot: Snapshot::default(), time_ms: 0 }
+    }
+
+    /// One state with this mode; who drives then, and what was sent.
+    fn says(&mut self, mode: u8) -> (Control, String) {
+        self.time_ms += 100;
+        let state = State {
+            time_ms: self.time_ms,
+            position: Geodetic::from_degrees(36.18, -75.74),
+            depth: 3.0,
+            depth_goal: 3.0,
+            altitude: None,
+            pitch: 0.0,
+            roll: 0.0,
+            rpm: 0.0,
+            rpm_goal: 0.0,
+            speed: 0.0,
+            heading: Heading::NORTH,
+            heading_rate: 0.0,
+            heading_goal: Heading::NORTH,
+            mode: Mode(mode),
+            leg: None,
+        };
+        self.controller.hear(seal(&state.to_string()).as_bytes());
+        assert!(self.controller.is_due());
+        self.controller.sense(&mut self.snapshot);
+        (self.snapshot.control, String::from_utf8(self.controller.take_output()).unwrap())
+    }
+
+    fn driven() -> Self {
+        let mut vehicle = Vehicle::new();
+        vehicle.says(0x01);
+        vehicle.controller.take_over();
+        assert_eq!(vehicle.says(0x0D).0, Control::InControl);
+        vehicle
+    }
+}
+
+#[test]
+fn nothing_is_sent_before_control_is_wanted_and_asking_goes_on_until_the_mode_shows_it() {
+    let mut vehicle = Vehicle::new();
+    assert_eq!(vehicle.controller.control(), Control::Disconnected);
+    assert_eq!(vehicle.says(0x01), (Control::Monitoring, String::new()));
+    vehicle.controller.take_over();
+    assert_eq!(vehicle.controller.take_output(), b"#E,1,*1B\n");
+    assert_eq!(vehicle.says(0x01), (Control::Requesting, "#E,1,*1B\n".into()));
+    assert_eq!(vehicle.says(0x05), (Control::Requesting, "#E,1,*1B\n".into()), "enabled, not yet active");
+    assert_eq!(vehicle.says(0x0D), (Control::InControl, "#Q,Depth,*EB\n".into()));
+    assert_eq!(vehicle.says(0x0D), (Control::InControl, String::new()));
+}
+
+/// The vehicle may be programmed to ask for a guest.
+#[test]
+fn an_override_that_the_vehicle_began_is_taken() {
+    let mut vehicle = Vehicle::new();
+    assert_eq!(vehicle.says(0x0D).0, Control::Monitoring);
+    vehicle.controller.take_over();
+    assert_eq!(vehicle.says(0x0D).0, Control::InControl);
+}
+
+#[test]
+fn a_vehicle_that_suspends_its_mission_is_waited_for_and_kept_alive() {
+    let mut vehicle = Vehicle::driven();
+    for mode in [0x0E, 0x02, 0x8D] {
+        assert_eq!(vehicle.says(mode).0, Control::Suspended, "{mode:02X}");
+    }
+    let sent: String = (0..20).map(|_| vehicle.says(0x02).1).collect();
+    assert_eq!(sent.matches("#V,albacore").count(), 2, "{sent}");
+    assert!(!sent.contains("#E"));
+    assert_eq!(vehicle.says(0x0D).0, Control::InControl);
+}
+
+#[test]
+fn a_vehicle_that_takes_control_back_has_released_itself_from_us() {
+    for mode in [0x01, 0x03, 0x00, 0x05] {
+        let mut vehicle = Vehicle::driven();
+        assert_eq!(vehicle.says(mode).0, Control::InControl, "{mode:02X}: one line may be wrong");
+        assert_eq!(vehicle.says(0x0D).0, Control::InControl);
+        let controls = [mode; 3].map(|mode| vehicle.says(mode).0);
+        assert_eq!(controls, [Control::InControl, Control::InControl, Control::Released], "{mode:02X}");
+        assert_eq!(vehicle.says(0x0D).0, Control::Released, "and that is final");
+    }
+}
+
+#[test]
+fn a_vehicle_that_never_lets_us_drive_refuses_after_half_a_minute() {
+    for (mode, why) in [(0x00, "not launched"), (0x81, "not allowed"), (0x02, "suspended"), (0x01, "goes on")] {
+        let mut vehicle = Vehicle::new();
+        vehicle.says(mode);
+        vehicle.controller.take_over();
+        assert!((0..300).all(|_| vehicle.says(mode).0 == Control::Requesting), "{mode:02X}");
+        assert_eq!((0..3).map(|_| vehicle.says(mode).0).last(), Some(Control::Refused), "{mode:02X}");
+        let notices = vehicle.controller.take_notices().join("\n");
+        assert!(notices.contains(why), "{notices}");
+    }
+}
+
+#[test]
+fn goals_are_sent_when_they_change_when_nothing_acknowledges_them_and_twice_a_second() {
+    let mut vehicle = Vehicle::driven();
+    let command = Command { heading: Heading::from_degrees(270.0), speed: 1.5, vertical: Vertical::Altitude(4.0) };
+    let tick = |vehicle: &mut Vehicle, command: &Command| {
+        vehicle.says(0x0D);
+        vehicle.controller.command(command);
+        String::from_utf8(vehicle.controller.take_output()).unwrap()
+    };
+    let all = "#C,Heading,Goal,270.0,*6A\n#C,Speed,1.50 meters/sec,*E3\n#C,Depth,Altitude,4.00,*33\n";
+    assert_eq!(tick(&mut vehicle, &command), all);
+    let unanswered: String = (0..2).map(|_| tick(&mut vehicle, &command)).collect();
+    assert_eq!(unanswered, all, "again after two ticks without an echo");
+    for body in ["C,Heading,Goal,270.0", "C,Speed,1.50 meters/sec", "C,Depth,Altitude,4.00"] {
+        vehicle.controller.hear(seal(body).as_bytes());
+    }
+    let answered: String = (0..5).map(|_| tick(&mut vehicle, &command)).collect();
+    assert_eq!(answered, all, "twice a second, because the vehicle leaves who is silent");
+    let turned = Command { heading: Heading::from_degrees(271.04), ..command };
+    assert_eq!(tick(&mut vehicle, &turned), seal("C,Heading,Goal,271.0"));
+}
+
+#[test]
+fn a_release_is_asked_for_until_a_later_mode_shows_it_and_nothing_follows() {
+    let mut vehicle = Vehicle::driven();
+    assert!(!vehicle.controller.release());
+    assert_eq!(vehicle.controller.take_output(), b"#E,0,*1A\n");
+    assert!(!vehicle.controller.release(), "nothing was heard since");
+    vehicle.controller.take_output();
+    vehicle.controller.take_over();
+    assert!(vehicle.controller.take_output().is_empty());
+    let mut untaken = Vehicle::new();
+    untaken.says(0x01);
+    assert!(untaken.controller.release(), "who never asked has nothing to give back");
+    assert!(untaken.controller.take_output().is_empty());
+}

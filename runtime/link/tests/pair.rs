@@ -1,0 +1,349 @@
+//! Controller and front seat, joined by two queues of bytes on which things go wrong: no operating system, no clock.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose vehicle cannot be made has failed")]
+
+use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
+use albacore_link::recon::{Controller, FrontSeat, Happening, Rows};
+use albacore_sim::{KinematicVehicle, Scenario, Simulator};
+use albacore_vehicle::{Command, Control, Snapshot, Vertical};
+
+/// A generator for tests (SplitMix64): what goes wrong is the same in every run.
+struct Chance(u64);
+
+impl Chance {
+    fn draw(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.draw() % n as u64) as usize
+    }
+
+    fn happens(&mut self, share: f64) -> bool {
+        (self.draw() >> 11) as f64 / (1_u64 << 53) as f64 <= share && share > 0.0
+    }
+}
+
+/// A wire that loses lines, changes bytes, repeats lines and adds noise, each with the same share of lines.
+struct Wire {
+    chance: Chance,
+    share: f64,
+}
+
+impl Wire {
+    fn carry(&mut self, bytes: &[u8]) -> Vec<u8> {
+        let mut out = Vec::new();
+        for line in bytes.split_inclusive(|b| *b == b'\n') {
+            let mut line = line.to_vec();
+            if self.chance.happens(self.share) {
+                continue;
+            }
+            if self.chance.happens(self.share) {
+                let at = self.chance.below(line.len());
+                line[at] = self.chance.draw() as u8;
+            }
+            if self.chance.happens(self.share) {
+                for _ in 0..self.chance.below(40) {
+                    out.push(self.chance.draw() as u8);
+                }
+            }
+            if self.chance.happens(self.share) {
+                out.extend_from_slice(&line);
+            }
+            out.extend_from_slice(&line);
+        }
+        out
+    }
+}
+
+fn frame() -> TangentFrame {
+    TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) }
+}
+
+fn still_water() -> Scenario {
+    Scenario { vehicle: KinematicVehicle { depth: 3.0, ..KinematicVehicle::default() }, ..Scenario::default() }
+}
+
+struct Pair {
+    vehicle: FrontSeat<Simulator>,
+    controller: Controller,
+    wire: Wire,
+    to_vehicle: Vec<u8>,
+    snapshot: Snapshot,
+    /// Every change of control that the controller saw, and what happened at the vehicle.
+    controls: Vec<Control>,
+    happenings: Vec<Happening>,
+}
+
+impl Pair {
+    fn new(rows: &str, seed: u64, share: f64) -> Self {
+        let rows: Rows = rows.parse().unwrap();
+        let simulator = Simulator::new(&still_water(), seed).unwrap();
+        let start = (Point::ORIGIN, Heading::NORTH);
+        Pair {
+            vehicle: FrontSeat::new(simulator, frame(), rows, start, Vertical::Depth(3.0)),
+            controller: Controller::new(frame()),
+            wire: Wire { chance: Chance(seed), share },
+            to_vehicle: Vec::new(),
+            snapshot: Snapshot::default(),
+            controls: Vec::new(),
+            happenings: Vec::new(),
+        }
+    }
+
+    /// A tick of the vehicle, and those of the controller that come of it.
+    fn tick(&mut self, command: Option<&Command>) {
+        let bytes = std::mem::take(&mut self.to_vehicle);
+        self.vehicle.tick(&bytes).unwrap();
+        self.happenings.extend(self.vehicle.take_happenings());
+        let bytes = self.vehicle.take_output();
+        self.controller.hear(&self.wire.carry(&bytes));
+        while self.controller.is_due() {
+            self.controller.sense(&mut self.snapshot);
+            if self.controls.last() != Some(&self.snapshot.control) {
+                self.controls.push(self.snapshot.control);
+            }
+            if let Some(command) = command {
+                self.controller.command(command);
+            }
+        }
+        self.send();
+    }
+
+    fn send(&mut self) {
+        let out = self.controller.take_output();
+        self.to_vehicle.extend(self.wire.carry(&out));
+    }
+
+    fn ticks(&mut self, count: usize, command: Option<&Command>) {
+        (0..count).for_each(|_| self.tick(command));
+    }
+
+    /// Ticks until something has happened, and how many there were.
+    #[track_caller]
+    fn until(&mut self, most: usize, what: impl Fn(&Happening) -> bool) -> usize {
+        for count in 0..most {
+            if self.happenings.iter().any(&what) {
+                return count;
+            }
+            self.tick(None);
+        }
+        panic!("not within {most} ticks: {:?}", self.happenings);
+    }
+
+    fn release(&mut self, most: usize) -> bool {
+        for _ in 0..most {
+            if self.controller.release() {
+                return true;
+            }
+            self.send();
+            let bytes = std::mem::take(&mut self.to_vehicle);
+            self.vehicle.tick(&bytes).unwrap();
+            self.happenings.extend(self.vehicle.take_happenings());
+            let bytes = self.vehicle.take_output();
+            self.controller.hear(&self.wire.carry(&bytes));
+        }
+        false
+    }
+}
+
+const EAST: Command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(5.0) };
+
+fn east() -> Command {
+    Command { heading: Heading::from_degrees(90.0), ..EAST }
+}
+
+/// Drives away from the first row for half a minute, gives the vehicle back, and sees it return and go on.
+fn excursion(seed: u64, share: f64) -> Pair {
+    let mut pair = Pair::new("100x20x2", seed, share);
+    pair.ticks(200, None);
+    pair.controller.take_over();
+    pair.send();
+    pair.ticks(300, Some(&east()));
+    pair
+}
+
+#[test]
+fn takes_control_drives_releases_and_the_vehicle_resumes_its_rows() {
+    let mut pair = excursion(1, 0.0);
+    let Some(Happening::Taken(break_off, 1)) = pair.happenings.last().cloned() else { panic!("{:?}", pair.happenings) };
+    assert!((20.0..35.0).contains(&break_off.north), "20 s at 1.5 m/s: {break_off:?}");
+    assert!(pair.vehicle.position().distance(break_off) > 50.0);
+    let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
+    assert!((depth - 5.0).abs() < 0.011, "{depth}");
+    assert!(pair.release(10));
+    assert_eq!(pair.controller.control(), Control::Released);
+    assert_eq!(pair.controls, [Control::Monitoring, Control::InControl], "the answer comes within the tick");
+    pair.until(1500, |h| matches!(h, Happening::Resumed(at, 1) if *at == break_off));
+    assert!(pair.vehicle.position().distance(break_off) < 12.0);
+    pair.until(3000, |h| *h == Happening::Over);
+    assert!(!pair.happenings.contains(&Happening::TimedOut));
+}
+
+#[test]
+fn the_controller_sees_what_the_vehicle_believes_as_fine_as_the_dialect_says() {
+    let pair = excursion(2, 0.0);
+    let sample = |channel: u16| pair.snapshot.samples.iter().find(|s| s.channel == channel).unwrap().reading;
+    let [north, east, ..] = sample(0);
+    assert!(Point::new(north, east).distance(pair.vehicle.position()) < 0.15, "half of 0.0001 minutes each way");
+    assert!((sample(1)[0] - sample(2)[0]).abs() < 0.01, "no current: the course is the heading");
+    assert!((sample(2)[0] - Heading::from_degrees(90.0).radians()).abs() < 0.002);
+    assert!((sample(6)[0] - 20.0).abs() < 0.02, "the water's depth");
+}
+
+#[test]
+fn a_bad_wire_costs_time_and_nothing_else() {
+    for share in [0.01, 0.05, 0.3] {
+        for seed in 1..=20 {
+            let mut pair = excursion(seed, share);
+            assert!(pair.release(300), "seed {seed}, {share}");
+            assert!(pair.controls.contains(&Control::InControl), "seed {seed}, {share}: {:?}", pair.controls);
+            assert!(pair.vehicle.position().distance(Point::ORIGIN) > 50.0, "seed {seed}, {share}");
+            pair.until(1500, |h| matches!(h, Happening::Resumed(_, 1)));
+            let count = pair.controller.count();
+            assert!(count.unreadable > 0 && count.messages > count.unreadable, "seed {seed}: {count:?}");
+        }
+    }
+}
+
+#[test]
+fn who_falls_silent_loses_control_after_five_seconds_exactly() {
+    let mut pair = excursion(1, 0.0);
+    pair.to_vehicle.clear();
+    pair.vehicle.tick(b"#v,*EF\n").unwrap();
+    assert!(!pair.vehicle.waits_for_guest());
+    for tick in 1..=50 {
+        assert!(!pair.happenings.contains(&Happening::TimedOut), "tick {tick}");
+        assert_eq!(pair.vehicle.waits_for_guest(), tick > 10);
+        pair.vehicle.tick(b"").unwrap();
+        pair.happenings.extend(pair.vehicle.take_happenings());
+    }
+    assert!(pair.happenings.contains(&Happening::TimedOut));
+    pair.ticks(3, None);
+    assert_eq!(pair.snapshot.control, Control::Released, "and the controller, back again, is told");
+    pair.until(1500, |h| matches!(h, Happening::Resumed(_, 1)));
+}
+
+#[test]
+fn who_commands_nothing_stays_in_control() {
+    let mut pair = excursion(1, 0.0);
+    pair.ticks(300, None);
+    assert!(!pair.happenings.contains(&Happening::TimedOut));
+    assert_eq!(pair.controls.last(), Some(&Control::InControl));
+}
+
+#[test]
+fn a_keep_alive_every_five_seconds_is_enough() {
+    let mut pair = excursion(1, 0.0);
+    for tick in 0..500 {
+        pair.vehicle.tick(if tick % 50 == 0 { b"#V,0.000000,*79\n" } else { b"" }).unwrap();
+    }
+    assert!(!pair.vehicle.take_happenings().contains(&Happening::TimedOut));
+}
+
+#[test]
+fn unsafe_commands_are_refused_and_noticed() {
+    let mut pair = excursion(1, 0.0);
+    let deep = Command { vertical: Vertical::Depth(400.0), ..east() };
+    pair.ticks(100, Some(&deep));
+    let refused = Happening::Refused("#C,Depth,Depth,400.00".into(), "out of this vehicle's bounds");
+    assert!(pair.happenings.contains(&refused), "{:?}", pair.happenings);
+    let notices = pair.controller.take_notices();
+    assert!(notices.iter().any(|n| n.contains("error 2")), "{notices:?}");
+    assert!(notices.iter().any(|n| n.contains("does not accept `#C,Depth,Depth,400.00`")), "{notices:?}");
+    let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
+    assert!((depth - 5.0).abs() < 0.011, "it holds what it held: {depth}");
+}
+
+#[test]
+fn a_mission_that_is_over_cannot_be_overridden() {
+    let mut pair = Pair::new("10x5x1", 1, 0.0);
+    pair.until(1000, |h| *h == Happening::Over);
+    pair.controller.take_over();
+    pair.send();
+    pair.ticks(3, None);
+    assert_eq!(pair.controls.last(), Some(&Control::Refused));
+    assert!(pair.controller.take_notices().iter().any(|n| n.contains("mission is over")));
+}
+
+#[test]
+fn a_guest_that_comes_back_on_the_way_does_not_move_the_break_off_point() {
+    let mut pair = excursion(1, 0.0);
+    let Some(Happening::Taken(first, _)) = pair.happenings.last().cloned() else { panic!("{:?}", pair.happenings) };
+    assert!(pair.release(10));
+    pair.ticks(20, None);
+    pair.controller = Controller::new(frame());
+    pair.tick(None);
+    pair.controller.take_over();
+    pair.send();
+    pair.ticks(100, Some(&east()));
+    assert_eq!(pair.controls.last(), Some(&Control::InControl));
+    assert!(pair.release(10));
+    pair.until(2000, |h| matches!(h, Happening::Resumed(at, 1) if *at == first));
+}
+
+#[test]
+fn the_closest_point_of_the_row_can_be_asked_for() {
+    let mut pair = excursion(1, 0.0);
+    pair.to_vehicle.extend_from_slice(b"#c,1,*39\n");
+    let north = Command { heading: Heading::NORTH, ..east() };
+    pair.ticks(150, Some(&north));
+    assert!(pair.release(10));
+    let closest = |h: &Happening| matches!(h, Happening::Resumed(at, 1) if at.east.abs() < 0.5 && at.north > 45.0);
+    pair.until(1500, closest);
+}
+
+#[test]
+fn no_bytes_whatever_make_either_side_fail() {
+    let mut chance = Chance(7);
+    let mut pair = excursion(3, 0.0);
+    let letters = b"#SAFEBCcVvQ,*0123456789ABCDEF.-\nLATONDGHRMTl";
+    for round in 0..2000 {
+        let noise: Vec<u8> = (0..500)
+            .map(|_| if round % 2 == 0 { chance.draw() as u8 } else { letters[chance.below(letters.len())] })
+            .collect();
+        pair.controller.hear(&noise);
+        pair.vehicle.tick(&noise).unwrap();
+        pair.vehicle.take_output();
+        pair.vehicle.take_happenings();
+        while pair.controller.is_due() {
+            pair.controller.sense(&mut pair.snapshot);
+        }
+    }
+    assert!(pair.controller.count().unreadable > 1000 && pair.vehicle.unreadable() > 1000);
+}
+
+/// The run of the controller is a function of the bytes, however they are cut and however late they are read.
+#[test]
+fn how_bytes_are_cut_and_when_they_are_read_changes_nothing() {
+    let mut simulator = Pair::new("100x20x2", 5, 0.0);
+    let mut bytes = Vec::new();
+    for _ in 0..30 {
+        simulator.vehicle.tick(b"").unwrap();
+        bytes.extend(simulator.vehicle.take_output());
+    }
+    let run = |cuts: &[usize]| {
+        let mut controller = Controller::new(frame());
+        let (mut snapshot, mut seen, mut from) = (Snapshot::default(), Vec::new(), 0);
+        for &to in cuts.iter().chain([&bytes.len()]) {
+            controller.hear(&bytes[from..to]);
+            from = to;
+            while controller.is_due() {
+                controller.sense(&mut snapshot);
+                seen.push(snapshot.clone());
+            }
+        }
+        seen
+    };
+    let whole = run(&[]);
+    assert_eq!(whole.len(), 30);
+    for cut in 0..bytes.len() {
+        assert!(run(&[cut]) == whole, "cut at {cut}");
+    }
+    let single: Vec<usize> = (0..bytes.len()).collect();
+    assert!(run(&single) == whole, "a byte at a time");
+}

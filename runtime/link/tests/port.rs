@@ -1,0 +1,150 @@
+//! The vehicle at the end of a link as a run sees it: through the port, with a wire and a clock of the test's own.
+
+#![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
+
+use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
+use albacore_link::recon::{FrontSeat, ReconVehicle, Rows};
+use albacore_link::{LinkError, Transport, Url};
+use albacore_sim::{KinematicVehicle, Scenario, Simulator};
+use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use std::time::Duration;
+
+/// How the wire is, and what went over it.
+#[derive(Default)]
+struct Wire {
+    now: Cell<Duration>,
+    silent: Cell<bool>,
+    deaf: Cell<bool>,
+    cut: Cell<bool>,
+    sent: RefCell<String>,
+}
+
+/// A wire with a vehicle at its other end, which lives a tick in every look.
+struct Desk {
+    wire: Rc<Wire>,
+    far_end: FrontSeat<Simulator>,
+    to_vehicle: Vec<u8>,
+}
+
+impl Transport for Desk {
+    fn receive(&mut self, into: &mut Vec<u8>, _wait: Duration) -> Result<(), LinkError> {
+        if self.wire.cut.get() {
+            return Err(LinkError::new("the line is gone", "plug it in"));
+        }
+        self.wire.now.set(self.wire.now.get() + Duration::from_millis(100));
+        self.far_end.tick(&std::mem::take(&mut self.to_vehicle)).unwrap();
+        let said = self.far_end.take_output();
+        if !self.wire.silent.get() {
+            into.extend(said);
+        }
+        Ok(())
+    }
+
+    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
+        self.wire.sent.borrow_mut().push_str(&String::from_utf8_lossy(lines));
+        if !self.wire.deaf.get() {
+            self.to_vehicle.extend_from_slice(lines);
+        }
+        Ok(())
+    }
+}
+
+fn vehicle() -> (ReconVehicle, Rc<Wire>) {
+    let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
+    let hull = KinematicVehicle { depth: 3.0, ..KinematicVehicle::default() };
+    let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
+    let start = (Point::ORIGIN, Heading::NORTH);
+    let far_end = FrontSeat::new(simulator, frame, Rows::default(), start, Vertical::Depth(3.0));
+    let wire = Rc::new(Wire::default());
+    let desk = Desk { wire: Rc::clone(&wire), far_end, to_vehicle: Vec::new() };
+    let clock = Rc::clone(&wire);
+    let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
+    (ReconVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())), wire)
+}
+
+const AHEAD: Command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(5.0) };
+
+/// A vehicle that is driven.
+fn driven() -> (ReconVehicle, Rc<Wire>, Snapshot) {
+    let (mut vehicle, wire) = vehicle();
+    let mut snapshot = Snapshot::default();
+    vehicle.sense(&mut snapshot).unwrap();
+    assert_eq!(snapshot.control, Control::Monitoring);
+    vehicle.take_over().unwrap();
+    for _ in 0..20 {
+        vehicle.sense(&mut snapshot).unwrap();
+        vehicle.command(&AHEAD).unwrap();
+    }
+    assert_eq!(snapshot.control, Control::InControl);
+    (vehicle, wire, snapshot)
+}
+
+#[test]
+fn the_release_is_the_last_that_is_sent() {
+    let (mut vehicle, wire, _) = driven();
+    vehicle.release().unwrap();
+    let sent = wire.sent.borrow();
+    assert!(sent.contains("#E,1,*1B\n") && sent.contains("#C,Depth,Depth,5.00,"), "{sent}");
+    assert!(sent.ends_with("#E,0,*1A\n"), "{sent}");
+}
+
+#[test]
+fn a_vehicle_that_falls_silent_while_we_drive_is_lost_after_five_seconds() {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    let since = wire.now.get();
+    wire.silent.set(true);
+    vehicle.sense(&mut snapshot).unwrap();
+    assert_eq!((snapshot.control, snapshot.samples.len()), (Control::TimedOut, 0));
+    assert_eq!(wire.now.get() - since, Duration::from_secs(5));
+    assert!(vehicle.notices().iter().any(|n| n.contains("for 5 s")));
+    let error = vehicle.sense(&mut snapshot).unwrap_err().to_string();
+    assert!(error.contains("before the mission began"), "who goes on all the same waits in vain: {error}");
+    let error = vehicle.release().unwrap_err().to_string();
+    assert!(error.contains("did not say that it has taken control back"), "{error}");
+    assert!(wire.now.get() - since < Duration::from_secs(9), "and the release is not waited for for ever");
+}
+
+#[test]
+fn silence_before_we_drive_is_an_error_that_says_what_to_look_at() {
+    let (mut vehicle, wire) = vehicle();
+    wire.silent.set(true);
+    let error = vehicle.sense(&mut Snapshot::default()).unwrap_err().to_string();
+    assert!(error.contains("nothing came from `serial:/dev/desk?dialect=recon` in 5 s"), "{error}");
+    assert!(error.contains("57600 baud") && error.contains("the cable"), "{error}");
+    assert!(vehicle.release().is_ok(), "nothing was taken");
+    let sent = wire.sent.borrow();
+    assert_eq!((sent.matches("#V,albacore").count(), sent.matches('#').count()), (5, 5), "greetings only: {sent}");
+}
+
+#[test]
+fn a_vehicle_that_does_not_hear_us_refuses() {
+    let (mut vehicle, wire) = vehicle();
+    let mut snapshot = Snapshot::default();
+    vehicle.sense(&mut snapshot).unwrap();
+    wire.deaf.set(true);
+    vehicle.take_over().unwrap();
+    for _ in 0..303 {
+        vehicle.sense(&mut snapshot).unwrap();
+    }
+    assert_eq!(snapshot.control, Control::Refused);
+}
+
+#[test]
+fn a_line_that_is_cut_is_an_error_and_nothing_more_is_tried() {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    wire.cut.set(true);
+    let error = vehicle.sense(&mut snapshot).unwrap_err().to_string();
+    assert_eq!(error, "the line is gone: plug it in");
+    assert!(vehicle.release().is_ok());
+}
+
+#[test]
+fn what_is_no_number_is_not_sent() {
+    let (mut vehicle, wire, _) = driven();
+    let before = wire.sent.borrow().len();
+    assert!(vehicle.command(&Command { speed: f64::NAN, ..AHEAD }).is_err());
+    assert!(vehicle.command(&Command { vertical: Vertical::Altitude(f64::INFINITY), ..AHEAD }).is_err());
+    assert_eq!(wire.sent.borrow().len(), before);
+}

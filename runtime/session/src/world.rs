@@ -1,0 +1,94 @@
+//! A simulated world with a vehicle in it that is served to others: the far end of a link.
+
+use crate::run::PlanError;
+use albacore_geometry::{Geodetic, TangentFrame};
+use albacore_lang::{ScenarioProgram, Script, suggestion};
+use albacore_link::recon::{FrontSeat, Rows};
+use albacore_sim::{Scenario, Simulator};
+use albacore_vehicle::Vertical;
+
+/// A vehicle at the surface swims its rows this far above the bottom, m.
+const ROWS_ALTITUDE: f64 = 2.0;
+
+/// A world on the globe.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// Its name.
+    pub name: String,
+    scenario: Scenario,
+    frame: TangentFrame,
+}
+
+/// A simulated vehicle and the computer in its front seat.
+pub type FarEnd = FrontSeat<Simulator>;
+
+impl World {
+    /// A scenario that the script knows, by its name, else the one that the script's mission runs in. It lies where that
+    /// mission lies, else where its own positions are.
+    pub fn new(script: &Script, file: &str, wanted: Option<&str>) -> Result<Self, PlanError> {
+        let own = |mission: &albacore_lang::MissionInfo| mission.scenario.clone();
+        let known: Vec<&str> = script.scenarios().collect();
+        let Some(wanted) = wanted.map(str::to_string).or_else(|| script.missions().find_map(own)) else {
+            let help = format!("name it: `{file}#NAME`; there is {}", known.join(", "));
+            return Err(PlanError::Asked(format!("which scenario of `{file}` is to be served?"), Some(help)));
+        };
+        let (lowered, scenario) = self::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let Some(origin) = lowered.origin else {
+            let help =
+                "give its `start:` as latitude and longitude, or serve it from a script with a mission that runs in it";
+            return Err(PlanError::Asked(
+                format!("the scenario `{wanted}` has no place on the globe"),
+                Some(help.into()),
+            ));
+        };
+        Ok(World { name: lowered.name, scenario, frame: TangentFrame { origin } })
+    }
+
+    /// The vehicle in it, with rows to swim: the first from where it starts and along its heading, at the depth at which it
+    /// starts, or near the bottom if that is the surface.
+    pub fn far_end(&self, seed: u64, rows: Rows) -> Result<FarEnd, PlanError> {
+        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| {
+            PlanError::Asked(format!("the scenario `{}` cannot be", self.name), Some(error.faults.join("; ")))
+        })?;
+        let vehicle = &self.scenario.vehicle;
+        let vertical = match vehicle.depth {
+            depth if depth > 0.0 => Vertical::Depth(depth),
+            _ => Vertical::Altitude(ROWS_ALTITUDE),
+        };
+        Ok(FrontSeat::new(simulator, self.frame, rows, (vehicle.start, vehicle.heading), vertical))
+    }
+}
+
+/// Where the missions lie that run in a scenario.
+fn place_of(script: &Script, scenario: &str) -> Result<Option<Geodetic>, PlanError> {
+    let runs_in_it = |mission: &&albacore_lang::MissionInfo| mission.scenario.as_deref() == Some(scenario);
+    let Some(mission) = script.missions().find(runs_in_it) else { return Ok(None) };
+    match script.mission(&mission.name) {
+        Some(Ok(program)) => Ok(program.mission.origin),
+        Some(Err(findings)) => Err(PlanError::Script(findings)),
+        None => Ok(None),
+    }
+}
+
+/// A scenario of a script by its name, and its numbers in the frame about `origin`.
+pub(crate) fn scenario(
+    script: &Script,
+    wanted: &str,
+    origin: Option<Geodetic>,
+) -> Result<(ScenarioProgram, Scenario), PlanError> {
+    let lowered = match script.scenario(wanted, origin) {
+        Some(Ok(lowered)) => lowered,
+        Some(Err(findings)) => return Err(PlanError::Script(findings)),
+        None => {
+            let known: Vec<&str> = script.scenarios().collect();
+            let message = format!("there is no scenario `{wanted}`");
+            return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
+        }
+    };
+    let world = crate::scenario::scenario(&lowered).map_err(|what| PlanError::Asked(what, None))?;
+    world.validate().map_err(|error| {
+        let message = format!("the scenario `{}` cannot be", lowered.name);
+        PlanError::Asked(message, Some(error.faults.join("; ")))
+    })?;
+    Ok((lowered, world))
+}

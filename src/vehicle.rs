@@ -1,0 +1,126 @@
+//! `albacore vehicle`: serves a simulated vehicle at the far end of a link.
+
+use crate::clock::{self, Pace};
+use crate::exit::Exit;
+use crate::plan::refused;
+use crate::{interruption, message};
+use albacore_session::{FarEnd, LinkError, Rows, Transport, Url, World};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// The longest wait for bytes: who interrupts does not wait longer.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Serve a simulated vehicle at the far end of a link: it swims rows until a mission takes over.
+#[derive(clap::Args)]
+pub struct Vehicle {
+    /// The world: a scenario that every script knows, or one of a script.
+    #[arg(value_name = "SCENARIO | SCRIPT.alb[#SCENARIO]")]
+    scenario: String,
+    /// Where to serve it: `pty:?dialect=recon`, `udp:0.0.0.0:23456?dialect=recon`, `serial:/dev/ttyUSB0?dialect=recon`.
+    #[arg(long, value_name = "URL")]
+    link: String,
+    /// How many times faster than real time; give `run --link` the same.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clock::rate)]
+    rate: f64,
+    /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last.
+    #[arg(long, value_name = "LENGTHxSPACINGxCOUNT", default_value = "200x30x6")]
+    rows: Rows,
+    /// The seed of all that is random.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Change a parameter of the script.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+impl Vehicle {
+    /// Serves until the person interrupts.
+    pub fn run(&self) -> Exit {
+        let mut far_end = match self.far_end() {
+            Ok(far_end) => far_end,
+            Err(exit) => return exit,
+        };
+        let url = match Url::parse(&self.link) {
+            Ok(url) => url,
+            Err(error) => return told(&error, Exit::Usage),
+        };
+        let (mut transport, at) = match albacore_session::serve(&url) {
+            Ok(open) => open,
+            Err(error) => return told(&error, Exit::Failed),
+        };
+        say(&far_end, &format!("link open at {at}"));
+        let interrupted = interruption::flag();
+        let served = self.serve(&mut far_end, transport.as_mut(), &interrupted);
+        if far_end.unreadable() > 0 {
+            say(&far_end, &format!("{} lines could not be read", far_end.unreadable()));
+        }
+        match served {
+            Ok(()) => Exit::Well,
+            Err(error) => told(&error, Exit::Failed),
+        }
+    }
+
+    fn far_end(&self) -> Result<FarEnd, Exit> {
+        let (file, name) = match self.scenario.split_once('#') {
+            Some((file, name)) => (Some(file), Some(name)),
+            None if self.scenario.ends_with(".alb") => (Some(self.scenario.as_str()), None),
+            None => (None, Some(self.scenario.as_str())),
+        };
+        let script = match file {
+            Some(file) => albacore_session::load(Path::new(file), None, &self.set).map_err(|error| {
+                message::error(&error.message, error.help.as_deref());
+                Exit::Usage
+            })?,
+            None => albacore_session::load_library(),
+        };
+        message::findings(&script.findings, &script.sources);
+        if !script.is_sound() {
+            return Err(Exit::Script);
+        }
+        let world = World::new(&script, file.unwrap_or_default(), name);
+        world.and_then(|world| world.far_end(self.seed, self.rows)).map_err(|error| refused(&error, &script))
+    }
+
+    /// Ticks at the rate that was asked for, but in real time while a guest that drives is silent: it may only be late, and
+    /// the time that it has is the vehicle's.
+    fn serve(
+        &self,
+        far_end: &mut FarEnd,
+        transport: &mut dyn Transport,
+        interrupted: &AtomicBool,
+    ) -> Result<(), LinkError> {
+        let mut pace = Pace::new(self.rate);
+        let mut bytes = Vec::new();
+        while !interrupted.load(Ordering::Relaxed) {
+            transport.receive(&mut bytes, Duration::ZERO)?;
+            let left = pace.left(far_end.waits_for_guest() && bytes.is_empty());
+            if left >= Duration::from_millis(1) {
+                transport.receive(&mut bytes, left.min(LOOK))?;
+                continue;
+            }
+            // No wait for bytes is this short.
+            std::thread::sleep(left);
+            pace.begin();
+            far_end.tick(&bytes).map_err(|error| LinkError::new(error.to_string(), "report this: it should not be"))?;
+            bytes.clear();
+            transport.send(&far_end.take_output())?;
+            for happening in far_end.take_happenings() {
+                say(far_end, &happening.to_string());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A line with the vehicle's time.
+fn say(far_end: &FarEnd, what: &str) {
+    message::write(&format!("{:8.1} s  {what}\n", far_end.ticks() as f64 / 10.0));
+}
+
+/// Tells what is wrong with the link.
+pub fn told(error: &LinkError, exit: Exit) -> Exit {
+    message::error(&error.message, Some(&error.help));
+    exit
+}

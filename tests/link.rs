@@ -1,0 +1,290 @@
+//! The two ends of a link as two programs: a mission drives a vehicle over a real pseudo terminal and over UDP, and what each
+//! says when the other goes away.
+//!
+//! Time runs fifty times faster than real time, and nothing is timed: what is waited for is waited for long.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot start its own programs has failed")]
+#![cfg(unix)]
+
+use albacore_trace::journal::{Ending, Journal};
+use std::net::UdpSocket;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+const EXCURSION: &str = "tests/link/excursion.alb";
+const RATE: [&str; 2] = ["--rate", "50"];
+
+fn albacore(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(args).current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1").stdin(Stdio::null());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+}
+
+/// An empty folder of a test's own.
+fn empty(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("link-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Asks again and again, for minutes.
+#[track_caller]
+fn eventually<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
+    for _ in 0..24_000 {
+        if let Some(answer) = ask() {
+            return answer;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("in vain: {what}");
+}
+
+/// Waits until a file has so many bytes: the mission of its journal is then well under way.
+#[track_caller]
+fn grown(path: &Path, bytes: u64) {
+    eventually("a journal", || std::fs::metadata(path).ok().filter(|m| m.len() > bytes));
+}
+
+/// The far end, and what it says.
+struct Vehicle {
+    child: Child,
+    log: PathBuf,
+    /// Where the other end finds it.
+    link: String,
+}
+
+impl Vehicle {
+    #[track_caller]
+    fn serve(link: &str, folder: &Path) -> Self {
+        let log = folder.join("vehicle.log");
+        let file = std::fs::File::create(&log).unwrap();
+        let world = format!("{EXCURSION}#bay");
+        let mut command = albacore(&["vehicle", &world, "--link", link, "--rows", "400x30x50"]);
+        let child = command.args(RATE).stderr(file).spawn().unwrap();
+        let mut vehicle = Vehicle { child, log, link: String::new() };
+        vehicle.says("link open at ");
+        vehicle.says("row 1 of 50");
+        let said = vehicle.said();
+        vehicle.link = said.split("link open at ").nth(1).unwrap().lines().next().unwrap().to_string();
+        vehicle
+    }
+
+    fn said(&self) -> String {
+        std::fs::read_to_string(&self.log).unwrap()
+    }
+
+    /// Waits until it has said this.
+    #[track_caller]
+    fn says(&self, what: &str) {
+        eventually(&format!("{what}, in {}", self.log.display()), || self.said().contains(what).then_some(()));
+    }
+
+    fn mission(&self, more: &[&str]) -> Command {
+        let mut command = albacore(&["run", EXCURSION, "--link", &self.link]);
+        command.args(RATE).args(more);
+        command
+    }
+
+    /// A mission that does not end by itself, once it drives the vehicle.
+    #[track_caller]
+    fn driven(&self, more: &[&str]) -> Child {
+        let run = self.mission(&["--mission", "stay"]).args(more).spawn().unwrap();
+        self.says("override taken");
+        run
+    }
+
+    /// Ctrl-C.
+    fn stop(mut self) -> (Option<i32>, String) {
+        send("-INT", &self.child);
+        (self.child.wait().unwrap().code(), self.said())
+    }
+}
+
+/// A test that fails leaves no vehicle behind.
+impl Drop for Vehicle {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A mission takes over, drives, gives back; the vehicle returns to where it was taken and goes on with its row.
+fn there_and_back(name: &str, link: &str) {
+    let folder = empty(name);
+    let vehicle = Vehicle::serve(link, &folder);
+    let out = folder.join("run");
+    let output = vehicle.mission(&["--json", "--out"]).arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}\n{}", stderr(&output), vehicle.said());
+    let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&result["outcome"], &result["scenario"]), (&"completed".into(), &vehicle.link.clone().into()));
+    let end = &result["reports"][0];
+    let metres = |name: &str| end[name].as_f64().unwrap();
+    assert!((metres("north_m") - 30.0).abs() < 20.0 && (metres("east_m") - 60.0).abs() < 20.0, "{end}");
+    assert!(end["error_m"].is_null(), "nobody knows the truth");
+    let way = result["path_length_m"].as_f64().unwrap();
+    assert!((50.0..1500.0).contains(&way), "{way} m");
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert!(trace.contains("control  in control") && trace.contains("end      completed"), "{trace}");
+    assert!(out.join("run.svg").exists());
+    let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
+    assert!(matches!(journal.ending, Ending::Complete(_)), "{:?}", journal.ending);
+    vehicle.says("override released");
+    vehicle.says("resumes row");
+    // It can be had again.
+    let again = vehicle.mission(&["--no-out"]).output().unwrap();
+    assert_eq!(again.status.code(), Some(0), "{}\n{}", stderr(&again), vehicle.said());
+    let (code, said) = vehicle.stop();
+    assert_eq!(code, Some(0));
+    assert!(!said.contains("timed out") && !said.contains("could not be read"), "{said}");
+}
+
+#[test]
+fn a_mission_drives_a_vehicle_over_a_pseudo_terminal() {
+    there_and_back("pty", "pty:?dialect=recon");
+}
+
+#[test]
+fn a_mission_drives_a_vehicle_over_udp() {
+    there_and_back("udp", "udp:127.0.0.1:0?dialect=recon");
+}
+
+#[test]
+fn a_vehicle_whose_guest_is_killed_goes_back_to_its_rows() {
+    let folder = empty("killed");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let out = folder.join("run");
+    let mut run = vehicle.driven(&["--out", &out.display().to_string()]);
+    grown(&out.join("journal"), 2000);
+    run.kill().unwrap();
+    run.wait().unwrap();
+    vehicle.says("override timed out: no message for 5 s");
+    vehicle.says("resumes row");
+    let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
+    assert!(matches!(journal.ending, Ending::CutShort(_)), "{:?}", journal.ending);
+}
+
+#[test]
+fn who_interrupts_a_mission_gives_the_vehicle_back() {
+    let folder = empty("interrupted");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let run = vehicle.driven(&["--no-out"]);
+    send("-INT", &run);
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("interrupted"));
+    vehicle.says("override released");
+    vehicle.says("resumes row");
+    let (code, said) = vehicle.stop();
+    assert_eq!(code, Some(0));
+    assert!(!said.contains("timed out"), "{said}");
+}
+
+#[test]
+fn a_vehicle_that_goes_away_is_told_with_4() {
+    let folder = empty("gone");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let run = vehicle.driven(&["--no-out"]);
+    assert_eq!(vehicle.stop().0, Some(0));
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(stderr(&output).contains("is gone"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_vehicle_that_falls_silent_is_told_with_4() {
+    let folder = empty("silent");
+    let vehicle = Vehicle::serve("udp:127.0.0.1:0?dialect=recon", &folder);
+    let out = folder.join("run");
+    let run = vehicle.driven(&["--out", &out.display().to_string()]);
+    grown(&out.join("journal"), 20_000);
+    assert_eq!(vehicle.stop().0, Some(0));
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("link lost"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("leaves override by itself"), "{}", stderr(&output));
+}
+
+/// Runs the mission against a peer that says the same line again and again.
+fn against(line: Option<&str>) -> Output {
+    let peer = UdpSocket::bind("127.0.0.1:0").unwrap();
+    peer.set_read_timeout(Some(Duration::from_millis(50))).unwrap();
+    let link = format!("udp:127.0.0.1:{}?dialect=recon", peer.local_addr().unwrap().port());
+    let mut run = albacore(&["run", EXCURSION, "--no-out", "--link", &link]).spawn().unwrap();
+    let mut guest = None;
+    let ended = eventually("the end of the run", || {
+        let mut buffer = [0; 1024];
+        guest = peer.recv_from(&mut buffer).ok().map(|(_, from)| from).or(guest);
+        if let (Some(line), Some(guest)) = (line, guest) {
+            let _ = peer.send_to(line.as_bytes(), guest);
+        }
+        run.try_wait().unwrap()
+    });
+    assert_eq!(ended.code(), Some(4));
+    run.wait_with_output().unwrap()
+}
+
+#[test]
+fn silence_another_dialect_and_a_stopped_clock_are_told_apart() {
+    let silent = stderr(&against(None));
+    assert!(silent.contains("nothing came from `udp:127.0.0.1:"), "{silent}");
+    assert!(silent.contains("check that the vehicle is on"), "{silent}");
+    let other = stderr(&against(Some("$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n")));
+    assert!(other.contains("none of them can be read as `recon`"), "{other}");
+    let version = stderr(&against(Some("#V,Sep 14 2011, 13:17:09,*81\n")));
+    assert!(version.contains("no state (`#S`)"), "{version}");
+}
+
+#[track_caller]
+fn ends_with(args: &[&str], code: i32, said: &str) {
+    let output = albacore(args).output().unwrap();
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {text}");
+    assert!(text.contains(said), "{args:?} should say `{said}`: {text}");
+}
+
+#[test]
+fn what_is_asked_for_wrongly_is_told() {
+    let run =
+        |link: &str, code: i32, said: &str| ends_with(&["run", EXCURSION, "--no-out", "--link", link], code, said);
+    run("/dev/ttyUSB0", 2, "is no link");
+    run("udp:10.0.0.1?dialect=recon", 2, "has no port");
+    run("serial:/dev/x?dialect=rekon", 2, "did you mean `recon`?");
+    run("serial:/dev/there-is-no-such-port?dialect=recon", 4, "there is no port");
+    run("pty:?dialect=recon", 4, "at which no vehicle waits");
+    let serve = |world: &str, said: &str| ends_with(&["vehicle", world, "--link", "pty:?dialect=recon"], 2, said);
+    serve("dock_2003", "did you mean `duck_2003`?");
+    serve(&format!("{EXCURSION}#bey"), "did you mean `bay`?");
+    serve("tests/link/excursions.alb#bay", "there is no file");
+    let rows = ["vehicle", "duck_2003", "--link", "pty:?dialect=recon", "--rows", "6"];
+    ends_with(&rows, 2, "LENGTHxSPACINGxCOUNT");
+    ends_with(&["run", EXCURSION, "--rate", "0"], 2, "from 0.1 to 1000");
+    ends_with(
+        &["run", "tests/rules/11_abort.alb", "--no-out", "--link", "pty:?dialect=recon"],
+        2,
+        "no place on the globe",
+    );
+}
+
+#[test]
+fn a_port_that_is_in_use_is_told_with_4() {
+    let folder = empty("busy");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let run = vehicle.driven(&["--no-out"]);
+    let second = vehicle.mission(&["--no-out"]).output().unwrap();
+    assert_eq!(second.status.code(), Some(4));
+    assert!(stderr(&second).contains("is in use by another program"), "{}", stderr(&second));
+    send("-INT", &run);
+    assert_eq!(run.wait_with_output().unwrap().status.code(), Some(1), "the first is not disturbed");
+}
