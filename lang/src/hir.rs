@@ -508,6 +508,12 @@ pub struct TestVars {
     pub position: VarId,
     /// The true source nearest to the latest report, else to the vehicle.
     pub nearest_source: VarId,
+    /// Where the vehicle started.
+    pub start: VarId,
+    /// The deepest point of the mission's area.
+    pub deepest: VarId,
+    /// The points whose true water depth is asked for, and where the answers go; what one asks with comes before it.
+    pub depths: Vec<(Expr, VarId)>,
     /// Since the run began.
     pub time: VarId,
     /// Whether the mission came to its own end.

@@ -238,6 +238,9 @@ impl<'t> Checker<'t> {
     }
 
     fn method(&mut self, base: &tree::Expr, member: &tree::Name, args: &[tree::Arg], span: Span) -> Expr {
+        if let Some(value) = self.test_method(base, member, args, span) {
+            return value;
+        }
         let value = self.expr(base, None);
         if value.ty == Type::Unknown {
             for arg in args {

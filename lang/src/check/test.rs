@@ -129,6 +129,9 @@ impl<'t> Checker<'t> {
         let vars = TestVars {
             position: var(self, "truth.position", Type::Point),
             nearest_source: var(self, "truth.nearest_source", Type::Point),
+            start: var(self, "truth.start", Type::Point),
+            deepest: var(self, "truth.deepest", Type::Point),
+            depths: Vec::new(),
             time: var(self, "time", Type::Quantity(Dimension::TIME)),
             completed: var(self, "completed", Type::Bool),
             area: var(self, "the mission's area", Type::Area),
@@ -165,13 +168,15 @@ impl<'t> Checker<'t> {
         Expect { when, holds, span }
     }
 
-    /// `truth.position`, and the area of the mission by the mission's name.
+    /// `truth.position` and the like, and the area of the mission by the mission's name.
     pub(super) fn test_member(&self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let vars = self.test_vars.as_ref()?;
         let tree::ExprKind::Name(name) = &base.kind else { return None };
         let id = match (name.as_str(), member.node.as_str()) {
             ("truth", "position") => vars.position,
             ("truth", "nearest_source") => vars.nearest_source,
+            ("truth", "start") => vars.start,
+            ("truth", "deepest") => vars.deepest,
             _ => {
                 let full = &self.activity_signatures[vars.mission].name;
                 let mission = full.rsplit('.').next().unwrap_or(full);
@@ -179,6 +184,29 @@ impl<'t> Checker<'t> {
                 own.then_some(vars.area)?
             }
         };
+        Some(self.variable(id, span))
+    }
+
+    /// `truth.depth_at(p)`: how deep the water truly is at a point.
+    pub(super) fn test_method(
+        &mut self,
+        base: &tree::Expr,
+        member: &tree::Name,
+        args: &[tree::Arg],
+        span: Span,
+    ) -> Option<Expr> {
+        self.test_vars.as_ref()?;
+        let is_truth = matches!(&base.kind, tree::ExprKind::Name(name) if name == "truth");
+        if !is_truth || member.node != "depth_at" {
+            return None;
+        }
+        let Some(given) = self.simple_args("depth_at", &[("point", Type::Point)], args, span) else {
+            return Some(self.unknown(span));
+        };
+        let id = self.declare_hidden("truth.depth_at".into(), VarKind::Signal, Type::Quantity(Dimension::LENGTH), span);
+        if let Some(vars) = &mut self.test_vars {
+            vars.depths.extend(given.into_iter().map(|point| (point, id)));
+        }
         Some(self.variable(id, span))
     }
 

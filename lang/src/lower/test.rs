@@ -3,7 +3,7 @@
 use super::Lowering;
 use super::watch::children;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, When};
+use crate::hir::{Builtin, Expr, ExprKind, Hir, VarId, When};
 use crate::source::Sources;
 use crate::types::TypeTable;
 use albacore_program::{Code, Program, Shape, Slot};
@@ -38,6 +38,10 @@ pub struct TestSlots {
     pub position: Slot,
     /// The true source nearest to the latest report, else to the vehicle (2 words).
     pub nearest_source: Slot,
+    /// Where the vehicle started (2 words).
+    pub start: Slot,
+    /// The deepest point of the mission's area (2 words).
+    pub deepest: Slot,
     /// Seconds since the run began.
     pub time: Slot,
     /// Whether the mission came to its own end.
@@ -59,6 +63,8 @@ pub struct ExpectProgram {
     pub place: String,
     /// When it must hold; at the end in this share of the runs, or always.
     pub share: Option<f64>,
+    /// The points whose true water depth it asks for, in order, and where the answers go.
+    pub depths: Vec<(Code, Slot)>,
     /// The condition.
     pub holds: Code,
     /// The reports that it speaks of.
@@ -76,6 +82,9 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     for expect in &test.expects {
         lowering.prepare(&expect.holds);
     }
+    for (point, _) in &test.known.depths {
+        lowering.prepare(point);
+    }
     let lowered = std::cell::RefCell::new((Vec::new(), None));
     let words = lowering.twice(&test.vars, 0, |l| {
         let at = |id: usize| l.frame.vars[id];
@@ -83,6 +92,8 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         let slots = TestSlots {
             position: at(known.position),
             nearest_source: at(known.nearest_source),
+            start: at(known.start),
+            deepest: at(known.deepest),
             time: at(known.time),
             completed: at(known.completed),
             area: at(known.area),
@@ -96,7 +107,10 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
             .iter()
             .map(|expect| {
                 let mut needs = Vec::new();
-                unwrapped(&expect.holds, &mut needs);
+                let mut asked = Vec::new();
+                depths(&expect.holds, &known.depths, &mut asked);
+                let conditions = asked.iter().map(|(point, _)| point).chain([&expect.holds]);
+                conditions.for_each(|e| unwrapped(e, &mut needs));
                 let needs = reports.iter().filter(|(id, _)| needs.contains(id)).map(|(_, slot)| *slot).collect();
                 let mut sides = Vec::new();
                 compared(&expect.holds, &mut sides);
@@ -111,6 +125,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                         When::AtTheEnd(share) => Some(share),
                         When::Always => None,
                     },
+                    depths: asked.into_iter().map(|(point, answer)| (l.code(point), l.frame.vars[*answer])).collect(),
                     holds: l.code(&expect.holds),
                     needs,
                     watched,
@@ -148,6 +163,17 @@ fn unwrapped(e: &Expr, out: &mut Vec<usize>) {
         out.push(id);
     }
     children(e, &mut |child| unwrapped(child, out));
+}
+
+/// The true depths that an expression asks for, those that they are asked with before them.
+fn depths<'e>(e: &Expr, known: &'e [(Expr, VarId)], out: &mut Vec<&'e (Expr, VarId)>) {
+    if let ExprKind::Var(id) = e.kind
+        && let Some(asked) = known.iter().find(|(_, answer)| *answer == id)
+    {
+        depths(&asked.0, known, out);
+        out.push(asked);
+    }
+    children(e, &mut |child| depths(child, known, out));
 }
 
 /// Both sides of the comparisons of a condition, constants left out.

@@ -4,7 +4,7 @@ use crate::journal::Keeper;
 use crate::picture;
 use crate::scenario;
 use crate::summary::{Report, Summary};
-use albacore_geometry::{Point, TangentFrame, Vector};
+use albacore_geometry::{Area, Point, TangentFrame, Vector};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{Script, suggestion};
 use albacore_machine::{Event, Machine, Outcome};
@@ -128,7 +128,10 @@ pub struct Run {
     reason: String,
     switches: u64,
     path_length_m: f64,
+    start: Point,
     last_truth: Point,
+    /// The deepest point of the mission's area, once it has one; none where the water is equally deep everywhere.
+    deepest: Option<Point>,
     picture: picture::Sketch,
     asked_for_control: bool,
 }
@@ -170,7 +173,9 @@ impl Run {
             reason: String::new(),
             switches: 0,
             path_length_m: 0.0,
+            start: last_truth,
             last_truth,
+            deepest: None,
             picture: picture::Sketch::default(),
             asked_for_control: false,
         })
@@ -219,6 +224,35 @@ impl Run {
         sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
     }
 
+    /// Where the vehicle started.
+    pub fn start(&self) -> Point {
+        self.start
+    }
+
+    /// How deep the water truly is at a point, in metres.
+    pub fn water_depth(&self, at: Point) -> f64 {
+        self.vehicle.water_depth(at)
+    }
+
+    /// The deepest point of the mission's area, once it has one; none where the water is equally deep everywhere.
+    pub fn deepest(&self) -> Option<Point> {
+        self.deepest
+    }
+
+    /// What a mission that declares a place is measured against: the nearest true source, else the deepest point of its
+    /// area where there are pits to be found.
+    fn truth_near(&self, place: Point) -> Option<Point> {
+        let sought = || self.deepest.filter(|_| !self.plan.scenario.bottom.pits.is_empty());
+        self.nearest_source(place).or_else(sought)
+    }
+
+    /// The corners of the mission's area, once it has one.
+    fn area_corners(&self) -> Vec<Point> {
+        let Some(words) = self.area_words() else { return Vec::new() };
+        let corner = |i: usize| 1 + albacore_program::AREA_CORNER_WORDS as usize * i;
+        (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
+    }
+
     /// The words of the mission's area, once it has one.
     pub(crate) fn area_words(&self) -> Option<&[f64]> {
         let program = &self.plan.program;
@@ -247,6 +281,10 @@ impl Run {
         let command = self.machine.step(&self.snapshot);
         let sent = command.map_or(Ok(()), |command| self.vehicle.command(&command));
         let events = self.machine.events().to_vec();
+        if self.deepest.is_none() && !self.plan.scenario.bottom.is_level() {
+            let area = Area::polygon(&self.area_corners()).ok();
+            self.deepest = area.map(|area| self.plan.scenario.bottom.deepest(&area));
+        }
         self.note(tick, &events);
         self.journal.tick(tick, &self.snapshot, command.as_ref(), &events);
         if let Err(error) = sent {
@@ -367,7 +405,7 @@ impl Run {
         let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
         let frame = program.mission.origin.map(|origin| TangentFrame { origin });
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
-        let error_m = place.and_then(|p| Some(self.nearest_source(p)?.distance(p)));
+        let error_m = place.and_then(|p| Some(self.truth_near(p)?.distance(p)));
         if let Some(place) = place {
             self.picture.declared(&site.name, place);
         }
@@ -408,22 +446,11 @@ impl Run {
 
     /// The picture of the run so far, as SVG.
     pub fn svg(&self) -> String {
-        let area = self.area_words().map(|words| {
-            let corner = |i: usize| 1 + albacore_program::AREA_CORNER_WORDS as usize * i;
-            (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
-        });
         let summary = self.summary(0.0);
         let scenario = &self.plan.scenario;
         let flow = (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean);
         let sources = scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect();
-        self.picture.svg(
-            &summary,
-            area.unwrap_or_default(),
-            self.vehicle.filaments().collect(),
-            sources,
-            scenario.vehicle.start,
-            flow,
-        )
+        self.picture.svg(&summary, self.area_corners(), self.vehicle.filaments().collect(), sources, self.start, flow)
     }
 }
 
