@@ -62,9 +62,10 @@ impl Test {
             }
         }
         if exit == Exit::Well && count.passed + count.failed == 0 {
-            let what = self.filter.as_ref().map_or("there are no tests here".to_string(), |text| {
-                format!("no test's name contains `{text}`")
-            });
+            let what = self
+                .filter
+                .as_ref()
+                .map_or("there are no tests here".to_string(), |text| format!("no test's name contains `{text}`"));
             message::error(&what, Some("`albacore test PATH` runs the `test` blocks of the scripts in PATH"));
             return Exit::Usage;
         }
@@ -125,8 +126,7 @@ impl Test {
             return None;
         }
         if self.accept {
-            let written =
-                file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
+            let written = file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
             return match written {
                 Ok(()) => {
                     say(&format!("        wrote {}\n", file.display()));

@@ -151,6 +151,7 @@ impl<'a> Lowering<'a> {
                 StmtKind::ForRange { body, .. }
                 | StmtKind::ForList { body, .. }
                 | StmtKind::ForEdges { body, .. }
+                | StmtKind::ForRows { body, .. }
                 | StmtKind::While { body, .. }
                 | StmtKind::Loop(body) => self.prepare_units(body),
                 _ => {}
@@ -583,9 +584,10 @@ fn assigned(block: &Block, out: &mut Vec<usize>) {
                 assigned(a, out);
                 assigned(b, out);
             }
-            StmtKind::ForRange { body, .. } | StmtKind::ForList { body, .. } | StmtKind::ForEdges { body, .. } => {
-                assigned(body, out)
-            }
+            StmtKind::ForRange { body, .. }
+            | StmtKind::ForList { body, .. }
+            | StmtKind::ForEdges { body, .. }
+            | StmtKind::ForRows { body, .. } => assigned(body, out),
             _ => {}
         }
     }

@@ -155,6 +155,11 @@ pub(super) fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) 
                 f(e);
                 block_children(body, f);
             }
+            StmtKind::ForRows { area, step, body, .. } => {
+                f(area);
+                f(step);
+                block_children(body, f);
+            }
             StmtKind::While { condition, body, .. } => {
                 f(condition);
                 block_children(body, f);

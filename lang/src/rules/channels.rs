@@ -123,6 +123,7 @@ impl Walk<'_> {
                 StmtKind::ForRange { body, .. }
                 | StmtKind::ForList { body, .. }
                 | StmtKind::ForEdges { body, .. }
+                | StmtKind::ForRows { body, .. }
                 | StmtKind::While { body, .. }
                 | StmtKind::Loop(body) => self.block(body, owners),
                 StmtKind::With(items, body) => {

@@ -99,6 +99,7 @@ impl Walk<'_> {
                 StmtKind::ForRange { body, .. }
                 | StmtKind::ForList { body, .. }
                 | StmtKind::ForEdges { body, .. }
+                | StmtKind::ForRows { body, .. }
                 | StmtKind::While { body, .. }
                 | StmtKind::Loop(body) => self.block(body),
                 StmtKind::With(items, body) => {
