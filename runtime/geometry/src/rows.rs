@@ -9,6 +9,9 @@ pub const ROWS_MAX: u32 = 1000;
 /// An edge is longer than another by more than this, in metres: of a square's four the first is the longest.
 const LONGER_M: f64 = 1e-3;
 
+/// A width that is a hair more than a whole number of steps is rounding, and no reason for one more row.
+const ROUNDING: f64 = 1e-9;
+
 /// The row of an index across a convex area that is given by its edges, clockwise; none beyond the last.
 ///
 /// Rows lie along the area's longest edge, of several the first, at most `step` metres apart and the outermost half as far
@@ -24,7 +27,7 @@ pub fn row(edges: impl Iterator<Item = Edge> + Clone, step: f64, index: u32) -> 
     }
     let width = edges.clone().map(|edge| longest.gap(edge.line.start)).fold(0.0, f64::max);
     // Written so that a step that is no number, or not above 0, gives as many as may be.
-    let wanted = (width / step).ceil();
+    let wanted = (width / step - ROUNDING).ceil();
     let count = if step > 0.0 && wanted <= f64::from(ROWS_MAX) { wanted.max(1.0) } else { f64::from(ROWS_MAX) };
     if f64::from(index) >= count {
         return None;
@@ -97,6 +100,8 @@ mod tests {
         for step in [1.0, 0.0, -3.0, f64::NAN] {
             assert_eq!(rows(&area, step).len(), ROWS_MAX as usize, "step {step}");
         }
+        let rounded = Area::rectangle(Point::ORIGIN, Heading::from_degrees(17.0), 300.0, 200.0).unwrap();
+        assert_eq!(rows(&rounded, 40.0).len(), 5);
         assert_eq!(rows(&area, f64::INFINITY).len(), 1);
         assert_eq!(row(std::iter::empty(), 10.0, 0), None);
     }
