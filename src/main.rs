@@ -1,9 +1,13 @@
 //! The command line: one file a verb. All that concerns terminals, files written and exit codes is here.
 
+mod campaign;
 mod check;
 mod exit;
+mod interruption;
 mod kept;
 mod message;
+mod plan;
+mod repl;
 mod run;
 mod test;
 
@@ -27,6 +31,13 @@ enum Verb {
     Check(check::Check),
     /// Run the tests of scripts.
     Test(test::Test),
+    /// Drive a simulated vehicle line by line.
+    Repl(repl::Repl),
+    /// Run a mission with many seeds, on all cores, into a table.
+    ///
+    /// A row for each seed, in their order: the same bytes on any number of cores and after any interruption. Ends with 0
+    /// when every seed was run, whatever came of it; with 1 when interrupted.
+    Campaign(campaign::Campaign),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +54,8 @@ fn main() -> ExitCode {
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
         Verb::Test(test) => test.run(),
+        Verb::Repl(repl) => repl.run(),
+        Verb::Campaign(campaign) => campaign.run(),
     };
     ExitCode::from(exit)
 }

@@ -8,6 +8,9 @@ use std::io::{IsTerminal, Write};
 /// Lines longer than this, in bytes, are not drawn.
 const LINE_MAX: usize = 400;
 
+/// So many findings are drawn, errors before warnings: nobody reads more, and each takes a look through its whole file.
+const DRAWN_MAX: usize = 100;
+
 /// A finding in the form that the renderer takes. Labels in one file are drawn in one frame; those of other files follow
 /// as findings of their own.
 struct Shown<'a> {
@@ -125,7 +128,12 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(120).with_links(false);
     let mut text = String::new();
-    for finding in findings {
+    let mut drawn: Vec<&Diagnostic> = findings.iter().collect();
+    if drawn.len() > DRAWN_MAX {
+        drawn.sort_by_key(|f| f.severity);
+        drawn.truncate(DRAWN_MAX);
+    }
+    for &finding in &drawn {
         if finding.labels.iter().any(|(span, _)| sources.line_length(*span) > LINE_MAX) {
             text.push_str(&plain(finding, sources));
             continue;
@@ -135,6 +143,9 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
             text.push_str(&finding.message);
         }
         text.push('\n');
+    }
+    if drawn.len() < findings.len() {
+        text.push_str(&format!("and {} more\n\n", findings.len() - drawn.len()));
     }
     let count = |severity: Severity| findings.iter().filter(|f| f.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));

@@ -2,12 +2,11 @@
 
 use crate::exit::Exit;
 use crate::kept::Kept;
-use crate::message;
-use albacore_session::{Outcome, Plan, PlanError, Run as MissionRun, Running, Script, Summary};
+use crate::{interruption, message, plan};
+use albacore_session::{Outcome, Plan, Run as MissionRun, Running, Summary};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -46,28 +45,17 @@ pub struct Run {
 impl Run {
     /// Runs the mission to its end.
     pub fn run(&self) -> Exit {
-        let script = match albacore_session::load(&self.script, self.mission.as_deref(), &self.set) {
-            Ok(script) => script,
-            Err(error) => {
-                message::error(&error.message, error.help.as_deref());
-                return Exit::Usage;
-            }
-        };
-        message::findings(&script.findings, &script.sources);
-        if !script.is_sound() {
-            return Exit::Script;
-        }
-        let file = self.script.display().to_string();
-        let plan = match Plan::new(&script, &file, self.mission.as_deref(), self.scenario.as_deref()) {
-            Ok(plan) => plan,
-            Err(error) => return refused(&error, &script),
+        let (mission, scenario) = (self.mission.as_deref(), self.scenario.as_deref());
+        let (script, plan) = match plan::plan(&self.script, mission, scenario, &self.set) {
+            Ok(planned) => planned,
+            Err(exit) => return exit,
         };
         let started = now();
         let mut run = match MissionRun::new(&plan, self.seed) {
             Ok(run) => run,
-            Err(error) => return refused(&error, &script),
+            Err(error) => return plan::refused(&error, &script),
         };
-        let interrupted = interruption();
+        let interrupted = interruption::flag();
         let mut kept = self.folder(&plan).map_or_else(Kept::nothing, Kept::begin);
         if let Some(journal) = kept.journal() {
             run.with_journal(Box::new(journal), &self.set);
@@ -139,15 +127,6 @@ impl Run {
     }
 }
 
-/// A flag that Ctrl-C and the system's request to end raise.
-fn interruption() -> Arc<AtomicBool> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&interrupted);
-    // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.
-    let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
-    interrupted
-}
-
 /// The result as a person reads it.
 fn human(summary: &Summary, picture: Option<&Path>) -> String {
     let minutes = |seconds: f64| format!("{} min {:02} s", (seconds / 60.0).floor(), (seconds % 60.0).floor());
@@ -183,19 +162,6 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
         text.push_str(&format!("  picture {}\n", picture.display()));
     }
     text
-}
-
-fn refused(error: &PlanError, script: &Script) -> Exit {
-    match error {
-        PlanError::Script(findings) => {
-            message::findings(findings, &script.sources);
-            Exit::Script
-        }
-        PlanError::Asked(what, help) => {
-            message::error(what, help.as_deref());
-            Exit::Usage
-        }
-    }
 }
 
 /// The wall clock, which only the command line may read.

@@ -72,3 +72,55 @@ fn scripts_without_one_of_their_tokens_are_checked() {
         }
     }
 }
+
+fn check_text(text: &str) -> Script {
+    check(Path::new("made.alb"), text)
+}
+
+#[test]
+fn ten_thousand_unknown_names_are_all_found() {
+    let lines: String = (0..10_000).map(|i| format!("    let a{i} = nothing_{i} + 1\n")).collect();
+    let script = check_text(&format!("mission m within 10 min {{\n{lines}}}\n"));
+    let unknown = script.findings.iter().filter(|f| f.code == "names::unknown").count();
+    assert_eq!(unknown, 10_000);
+}
+
+/// Whatever nests without end is refused, with one error, before it reaches the end of a stack.
+#[test]
+fn nesting_without_end_is_refused() {
+    let many = 30_000;
+    let expression = |before: &str, inner: &str, after: &str| {
+        format!("    let x = {}{inner}{}", before.repeat(many), after.repeat(many))
+    };
+    let wide = (0..60).fold("1".to_string(), |inner, _| format!("({inner}{})", " + 1".repeat(120)));
+    let bodies = [
+        format!("    let x = if true {{ 1 }}{} else {{ 0 }}", " else if true { 2 }".repeat(many)),
+        format!("    if true {{ hold }}{}", "\n    else if true { hold }".repeat(many)),
+        format!("    log \"{{{}1{}}}\"", "(".repeat(many), ")".repeat(many)),
+        format!("    log \"{{if true {{ 1 }}{} else {{ 0 }}}}\"", " else if true { 2 }".repeat(many)),
+        expression("(", "1", ")"),
+        expression("not ", "true", ""),
+        expression("", "position", ".north"),
+        expression("", "position", "[0]"),
+        expression("", "position", "(1)"),
+        expression("", "1", " + 1"),
+        format!("    let x = {wide}"),
+        "    with depth 3 m\n".repeat(many),
+    ];
+    for body in bodies {
+        let script = check_text(&format!("mission m within 10 min {{\n{body}\n}}\n"));
+        let nesting = script.findings.iter().filter(|f| f.code == "syntax::nesting").count();
+        assert_eq!(nesting, 1, "{}…: {:?}", &body[..60], script.findings.first());
+    }
+}
+
+/// What is as deep as allowed is checked on the small stack of a test's thread.
+#[test]
+fn what_is_just_not_too_deep_is_checked() {
+    let chain = " else if true { 2 }".repeat(60);
+    let sum = "(".repeat(60) + "1" + &") + 1 + 1".repeat(60);
+    for value in [format!("if true {{ 1 }}{chain} else {{ 0 }}"), sum, "1".to_string() + &" + 1".repeat(120)] {
+        let script = check_text(&format!("fn f() -> Int {{\n    {value}\n}}\n"));
+        assert!(script.is_sound(), "{:?}", script.findings);
+    }
+}

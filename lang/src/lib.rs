@@ -8,6 +8,7 @@ pub mod diagnostic;
 mod dimension;
 mod hir;
 mod lower;
+pub mod prompt;
 mod rules;
 pub mod source;
 mod suggest;
@@ -54,35 +55,31 @@ pub struct Script {
     hir: hir::Hir,
     types: types::TypeTable,
     missions: Vec<(MissionInfo, usize)>,
+    overrides: Vec<Override>,
 }
 
 /// Reads and checks a script. `set` changes parameters: `lambda=6s` of the mission or its scenario, `cpt_2005.beta=30deg`
 /// of a declaration. `mission` is the mission that is meant, when there are several.
 pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[String]) -> Script {
-    let mut loader = Loader {
-        library,
-        sources: Sources::default(),
-        modules: Vec::new(),
-        known: BTreeMap::new(),
-        findings: Vec::new(),
-    };
-    let main = loader.read(entry.clone(), String::new(), false, &mut Vec::new());
-    for source in library.prelude() {
-        if !loader.known.contains_key(&*source.name) {
-            let name = module_name(&source.name);
-            loader.read(source, name, true, &mut Vec::new());
-        }
-    }
-    let Loader { mut sources, modules, mut findings, .. } = loader;
-    let chosen = chosen_mission(&modules[main].tree, &entry.name, mission);
-    let overrides = overrides(&mut sources, set, chosen.as_ref(), &modules[main].tree, &mut findings);
+    let mut loader = Loader::new(library);
+    loader.read_all(entry);
+    finish(&mut loader, mission, set)
+}
+
+/// Checks what was read.
+fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script {
+    let Loader { sources, modules, .. } = loader;
+    let mut findings = std::mem::take(&mut loader.findings);
+    let main = &modules[MAIN].tree;
+    let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
+    let overrides = overrides(sources, set, chosen.as_ref(), main, &mut findings);
     let unreadable = findings.iter().any(|f| f.code.starts_with("syntax::"));
-    let checked = check::check(&modules, overrides);
+    let checked = check::check(modules, overrides.clone());
     // What could not be read is missing everywhere: names that it would have declared are no second mistake.
     let later = checked.findings.into_iter().filter(|f| !(unreadable && f.code == "names::unknown"));
     findings.extend(later);
     let mut missions = Vec::new();
-    for item in &modules[main].tree.items {
+    for item in &main.items {
         if let Item::Activity(a) = item
             && let ActivityKind::Mission { scenario, .. } = &a.kind
         {
@@ -98,8 +95,14 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
             findings.extend(rules::check(&checked.hir, *id));
         }
     }
+    let meant: Vec<usize> = missions
+        .iter()
+        .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))
+        .map(|(_, id)| *id)
+        .collect();
+    findings.extend(rules::unreached(&checked.hir, &meant, &checked.overrides));
     diagnostic::settle(&mut findings);
-    Script { sources, findings, hir: checked.hir, types: checked.types, missions }
+    Script { sources: sources.clone(), findings, hir: checked.hir, types: checked.types, missions, overrides }
 }
 
 impl Script {
@@ -147,14 +150,30 @@ struct Loader<'a> {
     findings: Vec<Diagnostic>,
 }
 
-impl Loader<'_> {
+impl<'a> Loader<'a> {
+    fn new(library: &'a dyn Library) -> Self {
+        let (sources, modules, known) = (Sources::default(), Vec::new(), BTreeMap::new());
+        Loader { library, sources, modules, known, findings: Vec::new() }
+    }
+
+    /// Reads a script, all it imports, and what every script knows.
+    fn read_all(&mut self, entry: Source) {
+        self.read(entry, String::new(), false, &mut Vec::new());
+        for source in self.library.prelude() {
+            if !self.known.contains_key(&*source.name) {
+                let name = module_name(&source.name);
+                self.read(source, name, true, &mut Vec::new());
+            }
+        }
+    }
+
     fn read(&mut self, source: Source, name: String, prelude: bool, path: &mut Vec<String>) -> usize {
         let file = self.sources.add(source.clone());
         let index = self.modules.len();
         self.known.insert(source.name.to_string(), index);
         let parsed = syntax::parse(file, &source.text);
         self.findings.extend(parsed.findings);
-        self.modules.push(Module { name, tree: parsed.file, imports: BTreeMap::new(), prelude });
+        self.modules.push(Module { name, tree: parsed.file, prelude, ..Module::default() });
         path.push(source.name.to_string());
         let uses: Vec<tree::Path> = self.modules[index]
             .tree
@@ -259,7 +278,7 @@ fn overrides(
                     Some((declaration, param)) => (declaration.to_string(), param.to_string()),
                     None => (owner_of(place.trim(), mission, tree), place.trim().to_string()),
                 };
-                overrides.push(Override { declaration, param, value, used: false });
+                overrides.push(Override { declaration, param, value, found: None });
             }
             Err(finding) => findings.push(finding),
         }
@@ -288,3 +307,5 @@ fn owner_of(param: &str, mission: Option<&tree::Activity>, tree: &tree::File) ->
 
 /// The file that is run is always the first.
 pub const ENTRY: FileId = FileId(0);
+/// And so is its module.
+const MAIN: usize = 0;

@@ -2,11 +2,10 @@
 
 use super::expr::article;
 use super::facts;
-use super::{Checker, Scope, Setting, Temporal, body};
+use super::{Checker, Scope, Setting, Temporal, flow};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
-use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
 use crate::types::Type;
 use albacore_program::Channel;
@@ -27,6 +26,11 @@ impl<'t> Checker<'t> {
         let ((mut activity, params), scope) = self.within(scope, |c| {
             c.declare_params(&a.params, &signature.params);
             let params = c.scope.vars.len();
+            if signature.name == crate::prompt::MISSION {
+                for (name, ty) in &c.modules[m].known {
+                    c.declare_hidden(name.clone(), VarKind::Let, ty.clone(), signature.span);
+                }
+            }
             (c.activity(id, a, None), params)
         });
         activity.name = a.name.node.clone();
@@ -205,7 +209,7 @@ impl<'t> Checker<'t> {
                 let finish = self.scope.finish.take();
                 let block = self.in_block(|c| c.block(block));
                 self.scope.finish = finish;
-                if let Some(place) = body::aborts(&block) {
+                if let Some(place) = flow::aborts(&block) {
                     self.report(
                         Diagnostic::error(
                             "missions::recovery",
@@ -261,6 +265,7 @@ impl<'t> Checker<'t> {
             }
         };
         let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
+        self.not_negative(&value, "the limit");
         if mission.limits.iter().any(|(c, l, _)| *c == channel.0 && *l == least) {
             self.report(Diagnostic::error("missions::twice", limit.span, "this limit is set twice"));
         }
@@ -287,7 +292,7 @@ impl<'t> Checker<'t> {
                         ),
                     };
                     let known: Vec<String> = self.hir.inputs.iter().map(|i| i.name.clone()).collect();
-                    let finding = match suggest::nearest(&name.node, known.iter().map(String::as_str)) {
+                    let finding = match self.nearest(&name.node, known.iter().map(String::as_str)) {
                         Some(near) => finding.help(format!("did you mean `{near}`?")),
                         None => finding,
                     };
@@ -344,7 +349,7 @@ impl<'t> Checker<'t> {
     /// A body's end: what must finish does, and what ends says so.
     fn sequence_ends(&mut self, a: &tree::Activity, kind: Kind, result: Option<&Type>, block: &hir::Block) {
         if let Some(result) = result
-            && !body::leaves(block)
+            && !flow::leaves(block)
         {
             let ty = self.type_name(result);
             self.report(
@@ -356,7 +361,7 @@ impl<'t> Checker<'t> {
                 .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
             );
         }
-        if matches!(kind, Kind::Sets(_)) && !body::leaves(block) {
+        if matches!(kind, Kind::Sets(_)) && !flow::leaves(block) {
             self.report(
                 Diagnostic::error(
                     "channels::ends",

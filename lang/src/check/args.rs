@@ -6,7 +6,6 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 
@@ -73,7 +72,7 @@ impl<'t> Checker<'t> {
                         label.span,
                         format!("`{what}` has no parameter `{}`", label.node),
                     );
-                    let finding = match suggest::help(&label.node, params.iter().map(|p| p.name.as_str())) {
+                    let finding = match self.suggestion(&label.node, params.iter().map(|p| p.name.as_str())) {
                         Some(help) => finding.help(help),
                         None => finding,
                     };
@@ -283,14 +282,8 @@ impl<'t> Checker<'t> {
             _ => {
                 let finding =
                     Diagnostic::error("names::unknown", name_span, format!("nothing named `{name}` can be called"));
-                let mut known: Vec<String> = BUILTINS.iter().map(|b| (*b).to_string()).collect();
-                for m in (0..self.modules.len()).filter(|&m| m == self.scope.module || self.modules[m].prelude) {
-                    let callable = self.names[m]
-                        .iter()
-                        .filter(|(_, d)| matches!(d, Def::Fn(_) | Def::Record(_) | Def::Activity(_)));
-                    known.extend(callable.map(|(n, _)| n.clone()));
-                }
-                let finding = match suggest::nearest(name, known.iter().map(String::as_str)) {
+                let known = BUILTINS.iter().copied().chain(self.callable_names());
+                let finding = match self.nearest(name, known) {
                     Some(near) => finding.help(format!("did you mean `{near}`?")),
                     None => finding
                         .help("functions, behaviors and strategies of other modules are written `module.name(…)`"),

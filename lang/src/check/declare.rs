@@ -1,29 +1,11 @@
 //! The first pass: what every module declares, before any body is looked at.
 
-use super::{Checker, ClauseInfo, Def, Lazy, ParamInfo, Scope, Setting, Signature};
+use super::{Checker, ClauseInfo, Def, Lazy, Scope, Setting, Signature};
 use crate::diagnostic::Diagnostic;
-use crate::dimension::{self, Dimension, Unit};
 use crate::hir::{self, Interval};
 use crate::source::Span;
-use crate::suggest;
-use crate::syntax::tree::{self, ActivityKind, Item, Ty, TyKind};
+use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
 use crate::types::{EnumInfo, RecordInfo, Type};
-
-/// A parameter set from outside, as by `--set cpt_2005.beta=30deg`.
-#[derive(Clone, Debug)]
-pub struct Override {
-    /// The declaration, by its own name or with its module, and the parameter.
-    pub declaration: String,
-    /// The parameter.
-    pub param: String,
-    /// The value.
-    pub value: tree::Expr,
-    /// Whether it has found its parameter.
-    pub used: bool,
-}
-
-/// Lists hold this many elements at most.
-const LIST_CAPACITY_MAX: f64 = 1024.0;
 
 impl<'t> Checker<'t> {
     pub(super) fn run(&mut self) {
@@ -43,7 +25,7 @@ impl<'t> Checker<'t> {
                 self.declare_signature(m, item);
             }
         }
-        for unused in self.overrides.clone().into_iter().filter(|o| !o.used) {
+        for unused in self.overrides.clone().into_iter().filter(|o| o.found.is_none()) {
             self.unknown_override(&unused);
         }
         self.make_room();
@@ -178,43 +160,6 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn declared_unit(&mut self, m: usize, value: &tree::Expr) -> Option<Unit> {
-        let tree::ExprKind::Number { value: number, unit: Some(unit) } = &value.kind else {
-            self.report(
-                Diagnostic::error("units::declaration", value.span, "a unit is declared by a quantity")
-                    .help("for example `unit fathom = 1.8288 m`"),
-            );
-            return None;
-        };
-        let base = self.unit(m, unit)?;
-        Some(Unit { dimension: base.dimension, scale: base.scale * number })
-    }
-
-    /// The unit that a word names in a module.
-    pub(super) fn unit(&mut self, module: usize, word: &tree::Name) -> Option<Unit> {
-        let own = |name: &str| match self.lookup(module, name) {
-            Some(Def::Unit(unit)) => Some(*unit),
-            _ => None,
-        };
-        let found = dimension::unit(&word.node, &own);
-        if found.is_none() {
-            let known: Vec<&str> = dimension::UNITS.iter().map(|(name, ..)| *name).collect();
-            let finding = Diagnostic::error("units::unknown", word.span, format!("`{}` is no unit", word.node))
-                .here("unknown unit");
-            let finding = if let Some((unit, name)) = word.node.split_once('/')
-                && dimension::unit(unit, &own).is_some()
-            {
-                finding.help(format!("to divide by a variable, write a blank: `{unit} / {name}`"))
-            } else if let Some(near) = nearest_unit(&word.node, &known) {
-                finding.help(format!("did you mean `{near}`?"))
-            } else {
-                finding.help("units are m, cm, km, nmi, ft, s, min, h, deg, rad, m/s, kn, Hz, %, kg, g and what they make, such as m2/s")
-            };
-            self.report(finding);
-        }
-        found
-    }
-
     fn declare_types(&mut self, m: usize, item: &'t Item) {
         match item {
             Item::Record { name, fields } => {
@@ -311,242 +256,6 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn mission_params(&mut self, mission: &tree::Activity) {
-        for param in mission.params.iter().filter(|p| p.default.is_none()) {
-            self.report(
-                Diagnostic::error(
-                    "missions::default",
-                    param.name.span,
-                    format!("the mission's parameter `{}` has no default", param.name.node),
-                )
-                .help(format!(
-                    "write `{}: … = VALUE`; `--set {}=VALUE` then changes it",
-                    param.name.node, param.name.node
-                )),
-            );
-        }
-    }
-
-    pub(super) fn params(&mut self, m: usize, params: &'t [tree::Param], owner: Option<&str>) -> Vec<ParamInfo> {
-        let mut infos: Vec<ParamInfo> = Vec::new();
-        for param in params {
-            if let Some(earlier) = infos.iter().find(|i| i.name == param.name.node) {
-                let finding = Diagnostic::error(
-                    "names::twice",
-                    param.name.span,
-                    format!("there are two parameters `{}`", param.name.node),
-                )
-                .label(earlier.span, "the first");
-                self.report(finding);
-            }
-            let ty = self.written_type(m, &param.ty);
-            let range = param.range.as_ref().and_then(|r| self.constant_range(m, r, &ty));
-            let replaced = owner.and_then(|owner| self.take_override(m, owner, &param.name.node));
-            let default = replaced.as_ref().or(param.default.as_ref()).map(|written| {
-                let scope = Scope::new(m, Setting::Constant);
-                let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, "the default"));
-                value
-            });
-            if let (Some(default), Some(range)) = (&default, range) {
-                self.in_range(default, range, &param.name.node, param.name.span);
-            }
-            infos.push(ParamInfo { name: param.name.node.clone(), ty, default, range, span: param.name.span });
-        }
-        infos
-    }
-
-    fn take_override(&mut self, m: usize, owner: &str, param: &str) -> Option<tree::Expr> {
-        let full = format!("{}.{owner}", self.modules[m].name);
-        let found = self
-            .overrides
-            .iter_mut()
-            .find(|o| o.param == param && (o.declaration == owner || o.declaration == full))?;
-        found.used = true;
-        Some(found.value.clone())
-    }
-
-    fn unknown_override(&mut self, unused: &Override) {
-        let mut all: Vec<String> = Vec::new();
-        for signature in &self.activity_signatures {
-            let short = signature.name.rsplit('.').next().unwrap_or("");
-            if unused.declaration == short || unused.declaration == signature.name {
-                all.extend(signature.params.iter().map(|p| p.name.clone()));
-            }
-        }
-        for scenario in &self.hir.scenarios {
-            if unused.declaration == scenario.name {
-                all.extend(scenario.vars.iter().map(|v| v.name.clone()));
-            }
-        }
-        let finding = Diagnostic::error(
-            "set::unknown",
-            unused.value.span,
-            format!("`{}` has no parameter `{}`", unused.declaration, unused.param),
-        );
-        let finding = match suggest::help(&unused.param, all.iter().map(String::as_str)) {
-            Some(help) => finding.help(help),
-            None => finding.help(format!("nothing named `{}` takes parameters", unused.declaration)),
-        };
-        self.report(finding);
-    }
-
-    fn constant_range(&mut self, m: usize, range: &tree::Range, ty: &Type) -> Option<Interval> {
-        let scope = Scope::new(m, Setting::Constant);
-        let ((first, last), _) =
-            self.within(scope, |c| (c.expr_as(&range.first, ty, "the range"), c.expr_as(&range.last, ty, "the range")));
-        match (first.range.constant(), last.range.constant()) {
-            (Some(low), Some(high)) if low <= high => Some(Interval::new(low, high)),
-            (Some(_), Some(_)) => {
-                self.report(
-                    Diagnostic::error(
-                        "ranges::empty",
-                        range.first.span.to(range.last.span),
-                        "this range holds nothing",
-                    )
-                    .help("the smaller bound comes first"),
-                );
-                None
-            }
-            _ => None,
-        }
-    }
-
-    /// Checks that a value is in a parameter's range, as far as the value is known.
-    pub(super) fn in_range(&mut self, value: &hir::Expr, range: Interval, param: &str, declared: Span) {
-        if value.ty == Type::Unknown || (value.range.low >= range.low && value.range.high <= range.high) {
-            return;
-        }
-        let show = |x: f64| self.shown_number(x, &value.ty);
-        let bounds = format!("{}..{}", show(range.low), show(range.high));
-        let finding = match value.range.constant() {
-            Some(x) => Diagnostic::error(
-                "ranges::outside",
-                value.span,
-                format!("{} is outside the range of `{param}`", show(x)),
-            )
-            .help(format!("choose a value in {bounds}")),
-            None => Diagnostic::error(
-                "ranges::unproved",
-                value.span,
-                format!("this may be outside the range of `{param}`, {bounds}"),
-            )
-            .help("give what it is computed from a range of its own, or hold it with `clamp(x, low, high)`"),
-        };
-        self.report(finding.label(declared, format!("`{param}` is in {bounds}")));
-    }
-
-    fn shown_number(&self, x: f64, ty: &Type) -> String {
-        let display = match ty {
-            Type::Quantity(d) if !d.is_none() => d.display(),
-            Type::Heading => Dimension::ANGLE.display(),
-            Type::Depth | Type::Altitude => Dimension::LENGTH.display(),
-            _ => return format!("{x}"),
-        };
-        // As a person writes it: rounded where radians come back as degrees.
-        let value = (x / display.scale * 1e6).round() / 1e6;
-        format!("{value} {}", display.unit)
-    }
-
-    /// The type that is written.
-    pub(super) fn written_type(&mut self, m: usize, ty: &Ty) -> Type {
-        let inner = match &ty.kind {
-            TyKind::List { element, capacity, .. } => {
-                let element = self.written_type(m, element);
-                let scope = Scope::new(m, Setting::Constant);
-                let (capacity, _) = self.within(scope, |c| c.expr_as(capacity, &Type::Int, "the capacity"));
-                match capacity.range.constant() {
-                    Some(n) if (1.0..=LIST_CAPACITY_MAX).contains(&n) => Type::List(Box::new(element), n as u32),
-                    _ => {
-                        if capacity.ty != Type::Unknown {
-                            self.report(
-                                Diagnostic::error("types::capacity", capacity.span, "a list's capacity is a constant")
-                                    .help(format!("a whole number from 1 to {LIST_CAPACITY_MAX}")),
-                            );
-                        }
-                        Type::Unknown
-                    }
-                }
-            }
-            TyKind::Named { path, factors } => self.named_type(m, path, factors),
-        };
-        if ty.optional { inner.optional() } else { inner }
-    }
-
-    fn named_type(&mut self, m: usize, path: &tree::Path, factors: &[(tree::Name, f64)]) -> Type {
-        let name = path.text();
-        if !factors.is_empty() {
-            let mut dimension = self.dimension_of(&path.parts[0]).unwrap_or(Dimension::NONE);
-            for (factor, power) in factors {
-                let raised = self.dimension_of(factor).and_then(|d| d.power(*power));
-                dimension = dimension * raised.unwrap_or(Dimension::NONE);
-            }
-            return Type::Quantity(dimension);
-        }
-        let simple = match name.as_str() {
-            "Bool" => Some(Type::Bool),
-            "Int" => Some(Type::Int),
-            "Sign" => Some(Type::Sign),
-            "Text" => Some(Type::Text),
-            "Heading" => Some(Type::Heading),
-            "Depth" => Some(Type::Depth),
-            "Altitude" => Some(Type::Altitude),
-            "Point" => Some(Type::Point),
-            "Vector" => Some(Type::Vector(Dimension::LENGTH)),
-            "Velocity" => Some(Type::Vector(Dimension::SPEED)),
-            "Direction" => Some(Type::Vector(Dimension::NONE)),
-            "Area" => Some(Type::Area),
-            "Edge" => Some(Type::Edge),
-            "Line" => Some(Type::Line),
-            other => Dimension::of_type(other).map(Type::Quantity),
-        };
-        if let Some(ty) = simple {
-            return ty;
-        }
-        let found = match path.parts.as_slice() {
-            [name] => self.lookup(m, &name.node).cloned(),
-            [module, name] => {
-                self.modules[m].imports.get(&module.node).and_then(|&i| self.names[i].get(&name.node)).cloned()
-            }
-            _ => None,
-        };
-        match found {
-            Some(Def::Record(id)) => Type::Record(id),
-            Some(Def::Enum(id)) => Type::Enum(id),
-            Some(def) => {
-                self.report(Diagnostic::error(
-                    "types::unknown",
-                    path.span,
-                    format!("`{name}` is {}, no type", def.what()),
-                ));
-                Type::Unknown
-            }
-            None => {
-                let mut known: Vec<&str> = dimension::NAMED.iter().map(|(n, _)| *n).collect();
-                known.extend(SIMPLE_TYPES);
-                let declared = self.names[m].iter().filter(|(_, d)| matches!(d, Def::Record(_) | Def::Enum(_)));
-                known.extend(declared.map(|(n, _)| n.as_str()));
-                let finding = Diagnostic::error("types::unknown", path.span, format!("there is no type `{name}`"));
-                let finding = match suggest::nearest(&name, known) {
-                    Some(near) => finding.help(format!("did you mean `{near}`?")),
-                    None => finding.help("types are Length, Duration, Speed, Angle, Heading, Depth, Altitude, Point, Vector, Int, Bool, … and the records and enums declared"),
-                };
-                self.report(finding);
-                Type::Unknown
-            }
-        }
-    }
-
-    fn dimension_of(&mut self, name: &tree::Name) -> Option<Dimension> {
-        let found = Dimension::of_type(&name.node);
-        if found.is_none() {
-            self.report(
-                Diagnostic::error("types::unknown", name.span, format!("`{}` is no quantity", name.node))
-                    .help("only quantities such as Length and Duration can be multiplied and divided"),
-            );
-        }
-        found
-    }
-
     /// The value of a constant, checked when first needed.
     pub(super) fn constant(&mut self, id: usize) -> hir::Expr {
         self.lazy(id, true)
@@ -602,38 +311,4 @@ impl<'t> Checker<'t> {
             _ => {}
         }
     }
-}
-
-const SIMPLE_TYPES: [&str; 14] = [
-    "Bool",
-    "Int",
-    "Sign",
-    "Text",
-    "Heading",
-    "Depth",
-    "Altitude",
-    "Point",
-    "Vector",
-    "Velocity",
-    "Direction",
-    "Area",
-    "Edge",
-    "Line",
-];
-
-/// The unit that a word was probably meant to be: what people write elsewhere, then what is spelt alike.
-fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
-    let meant = match word {
-        "sec" | "secs" | "second" | "seconds" => "s",
-        "minute" | "minutes" | "mins" => "min",
-        "hour" | "hours" | "hr" | "hrs" => "h",
-        "metre" | "metres" | "meter" | "meters" => "m",
-        "degree" | "degrees" | "°" => "deg",
-        "radian" | "radians" => "rad",
-        "kt" | "kts" => "kn",
-        "percent" => "%",
-        "feet" | "foot" => "ft",
-        _ => return suggest::nearest(word, known.iter().copied()),
-    };
-    known.iter().copied().find(|k| *k == meant)
 }

@@ -1,12 +1,12 @@
 //! Fields and methods of values: what stands after a dot.
 
 use super::Checker;
-use super::expr::{Found, article};
+use super::expr::article;
+use super::names::Found;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 
@@ -185,7 +185,7 @@ impl<'t> Checker<'t> {
             format!("the module `{}` has no `{}`", self.modules[module].name, name.node),
         );
         let names: Vec<String> = self.names[module].keys().cloned().collect();
-        let finding = match suggest::help(&name.node, names.iter().map(String::as_str)) {
+        let finding = match self.suggestion(&name.node, names.iter().map(String::as_str)) {
             Some(help) => finding.help(help),
             None => finding,
         };
@@ -198,7 +198,7 @@ impl<'t> Checker<'t> {
             Diagnostic::error("names::member", member.span, format!("{} has no `{}`", article(&ty), member.node))
                 .label(value.span, format!("`{ty}`"));
         let names = member_names(self, &value.ty);
-        let finding = match suggest::help(&member.node, names.iter().map(String::as_str)) {
+        let finding = match self.suggestion(&member.node, names.iter().map(String::as_str)) {
             Some(help) => finding.help(help),
             None => finding,
         };

@@ -3,30 +3,44 @@
 mod activity;
 mod args;
 mod body;
+mod choice;
 mod constant;
+mod convert;
 mod declare;
 mod expr;
 mod facts;
+mod flow;
+mod loops;
 mod members;
+mod names;
 mod operators;
+mod params;
 mod scenario;
+mod sense;
 mod table;
 mod test;
 mod timed;
+mod written;
 
-pub use declare::Override;
+pub use params::Override;
+pub use table::never_ends;
 
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
-use crate::hir::{self, Hir, Interval, VarId, VarKind};
+use crate::hir::{self, Hir, Interval, VarId};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Beyond this many findings no name is searched for what it may have meant: each search looks at all names, and nobody
+/// reads so far.
+const HELPED_MAX: usize = 200;
+
 /// A file with the name by which others import it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Module {
     /// `cpt`, or empty for the file that is run.
     pub name: String,
@@ -36,6 +50,10 @@ pub struct Module {
     pub imports: BTreeMap<String, usize>,
     /// Its names are known everywhere without being imported.
     pub prelude: bool,
+    /// A line of the prompt: the module whose names it knows as its own.
+    pub extends: Option<usize>,
+    /// A line of the prompt: names whose values are put in place before its mission begins.
+    pub known: Vec<(String, Type)>,
 }
 
 /// What a name of a module stands for.
@@ -176,8 +194,8 @@ pub struct Checker<'t> {
     types: TypeTable,
     hir: Hir,
     scope: Scope,
-    /// What a test's expectations speak of, while one is being checked.
-    test_vars: Option<hir::TestVars>,
+    /// The test that is being checked, while its expectations are.
+    test: Option<test::TestScope>,
     findings: Vec<Diagnostic>,
 }
 
@@ -187,6 +205,8 @@ pub struct Checked {
     pub hir: Hir,
     /// Its declared types.
     pub types: TypeTable,
+    /// What was set from outside, and where it went.
+    pub overrides: Vec<Override>,
     /// What is wrong with it.
     pub findings: Vec<Diagnostic>,
 }
@@ -207,16 +227,26 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
         types: TypeTable::default(),
         hir: Hir::default(),
         scope: Scope::new(0, Setting::Constant),
-        test_vars: None,
+        test: None,
         findings: Vec::new(),
     };
     checker.run();
-    Checked { hir: checker.hir, types: checker.types, findings: checker.findings }
+    Checked { hir: checker.hir, types: checker.types, overrides: checker.overrides, findings: checker.findings }
 }
 
 impl<'t> Checker<'t> {
     fn report(&mut self, finding: Diagnostic) {
         self.findings.push(finding);
+    }
+
+    /// The name that was probably meant.
+    fn nearest<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+        if self.findings.len() < HELPED_MAX { suggest::nearest(name, known) } else { None }
+    }
+
+    /// "did you mean `x`?", or else what there is.
+    fn suggestion<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str> + Clone) -> Option<String> {
+        if self.findings.len() < HELPED_MAX { suggest::help(name, known) } else { None }
     }
 
     fn type_name(&self, ty: &Type) -> String {
@@ -253,57 +283,5 @@ impl<'t> Checker<'t> {
         let result = work(self);
         self.scope.setting = outer;
         result
-    }
-
-    /// A name that a module defines, or that everyone knows.
-    fn lookup(&self, module: usize, name: &str) -> Option<&Def> {
-        self.lookup_if(module, name, |_| true)
-    }
-
-    /// The same among the definitions of some kind: a name before `(` is looked up among what can be called.
-    fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
-        let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
-        std::iter::once(module).chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
-    }
-
-    fn local(&self, name: &str) -> Option<VarId> {
-        self.scope.visible.iter().rev().find(|(n, _)| n == name).map(|&(_, id)| id)
-    }
-
-    /// Makes a variable known from here on.
-    fn declare(&mut self, name: &tree::Name, kind: VarKind, ty: Type) -> VarId {
-        let earlier = self.local(&name.node).map(|id| self.scope.vars[id].span);
-        let finding = |what: &str| {
-            Diagnostic::error("names::shadowed", name.span, format!("`{}` is the name of {what} already", name.node))
-                .here("nothing can be shadowed")
-                .help("choose another name")
-        };
-        if let Some(span) = earlier {
-            self.report(finding("something").label(span, "declared here"));
-        } else if let Some(def) = self.lookup(self.scope.module, &name.node) {
-            let callable =
-                matches!(def, Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_) | Def::Scenario(_));
-            // A name before `(` is looked up among what can be called, any other among values.
-            if !callable {
-                let finding = finding(def.what());
-                self.report(finding);
-            }
-        }
-        self.declare_hidden(name.node.clone(), kind, ty, name.span)
-    }
-
-    fn declare_hidden(&mut self, name: String, kind: VarKind, ty: Type, span: Span) -> VarId {
-        let id = self.scope.vars.len();
-        self.scope.vars.push(hir::Var {
-            name: name.clone(),
-            kind,
-            ty,
-            span,
-            range: Interval::ANY,
-            walks_constants: false,
-            order: None,
-        });
-        self.scope.visible.push((name, id));
-        id
     }
 }

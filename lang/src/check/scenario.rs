@@ -1,11 +1,10 @@
 //! Scenarios: clauses with typed arguments. What a clause means is for the simulator; its parameters are declared in
 //! the standard library like those of any function.
 
-use super::expr::Found;
+use super::names::Found;
 use super::{Checker, Def, Scope, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
-use crate::suggest;
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
 
@@ -42,15 +41,7 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn scenario_named(&mut self, path: &tree::Path) -> Option<usize> {
-        let module = self.scope.module;
-        let found = match path.parts.as_slice() {
-            [name] => self.lookup(module, &name.node).cloned(),
-            [head, name] => {
-                self.modules[module].imports.get(&head.node).and_then(|&i| self.names[i].get(&name.node)).cloned()
-            }
-            _ => None,
-        };
-        match found {
+        match self.resolve(self.scope.module, path).cloned() {
             Some(Def::Scenario(id)) => Some(id),
             // A scenario may also be chosen on the command line: what is missing here is reported where it is run.
             Some(def) => {
@@ -68,7 +59,7 @@ impl<'t> Checker<'t> {
                     path.span,
                     format!("there is no scenario `{}`", path.text()),
                 );
-                let finding = match suggest::help(&path.text(), known.iter().map(String::as_str)) {
+                let finding = match self.suggestion(&path.text(), known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
                     None => finding,
                 };
@@ -132,7 +123,7 @@ impl<'t> Checker<'t> {
                 .filter(|c| c.kind.is_some() == as_value)
                 .map(|c| c.signature.name.clone())
                 .collect();
-            let finding = match suggest::help(&name, known.iter().map(String::as_str)) {
+            let finding = match self.suggestion(&name, known.iter().map(String::as_str)) {
                 Some(help) => finding.help(help),
                 None => finding,
             };

@@ -2,10 +2,9 @@
 
 use super::expr::article;
 use super::facts;
-use super::{Checker, Setting, body};
+use super::{Checker, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
-use crate::suggest;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
 
@@ -111,7 +110,7 @@ impl<'t> Checker<'t> {
         if found.is_none() {
             let finding =
                 Diagnostic::error("rules::unknown", name.span, format!("there is no behavior `{}` here", name.node));
-            let finding = match suggest::help(&name.node, names.iter().map(|n| n.node.as_str())) {
+            let finding = match self.suggestion(&name.node, names.iter().map(|n| n.node.as_str())) {
                 Some(help) => finding.help(help),
                 None => finding,
             };
@@ -284,10 +283,18 @@ impl<'t> Checker<'t> {
     }
 }
 
+/// Whether a mission's statements never come to their end by themselves.
+pub fn never_ends(hir: &hir::Hir, mission: usize) -> bool {
+    match &hir.activities[mission].body {
+        Body::Sequence(block) => !can_end(block, hir, &mut Vec::new()),
+        _ => false,
+    }
+}
+
 /// Whether a body can come to its end. `path` holds the activities that are being asked already: recursion is an error of
 /// its own.
 fn can_end(block: &hir::Block, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
-    if body::leaves(block) {
+    if flow::leaves(block) {
         return finishes(block);
     }
     !block.stmts.iter().any(|stmt| match &stmt.kind {

@@ -3,14 +3,23 @@
 use super::{Checker, Def, Scope, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Expect, Expr, ExprKind, Interval, Test, TestVars, VarKind, When};
+use crate::hir::{Expect, Expr, ExprKind, Interval, Test, TestNames, VarKind, When};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind, ExpectMode, Item, TestClause};
 use crate::types::Type;
 
 /// A test runs this many seeds at most.
 const SEEDS_MAX: f64 = 1_000_000.0;
+
+/// The test whose expectations are being checked.
+pub(super) struct TestScope {
+    /// The mission that it runs.
+    mission: usize,
+    /// What its expectations speak of.
+    names: TestNames<usize>,
+    /// The points whose true water depth they ask for, and the variables of the answers.
+    depths: Vec<(Expr, usize)>,
+}
 
 impl<'t> Checker<'t> {
     pub(super) fn check_test(&mut self, m: usize, test: &'t tree::Test) {
@@ -66,10 +75,9 @@ impl<'t> Checker<'t> {
                     TestClause::Run { .. } => {}
                 }
             }
-            let vars = c.test_vars.take();
-            (expects, snapshots, vars)
+            (expects, snapshots, c.test.take())
         });
-        let (expects, snapshots, vars) = checked;
+        let (expects, snapshots, known) = checked;
         for seed in &snapshots {
             if *seed < seeds.0 || *seed > seeds.1 {
                 self.report(
@@ -82,7 +90,7 @@ impl<'t> Checker<'t> {
                 );
             }
         }
-        let (Some(args), Some(scenario), Some(vars)) = (args, scenario, vars) else { return };
+        let (Some(args), Some(scenario), Some(known)) = (args, scenario, known) else { return };
         self.hir.tests.push(Test {
             name,
             span: test.name.span,
@@ -93,26 +101,20 @@ impl<'t> Checker<'t> {
             expects,
             snapshots,
             vars: scope.vars,
-            known: vars,
+            known: known.names,
+            depths: known.depths,
         });
     }
 
     fn mission_named(&mut self, m: usize, path: &tree::Path) -> Option<usize> {
-        let found = match path.parts.as_slice() {
-            [name] => self.lookup(m, &name.node).cloned(),
-            [module, name] => {
-                self.modules[m].imports.get(&module.node).and_then(|&i| self.names[i].get(&name.node)).cloned()
-            }
-            _ => None,
-        };
-        match found {
-            Some(Def::Activity(id)) if self.mission_ids.contains(&id) => Some(id),
+        match self.resolve(m, path) {
+            Some(&Def::Activity(id)) if self.mission_ids.contains(&id) => Some(id),
             _ => {
                 let known: Vec<String> =
                     self.mission_ids.iter().map(|&id| self.activity_signatures[id].name.clone()).collect();
                 let finding =
                     Diagnostic::error("tests::mission", path.span, format!("there is no mission `{}`", path.text()));
-                let finding = match suggest::help(&path.text(), known.iter().map(String::as_str)) {
+                let finding = match self.suggestion(&path.text(), known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
                     None => finding,
                 };
@@ -126,20 +128,18 @@ impl<'t> Checker<'t> {
     fn test_scope(&mut self, mission: usize) {
         let span = self.activity_signatures[mission].span;
         let var = |c: &mut Self, name: &str, ty: Type| c.declare_hidden(name.to_string(), VarKind::Signal, ty, span);
-        let vars = TestVars {
+        let vars = TestNames {
             position: var(self, "truth.position", Type::Point),
             nearest_source: var(self, "truth.nearest_source", Type::Point),
             start: var(self, "truth.start", Type::Point),
             deepest: var(self, "truth.deepest", Type::Point),
-            depths: Vec::new(),
             time: var(self, "time", Type::Quantity(Dimension::TIME)),
             completed: var(self, "completed", Type::Bool),
             area: var(self, "the mission's area", Type::Area),
-            mission,
             reported: Vec::new(),
             reported_at: Vec::new(),
         };
-        self.test_vars = Some(vars);
+        self.test = Some(TestScope { mission, names: vars, depths: Vec::new() });
     }
 
     fn expect(&mut self, mode: &ExpectMode, holds: &tree::Expr, span: Span) -> Expect {
@@ -170,18 +170,18 @@ impl<'t> Checker<'t> {
 
     /// `truth.position` and the like, and the area of the mission by the mission's name.
     pub(super) fn test_member(&self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
-        let vars = self.test_vars.as_ref()?;
+        let test = self.test.as_ref()?;
         let tree::ExprKind::Name(name) = &base.kind else { return None };
         let id = match (name.as_str(), member.node.as_str()) {
-            ("truth", "position") => vars.position,
-            ("truth", "nearest_source") => vars.nearest_source,
-            ("truth", "start") => vars.start,
-            ("truth", "deepest") => vars.deepest,
+            ("truth", "position") => test.names.position,
+            ("truth", "nearest_source") => test.names.nearest_source,
+            ("truth", "start") => test.names.start,
+            ("truth", "deepest") => test.names.deepest,
             _ => {
-                let full = &self.activity_signatures[vars.mission].name;
+                let full = &self.activity_signatures[test.mission].name;
                 let mission = full.rsplit('.').next().unwrap_or(full);
                 let own = name == mission && self.area_name(mission).as_deref() == Some(&member.node);
-                own.then_some(vars.area)?
+                own.then_some(test.names.area)?
             }
         };
         Some(self.variable(id, span))
@@ -195,7 +195,7 @@ impl<'t> Checker<'t> {
         args: &[tree::Arg],
         span: Span,
     ) -> Option<Expr> {
-        self.test_vars.as_ref()?;
+        self.test.as_ref()?;
         let is_truth = matches!(&base.kind, tree::ExprKind::Name(name) if name == "truth");
         if !is_truth || member.node != "depth_at" {
             return None;
@@ -204,8 +204,8 @@ impl<'t> Checker<'t> {
             return Some(self.unknown(span));
         };
         let id = self.declare_hidden("truth.depth_at".into(), VarKind::Signal, Type::Quantity(Dimension::LENGTH), span);
-        if let Some(vars) = &mut self.test_vars {
-            vars.depths.extend(given.into_iter().map(|point| (point, id)));
+        if let Some(test) = &mut self.test {
+            test.depths.extend(given.into_iter().map(|point| (point, id)));
         }
         Some(self.variable(id, span))
     }
@@ -226,7 +226,7 @@ impl<'t> Checker<'t> {
     /// `reported("source")`: where that was first reported, `reported_at("source")`: when. Without such a report the
     /// expectation fails, and says so. `has_reported("source")` tells whether there is one.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
-        self.test_vars.as_ref()?;
+        self.test.as_ref()?;
         let when = match name {
             "reported" | "has_reported" => false,
             "reported_at" => true,
@@ -246,8 +246,8 @@ impl<'t> Checker<'t> {
 
     /// The variable that holds where or when something was reported: one for each name.
     fn report_var(&mut self, what: &str, when: bool, ty: &Type, span: Span) -> usize {
-        let known = self.test_vars.as_ref().and_then(|vars| {
-            let table = if when { &vars.reported_at } else { &vars.reported };
+        let known = self.test.as_ref().and_then(|test| {
+            let table = if when { &test.names.reported_at } else { &test.names.reported };
             table.iter().find(|(name, _)| name == what).map(|(_, id)| *id)
         });
         if let Some(id) = known {
@@ -255,8 +255,8 @@ impl<'t> Checker<'t> {
         }
         let hidden = format!("report \"{what}\" {}", if when { "at" } else { "place" });
         let id = self.declare_hidden(hidden, VarKind::Signal, Type::Optional(Box::new(ty.clone())), span);
-        if let Some(vars) = &mut self.test_vars {
-            let table = if when { &mut vars.reported_at } else { &mut vars.reported };
+        if let Some(TestScope { names, .. }) = &mut self.test {
+            let table = if when { &mut names.reported_at } else { &mut names.reported };
             table.push((what.to_string(), id));
         }
         id

@@ -1,6 +1,7 @@
 //! Statements that take time: guidance, calls, and the modifiers that bound them; `with`.
 
-use super::expr::{Found, article};
+use super::expr::article;
+use super::names::Found;
 use super::{Checker, Def, ParamInfo, Setting, Temporal};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -241,19 +242,33 @@ impl<'t> Checker<'t> {
             _ => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
         };
         // `keep depth + 1 m` reads as "keep depth plus one", and would mean "at a depth of +1 m".
-        if let tree::ExprKind::Unary(op, _) = &setpoint.value.kind
+        let mut written = &setpoint.value;
+        if let tree::ExprKind::Unary(op, unsigned) = &written.kind
             && matches!(op.node, tree::Unary::Pos | tree::Unary::Neg)
         {
-            let name = &setpoint.channel.node;
-            self.report(Diagnostic::error("syntax::setpoint", op.span, "no setpoint begins with a sign").help(
-                format!("for the present {name} and a bit write `{name} {name} + 1 m`, else leave the sign out"),
-            ));
+            let more = op.node == tree::Unary::Pos;
+            let help = match (channel, more) {
+                (Channel::Depth, true) => {
+                    "`depth 1 m` is 1 m below the surface, `depth depth + 1 m` 1 m deeper than now"
+                }
+                (Channel::Depth, false) => {
+                    "`depth 1 m` is 1 m below the surface, `depth depth - 1 m` 1 m higher than now"
+                }
+                (Channel::Altitude, true) => {
+                    "`altitude 1 m` is 1 m above the bottom, `altitude altitude + 1 m` 1 m higher than now"
+                }
+                (Channel::Altitude, false) => {
+                    "`altitude 1 m` is 1 m above the bottom, `altitude altitude - 1 m` 1 m deeper than now"
+                }
+                (Channel::Speed, true) => "`speed 1 m/s` is that speed, `speed speed + 1 m/s` 1 m/s faster than now",
+                (Channel::Speed, false) => "`speed 1 m/s` is that speed, `speed speed - 1 m/s` 1 m/s slower than now",
+            };
+            self.report(Diagnostic::error("syntax::setpoint", op.span, "no setpoint begins with a sign").help(help));
+            written = unsigned;
         }
-        let value = self.expr_as(&setpoint.value, &ty, &format!("the {} setpoint", setpoint.channel.node));
-        if value.range.high < 0.0 {
-            let name = &setpoint.channel.node;
-            self.report(Diagnostic::error("ranges::negative", value.span, format!("a negative {name} cannot be held")));
-        }
+        let what = format!("the {} setpoint", setpoint.channel.node);
+        let value = self.expr_as(written, &ty, &what);
+        self.not_negative(&value, &what);
         (value.ty != Type::Unknown).then_some((channel, value))
     }
 

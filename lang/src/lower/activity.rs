@@ -1,14 +1,13 @@
 //! Activities to code: the pieces that the machine runs at each point of a tick.
 
-use super::watch::{Timer, activity_children, block_children, children, positions};
-use super::{Lowering, UnitCode, WORDS_MAX};
+use super::watch::{Timer, positions};
+use super::{Lowering, WORDS_MAX};
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Action, Block, Decl, Expr, ExprKind, InputPart, Kind, StmtKind, Var, VarKind};
+use crate::hir::{self, Block, Decl, Expr, Kind, Var};
 use crate::types::Type;
 use albacore_geometry::Geodetic;
 use albacore_program::{
-    Abort, Activity, ActivityKind, Body, Channel, Code, Entry, Exit, Limits, Op, Recovery, Require, Rule, Shape, Slot,
-    Table, Target, Valued, Watched, WatchedCode, header,
+    Abort, Activity, ActivityKind, Body, Channel, Code, Limits, Op, Recovery, Require, Slot, Valued, header,
 };
 
 impl<'a> Lowering<'a> {
@@ -47,116 +46,7 @@ impl<'a> Lowering<'a> {
                 positions(e, &mut found);
             }
         }
-        self.origin = middle(&found);
-    }
-
-    /// A declaration of the left margin with its own frame, lowered when first needed.
-    pub(super) fn unit(&mut self, id: usize) -> UnitCode {
-        if let Some(unit) = self.units.get(&id) {
-            return *unit;
-        }
-        let activity = &self.hir.activities[id];
-        if self.recursion(&activity.full_name, Some(activity.span)) {
-            return UnitCode { activity: 0, words: header::WORDS };
-        }
-        self.prepare_activity(id);
-        let index = std::cell::Cell::new(0);
-        let words = self.twice(&activity.vars, 0, |l| {
-            l.sorters(&activity.vars);
-            index.set(l.activity(id, 0));
-        });
-        self.path.pop();
-        let unit = UnitCode { activity: index.get(), words };
-        self.units.insert(id, unit);
-        unit
-    }
-
-    /// Lowers all that an activity calls, ahead of it.
-    fn prepare_activity(&mut self, id: usize) {
-        let activity = &self.hir.activities[id];
-        let mut exprs: Vec<&Expr> = Vec::new();
-        activity_children(activity, &mut |e| exprs.push(e));
-        for e in exprs {
-            self.prepare(e);
-        }
-        for decl in &activity.decls {
-            if let Decl::With(items) = decl {
-                self.prepare_with(items);
-            }
-        }
-        match &activity.body {
-            hir::Body::Sequence(block) | hir::Body::Amend { block, .. } => self.prepare_units(block),
-            hir::Body::Table { behaviors, .. } => {
-                for &behavior in behaviors {
-                    self.prepare_activity(behavior);
-                }
-            }
-        }
-        if let Some((_, block)) = activity.mission.as_ref().and_then(|m| m.recovery.as_ref()) {
-            self.prepare_units(block);
-        }
-    }
-
-    /// Lowers the functions that an expression calls.
-    pub(super) fn prepare(&mut self, e: &Expr) {
-        let mut inner: Vec<&Expr> = Vec::new();
-        children(e, &mut |child| inner.push(child));
-        for child in inner {
-            self.prepare(child);
-        }
-        if let ExprKind::Call(id, _) = e.kind {
-            self.function(id);
-        }
-    }
-
-    pub(super) fn prepare_block(&mut self, block: &Block) {
-        let mut exprs: Vec<&Expr> = Vec::new();
-        block_children(block, &mut |e| exprs.push(e));
-        for e in exprs {
-            self.prepare(e);
-        }
-    }
-
-    fn prepare_with(&mut self, items: &[hir::With]) {
-        for item in items {
-            if let hir::With::Overlay(id, _) = item {
-                self.unit(*id);
-            }
-        }
-    }
-
-    fn prepare_units(&mut self, block: &Block) {
-        for stmt in &block.stmts {
-            match &stmt.kind {
-                StmtKind::Timed(timed) => {
-                    if let Action::Call(id, _) = timed.action {
-                        self.path.push((format!("the call of {}", self.hir.activities[id].full_name), stmt.span));
-                        self.unit(id);
-                        self.path.pop();
-                    }
-                }
-                StmtKind::With(items, body) => {
-                    self.prepare_with(items);
-                    self.prepare_units(body);
-                }
-                StmtKind::If(_, a, b) => {
-                    self.prepare_units(a);
-                    self.prepare_units(b);
-                }
-                StmtKind::Match(_, arms, otherwise) => {
-                    for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
-                        self.prepare_units(block);
-                    }
-                }
-                StmtKind::ForRange { body, .. }
-                | StmtKind::ForList { body, .. }
-                | StmtKind::ForEdges { body, .. }
-                | StmtKind::ForRows { body, .. }
-                | StmtKind::While { body, .. }
-                | StmtKind::Loop(body) => self.prepare_units(body),
-                _ => {}
-            }
-        }
+        self.origin = middle(&found).or(self.origin);
     }
 
     /// The subroutines that put ordered lists in order.
@@ -177,7 +67,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// One activity; gives its index in the program.
-    fn activity(&mut self, id: usize, _depth: u32) -> u32 {
+    pub(super) fn activity(&mut self, id: usize, _depth: u32) -> u32 {
         let activity = &self.hir.activities[id];
         let outer = (self.frame.header, self.frame.result, std::mem::take(&mut self.frame.overlays));
         let outer_declared = std::mem::take(&mut self.frame.declared_overlays);
@@ -349,156 +239,6 @@ impl<'a> Lowering<'a> {
         Abort { condition: Code { entry, value }, why }
     }
 
-    fn table(&mut self, id: usize, start: usize, behaviors: &[usize], rules: &[hir::Rule]) -> Body {
-        let indices: Vec<u32> = behaviors.iter().map(|&b| self.activity(b, 1)).collect();
-        let first_rule = self.program.rules.len() as u32;
-        for rule in rules {
-            let lowered = self.rule(id, rule, behaviors);
-            self.program.rules.push(lowered);
-        }
-        let mut entries = Vec::new();
-        for (source, &index) in indices.iter().enumerate() {
-            let owner = self.program.activities[index as usize].header;
-            let leaving: Vec<(usize, &hir::Rule)> =
-                rules.iter().enumerate().filter(|(_, r)| r.sources.contains(&source)).collect();
-            // The same guard may serve several sources: each has its own timers.
-            let timers = self.place_timers(leaving.iter().map(|(_, r)| &r.on));
-            let arm = self.here();
-            self.reset_timers(&timers);
-            self.update_timers(&timers, owner, None);
-            self.emit(Op::Return);
-            let watch = self.here();
-            self.update_timers(&timers, owner, None);
-            self.emit(Op::Return);
-            let exits = leaving
-                .into_iter()
-                .map(|(i, rule)| Exit {
-                    rule: first_rule + i as u32,
-                    guard: self.code(&rule.on),
-                    guard_done: mentions_done(&rule.on).then(|| {
-                        self.frame.done = true;
-                        let code = self.code(&rule.on);
-                        self.frame.done = false;
-                        code
-                    }),
-                    watched: self.watched(id, &rule.on),
-                })
-                .collect();
-            entries.push(Entry { activity: index, arm, watch, exits });
-        }
-        Body::Table(Table { start: start as u32, behaviors: entries })
-    }
-
-    fn rule(&mut self, id: usize, rule: &hir::Rule, behaviors: &[usize]) -> Rule {
-        let mut aborting = None;
-        let effect = match (&rule.effect, &rule.target) {
-            (None, target) if !matches!(target, hir::Target::Abort(_)) => None,
-            (effect, target) => {
-                let entry = self.here();
-                if let Some(block) = effect {
-                    self.stmts(&block.stmts);
-                    self.remembered(id, block);
-                }
-                if let hir::Target::Abort(why) = target {
-                    aborting = Some(self.text(why));
-                }
-                self.emit(Op::Return);
-                Some(entry)
-            }
-        };
-        let (target, to) = match &rule.target {
-            hir::Target::Behavior(to) => {
-                (Target::Behavior(*to as u32), self.hir.activities[behaviors[*to]].name.clone())
-            }
-            hir::Target::Abort(_) => (Target::Abort(aborting.unwrap_or(0)), "abort".to_string()),
-            hir::Target::Finish(value) => {
-                let code = value.as_ref().map(|e| {
-                    let entry = self.here();
-                    let to = self.frame.result;
-                    self.scratch(|l| l.expr_into(e, to));
-                    self.emit(Op::Return);
-                    entry
-                });
-                (Target::Finish(code), "finish".to_string())
-            }
-        };
-        let guard = self.sources.text(rule.on_span);
-        Rule {
-            text: format!("-> {to} on {guard}"),
-            place: self.sources.place(rule.span),
-            target,
-            back: rule.back,
-            effect,
-        }
-    }
-
-    /// Tells the trace of the memories that an effect assigns.
-    fn remembered(&mut self, id: usize, effect: &Block) {
-        let mut vars: Vec<usize> = Vec::new();
-        assigned(effect, &mut vars);
-        vars.sort_unstable();
-        vars.dedup();
-        let unit = self.owner_of(id);
-        for var in vars {
-            let declared = &self.hir.activities[unit].vars[var];
-            if declared.kind != VarKind::Memory {
-                continue;
-            }
-            let value = Valued { slot: self.frame.vars[var], shape: self.shape(&declared.ty) };
-            self.program.memories.push(Watched { name: declared.name.clone(), value });
-            let memory = self.program.memories.len() as u32 - 1;
-            self.emit(Op::Changed { memory });
-        }
-    }
-
-    fn owner_of(&self, id: usize) -> usize {
-        self.hir.activities[id].owner.unwrap_or(id)
-    }
-
-    /// What the trace prints of a guard: its names, and for each signal the readings that it is made of.
-    fn watched(&mut self, id: usize, guard: &Expr) -> Vec<WatchedCode> {
-        let mut leaves: Vec<(String, Expr)> = Vec::new();
-        self.leaves(id, guard, &mut leaves);
-        leaves
-            .into_iter()
-            .map(|(name, e)| {
-                let code = self.code(&e);
-                let shape: Shape = self.shape(&e.ty);
-                WatchedCode { name, code, shape }
-            })
-            .collect()
-    }
-
-    fn leaves(&self, id: usize, e: &Expr, out: &mut Vec<(String, Expr)>) {
-        let shown = match &e.kind {
-            ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..)),
-            ExprKind::Part(inner, _) => matches!(inner.kind, ExprKind::Var(_)),
-            _ => false,
-        };
-        let hides = matches!(&e.kind, ExprKind::Part(inner, _) if !matches!(inner.kind, ExprKind::Var(_)));
-        if shown && !hides {
-            let name = self.sources.text(e.span).to_string();
-            if !out.iter().any(|(n, _)| *n == name) {
-                out.push((name, e.clone()));
-            }
-            if let ExprKind::Input(_, InputPart::Hits(limit, _)) = &e.kind {
-                self.leaves(id, limit, out);
-            }
-            if let ExprKind::Var(var) = e.kind {
-                let unit = &self.hir.activities[self.owner_of(id)];
-                let signal = unit.decls.iter().find_map(|d| match d {
-                    Decl::Signal(v, e) if *v == var => Some(e),
-                    _ => None,
-                });
-                if let Some(signal) = signal {
-                    self.leaves(id, signal, out);
-                }
-            }
-            return;
-        }
-        children(e, &mut |child| self.leaves(id, child, out));
-    }
-
     fn mission_parts(&mut self, mission: &hir::Mission) {
         let within = mission.within.as_ref().map(|e| self.ticks_code(e));
         let mut limits = Limits::default();
@@ -566,29 +306,4 @@ pub(super) fn middle(positions: &[(f64, f64)]) -> Option<Geodetic> {
     let n = positions.len() as f64;
     let sum = positions.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + lon));
     (!positions.is_empty()).then(|| Geodetic::from_degrees(sum.0 / n, sum.1 / n))
-}
-
-fn mentions_done(e: &Expr) -> bool {
-    let mut found = matches!(e.kind, ExprKind::Done);
-    children(e, &mut |child| found |= mentions_done(child));
-    found
-}
-
-fn assigned(block: &Block, out: &mut Vec<usize>) {
-    for stmt in &block.stmts {
-        match &stmt.kind {
-            StmtKind::Set(var, _) | StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) => {
-                out.push(*var)
-            }
-            StmtKind::If(_, a, b) => {
-                assigned(a, out);
-                assigned(b, out);
-            }
-            StmtKind::ForRange { body, .. }
-            | StmtKind::ForList { body, .. }
-            | StmtKind::ForEdges { body, .. }
-            | StmtKind::ForRows { body, .. } => assigned(body, out),
-            _ => {}
-        }
-    }
 }

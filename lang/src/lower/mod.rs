@@ -6,12 +6,12 @@
 
 mod activity;
 mod expr;
+mod prepare;
 mod scenario;
 mod stmt;
+mod table;
 mod test;
 mod watch;
-
-pub(crate) use watch::{activity_children, children};
 
 pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 
@@ -90,6 +90,20 @@ struct Frame {
 /// Lowers a mission. The findings are errors that only the whole program shows.
 pub fn mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) -> Result<Program, Vec<Diagnostic>> {
     mission_with(hir, types, sources, mission, None)
+}
+
+/// Lowers the mission that is a line of the prompt, in the frame of the vehicle that it drives.
+pub fn line(
+    hir: &Hir,
+    types: &TypeTable,
+    sources: &Sources,
+    mission: usize,
+    origin: Option<Geodetic>,
+) -> Result<Program, Vec<Diagnostic>> {
+    let mut lowering = Lowering::new(hir, types, sources);
+    lowering.origin = origin;
+    lowering.mission(mission);
+    if lowering.findings.is_empty() { Ok(lowering.program) } else { Err(lowering.findings) }
 }
 
 /// The same with arguments in place of the parameters' defaults.

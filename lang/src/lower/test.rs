@@ -1,9 +1,8 @@
 //! Tests to code: each expectation, and what is printed of it when it fails.
 
 use super::Lowering;
-use super::watch::children;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, VarId, When};
+use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children};
 use crate::source::Sources;
 use crate::types::TypeTable;
 use albacore_program::{Code, Program, Shape, Slot};
@@ -31,28 +30,8 @@ pub struct TestProgram {
     pub slots: TestSlots,
 }
 
-/// Where expectations find what they speak of.
-#[derive(Clone, Debug)]
-pub struct TestSlots {
-    /// The vehicle's true position (2 words).
-    pub position: Slot,
-    /// The true source nearest to the latest report, else to the vehicle (2 words).
-    pub nearest_source: Slot,
-    /// Where the vehicle started (2 words).
-    pub start: Slot,
-    /// The deepest point of the mission's area (2 words).
-    pub deepest: Slot,
-    /// Seconds since the run began.
-    pub time: Slot,
-    /// Whether the mission came to its own end.
-    pub completed: Slot,
-    /// The mission's area.
-    pub area: Slot,
-    /// For each name that is asked for: presence, then the position of its first report.
-    pub reported: Vec<(String, Slot)>,
-    /// For each name that is asked for: presence, then the seconds until its first report.
-    pub reported_at: Vec<(String, Slot)>,
-}
+/// Where expectations find what they speak of. Positions are two words; what was reported begins with its presence.
+pub type TestSlots = TestNames<Slot>;
 
 /// An expectation.
 #[derive(Clone, Debug)]
@@ -82,24 +61,14 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     for expect in &test.expects {
         lowering.prepare(&expect.holds);
     }
-    for (point, _) in &test.known.depths {
+    for (point, _) in &test.depths {
         lowering.prepare(point);
     }
     let lowered = std::cell::RefCell::new((Vec::new(), None));
     let words = lowering.twice(&test.vars, 0, |l| {
         let at = |id: usize| l.frame.vars[id];
         let known = &test.known;
-        let slots = TestSlots {
-            position: at(known.position),
-            nearest_source: at(known.nearest_source),
-            start: at(known.start),
-            deepest: at(known.deepest),
-            time: at(known.time),
-            completed: at(known.completed),
-            area: at(known.area),
-            reported: known.reported.iter().map(|(name, id)| (name.clone(), at(*id))).collect(),
-            reported_at: known.reported_at.iter().map(|(name, id)| (name.clone(), at(*id))).collect(),
-        };
+        let slots = known.map(at);
         let reports: Vec<(usize, Slot)> =
             known.reported.iter().chain(&known.reported_at).map(|(_, id)| (*id, at(*id))).collect();
         let expects = test
@@ -108,7 +77,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
             .map(|expect| {
                 let mut needs = Vec::new();
                 let mut asked = Vec::new();
-                depths(&expect.holds, &known.depths, &mut asked);
+                depths(&expect.holds, &test.depths, &mut asked);
                 let conditions = asked.iter().map(|(point, _)| point).chain([&expect.holds]);
                 conditions.for_each(|e| unwrapped(e, &mut needs));
                 let needs = reports.iter().filter(|(id, _)| needs.contains(id)).map(|(_, slot)| *slot).collect();
@@ -125,7 +94,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                         When::AtTheEnd(share) => Some(share),
                         When::Always => None,
                     },
-                    depths: asked.into_iter().map(|(point, answer)| (l.code(point), l.frame.vars[*answer])).collect(),
+                    depths: asked.into_iter().map(|(point, to)| (l.code(point), l.frame.vars[*to])).collect(),
                     holds: l.code(&expect.holds),
                     needs,
                     watched,

@@ -42,7 +42,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
 }
 
 impl Walk<'_> {
-    fn activity(&mut self, id: usize, mut owners: Owners) {
+    pub(super) fn activity(&mut self, id: usize, mut owners: Owners) {
         if !self.seen.insert((id, owners)) {
             return;
         }
@@ -111,27 +111,12 @@ impl Walk<'_> {
     fn block(&mut self, block: &Block, owners: Owners) {
         for stmt in &block.stmts {
             match &stmt.kind {
-                StmtKind::If(_, a, b) => {
-                    self.block(a, owners);
-                    self.block(b, owners);
-                }
-                StmtKind::Match(_, arms, otherwise) => {
-                    for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
-                        self.block(block, owners);
-                    }
-                }
-                StmtKind::ForRange { body, .. }
-                | StmtKind::ForList { body, .. }
-                | StmtKind::ForEdges { body, .. }
-                | StmtKind::ForRows { body, .. }
-                | StmtKind::While { body, .. }
-                | StmtKind::Loop(body) => self.block(body, owners),
                 StmtKind::With(items, body) => {
                     let inner = self.with(items, owners, stmt.span);
                     self.block(body, inner);
                 }
                 StmtKind::Timed(timed) => self.timed(timed, owners, stmt.span),
-                _ => {}
+                _ => stmt.blocks().into_iter().for_each(|block| self.block(block, owners)),
             }
         }
     }

@@ -1,8 +1,7 @@
 //! Inputs that are read and not required: nobody has said how old they may be.
 
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With};
-use crate::lower::{activity_children, children};
+use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With, activity_children, children};
 use crate::source::Span;
 use albacore_program::Guide;
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,12 +15,10 @@ struct Walk<'a> {
 
 /// Finds the inputs that a mission reads, with all that it calls, and does not require.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
-    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new() };
-    walk.activity(mission);
     let activity = &hir.activities[mission];
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = Vec::new();
-    for (input, span) in walk.read {
+    for (input, span) in read(hir, mission) {
         if parts.requires.iter().any(|r| r.input == input) {
             continue;
         }
@@ -39,6 +36,13 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     findings
 }
 
+/// The inputs that a mission reads, with all that it calls, and for each the first place where it does.
+pub fn read(hir: &Hir, mission: usize) -> BTreeMap<usize, Span> {
+    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new() };
+    walk.activity(mission);
+    walk.read
+}
+
 impl Walk<'_> {
     fn note(&mut self, name: &str, span: Span) {
         if let Some(id) = self.hir.inputs.iter().position(|i| i.name == name) {
@@ -46,7 +50,7 @@ impl Walk<'_> {
         }
     }
 
-    fn activity(&mut self, id: usize) {
+    pub(super) fn activity(&mut self, id: usize) {
         if !self.seen.insert(id) {
             return;
         }
@@ -85,39 +89,19 @@ impl Walk<'_> {
 
     /// Guidance reads inputs of its own, and calls lead on.
     fn block(&mut self, block: &Block) {
-        for stmt in &block.stmts {
-            match &stmt.kind {
-                StmtKind::If(_, a, b) => {
-                    self.block(a);
-                    self.block(b);
+        block.each(&mut |stmt| match &stmt.kind {
+            StmtKind::With(items, _) => self.with(items),
+            StmtKind::Timed(timed) => match &timed.action {
+                Action::Call(id, _) => self.activity(*id),
+                Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, _) => {
+                    self.note("position", stmt.span);
+                    self.note("course", stmt.span);
+                    self.note("heading", stmt.span);
                 }
-                StmtKind::Match(_, arms, otherwise) => {
-                    for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
-                        self.block(block);
-                    }
-                }
-                StmtKind::ForRange { body, .. }
-                | StmtKind::ForList { body, .. }
-                | StmtKind::ForEdges { body, .. }
-                | StmtKind::ForRows { body, .. }
-                | StmtKind::While { body, .. }
-                | StmtKind::Loop(body) => self.block(body),
-                StmtKind::With(items, body) => {
-                    self.with(items);
-                    self.block(body);
-                }
-                StmtKind::Timed(timed) => match &timed.action {
-                    Action::Call(id, _) => self.activity(*id),
-                    Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, _) => {
-                        self.note("position", stmt.span);
-                        self.note("course", stmt.span);
-                        self.note("heading", stmt.span);
-                    }
-                    Action::Guide(Guide::Wait, _) => {}
-                    _ => self.note("heading", stmt.span),
-                },
-                _ => {}
-            }
-        }
+                Action::Guide(Guide::Wait, _) => {}
+                _ => self.note("heading", stmt.span),
+            },
+            _ => {}
+        });
     }
 }

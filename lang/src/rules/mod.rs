@@ -2,6 +2,11 @@
 
 mod channels;
 mod inputs;
+mod unreached;
+
+pub use unreached::check as unreached;
+
+pub use inputs::read as inputs_read;
 
 use crate::diagnostic::Diagnostic;
 use crate::hir::Hir;

@@ -1,13 +1,18 @@
 //! From the grammar's pairs to the tree: expressions, by precedence climbing over the flat list that the grammar gives.
 
 use super::Rule;
-use super::build::{Builder, block, modified, parts};
+use super::build::{Builder, parts};
+use super::build_block::{block, modified};
 use super::tree::*;
-use crate::source::Spanned;
+use crate::diagnostic::Diagnostic;
+use crate::source::{Span, Spanned};
 use pest::iterators::Pair;
 
-/// An expression has this many operands and operators at most: what is nested by operators is bounded like brackets.
-pub(super) const TERMS_MAX: usize = 256;
+/// An expression has this many operands and operators at most, and an operand this many suffixes.
+const TERMS_MAX: usize = 256;
+
+/// An expression is nested this deep at most, by whatever nests it: all that comes after goes down by calling itself.
+const HEIGHT_MAX: usize = 256;
 
 type P<'a> = Pair<'a, Rule>;
 
@@ -98,15 +103,30 @@ pub(super) fn expr(b: &mut Builder, pair: P) -> Expr {
     let span = b.span(&pair);
     let pairs: Vec<P> = pair.into_inner().collect();
     if pairs.len() > TERMS_MAX {
-        b.long.push(span);
-        // A name that nobody has: what cannot be read is unknown, and that is told once.
-        return Expr { kind: ExprKind::Name(String::new()), span };
+        return refused(b, span, format!("this expression has more than {TERMS_MAX} parts"));
     }
     let mut at = 0;
-    climb(b, &pairs, &mut at, 0)
+    let outer = std::mem::take(&mut b.height);
+    let built = climb(b, &pairs, &mut at, 0);
+    if b.height > HEIGHT_MAX {
+        b.height = outer;
+        return refused(b, span, format!("this expression is nested deeper than {HEIGHT_MAX} levels"));
+    }
+    b.height = outer.max(b.height);
+    built
 }
 
-/// Precedence climbing. The grammar never gives an operator without its operand, so `at` always finds one.
+/// What is refused becomes a name that nobody has: it is unknown, and that is told once.
+fn refused(b: &mut Builder, span: Span, message: String) -> Expr {
+    let is_part = |f: &Diagnostic| span.start <= f.span().start && f.span().end <= span.end;
+    if !b.refused.last().is_some_and(is_part) {
+        b.refused.push(Diagnostic::error("syntax::nesting", span, message).help("name parts of it with `let`"));
+    }
+    Expr { kind: ExprKind::Name(String::new()), span }
+}
+
+/// Precedence climbing; leaves the height of what it built. The grammar never gives an operator without its operand, so
+/// `at` always finds one.
 fn climb(b: &mut Builder, pairs: &[P], at: &mut usize, least: u8) -> Expr {
     let first = pairs[*at].clone();
     *at += 1;
@@ -115,6 +135,7 @@ fn climb(b: &mut Builder, pairs: &[P], at: &mut usize, least: u8) -> Expr {
             let op = Spanned { node: unary, span: b.span(&first) };
             let operand = climb(b, pairs, at, binds);
             let span = op.span.to(operand.span);
+            b.height += 1;
             Expr { kind: ExprKind::Unary(op, Box::new(operand)), span }
         }
         None => operand(b, first),
@@ -127,7 +148,9 @@ fn climb(b: &mut Builder, pairs: &[P], at: &mut usize, least: u8) -> Expr {
         *at += 1;
         // `^` and `else` group to the right, all others to the left.
         let right_least = if matches!(binary, Binary::Pow | Binary::Else) { binds } else { binds + 1 };
+        let height = b.height;
         let right = climb(b, pairs, at, right_least);
+        b.height = b.height.max(height) + 1;
         let span = left.span.to(right.span);
         left = Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span };
     }
@@ -137,9 +160,15 @@ fn climb(b: &mut Builder, pairs: &[P], at: &mut usize, least: u8) -> Expr {
 fn operand(b: &mut Builder, pair: P) -> Expr {
     let mut inner = pair.into_inner();
     let Some(first) = inner.next() else { return nothing(b) };
+    b.height = 0;
     let mut value = primary(b, first);
-    for suffix in inner {
+    b.height += 1;
+    for (i, suffix) in inner.enumerate() {
         let span = value.span.to(b.span(&suffix));
+        if i == TERMS_MAX {
+            b.height = 0;
+            return refused(b, span, format!("more than {TERMS_MAX} of these follow one another"));
+        }
         let kind = match suffix.as_rule() {
             Rule::args => ExprKind::Call(Box::new(value), args(b, suffix)),
             Rule::member => match suffix.into_inner().next() {
@@ -152,13 +181,14 @@ fn operand(b: &mut Builder, pair: P) -> Expr {
             },
         };
         value = Expr { kind, span };
+        b.height += 1;
     }
     value
 }
 
 /// Stands where the grammar promised a child and gave none: never reached, and harmless.
 fn nothing(b: &Builder) -> Expr {
-    Expr { kind: ExprKind::None, span: crate::source::Span { file: b.file, start: 0, end: 0 } }
+    Expr { kind: ExprKind::None, span: Span { file: b.file, start: 0, end: 0 } }
 }
 
 fn primary(b: &mut Builder, pair: P) -> Expr {

@@ -14,6 +14,11 @@ const ITEM_WORDS: [&str; 15] = [
     "scenario", "test", "clause",
 ];
 
+/// Whether a word begins what stands at the left margin.
+pub fn begins_item(word: &str) -> bool {
+    ITEM_WORDS.contains(&word)
+}
+
 /// Words that may begin a clause of a block.
 const CLAUSE_WORDS: [&str; 32] = [
     "behavior", "with", "signal", "memory", "let", "var", "on", "start", "area", "limits", "requires", "recovery",

@@ -1,11 +1,14 @@
 //! Text to tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
 
 mod build;
+mod build_block;
 mod build_expr;
 mod errors;
 mod scan;
 pub mod tree;
+mod words;
 
+pub use errors::begins_item;
 pub use scan::{Comment, NESTING_MAX};
 
 use crate::diagnostic::Diagnostic;
@@ -35,21 +38,45 @@ pub struct Parsed {
 
 /// Reads a source file.
 pub fn parse(file: FileId, source: &str) -> Parsed {
+    let (tree, findings, comments) = read(file, source, Rule::file, build::file);
+    Parsed { file: tree.unwrap_or_default(), findings, comments }
+}
+
+/// Reads statements that stand in no block: the lines of a prompt.
+pub fn parse_lines(file: FileId, source: &str) -> (tree::Block, Vec<Diagnostic>) {
+    let (block, findings, _) =
+        read(file, source, Rule::lines, |b, mut pairs| pairs.next().map(|pair| build_block::block(b, pair)));
+    let nothing = tree::Block { clauses: Vec::new(), span: Span { file, start: 0, end: source.len() as u32 } };
+    (block.flatten().unwrap_or(nothing), findings)
+}
+
+/// Whether a text wants another line: a bracket is open, or its last line says that it goes on.
+pub fn goes_on(source: &str) -> bool {
+    scan::scan(FileId(0), source).goes_on
+}
+
+/// Reads a source by a rule of the grammar: what was built of it, the findings, the comments.
+fn read<T>(
+    file: FileId,
+    source: &str,
+    rule: Rule,
+    build: impl FnOnce(&mut build::Builder, pest::iterators::Pairs<Rule>) -> T,
+) -> (Option<T>, Vec<Diagnostic>, Vec<Comment>) {
     let scanned = scan::scan(file, source);
     let mut findings = scanned.findings;
     // Too deep: the grammar itself would be at the mercy of the thread's stack.
     if findings.iter().any(|f| f.code == "syntax::nesting") {
-        return Parsed { file: tree::File::default(), findings, comments: scanned.comments };
+        return (None, findings, scanned.comments);
     }
-    let mut builder = build::Builder { file, bad: Vec::new(), long: Vec::new() };
-    let tree = match Grammar::parse(Rule::file, &scanned.text) {
-        Ok(pairs) => build::file(&mut builder, pairs),
+    let mut builder = build::Builder::new(file);
+    let built = match Grammar::parse(rule, &scanned.text) {
+        Ok(pairs) => Some(build(&mut builder, pairs)),
         Err(error) => {
             findings.push(errors::finding(file, &scanned.text, 0, &error));
-            tree::File::default()
+            None
         }
     };
-    findings.extend(builder.long.iter().map(|&span| too_long(span)));
+    findings.append(&mut builder.refused);
     for bad in builder.bad {
         // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
         let known = findings.iter().any(|f| f.code.starts_with("syntax::") && touches(f.span(), bad.span));
@@ -57,7 +84,7 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
             findings.push(errors::of_bad_stretch(file, &scanned.text, &bad));
         }
     }
-    Parsed { file: tree, findings, comments: scanned.comments }
+    (built, findings, scanned.comments)
 }
 
 /// Reads one expression, such as the value of `--set lambda=6s`.
@@ -67,22 +94,17 @@ pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagno
         return Err(finding);
     }
     let text = scanned.text.trim_end();
-    let mut builder = build::Builder { file, bad: Vec::new(), long: Vec::new() };
+    let mut builder = build::Builder::new(file);
     match Grammar::parse(Rule::expr_only, text) {
         Ok(mut pairs) => match pairs.next() {
             Some(pair) => {
                 let value = build_expr::expr(&mut builder, pair);
-                builder.long.first().map_or(Ok(value), |&span| Err(too_long(span)))
+                builder.refused.into_iter().next().map_or(Ok(value), Err)
             }
             None => Err(Diagnostic::error("syntax::expected", Span { file, start: 0, end: 0 }, "a value is missing")),
         },
         Err(error) => Err(errors::finding(file, text, 0, &error)),
     }
-}
-
-fn too_long(span: Span) -> Diagnostic {
-    Diagnostic::error("syntax::nesting", span, format!("this expression has more than {} parts", build_expr::TERMS_MAX))
-        .help("name parts of it with `let`")
 }
 
 fn touches(a: Span, b: Span) -> bool {

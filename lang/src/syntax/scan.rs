@@ -6,7 +6,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
-/// Brackets and blocks may be nested this deep, on every machine and in every build.
+/// Brackets, blocks and `else if` may be nested this deep, on every machine and in every build.
 pub const NESTING_MAX: usize = 64;
 
 /// Words that begin an item of a file. An item stands at the left margin, which is how an unclosed brace is found.
@@ -34,6 +34,8 @@ pub struct Scanned {
     pub comments: Vec<Comment>,
     /// Brackets that do not fit, characters that deceive.
     pub findings: Vec<Diagnostic>,
+    /// The text ends where more must follow: in an open bracket, or after an operator.
+    pub goes_on: bool,
 }
 
 /// Prepares a source for the grammar.
@@ -44,13 +46,20 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         out: source.as_bytes().to_vec(),
         at: 0,
         open: Vec::new(),
+        chained: 0,
+        after_else: false,
+        deep: false,
         last: Last::Nothing,
         comments: Vec::new(),
         findings: Vec::new(),
     };
     scanner.run();
+    let goes_on = !scanner.open.is_empty() || scanner.last == Last::Goes;
+    for open in std::mem::take(&mut scanner.open) {
+        scanner.unclosed(open.bracket, open.at);
+    }
     let text = String::from_utf8(scanner.out).unwrap_or_default();
-    Scanned { text, comments: scanner.comments, findings: scanner.findings }
+    Scanned { text, comments: scanner.comments, findings: scanner.findings, goes_on }
 }
 
 /// What stood last on the line: decides whether a newline ends the statement.
@@ -61,12 +70,25 @@ enum Last {
     Ends,
 }
 
+/// A bracket that is open.
+struct Open {
+    bracket: char,
+    at: usize,
+    /// The `else if` of the statement in which it stands: each nests its blocks one deeper.
+    chained: usize,
+}
+
 struct Scanner<'a> {
     file: FileId,
     source: &'a str,
     out: Vec<u8>,
     at: usize,
-    open: Vec<(char, usize)>,
+    open: Vec<Open>,
+    /// How many `else if` the statement that is being read has outside the innermost bracket.
+    chained: usize,
+    after_else: bool,
+    /// Nested too deep, which has been said.
+    deep: bool,
     last: Last,
     comments: Vec<Comment>,
     findings: Vec<Diagnostic>,
@@ -104,13 +126,13 @@ impl<'a> Scanner<'a> {
                     self.deceptive(c, start);
                 }
                 c => {
+                    if c == ';' {
+                        self.chained = 0;
+                    }
                     self.at += c.len_utf8();
                     self.last = Last::Ends;
                 }
             }
-        }
-        for (bracket, at) in std::mem::take(&mut self.open) {
-            self.unclosed(bracket, at);
         }
     }
 
@@ -127,12 +149,13 @@ impl<'a> Scanner<'a> {
     }
 
     fn newline(&mut self) {
-        let in_brackets = matches!(self.open.last(), Some(('(' | '[', _)));
+        let in_brackets = matches!(self.open.last(), Some(Open { bracket: '(' | '[', .. }));
         let goes_on = in_brackets || self.last == Last::Goes || self.next_word_is("else");
         if goes_on {
             self.blank(self.at, self.at + 1);
         } else {
             self.last = Last::Nothing;
+            self.chained = 0;
         }
         self.at += 1;
         self.margin();
@@ -142,9 +165,10 @@ impl<'a> Scanner<'a> {
     fn margin(&mut self) {
         let word: String = self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
         if !self.open.is_empty() && ITEM_WORDS.contains(&word.as_str()) {
-            let (bracket, at) = self.open[0];
+            let outermost = self.open.swap_remove(0);
             self.open.clear();
-            self.unclosed(bracket, at);
+            self.chained = 0;
+            self.unclosed(outermost.bracket, outermost.at);
             // The newline before this item was swallowed when a round bracket was open: give it back.
             if self.at > 0 && self.source.as_bytes()[self.at - 1] == b'\n' {
                 self.out[self.at - 1] = b'\n';
@@ -181,12 +205,27 @@ impl<'a> Scanner<'a> {
         let mut escaped = false;
         let mut length = 1;
         let mut closed = false;
+        // How deep a hole `{ }` is nested: what stands in it is read like any expression.
+        let mut hole = 0_usize;
+        let mut chained = 0;
         for c in self.rest().chars().skip(1) {
             if c == '\n' {
                 break;
             }
             if deceives(c) {
                 self.deceptive(c, start + length);
+            }
+            match c {
+                '{' if !escaped => hole += 1,
+                '(' | '[' if hole > 0 => hole += 1,
+                '}' | ')' | ']' => hole = hole.saturating_sub(1),
+                _ => {}
+            }
+            if hole == 0 {
+                chained = 0;
+            } else {
+                chained += usize::from(self.rest()[length..].starts_with("else"));
+                self.too_deep(start + length, c.len_utf8(), hole + chained);
             }
             length += c.len_utf8();
             if c == '"' && !escaped {
@@ -212,20 +251,38 @@ impl<'a> Scanner<'a> {
         let word = &self.source[self.at..self.at + length];
         // After a dot any word is a field's name: `flow.toward`.
         let is_field = self.source[..self.at].ends_with('.');
+        // `else if` without end would nest without end.
+        if word == "if" && self.after_else {
+            self.chained += 1;
+            self.too_deep(self.at, length, 0);
+        }
+        self.after_else = word == "else" && !is_field;
         self.last = if OPEN_WORDS.contains(&word) && !is_field { Last::Goes } else { Last::Ends };
         self.at += length;
     }
 
     fn open(&mut self, bracket: char) {
-        if self.open.len() == NESTING_MAX {
-            let span = self.span(self.at, self.at + 1);
+        self.too_deep(self.at, 1, 1);
+        self.after_else = false;
+        self.open.push(Open { bracket, at: self.at, chained: std::mem::take(&mut self.chained) });
+        self.at += 1;
+    }
+
+    /// Reports, once, what stands deeper than anything may; `inside` tells how deep it is in what is open.
+    fn too_deep(&mut self, at: usize, length: usize, inside: usize) {
+        if self.deep {
+            return;
+        }
+        let chained: usize = self.open.iter().map(|open| open.chained).sum();
+        self.deep = self.open.len() + chained + self.chained + inside > NESTING_MAX;
+        if self.deep {
+            let span = self.span(at, at + length);
             self.findings.push(
-                Diagnostic::error("syntax::nesting", span, format!("nested deeper than {NESTING_MAX} levels"))
-                    .help("name a part of it with `let`, or move it into a `fn` or a `behavior`"),
+                Diagnostic::error("syntax::nesting", span, format!("nested deeper than {NESTING_MAX} levels")).help(
+                    "name a part of it with `let`, or move it into a `fn` or a `behavior`; each `else if` is a level",
+                ),
             );
         }
-        self.open.push((bracket, self.at));
-        self.at += 1;
     }
 
     fn close(&mut self, bracket: char) {
@@ -234,10 +291,14 @@ impl<'a> Scanner<'a> {
             ']' => '[',
             _ => '{',
         };
-        match self.open.iter().rposition(|&(open, _)| open == wanted) {
+        match self.open.iter().rposition(|open| open.bracket == wanted) {
             Some(index) => {
-                for (bracket, at) in self.open.split_off(index).into_iter().skip(1) {
-                    self.unclosed(bracket, at);
+                for (i, open) in self.open.split_off(index).into_iter().enumerate() {
+                    if i == 0 {
+                        self.chained = open.chained;
+                    } else {
+                        self.unclosed(open.bracket, open.at);
+                    }
                 }
             }
             None => {

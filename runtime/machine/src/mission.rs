@@ -5,11 +5,12 @@ use crate::inputs::{MissingInput, senses, wiring};
 use crate::state::{Asked, Limits, Overridden, Phase, Requirement, Run, State};
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
-use albacore_program::{Cause, Code, Input, Program, header};
-use albacore_vehicle::{Channel, Command, Control, Snapshot, Vertical};
+use albacore_program::{Cause, Code, Input, Program, Slot, header};
+use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, Vertical};
 use std::sync::Arc;
 
 /// Executes one mission.
+#[derive(Clone)]
 pub struct Machine {
     program: Arc<Program>,
     wiring: Vec<Option<u32>>,
@@ -73,6 +74,36 @@ impl Machine {
         self.run.abort = None;
     }
 
+    /// Lets a mission that has not begun begin at a later tick, in control, and know what was sensed before: ticks and their
+    /// samples, in order.
+    pub fn begin_at<'a>(&mut self, tick: u64, past: impl IntoIterator<Item = (u64, &'a [Sample])>) {
+        for (then, samples) in past {
+            self.run.state.tick = then;
+            self.run.take_in(&self.program, &self.wiring, samples);
+        }
+        self.run.state.tick = tick;
+        self.run.state.control = Control::InControl;
+    }
+
+    /// Puts a value in place.
+    pub fn put(&mut self, at: Slot, words: &[f64]) {
+        if let Some(place) = self.run.state.words.get_mut(at as usize..at as usize + words.len()) {
+            place.copy_from_slice(words);
+        }
+    }
+
+    /// Whether an input, by its index in the program, has had a sample.
+    pub fn has_sample(&self, input: u32) -> bool {
+        self.program.inputs.get(input as usize).is_some_and(|input| self.run.has_sample(input))
+    }
+
+    /// The active activities from outside in, with the bases of their frames.
+    pub fn frames(&self) -> Vec<(u32, Slot)> {
+        let mut frames = Vec::new();
+        self.run.chain(&self.program, &mut |id, base| frames.push((id, base)));
+        frames
+    }
+
     /// What happened in the last tick, in order.
     pub fn events(&self) -> &[Event] {
         &self.run.events
@@ -88,9 +119,7 @@ impl Machine {
 
     /// The active activities from outside in.
     pub fn active(&self) -> Vec<u32> {
-        let mut ids = Vec::new();
-        self.run.chain(&self.program, &mut |id, _| ids.push(id));
-        ids
+        self.frames().into_iter().map(|(id, _)| id).collect()
     }
 
     /// Where the mission believes the vehicle to be; `None` before the first sample.

@@ -90,6 +90,7 @@ pub(crate) struct Overridden {
 }
 
 /// A run in the middle of a tick: its state, and what has happened so far.
+#[derive(Clone)]
 pub(crate) struct Run {
     pub state: State,
     pub events: Vec<Event>,

@@ -14,6 +14,9 @@ const METRE_DECIMALS: u8 = 1;
 const SPEED_DECIMALS: u8 = 2;
 /// Decimals of angles in degrees.
 const DEGREE_DECIMALS: u8 = 1;
+/// Decimals of a number that is printed briefly, and the size below which it is printed with an exponent instead.
+const BRIEF_DECIMALS: u8 = 4;
+const SMALL: f64 = 1e-3;
 /// A list longer than this is cut, and its count is given.
 const LIST_ELEMENTS_MAX: usize = 6;
 /// Numbers from here on are printed with an exponent.
@@ -59,11 +62,7 @@ pub fn point(p: Point) -> String {
 
 /// A compass direction in degrees, without the unit: `291.0`. In [0, 360) as printed: 359.96 is `0.0`.
 pub fn compass(angle_rad: f64) -> String {
-    if !angle_rad.is_finite() {
-        return UNKNOWN.to_string();
-    }
-    let text = fixed(Heading::from_radians(angle_rad).degrees(), DEGREE_DECIMALS);
-    if text == "360.0" { "0.0".to_string() } else { text }
+    Printer { texts: &[], number: fixed }.compass(angle_rad)
 }
 
 /// A compass direction: `291.0 deg`.
@@ -92,57 +91,99 @@ pub fn value(shape: &Shape, words: &[f64]) -> String {
 
 /// As [`value`], for a program whose texts are known.
 pub fn value_with(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
-    let word = |i: usize| words.get(i).copied().unwrap_or(f64::NAN);
-    let place = |i: usize| point(Point::new(word(i), word(i + 1)));
-    let first = word(0);
-    match shape {
-        Shape::Bool if first.is_nan() => UNKNOWN.to_string(),
-        Shape::Bool => (first != 0.0).to_string(),
-        Shape::Int => fixed(first, 0),
-        Shape::Quantity(display) => quantity(display, first),
-        Shape::Heading => heading(first),
-        Shape::Depth | Shape::Altitude => metres(first),
-        Shape::Point => place(0),
-        Shape::Vector(display) => {
-            let part = |i: usize| fixed(word(i) / display.scale, display.decimals);
-            with_unit(format!("({}, {})", part(0), part(1)), display)
-        }
-        Shape::Line | Shape::Edge => format!("{} to {}", place(0), place(2)),
-        Shape::Area => match index(first) {
-            Some(corners) if words.len() > corners * AREA_CORNER_WORDS as usize => format!("area of {corners} corners"),
-            _ => UNKNOWN.to_string(),
-        },
-        Shape::Text => text(texts, first),
-        Shape::Enum(variants) => {
-            index(first).and_then(|i| variants.get(i)).map_or_else(|| UNKNOWN.to_string(), String::clone)
-        }
-        Shape::Record(name, fields) => {
-            let mut at = 0;
-            let fields = fields.iter().map(|(label, shape)| {
-                let field = format!("{label}: {}", value_with(texts, shape, tail(words, at)));
-                at += shape.words() as usize;
-                field
-            });
-            format!("{name}({})", fields.collect::<Vec<_>>().join(", "))
-        }
-        Shape::Optional(_) if first.is_nan() => UNKNOWN.to_string(),
-        Shape::Optional(_) if first == 0.0 => "none".to_string(),
-        Shape::Optional(shape) => value_with(texts, shape, tail(words, 1)),
-        Shape::List(shape, capacity) => match index(first) {
-            Some(count) => list(texts, shape, count.min(*capacity as usize), tail(words, 1)),
-            None => UNKNOWN.to_string(),
-        },
-    }
+    Printer { texts, number: fixed }.value(shape, words)
 }
 
-fn list(texts: &[Text], shape: &Shape, count: usize, words: &[f64]) -> String {
-    let width = shape.words() as usize;
-    let mut elements: Vec<String> =
-        (0..count.min(LIST_ELEMENTS_MAX)).map(|i| value_with(texts, shape, tail(words, i * width))).collect();
-    if LIST_ELEMENTS_MAX < count {
-        elements.push(format!("… {count} in all"));
+/// As [`value_with`], for a person who asks for one value: as many digits as it takes, and no more: `20 m`, `0.3333 m`.
+pub fn brief(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
+    Printer { texts, number: |x, _| shortest(x) }.value(shape, words)
+}
+
+/// A number to four decimals, and with an exponent when it is small; without zeros at the end.
+fn shortest(x: f64) -> String {
+    let size = x.abs();
+    if !x.is_finite() || size == 0.0 || PLAIN_MAX <= size {
+        return fixed(x, 0);
     }
-    format!("[{}]", elements.join(", "))
+    if size < SMALL {
+        return format!("{x:.5e}").replacen(".00000e", "e", 1);
+    }
+    let text = fixed(x, BRIEF_DECIMALS);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+}
+
+/// Prints values, their numbers in one way: a function of the number and of the decimals that its unit usually has.
+#[derive(Clone, Copy)]
+struct Printer<'a> {
+    texts: &'a [Text],
+    number: fn(f64, u8) -> String,
+}
+
+impl Printer<'_> {
+    fn value(self, shape: &Shape, words: &[f64]) -> String {
+        let word = |i: usize| words.get(i).copied().unwrap_or(f64::NAN);
+        let metre = |x: f64| (self.number)(x, METRE_DECIMALS);
+        let place = |i: usize| format!("({}, {}) m", metre(word(i)), metre(word(i + 1)));
+        let first = word(0);
+        match shape {
+            Shape::Bool if first.is_nan() => UNKNOWN.to_string(),
+            Shape::Bool => (first != 0.0).to_string(),
+            Shape::Int => fixed(first, 0),
+            Shape::Quantity(display) => with_unit((self.number)(first / display.scale, display.decimals), display),
+            Shape::Heading => format!("{} deg", self.compass(first)),
+            Shape::Depth | Shape::Altitude => format!("{} m", metre(first)),
+            Shape::Point => place(0),
+            Shape::Vector(display) => {
+                let part = |i: usize| (self.number)(word(i) / display.scale, display.decimals);
+                with_unit(format!("({}, {})", part(0), part(1)), display)
+            }
+            Shape::Line | Shape::Edge => format!("{} to {}", place(0), place(2)),
+            Shape::Area => match index(first) {
+                Some(corners) if words.len() > corners * AREA_CORNER_WORDS as usize => {
+                    format!("area of {corners} corners")
+                }
+                _ => UNKNOWN.to_string(),
+            },
+            Shape::Text => text(self.texts, first),
+            Shape::Enum(variants) => {
+                index(first).and_then(|i| variants.get(i)).map_or_else(|| UNKNOWN.to_string(), String::clone)
+            }
+            Shape::Record(name, fields) => {
+                let mut at = 0;
+                let fields = fields.iter().map(|(label, shape)| {
+                    let field = format!("{label}: {}", self.value(shape, tail(words, at)));
+                    at += shape.words() as usize;
+                    field
+                });
+                format!("{name}({})", fields.collect::<Vec<_>>().join(", "))
+            }
+            Shape::Optional(_) if first.is_nan() => UNKNOWN.to_string(),
+            Shape::Optional(_) if first == 0.0 => "none".to_string(),
+            Shape::Optional(shape) => self.value(shape, tail(words, 1)),
+            Shape::List(shape, capacity) => match index(first) {
+                Some(count) => self.list(shape, count.min(*capacity as usize), tail(words, 1)),
+                None => UNKNOWN.to_string(),
+            },
+        }
+    }
+
+    fn compass(self, angle_rad: f64) -> String {
+        if !angle_rad.is_finite() {
+            return UNKNOWN.to_string();
+        }
+        let text = (self.number)(Heading::from_radians(angle_rad).degrees(), DEGREE_DECIMALS);
+        if text == "360" || text == "360.0" { text.replacen("36", "", 1) } else { text }
+    }
+
+    fn list(self, shape: &Shape, count: usize, words: &[f64]) -> String {
+        let width = shape.words() as usize;
+        let mut elements: Vec<String> =
+            (0..count.min(LIST_ELEMENTS_MAX)).map(|i| self.value(shape, tail(words, i * width))).collect();
+        if LIST_ELEMENTS_MAX < count {
+            elements.push(format!("… {count} in all"));
+        }
+        format!("[{}]", elements.join(", "))
+    }
 }
 
 /// A text by its index, in quotes; its holes, whose values are elsewhere, as `{}`.

@@ -1,8 +1,10 @@
 //! Load, check and step a mission: the few types that the command line, the tests and the prompt all use.
 
+pub mod campaign;
 mod files;
 mod journal;
 mod picture;
+pub mod prompt;
 mod run;
 mod scenario;
 mod summary;

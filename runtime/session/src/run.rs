@@ -4,7 +4,7 @@ use crate::journal::Keeper;
 use crate::picture;
 use crate::scenario;
 use crate::summary::{Report, Summary};
-use albacore_geometry::{Area, Point, TangentFrame, Vector};
+use albacore_geometry::{Area, Geodetic, Point, TangentFrame, Vector};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{Script, suggestion};
 use albacore_machine::{Event, Machine, Outcome};
@@ -91,27 +91,33 @@ impl Plan {
 
     /// A mission that is lowered already, in a scenario of the script.
     pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
-        let lowered = match script.scenario(wanted, program.mission.origin) {
-            Some(Ok(lowered)) => lowered,
-            Some(Err(findings)) => return Err(PlanError::Script(findings)),
-            None => {
-                let known: Vec<&str> = script.scenarios().collect();
-                let message = format!("there is no scenario `{wanted}`");
-                return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
-            }
-        };
-        let world = scenario::scenario(&lowered).map_err(|what| PlanError::Asked(what, None))?;
-        world.validate().map_err(|error| {
-            let message = format!("the scenario `{}` cannot be", lowered.name);
-            PlanError::Asked(message, Some(error.faults.join("; ")))
-        })?;
+        let (scenario_name, world) = world(script, wanted, program.mission.origin)?;
         let sources = script.sources.iter().map(|source| {
             let mut digest = Digest::new();
             digest.text(&source.text);
             SourceDigest { name: source.name.to_string(), digest: digest.value() }
         });
-        Ok(Plan { program, scenario: Arc::new(world), scenario_name: lowered.name, sources: sources.collect() })
+        Ok(Plan { program, scenario: Arc::new(world), scenario_name, sources: sources.collect() })
     }
+}
+
+/// A scenario of a script by its name, as numbers in the frame about `origin`.
+pub(crate) fn world(script: &Script, wanted: &str, origin: Option<Geodetic>) -> Result<(String, Scenario), PlanError> {
+    let lowered = match script.scenario(wanted, origin) {
+        Some(Ok(lowered)) => lowered,
+        Some(Err(findings)) => return Err(PlanError::Script(findings)),
+        None => {
+            let known: Vec<&str> = script.scenarios().collect();
+            let message = format!("there is no scenario `{wanted}`");
+            return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
+        }
+    };
+    let world = scenario::scenario(&lowered).map_err(|what| PlanError::Asked(what, None))?;
+    world.validate().map_err(|error| {
+        let message = format!("the scenario `{}` cannot be", lowered.name);
+        PlanError::Asked(message, Some(error.faults.join("; ")))
+    })?;
+    Ok((lowered.name, world))
 }
 
 /// A run under way.

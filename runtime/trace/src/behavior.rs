@@ -124,6 +124,21 @@ impl BehaviorTrace {
         self.lines.iter().filter(|(kind, _)| *kind == Kind::Event).map(|(_, line)| format!("{line}\n")).collect()
     }
 
+    /// How many lines there are.
+    pub fn len(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Whether there is not even a header.
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty()
+    }
+
+    /// The lines from one on, by its number: what has come since there were so many.
+    pub fn since(&self, line: usize) -> impl Iterator<Item = &str> {
+        self.lines.iter().skip(line).map(|(_, text)| text.as_str())
+    }
+
     /// Keeps track of what is active.
     fn follow(&mut self, event: &Event) {
         match event {

@@ -169,6 +169,7 @@ mission duck_single  scenario duck_2003  seed 7  tick 0.1 s
   950.1 s  leave    duck_single                aborted
   960.0 s  end      completed
   960.0 s  at       (0.0, 0.0) m           heading 291.0 deg  depth   2.0 m
+  960.0 s  control  released
 digest 406c65b315c79af9  9600 ticks
 ";
 
@@ -234,7 +235,8 @@ fn logs_and_memories_are_no_behavior() {
 fn the_end_is_told_once_and_always() {
     let mut trace = BehaviorTrace::new(&program(47), &header());
     trace.finish(Outcome::LinkLost, false, 77, &Digest::new());
-    assert_eq!(trace.switches(), "    7.7 s  end      link_lost\n");
+    let not_released = "    7.7 s  control  not released: the vehicle could not be told\n";
+    assert_eq!(trace.switches(), format!("    7.7 s  end      link_lost\n{not_released}"));
     assert_eq!(run(&program(47), 0.0).to_string().matches("completed").count(), 1);
 }
 

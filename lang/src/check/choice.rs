@@ -1,0 +1,257 @@
+//! `if` and `match`, as statements and as values.
+
+use super::expr::article;
+use super::facts::{self, Fact};
+use super::{Checker, Temporal, flow};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Block, Expr, ExprKind, Stmt, StmtKind, VarKind};
+use crate::source::Span;
+use crate::suggest;
+use crate::syntax::tree::{self, Condition};
+use crate::types::Type;
+
+impl<'t> Checker<'t> {
+    pub(super) fn if_stmt(
+        &mut self,
+        condition: &Condition,
+        then: &tree::Block,
+        otherwise: Option<&tree::Block>,
+        span: Span,
+    ) -> Option<Stmt> {
+        match condition {
+            Condition::Holds(e) => {
+                let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
+                let known = |c: &mut Self, holds: bool, block: &tree::Block| {
+                    let facts = facts::shown(&condition, holds);
+                    c.in_block(|c| {
+                        c.scope.facts.learn(facts);
+                        c.block(block)
+                    })
+                };
+                let then = known(self, true, then);
+                let otherwise = otherwise.map(|b| known(self, false, b)).unwrap_or_default();
+                self.time_may_pass([&then, &otherwise].into_iter());
+                // After `if not x { finish }` x is known.
+                if flow::leaves(&then) {
+                    self.scope.facts.learn(facts::shown(&condition, false));
+                } else if flow::leaves(&otherwise) {
+                    self.scope.facts.learn(facts::shown(&condition, true));
+                }
+                Some(Stmt { kind: StmtKind::If(condition, then, otherwise), span })
+            }
+            Condition::Let { name, value } => {
+                let value = self.expr(value, None);
+                let present = self.truth(value.clone());
+                let then = self.in_block(|c| {
+                    let bind = c.bind_present(name, &value);
+                    let ty = c.scope.vars[bind].ty.clone();
+                    let unwrapped = c.make(ExprKind::Unwrap(Box::new(value)), ty, span);
+                    let mut block = c.block(then);
+                    block.stmts.insert(0, Stmt { kind: StmtKind::Set(bind, unwrapped), span });
+                    block
+                });
+                let otherwise = otherwise.map(|b| self.in_block(|c| c.block(b))).unwrap_or_default();
+                self.time_may_pass([&then, &otherwise].into_iter());
+                Some(Stmt { kind: StmtKind::If(present, then, otherwise), span })
+            }
+        }
+    }
+
+    pub(super) fn time_may_pass<'a>(&mut self, blocks: impl Iterator<Item = &'a Block>) {
+        let mut assigned = Vec::new();
+        for block in blocks {
+            if flow::may_take_time(block) {
+                self.time_passes();
+            }
+            assigned.extend(block.assigned());
+        }
+        for var in assigned {
+            self.scope.facts.forget(var);
+        }
+    }
+
+    /// The name of `if let` and `while let`.
+    pub(super) fn bind_present(&mut self, name: &tree::Name, value: &Expr) -> usize {
+        let ty = match &value.ty {
+            Type::Optional(inner) => (**inner).clone(),
+            Type::Unknown => Type::Unknown,
+            other => {
+                let ty = self.type_name(other);
+                self.report(
+                    Diagnostic::error(
+                        "absent::let",
+                        value.span,
+                        format!("this is never absent: it is {}", article(&ty)),
+                    )
+                    .help("name it with a plain `let`"),
+                );
+                Type::Unknown
+            }
+        };
+        self.declare(name, VarKind::Let, ty)
+    }
+
+    /// `if` as a value: both blocks must end in one.
+    pub(super) fn if_value(
+        &mut self,
+        condition: &Condition,
+        then: &tree::Block,
+        otherwise: Option<&tree::Block>,
+        expected: Option<&Type>,
+        span: Span,
+    ) -> Expr {
+        let Some(otherwise) = otherwise else {
+            self.report(
+                Diagnostic::error("types::if_value", span, "this `if` has no value when its condition does not hold")
+                    .help("add `else { … }`"),
+            );
+            return self.unknown(span);
+        };
+        let Condition::Holds(condition) = condition else {
+            self.report(
+                Diagnostic::error("types::if_let", span, "`if let` is a statement, no value")
+                    .help("name the optional with `let` before, and test it with `if NAME`"),
+            );
+            return self.unknown(span);
+        };
+        let condition = self.with_temporal(Temporal::No, |c| c.condition(condition));
+        let mut then_block = self.block_knowing(facts::shown(&condition, true), then, expected);
+        let mut else_block = self.block_knowing(facts::shown(&condition, false), otherwise, expected);
+        let ty = self.join(&mut then_block, &mut else_block, span);
+        self.make(ExprKind::If(Box::new(condition), then_block, else_block), ty, span)
+    }
+
+    /// A block as a value, with what its condition has shown.
+    pub(super) fn block_knowing(&mut self, facts: Vec<Fact>, block: &tree::Block, expected: Option<&Type>) -> Block {
+        self.in_block(|c| {
+            c.scope.facts.learn(facts);
+            c.value_block(block, expected)
+        })
+    }
+
+    /// Makes two blocks end in values of one type.
+    fn join(&mut self, a: &mut Block, b: &mut Block, span: Span) -> Type {
+        let (Some(x), Some(y)) = (a.value.take(), b.value.take()) else {
+            self.report(
+                Diagnostic::error("types::if_value", span, "both blocks must end in a value")
+                    .help("end each block with an expression"),
+            );
+            return Type::Unknown;
+        };
+        let ty = match (&x.ty, &y.ty) {
+            (Type::None, other) | (other, Type::None) => other.clone().optional(),
+            (Type::Optional(_), _) => x.ty.clone(),
+            (_, Type::Optional(_)) => y.ty.clone(),
+            (Type::Quantity(_), Type::Int | Type::Sign) | (_, Type::Unknown) => x.ty.clone(),
+            (Type::Int | Type::Sign, Type::Quantity(_)) => y.ty.clone(),
+            (Type::Int, Type::Int) if [&x, &y].iter().all(|v| v.range.constant().is_some_and(|n| n.abs() == 1.0)) => {
+                Type::Sign
+            }
+            (Type::Heading, _) | (_, Type::Heading) => Type::Heading,
+            _ => x.ty.clone(),
+        };
+        a.value = Some(Box::new(self.coerce(*x, &ty, "the value of the other block")));
+        b.value = Some(Box::new(self.coerce(*y, &ty, "the value of the other block")));
+        ty
+    }
+
+    pub(super) fn match_value(
+        &mut self,
+        on: &tree::Expr,
+        arms: &[tree::MatchArm],
+        expected: Option<&Type>,
+        span: Span,
+    ) -> Expr {
+        let (on, mut arms, mut otherwise) = self.match_arms(on, arms, expected, true, span);
+        let mut ty: Option<Type> = None;
+        for block in arms.iter_mut().map(|(_, b)| b).chain(otherwise.iter_mut()) {
+            match block.value.take() {
+                Some(value) => {
+                    let wanted = ty.get_or_insert_with(|| value.ty.clone()).clone();
+                    block.value = Some(Box::new(self.coerce(*value, &wanted, "the value of the other blocks")));
+                }
+                None => self.report(
+                    Diagnostic::error("types::if_value", span, "every block of this `match` must end in a value")
+                        .help("end each block with an expression"),
+                ),
+            }
+        }
+        self.make(ExprKind::Match(Box::new(on), arms, otherwise), ty.unwrap_or(Type::Unknown), span)
+    }
+
+    /// The arms of a `match` over an enum: each variant once, none forgotten.
+    #[allow(clippy::type_complexity, reason = "the three parts of a match, taken apart at once by both callers")]
+    pub(super) fn match_arms(
+        &mut self,
+        on: &tree::Expr,
+        arms: &[tree::MatchArm],
+        expected: Option<&Type>,
+        as_value: bool,
+        span: Span,
+    ) -> (Expr, Vec<(Vec<usize>, Block)>, Option<Block>) {
+        let on = self.expr(on, None);
+        let variants = match &on.ty {
+            Type::Enum(id) => self.types.enums[*id].variants.clone(),
+            Type::Unknown => Vec::new(),
+            other => {
+                let name = self.type_name(other);
+                self.report(
+                    Diagnostic::error(
+                        "types::match",
+                        on.span,
+                        format!("`match` chooses between the variants of an enum, this is {}", article(&name)),
+                    )
+                    .help("use `if`"),
+                );
+                Vec::new()
+            }
+        };
+        let mut seen: Vec<usize> = Vec::new();
+        let mut checked = Vec::new();
+        let mut otherwise = None;
+        for arm in arms {
+            let mut indices = Vec::new();
+            for name in &arm.names {
+                match variants.iter().position(|v| *v == name.node) {
+                    Some(i) if seen.contains(&i) => self.report(Diagnostic::error(
+                        "types::match",
+                        name.span,
+                        format!("`{}` is matched already", name.node),
+                    )),
+                    Some(i) => {
+                        seen.push(i);
+                        indices.push(i);
+                    }
+                    None if variants.is_empty() => {}
+                    None => {
+                        let finding = Diagnostic::error(
+                            "types::match",
+                            name.span,
+                            format!("there is no variant `{}`", name.node),
+                        );
+                        let finding = match self.suggestion(&name.node, variants.iter().map(String::as_str)) {
+                            Some(help) => finding.help(help),
+                            None => finding,
+                        };
+                        self.report(finding);
+                    }
+                }
+            }
+            let block =
+                self.in_block(|c| if as_value { c.value_block(&arm.block, expected) } else { c.block(&arm.block) });
+            if arm.names.is_empty() { otherwise = Some(block) } else { checked.push((indices, block)) }
+        }
+        let missing: Vec<&str> =
+            variants.iter().enumerate().filter(|(i, _)| !seen.contains(i)).map(|(_, v)| v.as_str()).collect();
+        if otherwise.is_none() && !missing.is_empty() {
+            let finding = Diagnostic::error(
+                "types::match",
+                span,
+                format!("this `match` says nothing of {}", suggest::listed(&missing)),
+            )
+            .help("add an arm for each, or `else { … }`");
+            self.report(finding);
+        }
+        (on, checked, otherwise)
+    }
+}

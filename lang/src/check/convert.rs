@@ -1,0 +1,146 @@
+//! From the type that a value has to the one that is asked for: the few conversions there are, and what to say of others.
+
+use super::Checker;
+use super::expr::article;
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{Builtin, Expr, ExprKind, Interval};
+use crate::syntax::tree;
+use crate::types::Type;
+
+impl<'t> Checker<'t> {
+    /// An expression of a type that is asked for; `what` names what asks.
+    pub(super) fn expr_as(&mut self, e: &tree::Expr, ty: &Type, what: &str) -> Expr {
+        let value = self.expr(e, Some(ty));
+        self.coerce(value, ty, what)
+    }
+
+    /// Makes a value of the type that is asked for, where the language allows it, or says why not.
+    pub(super) fn coerce(&mut self, value: Expr, ty: &Type, what: &str) -> Expr {
+        if value.ty == *ty || value.ty == Type::Unknown || *ty == Type::Unknown {
+            return value;
+        }
+        let span = value.span;
+        if let Type::Optional(inner) = ty {
+            if value.ty == Type::None {
+                return Expr { ty: ty.clone(), ..value };
+            }
+            if !value.ty.is_optional() {
+                let value = self.coerce(value, inner, what);
+                return self.make(ExprKind::Present(Box::new(value)), ty.clone(), span);
+            }
+        }
+        let constant = value.range.constant();
+        let is_constant =
+            constant.is_some() || matches!(value.kind, ExprKind::Var(id) if self.scope.vars[id].walks_constants);
+        match (&value.ty, ty) {
+            (Type::Int | Type::Sign, Type::Quantity(d)) if d.is_none() => return Expr { ty: ty.clone(), ..value },
+            (Type::Sign, Type::Int) => return Expr { ty: ty.clone(), ..value },
+            (Type::Int, Type::Sign) if constant.is_some_and(|x| x.abs() == 1.0) => {
+                return Expr { ty: Type::Sign, ..value };
+            }
+            (Type::Quantity(d), Type::Int) if d.is_none() && constant.is_some_and(|x| x.fract() == 0.0) => {
+                return Expr { ty: Type::Int, ..value };
+            }
+            (Type::Quantity(d), Type::Heading) if *d == Dimension::ANGLE && is_constant => {
+                if let Some(angle) = constant {
+                    self.within_a_turn(angle, span);
+                }
+                return self.operation(Builtin::Heading, vec![value], Type::Heading, span);
+            }
+            (Type::Quantity(d), Type::Depth | Type::Altitude) if *d == Dimension::LENGTH && is_constant => {
+                self.below_the_surface(&value, ty, what);
+                return Expr { ty: ty.clone(), ..value };
+            }
+            (Type::List(a, n), Type::List(b, m)) if n <= m => {
+                if let ExprKind::List(elements) = value.kind {
+                    let elements = elements.into_iter().map(|e| self.coerce(e, b, what)).collect();
+                    return Expr { kind: ExprKind::List(elements), ty: ty.clone(), span, range: Interval::ANY };
+                }
+                if a == b && n == m {
+                    return value;
+                }
+            }
+            _ => {}
+        }
+        self.mismatch(&value, ty, what);
+        Expr { ty: Type::Unknown, ..value }
+    }
+
+    fn mismatch(&mut self, value: &Expr, wanted: &Type, what: &str) {
+        let (has, wants) = (self.type_name(&value.ty), self.type_name(wanted));
+        let finding = Diagnostic::error(
+            "types::mismatch",
+            value.span,
+            format!("{what} is {}, this is {}", article(&wants), article(&has)),
+        )
+        .here(format!("`{has}`"));
+        let finding = match (&value.ty, wanted) {
+            (Type::Optional(inner), w) if **inner == *w => {
+                finding.help("it may be absent: write `… else VALUE`, or test it with `if` before".to_string())
+            }
+            (Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::ANGLE) => {
+                finding.help("an angle is measured from something: write `HEADING + ANGLE`, such as `north + x`")
+            }
+            (Type::Heading, Type::Quantity(d)) if *d == Dimension::ANGLE => {
+                finding.help("an angle lies between two headings: write `HEADING - HEADING`")
+            }
+            (Type::Quantity(d), Type::Depth) if *d == Dimension::LENGTH => {
+                finding.help("a depth is counted from the surface: write `depth + LENGTH`, or a constant")
+            }
+            (Type::Quantity(d), Type::Altitude) if *d == Dimension::LENGTH => {
+                finding.help("an altitude is counted from the bottom: write `altitude + LENGTH`, or a constant")
+            }
+            (Type::Int | Type::Quantity(_), Type::Quantity(d)) if value.ty.dimension() == Some(Dimension::NONE) => {
+                finding.help(format!("give it a unit, such as `{}`", d.display().unit))
+            }
+            (Type::Quantity(has), Type::Quantity(wants)) => finding.help(scaling_help(*has, *wants)),
+            (Type::Vector(d), Type::Point) if *d == Dimension::LENGTH => {
+                finding.help("a vector leads from one point to another: write `POINT + VECTOR`")
+            }
+            (Type::Point, Type::Vector(_)) => {
+                finding.help("a vector leads from one point to another: write `POINT - POINT`")
+            }
+            (Type::Depth, Type::Altitude) | (Type::Altitude, Type::Depth) => finding
+                .help("depth is counted from the surface and altitude from the bottom; `water_depth` is both together"),
+            (Type::Text, _) => finding.help("a text cannot be calculated with: leave the quotes out"),
+            _ => finding,
+        };
+        self.report(finding);
+    }
+
+    /// A condition: a `Bool`, or an optional, which then means "is present".
+    pub(super) fn condition(&mut self, e: &tree::Expr) -> Expr {
+        let value = self.expr(e, Some(&Type::Bool));
+        self.truth(value)
+    }
+
+    pub(super) fn truth(&mut self, value: Expr) -> Expr {
+        let span = value.span;
+        match &value.ty {
+            Type::Bool | Type::Unknown => value,
+            Type::Optional(_) | Type::None => self.make(ExprKind::IsPresent(Box::new(value)), Type::Bool, span),
+            other => {
+                let name = self.type_name(other);
+                self.report(
+                    Diagnostic::error("types::condition", span, format!("this is {}, no condition", article(&name)))
+                        .here(format!("`{name}`"))
+                        .help("compare it with something, such as `x > 0 m`"),
+                );
+                self.unknown(span)
+            }
+        }
+    }
+}
+
+/// By what a quantity must be multiplied or divided to become another.
+fn scaling_help(has: Dimension, wants: Dimension) -> String {
+    let (factor, divisor) = (wants / has, has / wants);
+    if let Some(name) = divisor.type_name() {
+        format!("divide it by {}", article(name))
+    } else if let Some(name) = factor.type_name() {
+        format!("multiply it by {}", article(name))
+    } else {
+        format!("`{has}` and `{wants}` are different things")
+    }
+}

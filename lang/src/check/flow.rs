@@ -1,0 +1,51 @@
+//! What a checked block does to time and to what follows it.
+
+use crate::hir::{Block, StmtKind};
+use crate::source::Span;
+
+/// Whether every path through a block takes time, or leaves it for good.
+pub(super) fn takes_time(block: &Block) -> bool {
+    block.stmts.iter().any(|stmt| match &stmt.kind {
+        StmtKind::Timed(_) | StmtKind::Loop(_) | StmtKind::Finish(_) | StmtKind::Abort(_) => true,
+        StmtKind::If(_, a, b) => takes_time(a) && takes_time(b),
+        StmtKind::Match(_, arms, otherwise) => {
+            arms.iter().all(|(_, b)| takes_time(b)) && otherwise.as_ref().is_none_or(takes_time) && !arms.is_empty()
+        }
+        StmtKind::With(_, body) => takes_time(body),
+        // A range that holds at least one number goes round at least once.
+        StmtKind::ForRange { first, last, inclusive, body, .. } => {
+            let least = last.range.low - first.range.high + if *inclusive { 1.0 } else { 0.0 };
+            least >= 1.0 && takes_time(body)
+        }
+        StmtKind::ForEdges { body, .. } => takes_time(body),
+        _ => false,
+    })
+}
+
+/// Whether some path through a block takes time.
+pub(super) fn may_take_time(block: &Block) -> bool {
+    block.stmts.iter().any(|stmt| {
+        matches!(stmt.kind, StmtKind::Timed(_) | StmtKind::Loop(_)) || stmt.blocks().into_iter().any(may_take_time)
+    })
+}
+
+/// The first `abort` in a block.
+pub(super) fn aborts(block: &Block) -> Option<Span> {
+    block.stmts.iter().find_map(|stmt| match &stmt.kind {
+        StmtKind::Abort(_) => Some(stmt.span),
+        _ => stmt.blocks().into_iter().find_map(aborts),
+    })
+}
+
+/// Whether a block never comes to its end.
+pub(super) fn leaves(block: &Block) -> bool {
+    block.stmts.last().is_some_and(|stmt| match &stmt.kind {
+        StmtKind::Finish(_) | StmtKind::Abort(_) | StmtKind::Loop(_) => true,
+        StmtKind::If(_, a, b) => leaves(a) && leaves(b),
+        StmtKind::With(_, body) => leaves(body),
+        StmtKind::Match(_, arms, otherwise) => {
+            !arms.is_empty() && arms.iter().all(|(_, b)| leaves(b)) && otherwise.as_ref().is_none_or(leaves)
+        }
+        _ => false,
+    })
+}

@@ -1,0 +1,185 @@
+//! Loops: what they walk, and that every tick ends.
+
+use super::expr::article;
+use super::flow::takes_time;
+use super::{Checker, Temporal, facts};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{Block, Expr, ExprKind, Interval, Stmt, StmtKind, VarKind};
+use crate::source::Span;
+use crate::syntax::tree::{self, Condition, ForOver};
+use crate::types::Type;
+
+/// A loop that takes no time goes round this often at most: every tick must end, and soon.
+const ROUNDS_MAX: f64 = 10_000.0;
+
+impl<'t> Checker<'t> {
+    pub(super) fn for_stmt(
+        &mut self,
+        name: &tree::Name,
+        over: &ForOver,
+        block: &tree::Block,
+        span: Span,
+    ) -> Option<Stmt> {
+        if let ForOver::Range(range) = over {
+            let first = self.expr_as(&range.first, &Type::Int, "the beginning of the range");
+            let last = self.expr_as(&range.last, &Type::Int, "the end of the range");
+            self.range_holds_something(range, &first, &last);
+            self.enter_loop();
+            let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
+            let (var, body) = self.in_block(|c| {
+                let var = c.declare(name, VarKind::Loop, Type::Int);
+                c.scope.vars[var].range = Interval::new(first.range.low, end);
+                (var, c.block(block))
+            });
+            // Written so that a bound that is no number counts as none.
+            let exact = first.range.low.abs().max(end.abs()) < super::sense::INT_MAX;
+            let bounded = exact && end - first.range.low <= ROUNDS_MAX;
+            if !bounded {
+                self.bounded_or_takes_time(&body, range.last.span, span);
+            }
+            let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };
+            return Some(Stmt { kind, span });
+        }
+        let ForOver::List(written) = over else { return None };
+        // `area.edges` is walked without being made a list.
+        if let tree::ExprKind::Member(base, member) = &written.kind
+            && member.node == "edges"
+            && self.module_named(base).is_none()
+        {
+            let area = self.expr(base, None);
+            if area.ty == Type::Area {
+                self.enter_loop();
+                let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, Type::Edge), c.block(block)));
+                return Some(Stmt { kind: StmtKind::ForEdges { var, area, body }, span });
+            }
+        }
+        if let Some(kind) = self.for_rows(name, written, block) {
+            return Some(Stmt { kind, span });
+        }
+        let list = self.expr(written, None);
+        let element = match &list.ty {
+            Type::List(inner, _) => (**inner).clone(),
+            Type::Unknown => Type::Unknown,
+            other => {
+                let ty = self.type_name(other);
+                self.report(
+                    Diagnostic::error(
+                        "types::for",
+                        written.span,
+                        format!("`for` walks a list or a range, this is {}", article(&ty)),
+                    )
+                    .help("ranges are `0..<n` and `1..n`"),
+                );
+                Type::Unknown
+            }
+        };
+        self.enter_loop();
+        let constants =
+            matches!(&list.kind, ExprKind::List(elements) if elements.iter().all(|e| e.range.constant().is_some()));
+        let (var, body) = self.in_block(|c| {
+            let var = c.declare(name, VarKind::Loop, element);
+            c.scope.vars[var].walks_constants = constants;
+            (var, c.block(block))
+        });
+        Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
+    }
+
+    /// `for row in area.rows(step)`: the lines of a lawn-mower, computed one by one.
+    fn for_rows(&mut self, name: &tree::Name, written: &tree::Expr, block: &tree::Block) -> Option<StmtKind> {
+        let tree::ExprKind::Call(callee, args) = &written.kind else { return None };
+        let tree::ExprKind::Member(base, member) = &callee.kind else { return None };
+        if member.node != "rows" || self.module_named(base).is_some() {
+            return None;
+        }
+        let area = self.expr_as(base, &Type::Area, "what is walked in rows");
+        let params = &[("step", Type::Quantity(Dimension::LENGTH))];
+        let given = self.simple_args("rows", params, args, written.span).and_then(|mut given| given.pop());
+        let step = given.unwrap_or_else(|| self.unknown(written.span));
+        if step.range.low <= 0.0 && step.ty != Type::Unknown {
+            self.report(
+                Diagnostic::error("ranges::step", step.span, "rows must lie farther apart than nothing")
+                    .help("use a positive constant, or a parameter with a range such as `in 5 m..100 m`"),
+            );
+        }
+        self.enter_loop();
+        let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, Type::Line), c.block(block)));
+        Some(StmtKind::ForRows { var, area, step, body })
+    }
+
+    /// A range that runs backwards: a loop over it would never go round.
+    fn range_holds_something(&mut self, range: &tree::Range, first: &Expr, last: &Expr) {
+        let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
+        if end >= first.range.low {
+            return;
+        }
+        let finding =
+            Diagnostic::error("ranges::empty", range.first.span.to(range.last.span), "this range holds nothing");
+        let finding = match (first.range.constant(), last.range.constant()) {
+            (Some(first), Some(last)) if first > last => {
+                finding.help(format!("write `{last}..{first}`; to count down take `{} - i` in the loop", first + last))
+            }
+            _ => finding.help("`a..b` holds both ends, `a..<b` all but the last; the smaller end comes first"),
+        };
+        self.report(finding);
+    }
+
+    pub(super) fn while_stmt(&mut self, condition: &Condition, block: &tree::Block, span: Span) -> Option<Stmt> {
+        self.enter_loop();
+        let (condition, bind, body) = match condition {
+            Condition::Holds(e) => {
+                let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
+                let facts = facts::shown(&condition, true);
+                let body = self.in_block(|c| {
+                    c.scope.facts.learn(facts);
+                    c.block(block)
+                });
+                (condition, None, body)
+            }
+            Condition::Let { name, value } => {
+                let value = self.expr(value, None);
+                let (bind, body) = self.in_block(|c| {
+                    let bind = c.bind_present(name, &value);
+                    (bind, c.block(block))
+                });
+                (value, Some(bind), body)
+            }
+        };
+        self.loop_takes_time(&body, span, "while");
+        Some(Stmt { kind: StmtKind::While { condition, bind, body }, span })
+    }
+
+    /// In a loop nothing holds of what its body may change.
+    pub(super) fn enter_loop(&mut self) {
+        let vars = std::mem::take(&mut self.scope.vars);
+        self.scope.facts.forget_changeable(&vars);
+        self.scope.vars = vars;
+    }
+
+    /// Time goes by: memory, signals and inputs may have changed.
+    pub(super) fn time_passes(&mut self) {
+        self.enter_loop();
+    }
+
+    pub(super) fn loop_takes_time(&mut self, body: &Block, span: Span, word: &str) {
+        if !takes_time(body) {
+            self.report(
+                Diagnostic::error("time::instant_loop", span, format!("this `{word}` can go round without taking time"))
+                    .here("every tick must end")
+                    .help("put a statement that takes time on every path through it, such as `wait for 1 s`, or walk a list or a range with `for`"),
+            );
+        }
+    }
+
+    fn bounded_or_takes_time(&mut self, body: &Block, range: Span, span: Span) {
+        if !takes_time(body) {
+            self.report(
+                Diagnostic::error("time::instant_loop", span, "this `for` may go round too often without taking time")
+                    .label(range, "how large can this be?")
+                    .help(format!(
+                        "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
+                    )),
+            );
+        }
+    }
+}

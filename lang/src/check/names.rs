@@ -1,0 +1,249 @@
+//! Names: what each stands for, who may be declared, read and assigned.
+
+use super::facts::Place;
+use super::{Checker, Def, Setting};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
+use crate::source::Span;
+use crate::syntax::tree;
+use crate::types::Type;
+
+/// What a path of names leads to.
+pub(super) enum Found {
+    Def(Def),
+    Nothing,
+}
+
+impl<'t> Checker<'t> {
+    /// A name that a module defines, or that everyone knows.
+    pub(super) fn lookup(&self, module: usize, name: &str) -> Option<&Def> {
+        self.lookup_if(module, name, |_| true)
+    }
+
+    /// The same among the definitions of some kind: a name before `(` is looked up among what can be called.
+    fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
+        let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
+        let own = std::iter::successors(Some(module), |&m| self.modules[m].extends);
+        own.chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
+    }
+
+    /// What a module of its imports defines under a name.
+    fn imported(&self, module: usize, from: &str, name: &str) -> Option<&Def> {
+        self.modules[module].imports.get(from).and_then(|&i| self.names[i].get(name))
+    }
+
+    /// What `name` or `module.name` stands for where a path is written.
+    pub(super) fn resolve(&self, module: usize, path: &tree::Path) -> Option<&Def> {
+        match path.parts.as_slice() {
+            [name] => self.lookup(module, &name.node),
+            [from, name] => self.imported(module, &from.node, &name.node),
+            _ => None,
+        }
+    }
+
+    pub(super) fn local(&self, name: &str) -> Option<VarId> {
+        self.scope.visible.iter().rev().find(|(n, _)| n == name).map(|&(_, id)| id)
+    }
+
+    /// Makes a variable known from here on.
+    pub(super) fn declare(&mut self, name: &tree::Name, kind: VarKind, ty: Type) -> VarId {
+        let earlier = self.local(&name.node).map(|id| self.scope.vars[id].span);
+        let finding = |what: &str| {
+            Diagnostic::error("names::shadowed", name.span, format!("`{}` is the name of {what} already", name.node))
+                .here("nothing can be shadowed")
+                .help("choose another name")
+        };
+        if let Some(span) = earlier {
+            self.report(finding("something").label(span, "declared here"));
+        } else if let Some(def) = self.lookup(self.scope.module, &name.node) {
+            let callable =
+                matches!(def, Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_) | Def::Scenario(_));
+            // A name before `(` is looked up among what can be called, any other among values.
+            if !callable {
+                let finding = finding(def.what());
+                self.report(finding);
+            }
+        }
+        self.declare_hidden(name.node.clone(), kind, ty, name.span)
+    }
+
+    pub(super) fn declare_hidden(&mut self, name: String, kind: VarKind, ty: Type, span: Span) -> VarId {
+        let id = self.scope.vars.len();
+        self.scope.vars.push(hir::Var {
+            name: name.clone(),
+            kind,
+            ty,
+            span,
+            range: Interval::ANY,
+            walks_constants: false,
+            order: None,
+        });
+        self.scope.visible.push((name, id));
+        id
+    }
+
+    pub(super) fn name(&mut self, name: &str, span: Span) -> Expr {
+        if let Some(id) = self.local(name) {
+            return self.variable(id, span);
+        }
+        let found = self.lookup(self.scope.module, name).cloned();
+        match found {
+            Some(def) => self.def_value(&def, name, span),
+            None => {
+                self.unknown_name(name, span);
+                self.unknown(span)
+            }
+        }
+    }
+
+    /// The value that a module's name stands for.
+    pub(super) fn def_value(&mut self, def: &Def, name: &str, span: Span) -> Expr {
+        match def {
+            Def::Const(id) => Expr { span, ..self.constant(*id) },
+            Def::Signal(id) => {
+                let value = self.module_signal(*id);
+                if self.scope.setting == Setting::Function || self.scope.setting == Setting::Constant {
+                    self.no_inputs_here(name, span);
+                }
+                Expr { span, ..value }
+            }
+            Def::Variant(id, variant) => {
+                Expr { kind: ExprKind::Number(*variant as f64), ty: Type::Enum(*id), span, range: Interval::ANY }
+            }
+            Def::Input(id) => {
+                if self.scope.setting == Setting::Function || self.scope.setting == Setting::Constant {
+                    self.no_inputs_here(name, span);
+                }
+                let input = &self.hir.inputs[*id];
+                let range = self.scope.facts.narrowed(Place::Input(*id), Interval::ANY);
+                Expr { kind: ExprKind::Input(*id, InputPart::Value), ty: input.ty.clone(), span, range }
+            }
+            other => {
+                let what = other.what();
+                let finding = Diagnostic::error("names::value", span, format!("`{name}` is {what}, no value"));
+                let finding = match other {
+                    Def::Fn(_) | Def::Record(_) => finding.help(format!("write `{name}(…)`")),
+                    Def::Activity(_) => finding.help(format!("call it as a statement: `{name}(…)`")),
+                    _ => finding,
+                };
+                self.report(finding);
+                self.unknown(span)
+            }
+        }
+    }
+
+    fn no_inputs_here(&mut self, name: &str, span: Span) {
+        let finding = if self.scope.setting == Setting::Function {
+            Diagnostic::error("names::input", span, format!("a function cannot read the input `{name}`"))
+                .help("give the function a parameter, and pass the input as its argument")
+        } else {
+            Diagnostic::error("names::input", span, format!("`{name}` is known only when the vehicle moves"))
+                .here("a constant is needed here")
+        };
+        self.report(finding);
+    }
+
+    fn unknown_name(&mut self, name: &str, span: Span) {
+        let finding = Diagnostic::error("names::unknown", span, format!("nothing is named `{name}` here"));
+        let finding = if self.modules[self.scope.module].imports.contains_key(name) {
+            Diagnostic::error("names::module", span, format!("`{name}` is a module, no value"))
+                .help(format!("write `{name}.NAME`"))
+        } else if let Some(near) = self.nearest(name, self.known_names()) {
+            finding.help(format!("did you mean `{near}`?"))
+        } else if let Some(module) = self.module_that_has(name) {
+            finding.help(format!("the module `{module}` has one: write `{module}.{name}`"))
+        } else {
+            finding
+        };
+        self.report(finding);
+    }
+
+    fn module_that_has(&self, name: &str) -> Option<&str> {
+        let imports = &self.modules[self.scope.module].imports;
+        imports.iter().find(|(_, i)| self.names[**i].contains_key(name)).map(|(module, _)| module.as_str())
+    }
+
+    fn known_names(&self) -> impl Iterator<Item = &str> {
+        let module = self.scope.module;
+        let modules = (0..self.modules.len()).filter(move |&m| m == module || self.modules[m].prelude);
+        let values = modules.flat_map(|m| {
+            self.names[m].iter().filter(|(_, d)| !matches!(d, Def::Scenario(_) | Def::Clause(_) | Def::Unit(_)))
+        });
+        self.scope.visible.iter().map(|(n, _)| n.as_str()).chain(values.map(|(n, _)| n.as_str()))
+    }
+
+    /// What can be called without a module's name before it.
+    pub(super) fn callable_names(&self) -> impl Iterator<Item = &str> {
+        let module = self.scope.module;
+        let modules = (0..self.modules.len()).filter(move |&m| m == module || self.modules[m].prelude);
+        modules.flat_map(|m| {
+            let callable = |d: &Def| matches!(d, Def::Fn(_) | Def::Record(_) | Def::Activity(_));
+            self.names[m].iter().filter(move |(_, d)| callable(d)).map(|(n, _)| n.as_str())
+        })
+    }
+
+    /// What `module.name` or `name` before parentheses leads to, when its head is no variable.
+    pub(super) fn find(&self, e: &tree::Expr) -> Found {
+        use tree::ExprKind as K;
+        match &e.kind {
+            K::Name(name) => {
+                let callable = self.lookup_if(self.scope.module, name, Def::can_be_called);
+                callable.cloned().map_or(Found::Nothing, Found::Def)
+            }
+            K::Member(base, member) => match &base.kind {
+                K::Name(module) if self.local(module).is_none() => {
+                    let def = self.imported(self.scope.module, module, &member.node);
+                    def.cloned().map_or(Found::Nothing, Found::Def)
+                }
+                _ => Found::Nothing,
+            },
+            _ => Found::Nothing,
+        }
+    }
+
+    /// The module that a name stands for, when it is no value.
+    pub(super) fn module_named(&self, e: &tree::Expr) -> Option<usize> {
+        match &e.kind {
+            tree::ExprKind::Name(name) if self.local(name).is_none() => {
+                self.modules[self.scope.module].imports.get(name).copied()
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a variable may be assigned here.
+    pub(super) fn assignable(&mut self, name: &tree::Name) -> Option<usize> {
+        let Some(id) = self.local(&name.node) else {
+            match self.lookup(self.scope.module, &name.node) {
+                Some(def) => {
+                    let what = def.what();
+                    self.report(Diagnostic::error(
+                        "names::assign",
+                        name.span,
+                        format!("`{}` is {what} and cannot be assigned", name.node),
+                    ));
+                }
+                None => self.unknown_name(&name.node, name.span),
+            }
+            return None;
+        };
+        let var = &self.scope.vars[id];
+        let (what, help) = match var.kind {
+            VarKind::Memory if self.scope.setting == Setting::Function => {
+                ("a memory, and functions are pure", "return the new value")
+            }
+            VarKind::Memory | VarKind::Var => return Some(id),
+            VarKind::Let => ("fixed where it stands", "declare it with `memory`, or with `var` in instantaneous code"),
+            VarKind::Param => ("a parameter", "declare a `memory` that begins with its value"),
+            VarKind::Signal => ("a signal, computed anew at every tick", "declare a `memory`"),
+            VarKind::Loop => ("set by its loop", "declare a `memory`"),
+            VarKind::Area => ("the mission's area", "declare a `memory`"),
+        };
+        let finding =
+            Diagnostic::error("names::assign", name.span, format!("`{}` is {what}: it cannot be assigned", name.node))
+                .label(var.span, "declared here")
+                .help(help);
+        self.report(finding);
+        None
+    }
+}

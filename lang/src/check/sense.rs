@@ -1,0 +1,95 @@
+//! Values that nobody can mean: times that run backwards, speeds and depths below zero, headings of more than a turn.
+//! What is known of a value is its range: one that is wholly senseless is refused, one that only may be is not.
+
+use super::Checker;
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::Expr;
+use crate::source::Span;
+use crate::syntax::tree;
+use crate::types::Type;
+use std::f64::consts::TAU;
+
+/// Beyond this, 2^53, adding one changes nothing.
+pub(super) const INT_MAX: f64 = 9_007_199_254_740_992.0;
+
+/// A quantity is this large at most, in metres, seconds and what they make: the sun is nearer.
+pub(super) const QUANTITY_MAX: f64 = 1e12;
+
+/// A turn, and what radians lose in being written as degrees.
+const TURN: f64 = TAU + 1e-9;
+
+impl<'t> Checker<'t> {
+    /// The duration of `for T`, `within T`, `fresh T` and `after T`.
+    pub(super) fn duration(&mut self, e: &tree::Expr, what: &str) -> Expr {
+        let value = self.expr_as(e, &Type::Quantity(Dimension::TIME), what);
+        if value.range.high <= 0.0 {
+            let how = if value.range.high < 0.0 { "negative" } else { "zero" };
+            self.report(
+                Diagnostic::error("ranges::duration", value.span, format!("{what} is {how}"))
+                    .help("write a time longer than 0 s"),
+            );
+        }
+        value
+    }
+
+    /// A setpoint or a limit of depth, altitude or speed.
+    pub(super) fn not_negative(&mut self, value: &Expr, what: &str) {
+        if value.range.high < 0.0 {
+            let help = match value.ty {
+                Type::Depth => "depths are counted from the surface down: write it without the sign",
+                Type::Altitude => "altitudes are counted from the bottom up: write it without the sign",
+                _ => "a speed has no direction: leave the sign out, and steer the other way",
+            };
+            self.report(Diagnostic::error("ranges::negative", value.span, format!("{what} is negative")).help(help));
+        }
+    }
+
+    /// The default of a parameter that has no range of its own.
+    pub(super) fn sensible_default(&mut self, value: &Expr, param: &str) {
+        if value.range.high >= 0.0 {
+            return;
+        }
+        let what = match value.ty {
+            Type::Quantity(Dimension::TIME) => "Duration",
+            Type::Quantity(Dimension::SPEED) => "Speed",
+            _ => return,
+        };
+        self.report(
+            Diagnostic::error("ranges::negative", value.span, format!("`{param}` is a {what}, and this is negative"))
+                .help("leave the sign out; a range of its own, `in LOW..HIGH`, would let it be negative"),
+        );
+    }
+
+    /// A constant angle where a heading is expected.
+    pub(super) fn within_a_turn(&mut self, angle: f64, span: Span) {
+        if angle.abs() > TURN {
+            let shown = |x: f64| self.shown_number(x, &Type::Heading);
+            let wrapped = albacore_geometry::Heading::from_radians(angle).radians();
+            let (angle, wrapped) = (shown(angle), shown(wrapped));
+            self.report(
+                Diagnostic::warning("ranges::heading", span, format!("a heading of {angle} is more than a whole turn"))
+                    .help(format!("write `{wrapped}`: that is where it points")),
+            );
+        }
+    }
+
+    /// A length that is a constant where a depth or an altitude is expected.
+    pub(super) fn below_the_surface(&mut self, value: &Expr, ty: &Type, what: &str) {
+        let value = Expr { ty: ty.clone(), ..value.clone() };
+        self.not_negative(&value, what);
+    }
+
+    /// Whether a number with its unit, in SI, is one to calculate with.
+    pub(super) fn sensible_quantity(&mut self, value: f64, span: Span) -> bool {
+        // Written so that what is no number is refused too.
+        let sensible = value.abs() <= QUANTITY_MAX;
+        if !sensible {
+            self.report(
+                Diagnostic::error("types::number", span, "this is too large to be meant")
+                    .help(format!("quantities go to {QUANTITY_MAX:e} in metres, seconds and what they make")),
+            );
+        }
+        sensible
+    }
+}

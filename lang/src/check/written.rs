@@ -1,0 +1,178 @@
+//! Types and units as they are written.
+
+use super::{Checker, Def, Scope, Setting};
+use crate::diagnostic::Diagnostic;
+use crate::dimension::{self, Dimension, Unit};
+use crate::suggest;
+use crate::syntax::tree::{self, Ty, TyKind};
+use crate::types::Type;
+
+/// Lists hold this many elements at most.
+const LIST_CAPACITY_MAX: f64 = 1024.0;
+
+impl<'t> Checker<'t> {
+    pub(super) fn declared_unit(&mut self, m: usize, value: &tree::Expr) -> Option<Unit> {
+        let tree::ExprKind::Number { value: number, unit: Some(unit) } = &value.kind else {
+            self.report(
+                Diagnostic::error("units::declaration", value.span, "a unit is declared by a quantity")
+                    .help("for example `unit fathom = 1.8288 m`"),
+            );
+            return None;
+        };
+        let base = self.unit(m, unit)?;
+        self.sensible_quantity(base.scale * number, value.span).then_some(())?;
+        Some(Unit { dimension: base.dimension, scale: base.scale * number })
+    }
+
+    /// The unit that a word names in a module.
+    pub(super) fn unit(&mut self, module: usize, word: &tree::Name) -> Option<Unit> {
+        let own = |name: &str| match self.lookup(module, name) {
+            Some(Def::Unit(unit)) => Some(*unit),
+            _ => None,
+        };
+        let found = dimension::unit(&word.node, &own);
+        if found.is_none() {
+            let known: Vec<&str> = dimension::UNITS.iter().map(|(name, ..)| *name).collect();
+            let finding = Diagnostic::error("units::unknown", word.span, format!("`{}` is no unit", word.node))
+                .here("unknown unit");
+            let finding = if let Some((unit, name)) = word.node.split_once('/')
+                && dimension::unit(unit, &own).is_some()
+            {
+                finding.help(format!("to divide by a variable, write a blank: `{unit} / {name}`"))
+            } else if let Some(near) = nearest_unit(&word.node, &known) {
+                finding.help(format!("did you mean `{near}`?"))
+            } else {
+                finding.help("units are m, cm, km, nmi, ft, s, min, h, deg, rad, m/s, kn, Hz, %, kg, g and what they make, such as m2/s")
+            };
+            self.report(finding);
+        }
+        found
+    }
+
+    /// The type that is written.
+    pub(super) fn written_type(&mut self, m: usize, ty: &Ty) -> Type {
+        let inner = match &ty.kind {
+            TyKind::List { element, capacity, .. } => {
+                let element = self.written_type(m, element);
+                let scope = Scope::new(m, Setting::Constant);
+                let (capacity, _) = self.within(scope, |c| c.expr_as(capacity, &Type::Int, "the capacity"));
+                match capacity.range.constant() {
+                    Some(n) if (1.0..=LIST_CAPACITY_MAX).contains(&n) => Type::List(Box::new(element), n as u32),
+                    _ => {
+                        if capacity.ty != Type::Unknown {
+                            self.report(
+                                Diagnostic::error("types::capacity", capacity.span, "a list's capacity is a constant")
+                                    .help(format!("a whole number from 1 to {LIST_CAPACITY_MAX}")),
+                            );
+                        }
+                        Type::Unknown
+                    }
+                }
+            }
+            TyKind::Named { path, factors } => self.named_type(m, path, factors),
+        };
+        if ty.optional { inner.optional() } else { inner }
+    }
+
+    fn named_type(&mut self, m: usize, path: &tree::Path, factors: &[(tree::Name, f64)]) -> Type {
+        let name = path.text();
+        if !factors.is_empty() {
+            let mut dimension = self.dimension_of(&path.parts[0]).unwrap_or(Dimension::NONE);
+            for (factor, power) in factors {
+                let raised = self.dimension_of(factor).and_then(|d| d.power(*power));
+                dimension = dimension * raised.unwrap_or(Dimension::NONE);
+            }
+            return Type::Quantity(dimension);
+        }
+        let simple = match name.as_str() {
+            "Bool" => Some(Type::Bool),
+            "Int" => Some(Type::Int),
+            "Sign" => Some(Type::Sign),
+            "Text" => Some(Type::Text),
+            "Heading" => Some(Type::Heading),
+            "Depth" => Some(Type::Depth),
+            "Altitude" => Some(Type::Altitude),
+            "Point" => Some(Type::Point),
+            "Vector" => Some(Type::Vector(Dimension::LENGTH)),
+            "Velocity" => Some(Type::Vector(Dimension::SPEED)),
+            "Direction" => Some(Type::Vector(Dimension::NONE)),
+            "Area" => Some(Type::Area),
+            "Edge" => Some(Type::Edge),
+            "Line" => Some(Type::Line),
+            other => Dimension::of_type(other).map(Type::Quantity),
+        };
+        if let Some(ty) = simple {
+            return ty;
+        }
+        match self.resolve(m, path).cloned() {
+            Some(Def::Record(id)) => Type::Record(id),
+            Some(Def::Enum(id)) => Type::Enum(id),
+            Some(def) => {
+                self.report(Diagnostic::error(
+                    "types::unknown",
+                    path.span,
+                    format!("`{name}` is {}, no type", def.what()),
+                ));
+                Type::Unknown
+            }
+            None => {
+                let mut known: Vec<&str> = dimension::NAMED.iter().map(|(n, _)| *n).collect();
+                known.extend(SIMPLE_TYPES);
+                let declared = self.names[m].iter().filter(|(_, d)| matches!(d, Def::Record(_) | Def::Enum(_)));
+                known.extend(declared.map(|(n, _)| n.as_str()));
+                let finding = Diagnostic::error("types::unknown", path.span, format!("there is no type `{name}`"));
+                let finding = match self.nearest(&name, known) {
+                    Some(near) => finding.help(format!("did you mean `{near}`?")),
+                    None => finding.help("types are Length, Duration, Speed, Angle, Heading, Depth, Altitude, Point, Vector, Int, Bool, … and the records and enums declared"),
+                };
+                self.report(finding);
+                Type::Unknown
+            }
+        }
+    }
+
+    fn dimension_of(&mut self, name: &tree::Name) -> Option<Dimension> {
+        let found = Dimension::of_type(&name.node);
+        if found.is_none() {
+            self.report(
+                Diagnostic::error("types::unknown", name.span, format!("`{}` is no quantity", name.node))
+                    .help("only quantities such as Length and Duration can be multiplied and divided"),
+            );
+        }
+        found
+    }
+}
+
+const SIMPLE_TYPES: [&str; 14] = [
+    "Bool",
+    "Int",
+    "Sign",
+    "Text",
+    "Heading",
+    "Depth",
+    "Altitude",
+    "Point",
+    "Vector",
+    "Velocity",
+    "Direction",
+    "Area",
+    "Edge",
+    "Line",
+];
+
+/// The unit that a word was probably meant to be: what people write elsewhere, then what is spelt alike.
+fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let meant = match word {
+        "sec" | "secs" | "second" | "seconds" => "s",
+        "minute" | "minutes" | "mins" => "min",
+        "hour" | "hours" | "hr" | "hrs" => "h",
+        "metre" | "metres" | "meter" | "meters" => "m",
+        "degree" | "degrees" | "°" => "deg",
+        "radian" | "radians" => "rad",
+        "kt" | "kts" => "kn",
+        "percent" => "%",
+        "feet" | "foot" => "ft",
+        _ => return suggest::nearest(word, known.iter().copied()),
+    };
+    known.iter().copied().find(|k| *k == meant)
+}

@@ -1,0 +1,324 @@
+//! The checked program: names resolved, types known, every conversion spelt out. What lowering reads.
+
+mod activity;
+mod interval;
+mod simulated;
+mod walk;
+
+pub use activity::*;
+pub use interval::Interval;
+pub use simulated::*;
+pub use walk::{activity_children, block_children, children};
+
+use crate::source::Span;
+use crate::types::Type;
+use albacore_program::{Channel, Guide};
+
+/// Index into [`Scope::vars`] of the declaration that owns it.
+pub type VarId = usize;
+/// Index of an activity.
+pub type ActivityId = usize;
+/// Index of a function.
+pub type FnId = usize;
+/// Index of an input.
+pub type InputId = usize;
+
+/// A checked program, before a mission is chosen.
+#[derive(Clone, Debug, Default)]
+pub struct Hir {
+    /// Functions, those of the standard library included.
+    pub fns: Vec<Function>,
+    /// Activities, nested behaviors included.
+    pub activities: Vec<Activity>,
+    /// Inputs.
+    pub inputs: Vec<Input>,
+    /// Scenarios.
+    pub scenarios: Vec<Scenario>,
+    /// Tests.
+    pub tests: Vec<Test>,
+}
+
+/// What a variable is, which tells who may change it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "each variant is the declaration of its name")]
+pub enum VarKind {
+    Param,
+    Let,
+    Var,
+    Memory,
+    Signal,
+    Loop,
+    Area,
+}
+
+/// A variable of a function or an activity. A nested behavior's variables belong to its strategy.
+#[derive(Clone, Debug)]
+pub struct Var {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: VarKind,
+    /// Its type.
+    pub ty: Type,
+    /// Where it is declared.
+    pub span: Span,
+    /// The values a number can have.
+    pub range: Interval,
+    /// It walks a list of constants: an angle among them may stand for a heading, as each constant may.
+    pub walks_constants: bool,
+    /// In a list kept in order: which end comes first, and the key, a function of `it`.
+    pub order: Option<Order>,
+}
+
+/// `by most KEY`.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// The greatest comes first.
+    pub most: bool,
+    /// The variable `it`.
+    pub it: VarId,
+    /// The key.
+    pub key: Box<Expr>,
+}
+
+/// A pure function.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// Its name.
+    pub name: String,
+    /// All its variables, parameters first.
+    pub vars: Vec<Var>,
+    /// How many of them are parameters.
+    pub params: usize,
+    /// What it gives.
+    pub result: Type,
+    /// Its body.
+    pub body: Block,
+}
+
+/// Statements, and the value of the last when it is one.
+#[derive(Clone, Debug, Default)]
+pub struct Block {
+    /// The statements.
+    pub stmts: Vec<Stmt>,
+    /// The value.
+    pub value: Option<Box<Expr>>,
+}
+
+/// An expression.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// Its type.
+    pub ty: Type,
+    /// Where it stands.
+    pub span: Span,
+    /// The values a number can have, as far as is known.
+    pub range: Interval,
+}
+
+/// What an expression is.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "each variant is what it says")]
+pub enum ExprKind {
+    Number(f64),
+    Geodetic {
+        latitude_deg: f64,
+        longitude_deg: f64,
+    },
+    Text(Vec<TextPart>),
+    None,
+    /// The body of the source behavior has come to its end.
+    Done,
+    Var(VarId),
+    Input(InputId, InputPart),
+    /// An optional made of a value.
+    Present(Box<Expr>),
+    /// The value of an optional that is known to be present.
+    Unwrap(Box<Expr>),
+    IsPresent(Box<Expr>),
+    /// `x else y`.
+    Else(Box<Expr>, Box<Expr>),
+    /// A built-in operation on the values of its operands.
+    Do(Builtin, Vec<Expr>),
+    Call(FnId, Vec<Expr>),
+    /// A record's fields in order.
+    Record(Vec<Expr>),
+    /// A list's elements in order.
+    List(Vec<Expr>),
+    /// A part of a value: so many words from its start.
+    Part(Box<Expr>, u32),
+    If(Box<Expr>, Block, Block),
+    /// A value computed before and named, for `if let` and `while let`.
+    Match(Box<Expr>, Vec<(Vec<usize>, Block)>, Option<Block>),
+    /// `X for T`.
+    HeldFor(Box<Expr>, Box<Expr>),
+    /// `becomes X`.
+    Becomes(Box<Expr>),
+    /// `after T`.
+    After(Box<Expr>),
+}
+
+/// A piece of a text.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "each variant is what it says")]
+pub enum TextPart {
+    Literal(String),
+    Hole(Expr),
+}
+
+/// What is read of an input.
+#[derive(Clone, Debug)]
+pub enum InputPart {
+    /// Its latest sample.
+    Value,
+    /// A field, so many words from the sample's start.
+    Field(u32),
+    /// Seconds since the latest sample.
+    Age,
+    /// The largest sample since the last tick.
+    Peak,
+    /// How many of the last samples reached a limit.
+    Hits(Box<Expr>, u32),
+}
+
+/// Operations that the machine knows. Operands are in the order of the names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "each variant is the operation of its name")]
+pub enum Builtin {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Pow,
+    Neg,
+    Abs,
+    Min,
+    Max,
+    Sqrt,
+    Floor,
+    Ceil,
+    Round,
+    Sin,
+    Cos,
+    /// Into [0, 2 pi).
+    Heading,
+    /// Into (-pi, pi].
+    Angle,
+    Lt,
+    Le,
+    Eq,
+    Not,
+    And,
+    Or,
+    AddVector,
+    SubVector,
+    /// A vector and a number.
+    Scale,
+    /// A length and a heading.
+    Toward,
+    Direction,
+    Length,
+    Dot,
+    /// A vector or point, and a heading.
+    Along,
+    /// Two numbers side by side.
+    Pair,
+    Line,
+    Rectangle,
+    Polygon,
+    Center,
+    Gap,
+    /// An area, a heading, a point.
+    Corner,
+    NearestEdge,
+    EdgeGap,
+    EdgeTangent,
+    Exit,
+    /// A list's first so many.
+    Top,
+    /// A list and an index.
+    At,
+    Spread,
+}
+
+/// A statement.
+#[derive(Clone, Debug)]
+pub struct Stmt {
+    /// What it does.
+    pub kind: StmtKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What a statement does.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "each variant is the statement of its name")]
+pub enum StmtKind {
+    Set(VarId, Expr),
+    Insert(VarId, Expr),
+    Remove(VarId, Expr),
+    Clear(VarId),
+    If(Expr, Block, Block),
+    Match(Expr, Vec<(Vec<usize>, Block)>, Option<Block>),
+    ForRange { var: VarId, first: Expr, last: Expr, inclusive: bool, body: Block },
+    ForList { var: VarId, list: Expr, body: Block },
+    ForEdges { var: VarId, area: Expr, body: Block },
+    ForRows { var: VarId, area: Expr, step: Expr, body: Block },
+    While { condition: Expr, bind: Option<VarId>, body: Block },
+    Loop(Block),
+    With(Vec<With>, Block),
+    Timed(Box<Timed>),
+    Finish(Option<Expr>),
+    Abort(Vec<TextPart>),
+    Report { name: String, fields: Vec<(String, Expr)> },
+    Log(Vec<TextPart>),
+}
+
+/// What `with` puts in force.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "each variant is what it says")]
+pub enum With {
+    Setpoint(Channel, Expr),
+    Overlay(ActivityId, Vec<Expr>),
+}
+
+/// A statement that takes time.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// What it does.
+    pub action: Action,
+    /// `for T`.
+    pub duration: Option<Expr>,
+    /// `until X`.
+    pub until: Option<Expr>,
+    /// `within T`.
+    pub within: Option<Expr>,
+    /// `at depth 3 m`.
+    pub at: Vec<(Channel, Expr)>,
+    /// Where its outcome goes: whether it ended by itself, or a call's result.
+    pub result: Option<VarId>,
+}
+
+/// What a statement that takes time does.
+#[derive(Clone, Debug)]
+pub enum Action {
+    /// Guidance with its arguments.
+    Guide(Guide, Vec<Expr>),
+    /// A setpoint read anew at every tick.
+    Keep(Channel, Expr),
+    /// A call with its arguments.
+    Call(ActivityId, Vec<Expr>),
+}
+
+/// An input.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// The type of its value.
+    pub ty: Type,
+    /// Its further fields.
+    pub fields: Vec<(String, Type)>,
+}

@@ -1,0 +1,124 @@
+//! Scenarios and tests: the world of a simulated run, and what must hold in it.
+
+use super::{ActivityId, Expr, Var, VarId};
+use crate::source::Span;
+
+/// A scenario: clauses with their arguments.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Its name.
+    pub name: String,
+    /// Its parameters.
+    pub vars: Vec<Var>,
+    /// Their defaults.
+    pub defaults: Vec<Option<Expr>>,
+    /// What it says, in order.
+    pub clauses: Vec<ClauseUse>,
+}
+
+/// A clause of a scenario.
+#[derive(Clone, Debug)]
+pub struct ClauseUse {
+    /// Which.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// Its arguments by the names of the clause's parameters, defaults included.
+    pub args: Vec<(String, ClauseArg)>,
+}
+
+/// An argument of a clause.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "each variant is what it says")]
+pub enum ClauseArg {
+    Value(Expr),
+    Nested(ClauseUse),
+}
+
+/// A test.
+#[derive(Clone, Debug)]
+pub struct Test {
+    /// What it is called.
+    pub name: String,
+    /// Where its name stands.
+    pub span: Span,
+    /// The mission that it runs.
+    pub mission: ActivityId,
+    /// The mission's arguments.
+    pub args: Vec<Expr>,
+    /// The scenario, by its index.
+    pub scenario: usize,
+    /// The seeds, both ends included.
+    pub seeds: (u64, u64),
+    /// What must hold.
+    pub expects: Vec<Expect>,
+    /// The seeds whose switches are compared with a snapshot.
+    pub snapshots: Vec<u64>,
+    /// The variables that expectations speak of.
+    pub vars: Vec<Var>,
+    /// Which of them is what.
+    pub known: TestNames<VarId>,
+    /// The points whose true water depth is asked for, and where the answers go; what one asks with comes before it.
+    pub depths: Vec<(Expr, VarId)>,
+}
+
+/// What the expectations of a test speak of: variables here, the words that hold them once lowered.
+#[derive(Clone, Debug)]
+pub struct TestNames<T> {
+    /// The vehicle's true position.
+    pub position: T,
+    /// The true source nearest to the latest report, else to the vehicle.
+    pub nearest_source: T,
+    /// Where the vehicle started.
+    pub start: T,
+    /// The deepest point of the mission's area.
+    pub deepest: T,
+    /// Seconds since the run began.
+    pub time: T,
+    /// Whether the mission came to its own end.
+    pub completed: T,
+    /// The mission's area.
+    pub area: T,
+    /// By name, where it was first reported, if it was.
+    pub reported: Vec<(String, T)>,
+    /// By name, the seconds until it was first reported, if it was.
+    pub reported_at: Vec<(String, T)>,
+}
+
+/// An expectation.
+#[derive(Clone, Debug)]
+pub struct Expect {
+    /// When it must hold.
+    pub when: When,
+    /// The condition.
+    pub holds: Expr,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// When an expectation must hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum When {
+    /// At the end of this share of the runs.
+    AtTheEnd(f64),
+    /// At every tick of every run.
+    Always,
+}
+
+impl<T: Copy> TestNames<T> {
+    /// The same names for something else.
+    pub fn map<U>(&self, f: impl Fn(T) -> U) -> TestNames<U> {
+        let each = |list: &[(String, T)]| list.iter().map(|(name, x)| (name.clone(), f(*x))).collect();
+        TestNames {
+            position: f(self.position),
+            nearest_source: f(self.nearest_source),
+            start: f(self.start),
+            deepest: f(self.deepest),
+            time: f(self.time),
+            completed: f(self.completed),
+            area: f(self.area),
+            reported: each(&self.reported),
+            reported_at: each(&self.reported_at),
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! Walks over the checked program: the statements of a block, the expressions of anything.
+
+use super::{
+    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, Hir, InputPart, Stmt, StmtKind, Target, TextPart,
+    With,
+};
+use std::collections::BTreeSet;
+
+impl Hir {
+    /// An activity and all to which it leads: its own behaviors, what it calls, the overlays that it puts on.
+    pub fn called_from(&self, activity: ActivityId) -> BTreeSet<ActivityId> {
+        let mut called = BTreeSet::new();
+        let mut ahead = vec![activity];
+        while let Some(id) = ahead.pop() {
+            if called.insert(id) {
+                ahead.extend(self.activities[id].calls());
+            }
+        }
+        called
+    }
+}
+
+impl Activity {
+    /// The activities that it names itself.
+    fn calls(&self) -> Vec<ActivityId> {
+        let mut calls = Vec::new();
+        let mut blocks: Vec<&Block> = Vec::new();
+        match &self.body {
+            Body::Sequence(block) | Body::Amend { block, .. } => blocks.push(block),
+            Body::Table { behaviors, .. } => calls.extend(behaviors),
+        }
+        blocks.extend(self.mission.iter().filter_map(|m| m.recovery.as_ref()).map(|(_, block)| block));
+        for decl in &self.decls {
+            if let Decl::With(items) = decl {
+                calls.extend(overlays(items));
+            }
+        }
+        for block in blocks {
+            block.each(&mut |stmt| match &stmt.kind {
+                StmtKind::With(items, _) => calls.extend(overlays(items)),
+                StmtKind::Timed(timed) => {
+                    if let Action::Call(id, _) = timed.action {
+                        calls.push(id);
+                    }
+                }
+                _ => {}
+            });
+        }
+        calls
+    }
+}
+
+/// The overlays among what `with` puts in force.
+fn overlays(items: &[With]) -> impl Iterator<Item = ActivityId> {
+    items.iter().filter_map(|item| if let With::Overlay(id, _) = item { Some(*id) } else { None })
+}
+
+impl Stmt {
+    /// The blocks directly inside it.
+    pub fn blocks(&self) -> Vec<&Block> {
+        match &self.kind {
+            StmtKind::If(_, a, b) => vec![a, b],
+            StmtKind::Match(_, arms, otherwise) => arms.iter().map(|(_, b)| b).chain(otherwise).collect(),
+            StmtKind::With(_, body)
+            | StmtKind::Loop(body)
+            | StmtKind::ForRange { body, .. }
+            | StmtKind::ForList { body, .. }
+            | StmtKind::ForEdges { body, .. }
+            | StmtKind::ForRows { body, .. }
+            | StmtKind::While { body, .. } => vec![body],
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Block {
+    /// Calls `f` on every statement, each before those of the blocks inside it.
+    pub fn each<'e>(&'e self, f: &mut dyn FnMut(&'e Stmt)) {
+        for stmt in &self.stmts {
+            f(stmt);
+            stmt.blocks().into_iter().for_each(|block| block.each(f));
+        }
+    }
+
+    /// The variables that its statements assign.
+    pub fn assigned(&self) -> Vec<usize> {
+        let mut vars = Vec::new();
+        self.each(&mut |stmt| {
+            if let StmtKind::Set(var, _) | StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) =
+                stmt.kind
+            {
+                vars.push(var);
+            }
+        });
+        vars
+    }
+}
+
+/// Calls `f` on the expressions directly inside one.
+pub fn children<'e>(e: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
+    match &e.kind {
+        ExprKind::Present(a)
+        | ExprKind::Unwrap(a)
+        | ExprKind::IsPresent(a)
+        | ExprKind::Part(a, _)
+        | ExprKind::Becomes(a)
+        | ExprKind::After(a) => f(a),
+        ExprKind::Else(a, b) | ExprKind::HeldFor(a, b) => {
+            f(a);
+            f(b);
+        }
+        ExprKind::Do(_, list) | ExprKind::Call(_, list) | ExprKind::Record(list) | ExprKind::List(list) => {
+            list.iter().for_each(f);
+        }
+        ExprKind::If(condition, a, b) => {
+            f(condition);
+            block_children(a, f);
+            block_children(b, f);
+        }
+        ExprKind::Match(on, arms, otherwise) => {
+            f(on);
+            for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
+                block_children(block, f);
+            }
+        }
+        ExprKind::Input(_, InputPart::Hits(limit, _)) => f(limit),
+        ExprKind::Text(parts) => text_children(parts, f),
+        _ => {}
+    }
+}
+
+fn text_children<'e>(parts: &'e [TextPart], f: &mut dyn FnMut(&'e Expr)) {
+    for part in parts {
+        if let TextPart::Hole(e) = part {
+            f(e);
+        }
+    }
+}
+
+/// Calls `f` on every expression that stands directly in a block or in the blocks inside it.
+pub fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
+    for stmt in &block.stmts {
+        match &stmt.kind {
+            StmtKind::Set(_, e) | StmtKind::Insert(_, e) | StmtKind::Remove(_, e) => f(e),
+            StmtKind::If(e, a, b) => {
+                f(e);
+                block_children(a, f);
+                block_children(b, f);
+            }
+            StmtKind::Match(e, arms, otherwise) => {
+                f(e);
+                for block in arms.iter().map(|(_, b)| b).chain(otherwise) {
+                    block_children(block, f);
+                }
+            }
+            StmtKind::ForRange { first, last, body, .. } => {
+                f(first);
+                f(last);
+                block_children(body, f);
+            }
+            StmtKind::ForList { list: e, body, .. } | StmtKind::ForEdges { area: e, body, .. } => {
+                f(e);
+                block_children(body, f);
+            }
+            StmtKind::ForRows { area, step, body, .. } => {
+                f(area);
+                f(step);
+                block_children(body, f);
+            }
+            StmtKind::While { condition, body, .. } => {
+                f(condition);
+                block_children(body, f);
+            }
+            StmtKind::Loop(body) => block_children(body, f),
+            StmtKind::With(items, body) => {
+                with_children(items, f);
+                block_children(body, f);
+            }
+            StmtKind::Timed(timed) => {
+                match &timed.action {
+                    Action::Guide(_, args) | Action::Call(_, args) => args.iter().for_each(&mut *f),
+                    Action::Keep(_, e) => f(e),
+                }
+                [&timed.duration, &timed.until, &timed.within].into_iter().flatten().for_each(&mut *f);
+                timed.at.iter().for_each(|(_, e)| f(e));
+            }
+            StmtKind::Finish(Some(e)) => f(e),
+            StmtKind::Abort(parts) | StmtKind::Log(parts) => text_children(parts, f),
+            StmtKind::Report { fields, .. } => fields.iter().for_each(|(_, e)| f(e)),
+            StmtKind::Finish(None) | StmtKind::Clear(_) => {}
+        }
+    }
+    if let Some(value) = &block.value {
+        f(value);
+    }
+}
+
+fn with_children<'e>(items: &'e [With], f: &mut dyn FnMut(&'e Expr)) {
+    for item in items {
+        match item {
+            With::Setpoint(_, e) => f(e),
+            With::Overlay(_, args) => args.iter().for_each(&mut *f),
+        }
+    }
+}
+
+/// Calls `f` on every expression of an activity, outermost ones only.
+pub fn activity_children<'e>(activity: &'e Activity, f: &mut dyn FnMut(&'e Expr)) {
+    for decl in &activity.decls {
+        match decl {
+            Decl::With(items) => with_children(items, f),
+            Decl::Signal(_, e) | Decl::Area(_, e) | Decl::Memory(_, Some(e)) => f(e),
+            Decl::Memory(_, None) => {}
+        }
+    }
+    for (why, condition) in &activity.aborts {
+        text_children(why, f);
+        f(condition);
+    }
+    for (condition, block) in &activity.reactions {
+        f(condition);
+        block_children(block, f);
+    }
+    for var in &activity.vars {
+        if let Some(order) = &var.order {
+            f(&order.key);
+        }
+    }
+    match &activity.body {
+        Body::Sequence(block) | Body::Amend { block, .. } => block_children(block, f),
+        Body::Table { rules, .. } => {
+            for rule in rules {
+                f(&rule.on);
+                match &rule.target {
+                    Target::Finish(Some(e)) => f(e),
+                    Target::Abort(why) => text_children(why, f),
+                    _ => {}
+                }
+                if let Some(effect) = &rule.effect {
+                    block_children(effect, f);
+                }
+            }
+        }
+    }
+    if let Some(mission) = &activity.mission {
+        mission.within.iter().for_each(&mut *f);
+        mission.limits.iter().for_each(|(_, _, e)| f(e));
+        for require in &mission.requires {
+            f(&require.fresh);
+            require.at_first.iter().chain(&require.hold_for).for_each(&mut *f);
+        }
+        if let Some((within, block)) = &mission.recovery {
+            within.iter().for_each(&mut *f);
+            block_children(block, f);
+        }
+    }
+}

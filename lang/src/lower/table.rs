@@ -1,0 +1,163 @@
+//! Switching tables to code: for each behavior its guards, and for each rule what happens when it fires.
+
+use super::Lowering;
+use crate::hir::{self, Block, Decl, Expr, ExprKind, InputPart, VarKind, children};
+use crate::types::Type;
+use albacore_program::{Body, Entry, Exit, Op, Rule, Shape, Table, Target, Valued, Watched, WatchedCode};
+
+impl<'a> Lowering<'a> {
+    pub(super) fn table(&mut self, id: usize, start: usize, behaviors: &[usize], rules: &[hir::Rule]) -> Body {
+        let indices: Vec<u32> = behaviors.iter().map(|&b| self.activity(b, 1)).collect();
+        let first_rule = self.program.rules.len() as u32;
+        for rule in rules {
+            let lowered = self.rule(id, rule, behaviors);
+            self.program.rules.push(lowered);
+        }
+        let mut entries = Vec::new();
+        for (source, &index) in indices.iter().enumerate() {
+            let owner = self.program.activities[index as usize].header;
+            let leaving: Vec<(usize, &hir::Rule)> =
+                rules.iter().enumerate().filter(|(_, r)| r.sources.contains(&source)).collect();
+            // The same guard may serve several sources: each has its own timers.
+            let timers = self.place_timers(leaving.iter().map(|(_, r)| &r.on));
+            let arm = self.here();
+            self.reset_timers(&timers);
+            self.update_timers(&timers, owner, None);
+            self.emit(Op::Return);
+            let watch = self.here();
+            self.update_timers(&timers, owner, None);
+            self.emit(Op::Return);
+            let exits = leaving
+                .into_iter()
+                .map(|(i, rule)| Exit {
+                    rule: first_rule + i as u32,
+                    guard: self.code(&rule.on),
+                    guard_done: mentions_done(&rule.on).then(|| {
+                        self.frame.done = true;
+                        let code = self.code(&rule.on);
+                        self.frame.done = false;
+                        code
+                    }),
+                    watched: self.watched(id, &rule.on),
+                })
+                .collect();
+            entries.push(Entry { activity: index, arm, watch, exits });
+        }
+        Body::Table(Table { start: start as u32, behaviors: entries })
+    }
+
+    fn rule(&mut self, id: usize, rule: &hir::Rule, behaviors: &[usize]) -> Rule {
+        let mut aborting = None;
+        let effect = match (&rule.effect, &rule.target) {
+            (None, target) if !matches!(target, hir::Target::Abort(_)) => None,
+            (effect, target) => {
+                let entry = self.here();
+                if let Some(block) = effect {
+                    self.stmts(&block.stmts);
+                    self.remembered(id, block);
+                }
+                if let hir::Target::Abort(why) = target {
+                    aborting = Some(self.text(why));
+                }
+                self.emit(Op::Return);
+                Some(entry)
+            }
+        };
+        let (target, to) = match &rule.target {
+            hir::Target::Behavior(to) => {
+                (Target::Behavior(*to as u32), self.hir.activities[behaviors[*to]].name.clone())
+            }
+            hir::Target::Abort(_) => (Target::Abort(aborting.unwrap_or(0)), "abort".to_string()),
+            hir::Target::Finish(value) => {
+                let code = value.as_ref().map(|e| {
+                    let entry = self.here();
+                    let to = self.frame.result;
+                    self.scratch(|l| l.expr_into(e, to));
+                    self.emit(Op::Return);
+                    entry
+                });
+                (Target::Finish(code), "finish".to_string())
+            }
+        };
+        let guard = self.sources.text(rule.on_span);
+        Rule {
+            text: format!("-> {to} on {guard}"),
+            place: self.sources.place(rule.span),
+            target,
+            back: rule.back,
+            effect,
+        }
+    }
+
+    /// Tells the trace of the memories that an effect assigns.
+    fn remembered(&mut self, id: usize, effect: &Block) {
+        let mut vars = effect.assigned();
+        vars.sort_unstable();
+        vars.dedup();
+        let unit = self.owner_of(id);
+        for var in vars {
+            let declared = &self.hir.activities[unit].vars[var];
+            if declared.kind != VarKind::Memory {
+                continue;
+            }
+            let value = Valued { slot: self.frame.vars[var], shape: self.shape(&declared.ty) };
+            self.program.memories.push(Watched { name: declared.name.clone(), value });
+            let memory = self.program.memories.len() as u32 - 1;
+            self.emit(Op::Changed { memory });
+        }
+    }
+
+    fn owner_of(&self, id: usize) -> usize {
+        self.hir.activities[id].owner.unwrap_or(id)
+    }
+
+    /// What the trace prints of a guard: its names, and for each signal the readings that it is made of.
+    fn watched(&mut self, id: usize, guard: &Expr) -> Vec<WatchedCode> {
+        let mut leaves: Vec<(String, Expr)> = Vec::new();
+        self.leaves(id, guard, &mut leaves);
+        leaves
+            .into_iter()
+            .map(|(name, e)| {
+                let code = self.code(&e);
+                let shape: Shape = self.shape(&e.ty);
+                WatchedCode { name, code, shape }
+            })
+            .collect()
+    }
+
+    fn leaves(&self, id: usize, e: &Expr, out: &mut Vec<(String, Expr)>) {
+        let shown = match &e.kind {
+            ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..)),
+            ExprKind::Part(inner, _) => matches!(inner.kind, ExprKind::Var(_)),
+            _ => false,
+        };
+        let hides = matches!(&e.kind, ExprKind::Part(inner, _) if !matches!(inner.kind, ExprKind::Var(_)));
+        if shown && !hides {
+            let name = self.sources.text(e.span).to_string();
+            if !out.iter().any(|(n, _)| *n == name) {
+                out.push((name, e.clone()));
+            }
+            if let ExprKind::Input(_, InputPart::Hits(limit, _)) = &e.kind {
+                self.leaves(id, limit, out);
+            }
+            if let ExprKind::Var(var) = e.kind {
+                let unit = &self.hir.activities[self.owner_of(id)];
+                let signal = unit.decls.iter().find_map(|d| match d {
+                    Decl::Signal(v, e) if *v == var => Some(e),
+                    _ => None,
+                });
+                if let Some(signal) = signal {
+                    self.leaves(id, signal, out);
+                }
+            }
+            return;
+        }
+        children(e, &mut |child| self.leaves(id, child, out));
+    }
+}
+
+fn mentions_done(e: &Expr) -> bool {
+    let mut found = matches!(e.kind, ExprKind::Done);
+    children(e, &mut |child| found |= mentions_done(child));
+    found
+}

@@ -1,0 +1,449 @@
+//! Lines typed at a prompt: checked and lowered as scripts are, against a script that stays loaded.
+//!
+//! A line of declarations becomes a module of its own, which knows the names of all lines before it. Statements, and an
+//! expression, become the body of a mission that is driven once: so whatever a script can say, a line can say, and means the
+//! same. The values that earlier lines have named, and those that the running mission knows, are put in place before it begins.
+
+use crate::check::{self, Module, Override};
+use crate::diagnostic::{self, Diagnostic, Severity};
+use crate::hir::{self, Hir, VarId};
+use crate::source::{FileId, Source, Sources, Span};
+use crate::syntax::{self, tree};
+use crate::types::{Type, TypeTable};
+use crate::{Library, Loader, Script, lower, rules};
+use albacore_geometry::Geodetic;
+use albacore_program::{Program, Shape, Slot};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The mission that a line becomes. No script can declare a mission of this name.
+pub(crate) const MISSION: &str = "line at the prompt";
+/// What a line's value is called when the line gives it no name.
+const VALUE: &str = "value of the line";
+/// What is in force before any `with` is typed.
+const SETPOINTS_AT_FIRST: &str = "with depth 3 m, speed 1.5 m/s";
+
+/// A script, and the lines typed since it was loaded.
+pub struct Prompt {
+    sources: Sources,
+    modules: Vec<Module>,
+    known: BTreeMap<String, usize>,
+    overrides: Vec<Override>,
+    /// The setpoints and overlays that `with` has put in force.
+    with: Vec<tree::WithItem>,
+    lines: usize,
+}
+
+/// A value with a name, which lines can use.
+#[derive(Clone, Debug)]
+pub struct Named {
+    /// The name.
+    pub name: String,
+    /// The words of the value.
+    pub words: Vec<f64>,
+    /// How they are read.
+    pub shape: Shape,
+    ty: Type,
+}
+
+/// What a line asks for.
+pub enum Line {
+    /// Nothing more: its declarations are known from here on, and these are their names.
+    Declared(Vec<String>),
+    /// Nothing more: its setpoints and overlays are in force from here on.
+    With,
+    /// An expression: drive it for one tick, without sending the command, and read its value.
+    Value(Drive),
+    /// Statements: drive them.
+    Statements(Drive),
+}
+
+/// A line as a mission to be driven.
+pub struct Drive {
+    /// The mission.
+    pub program: Program,
+    /// Where the values of the known names go, in their order, before the first tick.
+    pub known: Vec<Slot>,
+    /// The value that the line leaves at its end.
+    pub value: Option<Left>,
+    /// The inputs that the line itself reads, by their indices in the program.
+    pub reads: Vec<u32>,
+    /// It never ends by itself.
+    pub endless: bool,
+}
+
+/// A value that a line leaves.
+#[derive(Clone, Debug)]
+pub struct Left {
+    /// The name it is to have; none for the value of an expression.
+    pub name: Option<String>,
+    /// Where it is.
+    pub slot: Slot,
+    /// How its words are read.
+    pub shape: Shape,
+    ty: Type,
+}
+
+impl Left {
+    /// No value: what most statements leave.
+    pub fn nothing() -> Self {
+        Left { name: None, slot: 0, shape: Shape::Bool, ty: Type::Unknown }
+    }
+
+    /// The value, taken from the words of the run.
+    pub fn taken(&self, words: &[f64]) -> Named {
+        let at = self.slot as usize;
+        let words = words.get(at..at + self.shape.words() as usize).unwrap_or(&[]).to_vec();
+        let name = self.name.clone().unwrap_or_default();
+        Named { name, words, shape: self.shape.clone(), ty: self.ty.clone() }
+    }
+
+    /// Whether it is a time, as `run` takes one.
+    pub fn is_duration(&self) -> bool {
+        self.ty == Type::Quantity(crate::dimension::Dimension::TIME)
+    }
+}
+
+/// What came of a line: what it asks for, unless it cannot be understood; and what is to be said of it.
+pub struct Read {
+    /// What it asks for.
+    pub line: Option<Line>,
+    /// Errors and warnings, in the order of the text.
+    pub findings: Vec<Diagnostic>,
+}
+
+impl Prompt {
+    /// Loads a script for a prompt: what was found wrong with it is in the script, and may be nothing that a prompt minds.
+    pub fn open(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[String]) -> (Prompt, Script) {
+        let mut loader = Loader::new(library);
+        loader.read_all(entry);
+        let script = crate::finish(&mut loader, mission, set);
+        let Loader { sources, modules, known, .. } = loader;
+        let mut prompt =
+            Prompt { sources, modules, known, overrides: script.overrides.clone(), with: Vec::new(), lines: 0 };
+        let file = prompt.sources.add(Source { name: "<prompt>".into(), text: SETPOINTS_AT_FIRST.into() });
+        for clause in syntax::parse_lines(file, SETPOINTS_AT_FIRST).0.clauses {
+            if let tree::ClauseKind::With(items) = clause.kind {
+                prompt.with = items;
+            }
+        }
+        (prompt, script)
+    }
+
+    /// All that was read, lines included: for messages.
+    pub fn sources(&self) -> &Sources {
+        &self.sources
+    }
+
+    /// Reads a line. `known` are the values that it may name, `origin` is where the vehicle's frame touches the globe.
+    pub fn read(&mut self, library: &dyn Library, text: &str, known: &[Named], origin: Option<Geodetic>) -> Read {
+        if is_item(text) { self.declare(library, text) } else { self.statements(text, known, origin) }
+    }
+
+    /// What is typed as a source of its own, so that messages can point into it.
+    fn source(&mut self, text: &str) -> Source {
+        self.lines += 1;
+        Source { name: format!("line {}", self.lines).into(), text: text.into() }
+    }
+
+    /// A module that knows all that is known so far.
+    fn module(&self, tree: tree::File) -> Module {
+        let (top, module) = self.top();
+        Module { tree, imports: module.imports.clone(), extends: Some(top), ..Module::default() }
+    }
+
+    /// The module of the latest line that declared something, else the script's.
+    fn top(&self) -> (usize, &Module) {
+        let latest = self.modules.iter().enumerate().rev().find(|(_, m)| m.extends.is_some());
+        latest.unwrap_or((crate::MAIN, &self.modules[crate::MAIN]))
+    }
+
+    fn declare(&mut self, library: &dyn Library, text: &str) -> Read {
+        let before = self.modules.len();
+        let (top, imports) = (self.top().0, self.top().1.imports.clone());
+        let source = self.source(text);
+        let name = Arc::clone(&source.name);
+        let mut loader = Loader::new(library);
+        loader.sources = std::mem::take(&mut self.sources);
+        loader.modules = std::mem::take(&mut self.modules);
+        loader.known = std::mem::take(&mut self.known);
+        let module = loader.read(source, String::new(), false, &mut Vec::new());
+        let mut findings = std::mem::take(&mut loader.findings);
+        (self.sources, self.modules, self.known) = (loader.sources, loader.modules, loader.known);
+        let read = &mut self.modules[module];
+        read.extends = Some(top);
+        for (name, leads) in imports {
+            read.imports.entry(name).or_insert(leads);
+        }
+        let unreadable = !findings.is_empty();
+        if !unreadable {
+            // Earlier lines and the script were checked when they came.
+            let of_new = |f: &Diagnostic| self.sources.get(f.span().file).name == name;
+            findings.extend(check::check(&self.modules, self.overrides.clone()).findings.into_iter().filter(of_new));
+        }
+        diagnostic::settle(&mut findings);
+        if findings.iter().any(|f| f.severity == Severity::Error) {
+            self.modules.truncate(before);
+            self.known.retain(|_, module| *module < before);
+            return Read { line: None, findings };
+        }
+        let names = self.modules[module].tree.items.iter().flat_map(declared).collect();
+        Read { line: Some(Line::Declared(names)), findings }
+    }
+
+    fn statements(&mut self, text: &str, known: &[Named], origin: Option<Geodetic>) -> Read {
+        let source = self.source(text);
+        let file = self.sources.add(source);
+        let (block, mut findings) = syntax::parse_lines(file, text);
+        if !findings.is_empty() {
+            diagnostic::settle(&mut findings);
+            return Read { line: None, findings };
+        }
+        let span = block.span;
+        let mut clauses = block.clauses;
+        if let [tree::Clause { kind: tree::ClauseKind::With(items), .. }] = clauses.as_slice() {
+            return self.with(items.clone(), span, known, origin);
+        }
+        if let Some(place) = clauses.iter().find(|c| needs_a_table(&c.kind)) {
+            let finding = Diagnostic::error("prompt::misplaced", place.span, "this stands in a strategy or a mission")
+                .help("at the prompt stand expressions, statements, `let`, `with` and declarations");
+            return Read { line: None, findings: vec![finding] };
+        }
+        // An expression alone is asked for its value, which a hidden `let` takes.
+        let mut expression = false;
+        let mut name = None;
+        if let [clause] = clauses.as_mut_slice() {
+            match &mut clause.kind {
+                tree::ClauseKind::Timed(timed) if self.is_expression(timed) => {
+                    expression = true;
+                    let name = tree::Name { node: VALUE.to_string(), span };
+                    clause.kind = tree::ClauseKind::Let { name, ty: None, value: timed.clone() };
+                }
+                tree::ClauseKind::Let { name: given, value, .. } => {
+                    expression = self.is_expression(value);
+                    name = Some(given.node.clone());
+                    // A name of the prompt may be given anew: its earlier value is still known while the line is read.
+                    if known.iter().any(|n| n.name == given.node) {
+                        given.node = VALUE.to_string();
+                    }
+                }
+                _ => {}
+            }
+        }
+        let left = name.clone().or_else(|| expression.then(|| VALUE.to_string()));
+        let checked = match self.checked(clauses, span, known) {
+            Ok(checked) => checked,
+            Err(findings) => return Read { line: None, findings },
+        };
+        let endless = checked.endless;
+        match self.drive(&checked, file, known, left, name, origin) {
+            Ok(mut drive) => {
+                drive.endless = endless;
+                // What only a whole mission shows is asked of statements; an expression commands nothing.
+                let line = if expression { Line::Value(drive) } else { Line::Statements(drive) };
+                Read { line: Some(line), findings: checked.findings }
+            }
+            Err(findings) => Read { line: None, findings },
+        }
+    }
+
+    /// Setpoints and overlays for all lines that follow: a channel's new setpoint replaces the one before.
+    fn with(&mut self, items: Vec<tree::WithItem>, span: Span, known: &[Named], origin: Option<Geodetic>) -> Read {
+        let channel = |item: &tree::WithItem| match item {
+            tree::WithItem::Setpoint(setpoint) => {
+                Some(if setpoint.channel.node == "speed" { "speed" } else { "vertical" })
+            }
+            tree::WithItem::Overlay(_) => None,
+        };
+        let mut with = self.with.clone();
+        with.retain(|old| channel(old).is_none_or(|c| !items.iter().any(|new| channel(new) == Some(c))));
+        with.extend(items);
+        let before = std::mem::replace(&mut self.with, with);
+        let checked = self.checked(Vec::new(), span, known);
+        let read = checked
+            .and_then(|checked| self.drive(&checked, span.file, known, None, None, origin).map(|_| checked.findings));
+        match read {
+            Ok(findings) => Read { line: Some(Line::With), findings },
+            Err(findings) => {
+                self.with = before;
+                Read { line: None, findings }
+            }
+        }
+    }
+
+    /// Whether a statement is an expression, not a call that takes time.
+    fn is_expression(&self, timed: &tree::Timed) -> bool {
+        let tree::Action::Expr(e) = &timed.action else { return false };
+        let tree::ExprKind::Call(callee, _) = &e.kind else { return !timed.is_modified() };
+        let is_activity = |module: usize, name: &str| {
+            self.modules[module]
+                .tree
+                .items
+                .iter()
+                .any(|item| matches!(item, tree::Item::Activity(a) if a.name.node == name))
+        };
+        let (top, module) = self.top();
+        let called = match &callee.kind {
+            tree::ExprKind::Name(name) => std::iter::successors(Some(top), |&m| self.modules[m].extends)
+                .chain((0..self.modules.len()).filter(|&m| self.modules[m].prelude))
+                .any(|m| is_activity(m, name)),
+            tree::ExprKind::Member(base, member) => match &base.kind {
+                tree::ExprKind::Name(name) => module.imports.get(name).is_some_and(|&m| is_activity(m, &member.node)),
+                _ => false,
+            },
+            _ => false,
+        };
+        !called && !timed.is_modified()
+    }
+
+    /// Checks a line as the body of a mission.
+    fn checked(&self, clauses: Vec<tree::Clause>, span: Span, known: &[Named]) -> Result<Checked, Vec<Diagnostic>> {
+        let with = tree::Clause { kind: tree::ClauseKind::With(self.with.clone()), span };
+        let body = tree::Block { clauses: std::iter::once(with).chain(clauses).collect(), span };
+        let mission = tree::Activity {
+            kind: tree::ActivityKind::Mission { scenario: None, within: None },
+            name: tree::Name { node: MISSION.to_string(), span },
+            params: Vec::new(),
+            result: None,
+            body,
+        };
+        let mut module = self.module(tree::File { items: vec![tree::Item::Activity(mission)] });
+        module.known = known.iter().map(|n| (n.name.clone(), n.ty.clone())).collect();
+        let mut modules = self.modules.clone();
+        modules.push(module);
+        let check::Checked { hir, types, findings, .. } = check::check(&modules, self.overrides.clone());
+        let mission = hir.activities.iter().rposition(|a| a.full_name == MISSION).unwrap_or_default();
+        // A line has no area, no limit in time and no recovery: the person at the prompt is there. Other findings are of
+        // sources that were looked at before.
+        let mut findings: Vec<Diagnostic> =
+            findings.into_iter().filter(|f| f.span().file == span.file && !f.code.starts_with("missions::")).collect();
+        if findings.iter().all(|f| f.severity != Severity::Error) {
+            findings.extend(rules::check(&hir, mission).into_iter().filter(|f| f.severity == Severity::Error));
+        }
+        diagnostic::settle(&mut findings);
+        if findings.iter().any(|f| f.severity == Severity::Error) {
+            return Err(findings);
+        }
+        let endless = check::never_ends(&hir, mission);
+        Ok(Checked { hir, types, mission, findings, endless })
+    }
+
+    /// Lowers a line that was checked.
+    fn drive(
+        &self,
+        checked: &Checked,
+        file: FileId,
+        known: &[Named],
+        left: Option<String>,
+        name: Option<String>,
+        origin: Option<Geodetic>,
+    ) -> Result<Drive, Vec<Diagnostic>> {
+        let Checked { hir, types, mission, .. } = checked;
+        let program = lower::line(hir, types, &self.sources, *mission, origin)?;
+        let activity = &hir.activities[*mission];
+        let base = program.mission.base;
+        let slot = |id: VarId| base + slot_of(types, &activity.vars, id);
+        let value = left.and_then(|wanted| {
+            let id = activity.vars.iter().rposition(|v| v.name == wanted || v.name == VALUE)?;
+            let ty = activity.vars[id].ty.clone();
+            Some(Left { name, slot: slot(id), shape: types.shape(&ty), ty })
+        });
+        let reads = rules::inputs_read(hir, *mission)
+            .into_iter()
+            .filter(|(_, span)| span.file == file)
+            .map(|(input, _)| input as u32)
+            .collect();
+        Ok(Drive { known: (0..known.len()).map(slot).collect(), program, value, reads, endless: false })
+    }
+}
+
+/// A line that is sound.
+struct Checked {
+    hir: Hir,
+    types: TypeTable,
+    mission: usize,
+    findings: Vec<Diagnostic>,
+    endless: bool,
+}
+
+impl Script {
+    /// What an activity of a lowered mission calls its parameters, signals, memories and area, with the places of their
+    /// values from the base of its frame. `words` are the words from that base on.
+    pub fn names_of(&self, program: &Program, activity: u32, words: &[f64]) -> Vec<Named> {
+        let Some(lowered) = program.activities.get(activity as usize) else { return Vec::new() };
+        let is_it = |a: &hir::Activity| a.name == lowered.name && self.sources.place(a.span) == lowered.place;
+        let Some(found) = self.hir.activities.iter().find(|a| is_it(a)) else { return Vec::new() };
+        // A nested behavior shares the frame of its strategy.
+        let vars = &self.hir.activities[found.owner.unwrap_or_else(|| self.index_of(found))].vars;
+        let declared = found.decls.iter().filter_map(|decl| match decl {
+            hir::Decl::Signal(id, _) | hir::Decl::Memory(id, _) | hir::Decl::Area(id, _) => Some(*id),
+            hir::Decl::With(_) => None,
+        });
+        let mut names = Vec::new();
+        for id in (0..found.params).chain(declared) {
+            let at = slot_of(&self.types, vars, id) as usize;
+            let shape = self.types.shape(&vars[id].ty);
+            if let Some(words) = words.get(at..at + shape.words() as usize) {
+                names.push(Named {
+                    name: vars[id].name.clone(),
+                    words: words.to_vec(),
+                    shape,
+                    ty: vars[id].ty.clone(),
+                });
+            }
+        }
+        names
+    }
+
+    fn index_of(&self, activity: &hir::Activity) -> usize {
+        self.hir.activities.iter().position(|a| std::ptr::eq(a, activity)).unwrap_or_default()
+    }
+}
+
+/// Where a variable is in the frame of its unit: they lie one after the other, in the order of their declaration.
+fn slot_of(types: &TypeTable, vars: &[hir::Var], id: VarId) -> Slot {
+    vars[..id].iter().map(|v| types.words(&v.ty)).sum()
+}
+
+/// Whether a text begins as what stands at the left margin of a file.
+fn is_item(text: &str) -> bool {
+    let word: String = text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+    let after = text.trim_start()[word.len()..].trim_start();
+    syntax::begins_item(&word) && after.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '"')
+}
+
+/// Whether a clause means something in a table or among the declarations of a mission only.
+fn needs_a_table(kind: &tree::ClauseKind) -> bool {
+    use tree::ClauseKind::*;
+    matches!(
+        kind,
+        Start(_)
+            | Rule(_)
+            | Area { .. }
+            | Limits(_)
+            | Requires(_)
+            | Recovery { .. }
+            | Amend(_)
+            | Finish(_)
+            | Memory { .. }
+            | Signal { .. }
+            | Reaction { .. }
+            | Behavior(_)
+            | Abort { .. }
+    )
+}
+
+fn declared(item: &tree::Item) -> Vec<String> {
+    use tree::Item::*;
+    match item {
+        Use(paths) => paths.iter().filter_map(|p| p.parts.last()).map(|p| p.node.clone()).collect(),
+        Const(c) => vec![c.name.node.clone()],
+        Enum { name, .. } | Record { name, .. } | Unit { name, .. } | Input { name, .. } | Clause { name, .. } => {
+            vec![name.node.clone()]
+        }
+        Signal { name, .. } | Scenario { name, .. } => vec![name.node.clone()],
+        Fn(f) => vec![f.name.node.clone()],
+        Activity(a) => vec![a.name.node.clone()],
+        Test(_) => Vec::new(),
+    }
+}

@@ -1,0 +1,130 @@
+//! A campaign: one mission in one scenario with many seeds, on all cores, its results in the order of the seeds.
+
+mod columns;
+mod statistics;
+mod tally;
+
+pub use columns::{Columns, Row};
+pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
+pub use tally::{Tally, Within};
+
+use crate::run::{Plan, PlanError, Run, Running};
+use crate::summary::Summary;
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::ops::{ControlFlow, RangeInclusive};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+
+/// So many runs a thread may be ahead of the oldest that is not over yet: enough that no core waits for a long run, and
+/// a bound to what is kept for later.
+const AHEAD_PER_THREAD: usize = 32;
+
+/// A mission in a scenario, to be run with many seeds.
+pub struct Campaign {
+    plan: Plan,
+    columns: Columns,
+}
+
+impl Campaign {
+    /// A campaign whose table has columns for so many reports of each name.
+    pub fn new(plan: Plan, reports: usize) -> Self {
+        let columns = Columns::new(&plan.program, reports);
+        Campaign { plan, columns }
+    }
+
+    /// The columns of its table.
+    pub fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// Runs every seed and delivers its row: in the order of the seeds, each as soon as it and all before it are over,
+    /// so that the rows do not depend on the number of threads. Without `threads` there is one for each core. Whoever
+    /// raises `stop`, or breaks off, gets no further row. Gives whether all were delivered.
+    pub fn run(
+        &self,
+        seeds: RangeInclusive<u64>,
+        threads: Option<usize>,
+        stop: &AtomicBool,
+        mut deliver: impl FnMut(Row) -> ControlFlow<()>,
+    ) -> Result<bool, String> {
+        // For the pool, none is one for each core.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+        let pool = pool.map_err(|error| error.to_string())?;
+        let ahead = AHEAD_PER_THREAD * pool.current_num_threads();
+        let (sender, receiver) = mpsc::channel();
+        let all = pool.in_place_scope(|scope| {
+            let start = |seed: u64| {
+                let sender = sender.clone();
+                // Nobody listens any more when the campaign was broken off.
+                scope.spawn(move |_| drop(sender.send((seed, self.row(seed, stop)))));
+            };
+            let mut later = seeds.clone();
+            later.by_ref().take(ahead).for_each(&start);
+            let mut early: BTreeMap<u64, Option<Row>> = BTreeMap::new();
+            for seed in seeds {
+                let row = loop {
+                    if let Some(row) = early.remove(&seed) {
+                        break row;
+                    }
+                    // `start` holds a sender: there is always someone to hear from.
+                    early.extend(receiver.recv().ok());
+                };
+                let Some(row) = row else { return false };
+                if deliver(row).is_break() {
+                    stop.store(true, Ordering::Relaxed);
+                    return false;
+                }
+                later.next().into_iter().for_each(&start);
+            }
+            true
+        });
+        Ok(all)
+    }
+
+    /// The row of one seed; `None` when the campaign was stopped before the run's end.
+    fn row(&self, seed: u64, stop: &AtomicBool) -> Option<Row> {
+        let result = contained(|| summary(&self.plan, seed, stop));
+        match result {
+            Ok(summary) => summary.map(|summary| self.columns.row(&summary)),
+            Err(why) => Some(self.columns.failed(&self.plan.scenario_name, seed, &why)),
+        }
+    }
+}
+
+/// Runs one seed to its end, unless it is stopped.
+fn summary(plan: &Plan, seed: u64, stop: &AtomicBool) -> Result<Option<Summary>, String> {
+    let mut run = Run::new(plan, seed).map_err(|error| match error {
+        PlanError::Asked(what, _) => what,
+        PlanError::Script(findings) => findings.into_iter().map(|f| f.message).collect::<Vec<_>>().join("; "),
+    })?;
+    while run.step() == Running::On {
+        if stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+    }
+    Ok(Some(run.summary(0.0)))
+}
+
+/// A run that panics has found a fault of the interpreter; that must not cost the other runs of a night.
+fn contained<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(format!("panicked: {}", said(panic.as_ref()))))
+}
+
+fn said(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or(panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no words")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::contained;
+
+    #[test]
+    fn a_panic_becomes_a_reason() {
+        assert_eq!(contained(|| Ok(7)), Ok(7));
+        assert_eq!(contained::<()>(|| panic!("out of water")), Err("panicked: out of water".to_string()));
+        assert_eq!(contained::<()>(|| panic!("at {} m", 3)), Err("panicked: at 3 m".to_string()));
+    }
+}

@@ -1,0 +1,438 @@
+//! The interactive vehicle: a simulated one that does what is typed, line by line, and whose time goes back as well as on.
+//!
+//! Between two lines no time goes by: the vehicle has sensed a tick and waits to be told what to do in it. A statement is
+//! driven to its end as fast as the machine can; one that never ends by itself is begun, and goes on with `run` and `step`.
+
+mod command;
+mod moment;
+
+use crate::files::Files;
+use crate::run::{Plan, PlanError, world};
+use crate::{FileError, Script};
+use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::prompt::{Drive, Left, Line, Named, Prompt as Lines};
+use albacore_lang::source::{Source, Sources};
+use albacore_machine::{Event, Machine, Outcome};
+use albacore_program::{Program, number};
+use albacore_sim::{Scenario, Simulator};
+use albacore_vehicle::{TICK_S, Vehicle};
+use command::{Command, HELP, TICKS_MAX};
+use moment::{Moment, Past, Task};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The world when no script names one.
+const SCENARIO_AT_FIRST: &str = "calm";
+
+/// What the prompt has to say.
+pub enum Say<'a> {
+    /// A line of text.
+    Text(&'a str),
+    /// Errors and warnings of what was typed or loaded.
+    Findings(&'a [Diagnostic], &'a Sources),
+    /// An error that is in no source: message and help.
+    Error(&'a str, Option<&'a str>),
+}
+
+/// Who hears it.
+pub type Listener<'a> = dyn FnMut(Say) + 'a;
+
+/// What came of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// It was done.
+    Done,
+    /// It was wrong, which has been said.
+    Wrong,
+    /// The person wants to leave.
+    Quit,
+}
+
+/// A session at the prompt.
+pub struct Prompt {
+    files: Files,
+    lines: Lines,
+    script: Script,
+    /// The mission that `start` begins, and how it is called.
+    mission: Option<Arc<Program>>,
+    scenario_name: String,
+    scenario: Arc<Scenario>,
+    seed: u64,
+    now: Moment,
+    past: Past,
+    names: Vec<Named>,
+}
+
+/// What a prompt is opened with.
+#[derive(Clone, Debug, Default)]
+pub struct Opening<'a> {
+    /// The script; none for an empty one.
+    pub script: Option<&'a Path>,
+    /// Its mission, when there are several.
+    pub mission: Option<&'a str>,
+    /// The world, when the mission's own is not wanted.
+    pub scenario: Option<&'a str>,
+    /// The seed of all that is random.
+    pub seed: u64,
+    /// Parameters changed, as in [`crate::load`].
+    pub set: &'a [String],
+}
+
+/// Why a prompt cannot be opened.
+pub enum OpenError {
+    /// The script cannot be read.
+    File(FileError),
+    /// The script has errors.
+    Script(Box<(Vec<Diagnostic>, Sources)>),
+    /// What was asked for does not exist or makes no sense: message and help.
+    Asked(String, Option<String>),
+}
+
+impl Prompt {
+    /// Loads a script, makes its world, and takes control of the vehicle in it.
+    pub fn open(opening: &Opening) -> Result<Self, OpenError> {
+        let (source, files, name) = match opening.script {
+            Some(path) => {
+                (crate::files::read(path).map_err(OpenError::File)?, Files::around(path), path.display().to_string())
+            }
+            None => {
+                let empty = Source { name: "<prompt>".into(), text: "".into() };
+                (empty, Files::around(Path::new("prompt.alb")), String::new())
+            }
+        };
+        let (lines, script) = Lines::open(source, &files, opening.mission, opening.set);
+        if !script.is_sound() {
+            return Err(OpenError::Script(Box::new((script.findings, script.sources))));
+        }
+        let refused = |error: PlanError| match error {
+            PlanError::Script(findings) => OpenError::Script(Box::new((findings, script.sources.clone()))),
+            PlanError::Asked(what, help) => OpenError::Asked(what, help),
+        };
+        let has_mission = script.missions().next().is_some();
+        let (mission, scenario_name, scenario) = if has_mission {
+            let plan = Plan::new(&script, &name, opening.mission, opening.scenario).map_err(refused)?;
+            (Some(plan.program), plan.scenario_name, plan.scenario)
+        } else {
+            let (name, scenario) =
+                world(&script, opening.scenario.unwrap_or(SCENARIO_AT_FIRST), None).map_err(refused)?;
+            (None, name, Arc::new(scenario))
+        };
+        let now = Moment::first(vehicle(&scenario, opening.seed)?)
+            .map_err(|error| OpenError::Asked(error.to_string(), None))?;
+        let past = Past::beginning_with(&now);
+        let (seed, names) = (opening.seed, Vec::new());
+        Ok(Prompt { files, lines, script, mission, scenario_name, scenario, seed, now, past, names })
+    }
+
+    /// What is loaded, in one line.
+    pub fn greeting(&self) -> String {
+        let mission = match &self.mission {
+            Some(program) => format!("mission {} (begin it with `start`), ", program.mission.name),
+            None => String::new(),
+        };
+        format!("{mission}world {}, seed {}; `help` tells what can be typed", self.scenario_name, self.seed)
+    }
+
+    /// Whether a text wants another line before it can be entered.
+    pub fn goes_on(text: &str) -> bool {
+        albacore_lang::syntax::goes_on(text)
+    }
+
+    /// Does what was typed. A raised flag stops the vehicle, and is lowered again.
+    pub fn enter(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        match command::of(text) {
+            Some(command) => self.command(command, interrupted, say),
+            None if text.trim().is_empty() || text.trim_start().starts_with("//") => Answer::Done,
+            None => self.line(text, interrupted, say),
+        }
+    }
+
+    fn command(&mut self, command: Command, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        match command {
+            Command::Help => say(Say::Text(HELP)),
+            Command::Quit => return Answer::Quit,
+            Command::Behavior => say(Say::Text(&self.active())),
+            Command::Names => self.tell_names(say),
+            Command::Start => return self.start(say),
+            Command::Stop => self.stop(say),
+            Command::Step(ticks) => self.drive(ticks, interrupted, say),
+            Command::Miscounted => {
+                say(Say::Error("`step` takes a count of ticks, from 1 to 360000", Some("a tick is 100 ms")));
+                return Answer::Wrong;
+            }
+            Command::Run(None) if self.now.task.is_none() => {
+                let help = "`run 30 s` lets time go by; a statement or `start` gives the vehicle something to do";
+                say(Say::Error("nothing is under way", Some(help)));
+                return Answer::Wrong;
+            }
+            Command::Run(None) => self.drive(TICKS_MAX, interrupted, say),
+            Command::Run(Some(text)) => match self.ticks(text, say) {
+                Some(ticks) => self.drive(ticks, interrupted, say),
+                None => return Answer::Wrong,
+            },
+            Command::Back(text) => match self.ticks(text, say) {
+                Some(ticks) => return self.back(ticks, say),
+                None => return Answer::Wrong,
+            },
+        }
+        Answer::Done
+    }
+
+    fn line(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        let known = self.known();
+        let read = self.lines.read(&self.files, text, &known, self.origin());
+        if !read.findings.is_empty() {
+            say(Say::Findings(&read.findings, self.lines.sources()));
+        }
+        match read.line {
+            None => return Answer::Wrong,
+            Some(Line::Declared(names)) => say(Say::Text(&format!("declared {}", names.join(", ")))),
+            Some(Line::With) => {}
+            Some(Line::Value(drive)) => match self.value(&drive, &known) {
+                Ok((program, value)) => {
+                    let text = number::brief(&program.texts, &value.shape, &value.words);
+                    if value.name.is_empty() {
+                        say(Say::Text(&text));
+                    } else {
+                        say(Say::Text(&format!("{} = {text}", value.name)));
+                        self.name(value);
+                    }
+                }
+                Err(what) => return wrong(&what, say),
+            },
+            Some(Line::Statements(drive)) => return self.begin(drive, &known, interrupted, say),
+        }
+        Answer::Done
+    }
+
+    /// The values that a line can name: what the running mission knows, innermost first, then what was named at the prompt.
+    fn known(&self) -> Vec<Named> {
+        let mut known: Vec<Named> = Vec::new();
+        let mut add = |named: Named| {
+            if !known.iter().any(|k| k.name == named.name) {
+                known.push(named);
+            }
+        };
+        if let Some(task) = &self.now.task
+            && task.left.is_none()
+        {
+            let words = &task.machine.state().words;
+            for (id, base) in task.machine.frames().into_iter().rev() {
+                let frame = words.get(base as usize..).unwrap_or(&[]);
+                self.script.names_of(task.machine.program(), id, frame).into_iter().for_each(&mut add);
+            }
+        }
+        self.names.iter().cloned().for_each(&mut add);
+        known
+    }
+
+    /// Computes an expression on what is sensed now. Nothing is commanded and no time goes by.
+    fn value(&self, drive: &Drive, known: &[Named]) -> Result<(Arc<Program>, Named), String> {
+        let mut machine = self.machine(drive, known)?;
+        if let Some(unheard) = drive.reads.iter().find(|&&input| !machine.has_sample(input)) {
+            let name = &machine.program().inputs[*unheard as usize].name;
+            return Err(format!("`{name}` has not been sensed yet; let time go by with `run 30 s`"));
+        }
+        machine.step(&self.now.snapshot);
+        if let Some(why) = aborted(machine.events()) {
+            return Err(why);
+        }
+        let left = drive.value.as_ref().ok_or("this has no value")?;
+        Ok((Arc::clone(machine.program()), left.taken(&machine.state().words)))
+    }
+
+    /// A machine for a line, which knows what was sensed lately and what has a name.
+    fn machine(&self, drive: &Drive, known: &[Named]) -> Result<Machine, String> {
+        let mut machine = self.machine_for(Arc::new(drive.program.clone()))?;
+        for (slot, named) in drive.known.iter().zip(known) {
+            machine.put(*slot, &named.words);
+        }
+        Ok(machine)
+    }
+
+    fn machine_for(&self, program: Arc<Program>) -> Result<Machine, String> {
+        let mut machine = Machine::new(program, self.now.vehicle.channels()).map_err(|missing| missing.to_string())?;
+        machine.begin_at(self.now.tick, self.now.recent());
+        Ok(machine)
+    }
+
+    /// Begins statements, and drives them to their end unless they have none.
+    fn begin(&mut self, drive: Drive, known: &[Named], interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        let machine = match self.machine(&drive, known) {
+            Ok(machine) => machine,
+            Err(what) => return wrong(&what, say),
+        };
+        let left = drive.value.unwrap_or_else(Left::nothing);
+        self.now.task = Some(Task::new(machine, Some(left)));
+        self.past.pin(&self.now);
+        if drive.endless {
+            self.drive(1, interrupted, say);
+            say(Say::Text("goes on: `run 30 s` or `step` lets time go by, `stop` ends it"));
+        } else {
+            self.drive(TICKS_MAX, interrupted, say);
+        }
+        Answer::Done
+    }
+
+    /// Begins the mission of the script.
+    fn start(&mut self, say: &mut Listener) -> Answer {
+        let Some(program) = self.mission.clone() else {
+            let help = "open the prompt with a script: `albacore repl MISSION.alb`";
+            say(Say::Error("no mission is loaded", Some(help)));
+            return Answer::Wrong;
+        };
+        let name = program.mission.name.clone();
+        match self.machine_for(program) {
+            Ok(machine) => {
+                self.now.task = Some(Task::new(machine, None));
+                self.past.pin(&self.now);
+                say(Say::Text(&format!("{name} begins: `run 5 min` or `step` lets time go by")));
+                Answer::Done
+            }
+            Err(what) => wrong(&what, say),
+        }
+    }
+
+    fn stop(&mut self, say: &mut Listener) {
+        self.now.task = None;
+        self.past.pin(&self.now);
+        say(Say::Text(&format!("{}  stopped", self.now.place())));
+    }
+
+    /// Lets time go by until what is under way ends, but so many ticks at most.
+    fn drive(&mut self, ticks: u64, interrupted: &AtomicBool, say: &mut Listener) {
+        let was_busy = self.now.task.is_some();
+        let until = self.now.tick + ticks;
+        while self.now.tick < until {
+            if interrupted.swap(false, Ordering::Relaxed) {
+                return self.stop(say);
+            }
+            let ended = match self.now.step(&mut |line| say(Say::Text(line))) {
+                Ok(ended) => ended,
+                Err(error) => {
+                    self.now.task = None;
+                    return say(Say::Error(&error.to_string(), None));
+                }
+            };
+            if let Some(end) = ended {
+                self.past.pin(&self.now);
+                if let Some(left) = end.left {
+                    self.name(left);
+                }
+                break;
+            }
+            self.past.note(&self.now);
+        }
+        let on = if was_busy && self.now.task.is_some() && ticks == TICKS_MAX { "  still under way" } else { "" };
+        say(Say::Text(&format!("{}{on}", self.now.place())));
+    }
+
+    /// Gives a value its name, which may have been another's.
+    fn name(&mut self, value: Named) {
+        self.names.retain(|named| named.name != value.name);
+        self.names.push(value);
+    }
+
+    /// Goes back in time: to the moment before, and on from there as it was.
+    fn back(&mut self, ticks: u64, say: &mut Listener) -> Answer {
+        let to = self.now.tick.saturating_sub(ticks);
+        let Some(moment) = self.past.before(to) else {
+            let earliest = self.past.earliest();
+            let lived = (self.now.tick - earliest) as f64 * TICK_S;
+            let what = format!("time goes back {} s at most from here", number::fixed(lived, 1));
+            say(Say::Error(&what, Some("what came earlier is no longer remembered, or has never been")));
+            return Answer::Wrong;
+        };
+        self.now = moment;
+        while self.now.tick < to {
+            if let Err(error) = self.now.step(&mut |_| {}) {
+                return wrong(&error.to_string(), say);
+            }
+        }
+        self.past.forget_after(to);
+        let under_way = self.now.task.as_ref().map_or("", |_| "  under way again: `run` lets it go on");
+        say(Say::Text(&format!("{}{under_way}", self.now.place())));
+        Answer::Done
+    }
+
+    /// A time typed after `run` or `back`, in ticks, at least one.
+    fn ticks(&mut self, text: &str, say: &mut Listener) -> Option<u64> {
+        let known = self.known();
+        let read = self.lines.read(&self.files, text, &known, self.origin());
+        if !read.findings.is_empty() {
+            say(Say::Findings(&read.findings, self.lines.sources()));
+        }
+        let drive = match read.line? {
+            Line::Value(drive) if drive.value.as_ref().is_some_and(Left::is_duration) => drive,
+            _ => {
+                say(Say::Error("this takes a time", Some("for example `run 5 min`, `back 30 s`")));
+                return None;
+            }
+        };
+        match self.value(&drive, &known) {
+            Ok((_, value)) => {
+                let seconds = value.words.first().copied().unwrap_or(0.0);
+                let ticks = (seconds / TICK_S - 1e-9).ceil();
+                if (1.0..=TICKS_MAX as f64).contains(&ticks) {
+                    return Some(ticks as u64);
+                }
+                say(Say::Error("this takes a time between 100 ms and 10 h", None));
+            }
+            Err(what) => say(Say::Error(&what, None)),
+        }
+        None
+    }
+
+    fn active(&self) -> String {
+        let Some(task) = &self.now.task else { return "nothing is under way".to_string() };
+        let program = task.machine.program();
+        let first = usize::from(task.left.is_some());
+        let names: Vec<&str> = task
+            .machine
+            .active()
+            .into_iter()
+            .skip(first)
+            .map(|id| program.activities[id as usize].name.as_str())
+            .collect();
+        if names.is_empty() { "a statement of the prompt".to_string() } else { names.join(" > ") }
+    }
+
+    fn tell_names(&self, say: &mut Listener) {
+        let known = self.known();
+        let texts = self.now.task.as_ref().map_or(&[][..], |task| &task.machine.program().texts);
+        for named in &known {
+            say(Say::Text(&format!("{} = {}", named.name, number::brief(texts, &named.shape, &named.words))));
+        }
+        if known.is_empty() {
+            say(Say::Text("nothing has a name yet; `let x = 3 m` gives one"));
+        }
+    }
+
+    fn origin(&self) -> Option<albacore_geometry::Geodetic> {
+        self.mission.as_ref().and_then(|program| program.mission.origin)
+    }
+
+    /// The world that the vehicle is in.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+}
+
+fn vehicle(scenario: &Scenario, seed: u64) -> Result<Simulator, OpenError> {
+    Simulator::new(scenario, seed)
+        .map_err(|error| OpenError::Asked("the scenario cannot be".into(), Some(error.faults.join("; "))))
+}
+
+fn wrong(what: &str, say: &mut Listener) -> Answer {
+    say(Say::Error(what, None));
+    Answer::Wrong
+}
+
+fn aborted(events: &[Event]) -> Option<String> {
+    events.iter().find_map(|event| match event {
+        Event::Aborted(why) => Some(why.clone()),
+        Event::Ended(Outcome::Failed) => Some("this cannot be computed".to_string()),
+        _ => None,
+    })
+}

@@ -1,0 +1,197 @@
+//! A moment of the prompt's vehicle, all of it one value; and the moments that were.
+
+use albacore_lang::prompt::{Left, Named};
+use albacore_machine::{Event, Machine, Outcome};
+use albacore_program::number;
+use albacore_sim::Simulator;
+use albacore_trace::{BehaviorTrace, Header};
+use albacore_vehicle::{Command, Sample, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use std::collections::VecDeque;
+
+/// What was sensed in so many ticks is kept for what begins later: 20 s, longer than any sensor is silent.
+const RECENT_TICKS: usize = 200;
+/// Ticks between the moments that are kept, at first: a minute. What lies between is computed anew.
+const KEPT_EVERY_TICKS: u64 = 600;
+/// So many of them are kept; then every other goes, and their distance doubles.
+const KEPT_MAX: usize = 64;
+/// So many moments are kept in which something was begun or ended.
+const PINNED_MAX: usize = 64;
+
+/// The vehicle and what it is doing, with a tick that is sensed and not yet commanded.
+#[derive(Clone)]
+pub struct Moment {
+    pub vehicle: Simulator,
+    pub snapshot: Snapshot,
+    /// The tick of the snapshot.
+    pub tick: u64,
+    pub task: Option<Task>,
+    recent: VecDeque<(u64, Vec<Sample>)>,
+}
+
+/// What is under way: a line, or the mission of the script.
+#[derive(Clone)]
+pub struct Task {
+    pub machine: Machine,
+    /// What a line leaves at its end; none for the script's mission.
+    pub left: Option<Left>,
+    trace: BehaviorTrace,
+}
+
+/// What came to its end.
+pub struct End {
+    /// The value that it leaves, with its name.
+    pub left: Option<Named>,
+}
+
+impl Task {
+    pub fn new(machine: Machine, left: Option<Left>) -> Self {
+        let header = Header { mission: String::new(), scenario: String::new(), seed: 0, tick_s: TICK_S };
+        let trace = BehaviorTrace::new(machine.program(), &header);
+        Task { machine, left, trace }
+    }
+
+    /// What happened in a tick, as lines. That a line of the prompt is a mission is nobody's concern.
+    fn tell(&mut self, tick: u64, say: &mut dyn FnMut(&str)) {
+        let own = self.machine.program().mission.activity;
+        let is_line = self.left.is_some();
+        let events: Vec<Event> = self
+            .machine
+            .events()
+            .iter()
+            .filter(|event| match event {
+                Event::Entered(id) | Event::Left(id, _) => !(is_line && *id == own),
+                Event::Ended(Outcome::Completed) => !is_line,
+                _ => true,
+            })
+            .cloned()
+            .collect();
+        let told = self.trace.len();
+        self.trace.tick(tick, self.machine.position(), &events);
+        self.trace.since(told).for_each(say);
+    }
+
+    fn end(&self) -> Option<End> {
+        let outcome = self.machine.outcome()?;
+        let left = self.left.as_ref().filter(|left| left.name.is_some() && outcome == Outcome::Completed);
+        Some(End { left: left.map(|left| left.taken(&self.machine.state().words)) })
+    }
+}
+
+impl Moment {
+    /// The first moment in which the vehicle is ours.
+    pub fn first(mut vehicle: Simulator) -> Result<Self, VehicleError> {
+        let mut snapshot = Snapshot::default();
+        vehicle.sense(&mut snapshot)?;
+        vehicle.take_over()?;
+        let mut moment = Moment { vehicle, snapshot, tick: 0, task: None, recent: VecDeque::new() };
+        moment.sense()?;
+        Ok(moment)
+    }
+
+    fn sense(&mut self) -> Result<(), VehicleError> {
+        self.recent.push_back((self.tick, self.snapshot.samples.clone()));
+        if self.recent.len() > RECENT_TICKS {
+            self.recent.pop_front();
+        }
+        self.vehicle.sense(&mut self.snapshot)?;
+        self.tick += 1;
+        Ok(())
+    }
+
+    /// What was sensed lately, this tick left out.
+    pub fn recent(&self) -> impl Iterator<Item = (u64, &[Sample])> {
+        self.recent.iter().map(|(tick, samples)| (*tick, samples.as_slice()))
+    }
+
+    /// Lets a tick go by; or, when what is under way ends in it, tells so: the tick then belongs to what comes next.
+    pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Option<End>, VehicleError> {
+        let mut command = None;
+        if let Some(task) = &mut self.task {
+            command = task.machine.step(&self.snapshot);
+            task.tell(self.tick, say);
+            if let Some(end) = task.end() {
+                self.task = None;
+                return Ok(Some(end));
+            }
+        }
+        let command = command.unwrap_or_else(|| self.still());
+        self.vehicle.command(&command)?;
+        self.sense()?;
+        Ok(None)
+    }
+
+    /// Nothing to do: neither ahead nor up nor down.
+    fn still(&self) -> Command {
+        let truth = self.vehicle.truth();
+        Command { heading: truth.heading, speed: 0.0, vertical: Vertical::Depth(truth.depth) }
+    }
+
+    /// Where the vehicle believes to be, and when: a line as in a trace.
+    pub fn place(&self) -> String {
+        let sensed = |name: &str| {
+            let channel = self.vehicle.channels().iter().position(|c| c.name == name)?;
+            self.snapshot.samples.iter().rev().find(|s| s.channel as usize == channel).map(|s| s.reading)
+        };
+        let [north, east, ..] = sensed("position").unwrap_or([f64::NAN; 4]);
+        let heading = number::heading(sensed("heading").map_or(f64::NAN, |r| r[0]));
+        let depth = number::metres(sensed("depth").map_or(f64::NAN, |r| r[0]));
+        let place = number::point(albacore_geometry::Point::new(north, east));
+        format!("{}  at {place}  heading {heading}  depth {depth}", number::seconds(self.tick))
+    }
+}
+
+/// The moments that were: some of them, from which the others are computed.
+pub struct Past {
+    every: u64,
+    kept: Vec<Moment>,
+    pinned: Vec<Moment>,
+}
+
+impl Past {
+    pub fn beginning_with(moment: &Moment) -> Self {
+        Past { every: KEPT_EVERY_TICKS, kept: Vec::new(), pinned: vec![moment.clone()] }
+    }
+
+    /// Keeps a moment now and then.
+    pub fn note(&mut self, moment: &Moment) {
+        if !moment.tick.is_multiple_of(self.every) {
+            return;
+        }
+        self.kept.push(moment.clone());
+        if self.kept.len() > KEPT_MAX {
+            self.every *= 2;
+            self.kept.retain(|m| m.tick.is_multiple_of(self.every));
+        }
+    }
+
+    /// Keeps a moment in which something is begun or has ended: computing on from an earlier one would not know of it.
+    pub fn pin(&mut self, moment: &Moment) {
+        self.pinned.retain(|m| m.tick != moment.tick);
+        // A moment noted in the same tick is as it was before.
+        self.kept.retain(|m| m.tick != moment.tick);
+        self.pinned.push(moment.clone());
+        if self.pinned.len() > PINNED_MAX {
+            let forgotten = self.pinned.remove(0).tick;
+            // What follows from the forgotten one alone cannot be told from what follows from the next.
+            let next = self.pinned.first().map_or(forgotten, |m| m.tick);
+            self.kept.retain(|m| m.tick > next);
+        }
+    }
+
+    /// The latest moment that is kept up to a tick.
+    pub fn before(&self, tick: u64) -> Option<Moment> {
+        let until = self.kept.iter().chain(&self.pinned).filter(|m| m.tick <= tick);
+        until.max_by_key(|m| m.tick).cloned()
+    }
+
+    /// The earliest tick that can be gone back to.
+    pub fn earliest(&self) -> u64 {
+        self.kept.iter().chain(&self.pinned).map(|m| m.tick).min().unwrap_or_default()
+    }
+
+    /// What lay ahead has not been.
+    pub fn forget_after(&mut self, tick: u64) {
+        self.kept.retain(|m| m.tick <= tick);
+        self.pinned.retain(|m| m.tick <= tick);
+    }
+}

@@ -1,0 +1,179 @@
+//! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
+
+mod origin;
+mod seeds;
+mod table;
+mod told;
+
+use crate::exit::Exit;
+use crate::{interruption, message, plan};
+use albacore_session::campaign::{Campaign as MissionCampaign, Tally};
+use albacore_session::{Plan, Run};
+use indicatif::{ProgressBar, ProgressStyle};
+use origin::Origin;
+use seeds::Seeds;
+use std::io::{IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::Duration;
+use table::{Table, Trouble};
+use told::Told;
+
+/// Columns for so many reports of each name, at most.
+const REPORTS_MAX: usize = 1_000;
+/// Threads, at most.
+const THREADS_MAX: usize = 4_096;
+
+/// Run a mission with many seeds, on all cores, into a table.
+#[derive(clap::Args)]
+pub struct Campaign {
+    /// The script.
+    #[arg(value_name = "MISSION.alb")]
+    script: PathBuf,
+    /// The mission; else the one named like the file, else the only one.
+    #[arg(long)]
+    mission: Option<String>,
+    /// The scenario; else the one that the mission names.
+    #[arg(long = "in", value_name = "SCENARIO")]
+    scenario: Option<String>,
+    /// The seeds: `1..100` with both ends, `1..<100` without the last, or one.
+    #[arg(long, value_name = "A..B")]
+    seeds: Seeds,
+    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The table. What it was made from is kept beside it, in `FILE.csv.origin`.
+    #[arg(long, value_name = "FILE.csv")]
+    out: PathBuf,
+    /// Go on with a table that was begun by the same campaign, to its end or to more seeds.
+    #[arg(long)]
+    resume: bool,
+    /// Columns for so many reports of each name: a mission may report in a loop.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1_to(REPORTS_MAX))]
+    reports: usize,
+    /// Runs at once; else as many as there are cores.
+    #[arg(long, value_name = "N", value_parser = from_1_to(THREADS_MAX))]
+    threads: Option<usize>,
+    /// Print the summary as one JSON object on standard output.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Campaign {
+    /// Runs all seeds that the table does not have.
+    pub fn run(&self) -> Exit {
+        let (mission, scenario) = (self.mission.as_deref(), self.scenario.as_deref());
+        let (script, plan) = match plan::plan(&self.script, mission, scenario, &self.set) {
+            Ok(planned) => planned,
+            Err(exit) => return exit,
+        };
+        // What no seed can run is said before a file is begun.
+        if let Err(error) = Run::new(&plan, self.seeds.first) {
+            return plan::refused(&error, &script);
+        }
+        match self.carry_out(&plan) {
+            Ok(exit) => exit,
+            Err(trouble) => self.told(trouble),
+        }
+    }
+
+    fn carry_out(&self, plan: &Plan) -> Result<Exit, Trouble> {
+        let campaign = MissionCampaign::new(plan.clone(), self.reports);
+        let (columns, origin) = (campaign.columns(), Origin::new(plan, &self.set));
+        let mut table = if self.resume {
+            Table::resume(&self.out, columns, &origin, self.seeds)?
+        } else {
+            Table::begin(&self.out, columns, &origin)?
+        };
+        let interrupted = interruption::flag();
+        let bar = self.bar(table.rows());
+        let mut trouble = None;
+        let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |row| {
+            if let Err(error) = table.add(&row) {
+                trouble = Some(error);
+                return ControlFlow::Break(());
+            }
+            bar.set_position(table.rows());
+            ControlFlow::Continue(())
+        });
+        bar.finish_and_clear();
+        if let Some(trouble) = trouble {
+            return Err(trouble);
+        }
+        match all {
+            Ok(true) => {}
+            Ok(false) => {
+                let (path, rows, count) = (self.out.display(), table.rows(), self.seeds.count());
+                let help = "the same command with `--resume` goes on from there";
+                message::error(&format!("interrupted: `{path}` has {rows} of {count} runs"), Some(help));
+                return Ok(Exit::NotWell);
+            }
+            Err(error) => {
+                message::error(&format!("no threads can be started: {error}"), Some("try fewer with `--threads`"));
+                return Ok(Exit::Failed);
+            }
+        }
+        let tally = table.tally(columns)?;
+        self.sum_up(plan, &tally);
+        Ok(Exit::Well)
+    }
+
+    fn sum_up(&self, plan: &Plan, tally: &Tally) {
+        let told = Told::new(plan, self.seeds, &self.out, tally);
+        let text = if self.json {
+            match serde_json::to_string_pretty(&told) {
+                Ok(text) => text + "\n",
+                Err(error) => return message::error(&error.to_string(), None),
+            }
+        } else {
+            told.human()
+        };
+        // A closed pipe is silent.
+        let _ = std::io::stdout().lock().write_all(text.as_bytes());
+        let (crowded, most) = tally.crowded();
+        if crowded > 0 {
+            message::write(&format!(
+                "warning: {crowded} of {} runs reported more often than the table has columns for\n  \
+                 help: with `--reports {most}` there is room for all\n",
+                tally.runs()
+            ));
+        }
+    }
+
+    /// Says why there is no table, or only a part of one.
+    fn told(&self, trouble: Trouble) -> Exit {
+        match trouble {
+            Trouble::Asked(what, help) => {
+                message::error(&what, Some(&help));
+                Exit::Usage
+            }
+            Trouble::Disk(error) => {
+                let help =
+                    "the rows it has are whole: when there is room again, the same command with `--resume` goes on";
+                let help = if self.out.is_file() { help } else { "choose another file with `--out`" };
+                message::error(&format!("`{}` cannot be written: {error}", self.out.display()), Some(help));
+                Exit::Failed
+            }
+        }
+    }
+
+    fn bar(&self, rows: u64) -> ProgressBar {
+        if self.json || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::new(self.seeds.count()).with_position(rows);
+        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} to go")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        bar.set_style(style);
+        bar.enable_steady_tick(Duration::from_millis(100));
+        bar
+    }
+}
+
+/// Reads a number of things of which there is at least one.
+fn from_1_to(most: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
+    move |text| match text.parse() {
+        Ok(number) if (1..=most).contains(&number) => Ok(number),
+        _ => Err(format!("a whole number from 1 to {most} is needed")),
+    }
+}

@@ -1,0 +1,88 @@
+//! What a table was made from, in a small file beside it: a campaign that is taken up again must be the same one.
+
+use albacore_session::Plan;
+use serde::{Deserialize, Serialize};
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// All that decides a row beside its seed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    albacore: String,
+    mission: String,
+    scenario: String,
+    set: Vec<String>,
+    sources: Vec<Source>,
+}
+
+/// A script and the digest of its text, the mission's own first.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Source {
+    name: String,
+    digest: String,
+}
+
+impl Origin {
+    /// The origin of what a plan gives. `set` are the texts of the parameters that were changed.
+    pub fn new(plan: &Plan, set: &[String]) -> Self {
+        // The texts of `--set` are read as sources too; they have a place of their own here.
+        let scripts = plan.sources.iter().filter(|source| !source.name.starts_with("--set "));
+        let sources = scripts.map(|s| Source { name: s.name.clone(), digest: format!("{:016x}", s.digest) });
+        Origin {
+            albacore: env!("CARGO_PKG_VERSION").to_string(),
+            mission: plan.program.mission.name.clone(),
+            scenario: plan.scenario_name.clone(),
+            set: set.to_vec(),
+            sources: sources.collect(),
+        }
+    }
+
+    /// The origin of a table; `None` if nothing readable lies beside it.
+    pub fn read(table: &Path) -> Option<Self> {
+        serde_json::from_slice(&std::fs::read(beside(table, ".origin")).ok()?).ok()
+    }
+
+    /// Writes it beside a table, whole or not at all.
+    pub fn write(&self, table: &Path) -> io::Result<()> {
+        let text = serde_json::to_string_pretty(self)?;
+        let part = beside(table, ".origin.part");
+        std::fs::write(&part, text + "\n")?;
+        std::fs::rename(part, beside(table, ".origin"))
+    }
+
+    /// What of this is otherwise now, if anything is.
+    pub fn difference(&self, now: &Origin) -> Option<String> {
+        let changed = |what: &str, then: &str, now: &str| Some(format!("was begun with {what}`{then}`, not `{now}`"));
+        if self.mission != now.mission {
+            return changed("the mission ", &self.mission, &now.mission);
+        }
+        if self.scenario != now.scenario {
+            return changed("the scenario ", &self.scenario, &now.scenario);
+        }
+        if self.set != now.set {
+            return changed("", &options(&self.set), &options(&now.set));
+        }
+        if self.albacore != now.albacore {
+            return changed("albacore ", &self.albacore, &now.albacore);
+        }
+        // A script may be named from another folder today: its text is what counts.
+        let otherwise = self.sources.iter().zip(&now.sources).find(|(then, now)| then.digest != now.digest);
+        if let Some((_, now)) = otherwise {
+            return Some(format!("was begun before `{}` was changed", now.name));
+        }
+        (self.sources.len() != now.sources.len()).then(|| "was begun with other imports".to_string())
+    }
+}
+
+fn options(set: &[String]) -> String {
+    let options: Vec<String> = set.iter().map(|text| format!("--set {text}")).collect();
+    if options.is_empty() { "no --set".to_string() } else { options.join(" ") }
+}
+
+/// `duck.csv` and `.origin` is `duck.csv.origin`.
+fn beside(table: &Path, suffix: &str) -> PathBuf {
+    let mut name = OsString::from(table);
+    name.push(suffix);
+    PathBuf::from(name)
+}

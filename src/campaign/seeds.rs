@@ -1,0 +1,98 @@
+//! The seeds of a campaign as they are written: `7`, `1..100` with both ends, `1..<100` without the last.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+/// A campaign has this many runs at most: what is made of its rows is held in memory.
+const RUNS_MAX: u64 = 1_000_000;
+
+/// Seeds without a gap, at least one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seeds {
+    /// The first.
+    pub first: u64,
+    /// The last, which is one of them.
+    pub last: u64,
+}
+
+impl Seeds {
+    /// How many there are.
+    pub fn count(self) -> u64 {
+        self.last - self.first + 1
+    }
+
+    /// All of them but some at the beginning.
+    pub fn after(self, some: u64) -> RangeInclusive<u64> {
+        self.first + some..=self.last
+    }
+}
+
+impl FromStr for Seeds {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (first, last) = match text.split_once("..") {
+            None => (seed(text)?, seed(text)?),
+            Some((first, last)) => match last.strip_prefix('<') {
+                None => (seed(first)?, seed(last)?),
+                // What leaves out 0 ends before every seed.
+                Some(end) => match seed(end)?.checked_sub(1) {
+                    Some(last) => (seed(first)?, last),
+                    None => return Err("it has no seeds: it ends before 0".to_string()),
+                },
+            },
+        };
+        if last < first {
+            return Err("it has no seeds: the smaller comes first, as in `1..100`".to_string());
+        }
+        if last - first >= RUNS_MAX {
+            return Err(format!("a campaign has {RUNS_MAX} runs at most"));
+        }
+        Ok(Seeds { first, last })
+    }
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    match text.parse() {
+        Ok(seed) if digits => Ok(seed),
+        _ if digits => Err(format!("a seed is {} at most", u64::MAX)),
+        _ => Err("seeds are whole numbers: `7`, `1..100`, or `1..<100` without the last".to_string()),
+    }
+}
+
+impl fmt::Display for Seeds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.first == self.last { write!(f, "{}", self.first) } else { write!(f, "{}..{}", self.first, self.last) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Seeds;
+
+    fn read(text: &str) -> Option<(u64, u64)> {
+        text.parse::<Seeds>().ok().map(|seeds| (seeds.first, seeds.last))
+    }
+
+    #[test]
+    fn seeds_are_written_as_in_the_language() {
+        assert_eq!(read("7"), Some((7, 7)));
+        assert_eq!(read("1..100"), Some((1, 100)));
+        assert_eq!(read("1..<100"), Some((1, 99)));
+        assert_eq!(read("0..0"), Some((0, 0)));
+        assert_eq!(read("18446744073709551615"), Some((u64::MAX, u64::MAX)));
+    }
+
+    #[test]
+    fn what_is_no_seed_is_refused() {
+        for text in ["", "..", "1..", "..3", "1-3", "a..b", "-1..3", "+1..3", "1...3", "1..=3", "1.5", "1 .. 3", "1..<"]
+        {
+            assert_eq!(read(text), None, "{text}");
+        }
+        for text in ["3..1", "5..<5", "0..<0", "1..1000001", "0..18446744073709551615", "18446744073709551616"] {
+            assert_eq!(read(text), None, "{text}");
+        }
+    }
+}

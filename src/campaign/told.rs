@@ -1,0 +1,85 @@
+//! What a campaign comes to, as a person and as a program reads it.
+
+use super::seeds::Seeds;
+use albacore_session::Plan;
+use albacore_session::campaign::{INTERVAL, QUANTILE, Quantiles, Share, Tally, Within};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The summary, as `--json` prints it. Where nothing was reported there are no quantiles; without a source, no errors.
+#[derive(Serialize)]
+pub struct Told<'a> {
+    mission: &'a str,
+    scenario: &'a str,
+    seeds: [u64; 2],
+    table: String,
+    runs: usize,
+    outcomes: &'a BTreeMap<String, usize>,
+    reported: Share,
+    within: Option<[Within; 3]>,
+    interval: &'static str,
+    error_m: Option<Quantiles>,
+    report_t_s: Option<Quantiles>,
+    sim_time_s: Option<Quantiles>,
+    path_length_m: Option<Quantiles>,
+    quantile: &'static str,
+}
+
+impl<'a> Told<'a> {
+    /// The summary of a table.
+    pub fn new(plan: &'a Plan, seeds: Seeds, table: &Path, tally: &'a Tally) -> Self {
+        Told {
+            mission: &plan.program.mission.name,
+            scenario: &plan.scenario_name,
+            seeds: [seeds.first, seeds.last],
+            table: table.display().to_string(),
+            runs: tally.runs(),
+            outcomes: tally.outcomes(),
+            reported: tally.reported(),
+            within: (!plan.scenario.sources.is_empty()).then(|| tally.within()),
+            interval: INTERVAL,
+            error_m: tally.error_m(),
+            report_t_s: tally.report_t_s(),
+            sim_time_s: tally.sim_time_s(),
+            path_length_m: tally.path_length_m(),
+            quantile: QUANTILE,
+        }
+    }
+
+    /// The summary as a person reads it.
+    pub fn human(&self) -> String {
+        let [first, last] = self.seeds;
+        let seeds = if first == last { format!("seed {first}") } else { format!("seeds {first}..{last}") };
+        let outcomes: Vec<String> =
+            self.outcomes.iter().map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
+        let mut text = format!("{} in {}, {seeds}: {}\n", self.mission, self.scenario, outcomes.join(", "));
+        text.push_str(&self.share("reported", &self.reported));
+        for within in self.within.iter().flatten() {
+            text.push_str(&self.share(&format!("within {} m", within.m), &within.share));
+        }
+        let quantities = [
+            ("error", self.error_m, "m"),
+            ("first report", self.report_t_s, "s"),
+            ("end", self.sim_time_s, "s"),
+            ("over ground", self.path_length_m, "m"),
+        ];
+        for (what, quantiles, unit) in quantities {
+            if let Some(Quantiles { median, p90 }) = quantiles {
+                text.push_str(&format!("  {what:<13} median {median:>8.1} {unit}, p90 {p90:>8.1} {unit}\n"));
+            }
+        }
+        text.push_str(&format!(
+            "  intervals: {}; quantiles: {}\n  table {}\n",
+            self.interval, self.quantile, self.table
+        ));
+        text
+    }
+
+    fn share(&self, what: &str, share: &Share) -> String {
+        let percent = |x: f64| format!("{:.1}", 100.0 * x);
+        let Share { count, share, low, high } = share;
+        let (share, low, high) = (percent(*share), percent(*low), percent(*high));
+        format!("  {what:<13} {count} of {}: {share} % ({low} to {high})\n", self.runs)
+    }
+}

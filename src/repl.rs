@@ -1,0 +1,150 @@
+//! `albacore repl`: a simulated vehicle that does what is typed.
+
+use crate::exit::Exit;
+use crate::interruption;
+use crate::message;
+use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
+use rustyline::error::ReadlineError;
+use rustyline::history::MemHistory;
+use rustyline::validate::{ValidationContext, ValidationResult, Validator};
+use rustyline::{Completer, Editor, Helper, Highlighter, Hinter};
+use std::io::{BufRead, IsTerminal, Write};
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// A line that goes on in so many others is taken as it is: it is no script.
+const LINES_AT_ONCE_MAX: usize = 10_000;
+
+/// Drive a simulated vehicle line by line.
+#[derive(clap::Args)]
+pub struct Repl {
+    /// A script whose names are known, and whose mission `start` begins.
+    #[arg(value_name = "FILE.alb")]
+    script: Option<PathBuf>,
+    /// The mission; else the one named like the file, else the only one.
+    #[arg(long)]
+    mission: Option<String>,
+    /// The scenario; else the one that the mission names, else still water.
+    #[arg(long = "in", value_name = "SCENARIO")]
+    scenario: Option<String>,
+    /// The seed of all that is random.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+impl Repl {
+    /// Does what is typed until the person leaves.
+    pub fn run(&self) -> Exit {
+        let opening = Opening {
+            script: self.script.as_deref(),
+            mission: self.mission.as_deref(),
+            scenario: self.scenario.as_deref(),
+            seed: self.seed,
+            set: &self.set,
+        };
+        let mut prompt = match Prompt::open(&opening) {
+            Ok(prompt) => prompt,
+            Err(OpenError::File(error)) => {
+                message::error(&error.message, error.help.as_deref());
+                return Exit::Usage;
+            }
+            Err(OpenError::Script(found)) => {
+                message::findings(&found.0, &found.1);
+                return Exit::Script;
+            }
+            Err(OpenError::Asked(what, help)) => {
+                message::error(&what, help.as_deref());
+                return Exit::Usage;
+            }
+        };
+        let interrupted = interruption::flag();
+        if std::io::stdin().is_terminal() { typed(&mut prompt, &interrupted) } else { piped(&mut prompt, &interrupted) }
+    }
+}
+
+/// Lines from a person.
+fn typed(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
+    let mut editor: Editor<Lines, MemHistory> = match Editor::with_history(Default::default(), MemHistory::new()) {
+        Ok(editor) => editor,
+        Err(error) => {
+            message::error(&format!("the terminal cannot be used: {error}"), Some("give the lines through a pipe"));
+            return Exit::Failed;
+        }
+    };
+    editor.set_helper(Some(Lines));
+    hear(Say::Text(&prompt.greeting()));
+    loop {
+        match editor.readline("> ") {
+            Ok(text) => {
+                // What cannot be remembered is typed again.
+                let _ = editor.add_history_entry(text.as_str());
+                if prompt.enter(&text, interrupted, &mut hear) == Answer::Quit {
+                    return Exit::Well;
+                }
+            }
+            Err(ReadlineError::Interrupted) => hear(Say::Text("`quit` or Ctrl-D leaves")),
+            Err(ReadlineError::Eof) => return Exit::Well,
+            Err(error) => {
+                message::error(&format!("the terminal cannot be read: {error}"), None);
+                return Exit::Failed;
+            }
+        }
+    }
+}
+
+/// Lines from a pipe or a file: the same, without the greeting; that one of them was wrong is told at the end.
+fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
+    let mut exit = Exit::Well;
+    let mut text = String::new();
+    let mut input = std::io::stdin().lock();
+    loop {
+        let mut line = String::new();
+        let read = input.read_line(&mut line);
+        let over = match read {
+            Ok(bytes) => bytes == 0,
+            Err(error) => {
+                message::error(&format!("standard input cannot be read: {error}"), Some("it is read as UTF-8"));
+                return Exit::Usage;
+            }
+        };
+        text.push_str(&line);
+        if !over && Prompt::goes_on(&text) && text.lines().count() < LINES_AT_ONCE_MAX {
+            continue;
+        }
+        match prompt.enter(text.trim_end(), interrupted, &mut hear) {
+            Answer::Quit => return exit,
+            Answer::Wrong => exit = Exit::Script,
+            Answer::Done => {}
+        }
+        text.clear();
+        if over {
+            return exit;
+        }
+    }
+}
+
+/// Answers go to standard output, what is wrong to standard error; a closed pipe is silent.
+fn hear(said: Say) {
+    match said {
+        Say::Text(text) => {
+            let mut out = std::io::stdout().lock();
+            let _ = out.write_all(text.as_bytes()).and_then(|()| out.write_all(b"\n"));
+        }
+        Say::Findings(findings, sources) => message::findings(findings, sources),
+        Say::Error(what, help) => message::error(what, help),
+    }
+}
+
+/// A line goes on while a bracket is open.
+#[derive(Completer, Helper, Highlighter, Hinter)]
+struct Lines;
+
+impl Validator for Lines {
+    fn validate(&self, context: &mut ValidationContext) -> rustyline::Result<ValidationResult> {
+        let goes_on = Prompt::goes_on(context.input());
+        Ok(if goes_on { ValidationResult::Incomplete } else { ValidationResult::Valid(None) })
+    }
+}

@@ -1,0 +1,81 @@
+//! `albacore repl`, its lines from a pipe: what a session answers, good lines and wrong ones in one stream.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot start the binary has failed")]
+
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// A session at the root of the repository, both its outputs in one file, as on a terminal.
+fn session(script: Option<&str>, out: &Path) -> Command {
+    let both = std::fs::File::create(out).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.arg("repl").args(script).current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1");
+    command.stdin(Stdio::piped()).stdout(both.try_clone().unwrap()).stderr(both);
+    command
+}
+
+fn out(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("repl-{name}.txt"))
+}
+
+/// What a session answers to the lines of `tests/repl/NAME.txt`, and with what it ends.
+fn answers(name: &str, script: Option<&str>) -> (Option<i32>, String) {
+    let lines = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/repl").join(name).with_extension("txt");
+    let out = out(name);
+    let mut child = session(script, &out).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(&std::fs::read(lines).unwrap()).unwrap();
+    let code = child.wait().unwrap().code();
+    (code, std::fs::read_to_string(out).unwrap())
+}
+
+#[test]
+fn drives_goes_back_and_drives_again() {
+    let (code, answers) = answers("drives", None);
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(0));
+}
+
+#[test]
+fn a_mission_is_driven_and_looked_into() {
+    let (code, answers) = answers("mission", Some("missions/duck_single.alb"));
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(0));
+}
+
+#[test]
+fn what_is_declared_is_known() {
+    let (code, answers) = answers("declares", None);
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(0));
+}
+
+#[test]
+fn wrong_lines_are_told_and_change_nothing() {
+    let (code, answers) = answers("wrong", None);
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(3));
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interruption_stops_the_vehicle_and_not_the_session() {
+    let out = out("interrupted");
+    let mut child = session(Some("missions/duck_single.alb"), &out).spawn().unwrap();
+    let mut lines = child.stdin.take().unwrap();
+    lines.write_all(b"1 m + 1 m\nsteer 90 deg for 9 h\n").unwrap();
+    // Its answer to the first line shows that it listens; nine hours take long enough.
+    let mut said = String::new();
+    while !said.contains("2 m") {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+        said.clear();
+        std::fs::File::open(&out).unwrap().read_to_string(&mut said).unwrap();
+    }
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupt.success());
+    lines.write_all(b"behavior\n3 m + 4 m\n").unwrap();
+    drop(lines);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let said = std::fs::read_to_string(&out).unwrap();
+    assert!(said.contains("stopped\nnothing is under way\n7 m\n"), "{said}");
+}

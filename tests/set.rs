@@ -1,0 +1,29 @@
+//! `--set`: values from outside go through the checks of those in the script, and one that would change nothing is refused.
+
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
+use albacore_session::load;
+use std::path::Path;
+
+/// The codes of what is wrong with a mission when something is set.
+fn codes(set: &str) -> Vec<&'static str> {
+    let script = load(Path::new("missions/duck_single.alb"), None, &[set.to_string()]).unwrap();
+    script.findings.iter().map(|f| f.code).collect()
+}
+
+#[test]
+fn values_from_outside_are_checked() {
+    for (set, expected) in [
+        ("lambda=6s", &[][..]),
+        ("lambda=-6s", &["ranges::negative"]),
+        ("lambda=1e300 s", &["types::number"]),
+        ("lambda=6 m", &["types::mismatch"]),
+        ("trace_plume.lambda=-6s", &["ranges::negative"]),
+        ("cage.band=3m", &[]),
+        ("cage.band=300m", &["ranges::outside"]),
+        ("cpt_2005.lambda=6s", &["set::unreached"]),
+        ("nothing.lambda=6s", &["set::unknown"]),
+    ] {
+        assert_eq!(codes(set), expected, "{set}");
+    }
+}
