@@ -3,7 +3,7 @@
 use crate::summary::Summary;
 use albacore_geometry::{Point, Vector};
 use albacore_program::number;
-use albacore_trace::Picture;
+use albacore_trace::{Depths, Picture};
 
 /// The track, the detections and what was declared.
 #[derive(Clone, Debug, Default)]
@@ -39,6 +39,7 @@ impl Sketch {
         sources: Vec<(String, Point)>,
         start: Point,
         flow: Option<Vector>,
+        (depths, deepest): (Depths, Option<Point>),
     ) -> String {
         let mut subtitle = vec![format!(
             "scenario {}, seed {}: {} after {}",
@@ -47,11 +48,10 @@ impl Sketch {
             summary.outcome.replace('_', " "),
             number::seconds(summary.ticks).trim()
         )];
+        let sought = if deepest.is_some() { "deepest point" } else { "nearest true one" };
         for report in &summary.reports {
-            let error = report
-                .error_m
-                .map(|e| format!(", {} from the nearest true one", number::metres(e)))
-                .unwrap_or_default();
+            let error =
+                report.error_m.map(|e| format!(", {} from the {sought}", number::metres(e))).unwrap_or_default();
             subtitle.push(format!("{} declared at {} s{error}", report.name, number::fixed(report.t_s, 1)));
         }
         Picture {
@@ -64,6 +64,8 @@ impl Sketch {
             detections: self.detections.clone(),
             declared: self.declared.clone(),
             sources,
+            depths,
+            deepest,
             start: Some(start),
             flow,
         }

@@ -11,7 +11,7 @@ use albacore_machine::{Event, Machine, Outcome};
 use albacore_program::{AREA_WORDS, PROGRAM_VERSION, Program, Shape};
 use albacore_sim::{Scenario, Simulator};
 use albacore_trace::journal::{Closing, JournalHeader, SourceDigest};
-use albacore_trace::{BehaviorTrace, Digest, Header};
+use albacore_trace::{BehaviorTrace, Depths, Digest, Header};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, Vertical};
 use std::io;
 use std::sync::Arc;
@@ -245,11 +245,10 @@ impl Run {
         self.deepest
     }
 
-    /// What a mission that declares a place is measured against: the nearest true source, else the deepest point of its
-    /// area where there are pits to be found.
-    fn truth_near(&self, place: Point) -> Option<Point> {
-        let sought = || self.deepest.filter(|_| !self.plan.scenario.bottom.pits.is_empty());
-        self.nearest_source(place).or_else(sought)
+    /// The deepest point, where that is what is sought: there are pits to be found, and no sources.
+    fn deepest_sought(&self) -> Option<Point> {
+        let world = &self.plan.scenario;
+        self.deepest.filter(|_| world.sources.is_empty() && !world.bottom.pits.is_empty())
     }
 
     /// The corners of the mission's area, once it has one.
@@ -411,7 +410,7 @@ impl Run {
         let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
         let frame = program.mission.origin.map(|origin| TangentFrame { origin });
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
-        let error_m = place.and_then(|p| Some(self.truth_near(p)?.distance(p)));
+        let error_m = place.and_then(|p| Some(self.nearest_source(p).or(self.deepest_sought())?.distance(p)));
         if let Some(place) = place {
             self.picture.declared(&site.name, place);
         }
@@ -456,7 +455,10 @@ impl Run {
         let scenario = &self.plan.scenario;
         let flow = (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean);
         let sources = scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect();
-        self.picture.svg(&summary, self.area_corners(), self.vehicle.filaments().collect(), sources, self.start, flow)
+        let (area, plume, deepest) = (self.area_corners(), self.vehicle.filaments().collect(), self.deepest_sought());
+        let sounded = if deepest.is_some() { area.as_slice() } else { &[] };
+        let depths = Depths::sound(sounded, |p| self.water_depth(p));
+        self.picture.svg(&summary, area, plume, sources, self.start, flow, (depths, deepest))
     }
 }
 
