@@ -11,6 +11,9 @@ use crate::types::Type;
 /// A test runs this many seeds at most.
 const SEEDS_MAX: f64 = 1_000_000.0;
 
+/// What stands after `truth`.
+const TRUTHS: [&str; 5] = ["position", "nearest_source", "start", "deepest", "depth_at"];
+
 /// The test whose expectations are being checked.
 pub(super) struct TestScope {
     /// The mission that it runs.
@@ -169,7 +172,7 @@ impl<'t> Checker<'t> {
     }
 
     /// `truth.position` and the like, and the area of the mission by the mission's name.
-    pub(super) fn test_member(&self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
+    pub(super) fn test_member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let test = self.test.as_ref()?;
         let tree::ExprKind::Name(name) = &base.kind else { return None };
         let id = match (name.as_str(), member.node.as_str()) {
@@ -177,6 +180,16 @@ impl<'t> Checker<'t> {
             ("truth", "nearest_source") => test.names.nearest_source,
             ("truth", "start") => test.names.start,
             ("truth", "deepest") => test.names.deepest,
+            ("truth", other) => {
+                let finding =
+                    Diagnostic::error("tests::truth", member.span, format!("there is no `truth.{other}` to ask for"));
+                let finding = match self.suggestion(other, TRUTHS.into_iter()) {
+                    Some(help) => finding.help(help),
+                    None => finding,
+                };
+                self.report(finding);
+                return Some(self.unknown(span));
+            }
             _ => {
                 let full = &self.activity_signatures[test.mission].name;
                 let mission = full.rsplit('.').next().unwrap_or(full);
