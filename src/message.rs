@@ -1,7 +1,8 @@
 //! Messages on standard error: findings with their source, and plain errors with their help.
 
-use albacore_session::{Diagnostic, Severity, Sources};
+use albacore_session::{Diagnostic, FileId, Severity, Sources, Span};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::io::{IsTerminal, Write};
 
@@ -11,8 +12,12 @@ const LINE_MAX: usize = 400;
 /// So many findings are drawn, errors before warnings: nobody reads more, and each takes a look through its whole file.
 const DRAWN_MAX: usize = 100;
 
-/// A finding in the form that the renderer takes. Labels in one file are drawn in one frame; those of other files follow
-/// as findings of their own.
+/// A label this many lines from the mistake, or more, is drawn after it: else all between would be drawn, or the label
+/// before the mistake.
+const FAR_LINES: usize = 5;
+
+/// A finding in the form that the renderer takes: first the mistake with what is labelled near it, then, each as
+/// a finding of its own, what stands in other files or far away.
 struct Shown<'a> {
     finding: &'a Diagnostic,
     source: NamedSource<String>,
@@ -24,43 +29,37 @@ struct Shown<'a> {
 
 impl<'a> Shown<'a> {
     fn new(finding: &'a Diagnostic, sources: &Sources) -> Self {
-        let file = finding.span().file;
-        let mut shown = Shown::part(finding, sources, file, finding.message.clone(), false);
-        let mut others: Vec<_> = finding.labels.iter().map(|(s, _)| s.file).filter(|f| *f != file).collect();
-        others.sort_unstable();
-        others.dedup();
-        shown.related =
-            others.into_iter().map(|f| Shown::part(finding, sources, f, "see also".to_string(), true)).collect();
-        shown
+        let place = finding.span();
+        let line = |span: Span| sources.line_column(span).0;
+        // The file in whose "see also" a label is drawn: none when it is drawn with the mistake.
+        let apart = |span: Span| {
+            let far = span.file != place.file || line(span).abs_diff(line(place)) >= FAR_LINES;
+            far.then_some(span.file)
+        };
+        let frames: Vec<Option<FileId>> = finding.labels.iter().map(|(span, _)| apart(*span)).collect();
+        let part = |frame: Option<FileId>, message: &str| {
+            let labels = finding.labels.iter().enumerate().filter(|(i, _)| frames[*i] == frame);
+            let source = sources.get(frame.unwrap_or(place.file));
+            Shown {
+                finding,
+                source: NamedSource::new(&source.name, source.text.to_string()),
+                labels: labels.map(|(i, label)| drawn(i == 0, label)).collect(),
+                related: Vec::new(),
+                message: message.to_string(),
+                is_part: frame.is_some(),
+            }
+        };
+        let others: BTreeSet<FileId> = frames.iter().flatten().copied().collect();
+        let related = others.into_iter().map(|file| part(Some(file), "see also")).collect();
+        Shown { related, ..part(None, &finding.message) }
     }
+}
 
-    fn part(
-        finding: &'a Diagnostic,
-        sources: &Sources,
-        file: albacore_session::FileId,
-        message: String,
-        is_part: bool,
-    ) -> Self {
-        let source = sources.get(file);
-        let labels = finding
-            .labels
-            .iter()
-            .enumerate()
-            .filter(|(_, (span, _))| span.file == file)
-            .map(|(i, (span, text))| {
-                let text = if text.is_empty() { None } else { Some(text.clone()) };
-                let place = (span.start as usize, (span.end - span.start) as usize);
-                // The frame is headed by the line and column of the mistake, not of the first label in the file.
-                if i == 0 {
-                    LabeledSpan::new_primary_with_span(text, place)
-                } else {
-                    LabeledSpan::new_with_span(text, place)
-                }
-            })
-            .collect();
-        let source = NamedSource::new(&source.name, source.text.to_string());
-        Shown { finding, source, labels, related: Vec::new(), message, is_part }
-    }
+/// The frame is headed by the line and column of the mistake, not of the first label in the file.
+fn drawn(is_mistake: bool, (span, text): &(Span, String)) -> LabeledSpan {
+    let text = if text.is_empty() { None } else { Some(text.clone()) };
+    let place = (span.start as usize, (span.end - span.start) as usize);
+    if is_mistake { LabeledSpan::new_primary_with_span(text, place) } else { LabeledSpan::new_with_span(text, place) }
 }
 
 impl fmt::Debug for Shown<'_> {

@@ -11,7 +11,7 @@ use std::path::Path;
 /// compiler or the machine: whoever changes it says why.
 const PINNED: [(&str, &str); 3] = [
     ("missions/box.alb", "ba30ab233cc6bff6"),
-    ("missions/duck_single.alb", "5c4968019b3e7b09"),
+    ("missions/duck_single.alb", "273c69e0f8520b52"),
     ("missions/duck_single_2005.alb", "56356f739c915623"),
 ];
 

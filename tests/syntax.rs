@@ -114,6 +114,21 @@ fn nesting_without_end_is_refused() {
     }
 }
 
+/// What leads on from declaration to declaration without end is refused too, and so is what leads back.
+#[test]
+fn chains_without_end_are_refused() {
+    let chain = |line: &dyn Fn(usize) -> String, end: &str| (0..3_000).map(line).collect::<String>() + end;
+    let behaviors = chain(&|i| format!("behavior b{i} {{ b{}() }}\n", i + 1), "behavior b3000 { wait for 1 s }");
+    let fns = chain(&|i| format!("fn f{i}(x: Int) -> Int {{ f{}(x) }}\n", i + 1), "fn f3000(x: Int) -> Int { x }");
+    let consts = chain(&|i| format!("const A{i} = A{} + 1\n", i + 1), "const A3000 = 1");
+    let ring = "const A = B\nconst B = A\n".to_string();
+    let codes = ["limits::calls", "limits::calls", "limits::constants", "names::recursive"];
+    for (text, code) in [behaviors, fns, consts, ring].iter().zip(codes) {
+        let script = check_text(text);
+        assert!(script.findings.iter().any(|f| f.code == code), "{code}: {:?}", script.findings.first());
+    }
+}
+
 /// What is as deep as allowed is checked on the small stack of a test's thread.
 #[test]
 fn what_is_just_not_too_deep_is_checked() {

@@ -7,6 +7,7 @@ mod check;
 pub mod diagnostic;
 mod dimension;
 mod hir;
+mod loader;
 mod lower;
 pub mod prompt;
 mod rules;
@@ -20,14 +21,15 @@ pub use suggest::{help as suggestion, nearest};
 
 use albacore_geometry::Geodetic;
 use albacore_program::Program;
-use check::{Module, Override};
+use check::Override;
 use diagnostic::Diagnostic;
+use loader::{Loader, module_name};
 use source::{FileId, Source, Sources, Span};
-use std::collections::BTreeMap;
 use syntax::tree::{self, ActivityKind, Item};
 
-/// A script imports this many modules at most, all in all.
-const MODULES_MAX: usize = 256;
+/// What is found missing when something could not be read: no second mistake.
+const ECHOES: [&str; 6] =
+    ["names::unknown", "types::result", "types::if_value", "rules::start", "rules::unreachable", "rules::ending"];
 
 /// Where imported modules come from.
 pub trait Library {
@@ -75,8 +77,7 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
     let overrides = overrides(sources, set, chosen.as_ref(), main, &mut findings);
     let unreadable = findings.iter().any(|f| f.code.starts_with("syntax::"));
     let checked = check::check(modules, overrides.clone());
-    // What could not be read is missing everywhere: names that it would have declared are no second mistake.
-    let later = checked.findings.into_iter().filter(|f| !(unreadable && f.code == "names::unknown"));
+    let later = checked.findings.into_iter().filter(|f| !(unreadable && is_echo(f)));
     findings.extend(later);
     let mut missions = Vec::new();
     for item in &main.items {
@@ -141,93 +142,10 @@ impl Script {
     }
 }
 
-/// Reads modules, each once.
-struct Loader<'a> {
-    library: &'a dyn Library,
-    sources: Sources,
-    modules: Vec<Module>,
-    known: BTreeMap<String, usize>,
-    findings: Vec<Diagnostic>,
-}
-
-impl<'a> Loader<'a> {
-    fn new(library: &'a dyn Library) -> Self {
-        let (sources, modules, known) = (Sources::default(), Vec::new(), BTreeMap::new());
-        Loader { library, sources, modules, known, findings: Vec::new() }
-    }
-
-    /// Reads a script, all it imports, and what every script knows.
-    fn read_all(&mut self, entry: Source) {
-        self.read(entry, String::new(), false, &mut Vec::new());
-        for source in self.library.prelude() {
-            if !self.known.contains_key(&*source.name) {
-                let name = module_name(&source.name);
-                self.read(source, name, true, &mut Vec::new());
-            }
-        }
-    }
-
-    fn read(&mut self, source: Source, name: String, prelude: bool, path: &mut Vec<String>) -> usize {
-        let file = self.sources.add(source.clone());
-        let index = self.modules.len();
-        self.known.insert(source.name.to_string(), index);
-        let parsed = syntax::parse(file, &source.text);
-        self.findings.extend(parsed.findings);
-        self.modules.push(Module { name, tree: parsed.file, prelude, ..Module::default() });
-        path.push(source.name.to_string());
-        let uses: Vec<tree::Path> = self.modules[index]
-            .tree
-            .items
-            .iter()
-            .filter_map(|item| if let Item::Use(paths) = item { Some(paths.clone()) } else { None })
-            .flatten()
-            .collect();
-        for wanted in uses {
-            if let Some(imported) = self.import(&source, &wanted, path) {
-                let name = wanted.parts.last().map(|p| p.node.clone()).unwrap_or_default();
-                self.modules[index].imports.insert(name, imported);
-            }
-        }
-        path.pop();
-        index
-    }
-
-    fn import(&mut self, importer: &Source, wanted: &tree::Path, path: &mut Vec<String>) -> Option<usize> {
-        let parts: Vec<String> = wanted.parts.iter().map(|p| p.node.clone()).collect();
-        let source = match self.library.module(importer, &parts) {
-            Ok(source) => source,
-            Err(help) => {
-                let message = format!("there is no module `{}`", wanted.text());
-                self.findings.push(Diagnostic::error("imports::unknown", wanted.span, message).help(help));
-                return None;
-            }
-        };
-        if let Some(start) = path.iter().position(|p| *p == *source.name) {
-            let mut chain: Vec<&str> = path[start..].iter().map(String::as_str).collect();
-            chain.push(&source.name);
-            let message = format!("this import leads back to its beginning: {}", chain.join(" -> "));
-            self.findings.push(
-                Diagnostic::error("imports::cycle", wanted.span, message)
-                    .help("move what both need into a module that neither of them imports from"),
-            );
-            return None;
-        }
-        if let Some(&index) = self.known.get(&*source.name) {
-            return Some(index);
-        }
-        if self.modules.len() >= MODULES_MAX {
-            let message = format!("more than {MODULES_MAX} modules are imported");
-            self.findings.push(Diagnostic::error("imports::many", wanted.span, message));
-            return None;
-        }
-        let name = parts.last().cloned().unwrap_or_default();
-        Some(self.read(source, name, false, path))
-    }
-}
-
-fn module_name(file: &str) -> String {
-    let stem = file.rsplit(['/', '\\', ':']).next().unwrap_or(file);
-    stem.trim_end_matches(".alb").trim_end_matches('>').to_string()
+/// Whether a finding may only miss what could not be read.
+fn is_echo(finding: &Diagnostic) -> bool {
+    let misspelt = finding.help.as_ref().is_some_and(|help| help.starts_with("did you mean"));
+    ECHOES.contains(&finding.code) || (finding.code == "rules::unknown" && !misspelt)
 }
 
 /// The mission that is meant: the one asked for, else the one named like the file, else the only one.

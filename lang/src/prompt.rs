@@ -7,10 +7,11 @@
 use crate::check::{self, Module, Override};
 use crate::diagnostic::{self, Diagnostic, Severity};
 use crate::hir::{self, Hir, VarId};
+use crate::loader::Loader;
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax::{self, tree};
 use crate::types::{Type, TypeTable};
-use crate::{Library, Loader, Script, lower, rules};
+use crate::{Library, Script, lower, rules};
 use albacore_geometry::Geodetic;
 use albacore_program::{Program, Shape, Slot};
 use std::collections::BTreeMap;

@@ -76,6 +76,9 @@ impl<'t> Checker<'t> {
         )
         .here(format!("`{has}`"));
         let finding = match (&value.ty, wanted) {
+            (Type::Optional(inner), w) if **inner == *w && Self::is_quotient(value) => finding.help(
+                "when the divisor is zero there is no quotient: write `… else VALUE`, or test it with `if` before",
+            ),
             (Type::Optional(inner), w) if **inner == *w => {
                 finding.help("it may be absent: write `… else VALUE`, or test it with `if` before".to_string())
             }

@@ -3,9 +3,11 @@
 use super::{Checker, ClauseInfo, Def, Lazy, Scope, Setting, Signature};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Interval};
-use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
 use crate::types::{EnumInfo, RecordInfo, Type};
+
+/// A constant waits for so many others at most that are declared after it.
+const WAITING_MAX: usize = 16;
 
 impl<'t> Checker<'t> {
     pub(super) fn run(&mut self) {
@@ -46,6 +48,9 @@ impl<'t> Checker<'t> {
                     self.check_test(m, test);
                 }
             }
+        }
+        if self.calls_too_deep() {
+            return;
         }
         // Whether a behavior can end depends on what it calls: tables come when all bodies are known.
         for activity in self.hir.activities.clone() {
@@ -268,26 +273,33 @@ impl<'t> Checker<'t> {
 
     fn lazy(&mut self, id: usize, is_const: bool) -> hir::Expr {
         let table = if is_const { &mut self.consts } else { &mut self.signals };
-        match std::mem::replace(&mut table[id], Lazy::InProgress) {
-            Lazy::Done(value) => {
-                table[id] = Lazy::Done(value.clone());
-                value
+        match &table[id] {
+            Lazy::Done(value) => value.clone(),
+            &Lazy::InProgress(name) => {
+                let message = format!("`{}` is made of itself", name.node);
+                self.report(
+                    Diagnostic::error("names::recursive", name.span, message).help("give it a value of its own"),
+                );
+                self.unknown(name.span)
             }
-            Lazy::InProgress => {
-                let span = Span { file: crate::source::FileId(0), start: 0, end: 0 };
-                hir::Expr { kind: hir::ExprKind::None, ty: Type::Unknown, span, range: Interval::ANY }
+            &Lazy::Unchecked { name, .. } if self.waiting == WAITING_MAX => {
+                let message = format!("`{}` is made of more than {WAITING_MAX} others declared after it", name.node);
+                let finding = Diagnostic::error("limits::constants", name.span, message);
+                self.report(finding.help("declare first what others are made of"));
+                self.unknown(name.span)
             }
-            Lazy::Unchecked { module, name, ty, value } => {
-                let setting = if is_const { Setting::Constant } else { Setting::Function };
-                let mut scope = Scope::new(module, setting);
-                scope.setting = if is_const { Setting::Constant } else { Setting::Instant };
-                let (checked, _) = self.within(scope, |c| match ty {
+            &Lazy::Unchecked { module, name, ty, value } => {
+                table[id] = Lazy::InProgress(name);
+                self.waiting += 1;
+                let setting = if is_const { Setting::Constant } else { Setting::Instant };
+                let (checked, _) = self.within(Scope::new(module, setting), |c| match ty {
                     Some(ty) => {
                         let ty = c.written_type(module, ty);
                         c.expr_as(value, &ty, &format!("`{}`", name.node))
                     }
                     None => c.expr(value, None),
                 });
+                self.waiting -= 1;
                 let table = if is_const { &mut self.consts } else { &mut self.signals };
                 table[id] = Lazy::Done(checked.clone());
                 checked

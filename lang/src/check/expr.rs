@@ -193,14 +193,14 @@ impl<'t> Checker<'t> {
         if let tree::ExprKind::Binary(op, left, right) = &holds.kind
             && matches!(op.node, tree::Binary::And | tree::Binary::Or)
         {
-            let _ = left;
             self.report(
                 Diagnostic::error(
                     "time::ambiguous",
-                    span,
+                    right.span.to(duration.span),
                     format!("`for` beside `{}` needs parentheses", op.node.symbol()),
                 )
-                .label(right.span, "for this alone?")
+                .here("this alone for so long?")
+                .label(left.span, "or with this?")
                 .help(format!(
                     "write `(… {0} …) for T` when both together must have held, `… {0} (… for T)` when only the last must",
                     op.node.symbol()

@@ -36,7 +36,7 @@ impl<'t> Checker<'t> {
             let exact = first.range.low.abs().max(end.abs()) < super::sense::INT_MAX;
             let bounded = exact && end - first.range.low <= ROUNDS_MAX;
             if !bounded {
-                self.bounded_or_takes_time(&body, range.last.span, span);
+                self.bounded_or_takes_time(&body, range.last.span);
             }
             let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };
             return Some(Stmt { kind, span });
@@ -171,11 +171,11 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn bounded_or_takes_time(&mut self, body: &Block, range: Span, span: Span) {
+    fn bounded_or_takes_time(&mut self, body: &Block, range: Span) {
         if !takes_time(body) {
             self.report(
-                Diagnostic::error("time::instant_loop", span, "this `for` may go round too often without taking time")
-                    .label(range, "how large can this be?")
+                Diagnostic::error("time::instant_loop", range, "this `for` may go round too often without taking time")
+                    .here("how large can this be?")
                     .help(format!(
                         "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
                     )),

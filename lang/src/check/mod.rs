@@ -7,6 +7,7 @@ mod choice;
 mod constant;
 mod convert;
 mod declare;
+mod depth;
 mod expr;
 mod facts;
 mod flow;
@@ -97,7 +98,7 @@ impl Def {
 /// A constant or a module's signal: checked when first needed.
 enum Lazy<'t> {
     Unchecked { module: usize, name: &'t tree::Name, ty: Option<&'t tree::Ty>, value: &'t tree::Expr },
-    InProgress,
+    InProgress(&'t tree::Name),
     Done(hir::Expr),
 }
 
@@ -185,6 +186,8 @@ pub struct Checker<'t> {
     names: Vec<BTreeMap<String, Def>>,
     consts: Vec<Lazy<'t>>,
     signals: Vec<Lazy<'t>>,
+    /// How many constants and signals wait for others.
+    waiting: usize,
     clauses: Vec<ClauseInfo>,
     fn_signatures: Vec<Signature>,
     activity_signatures: Vec<Signature>,
@@ -218,6 +221,7 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
         names: modules.iter().map(|_| BTreeMap::new()).collect(),
         consts: Vec::new(),
         signals: Vec::new(),
+        waiting: 0,
         clauses: Vec::new(),
         fn_signatures: Vec::new(),
         activity_signatures: Vec::new(),

@@ -27,7 +27,9 @@ impl<'t> Checker<'t> {
             Binary::And | Binary::Or => self.logical(op, left, right, span),
             Binary::Else => self.otherwise(left, right, expected, span),
             _ => {
-                self.no_chain(op, left);
+                if self.chained(op, left) {
+                    return self.unknown(span);
+                }
                 let (a, b) = (self.expr(left, None), self.expr(right, None));
                 if a.ty == Type::Unknown || b.ty == Type::Unknown {
                     return self.unknown(span);
@@ -54,7 +56,7 @@ impl<'t> Checker<'t> {
     }
 
     /// `a < b < c` reads like mathematics and means something else.
-    fn no_chain(&mut self, op: &Spanned<Binary>, left: &tree::Expr) {
+    fn chained(&mut self, op: &Spanned<Binary>, left: &tree::Expr) -> bool {
         if let tree::ExprKind::Binary(inner, ..) = &left.kind
             && op.node.compares()
             && inner.node.compares()
@@ -64,13 +66,24 @@ impl<'t> Checker<'t> {
                     .label(inner.span, "the first comparison")
                     .help("write `a < b and b < c`"),
             );
+            return true;
+        }
+        false
+    }
+
+    /// Whether a value is absent because of a division by what may be zero.
+    pub(super) fn is_quotient(value: &Expr) -> bool {
+        match &value.kind {
+            ExprKind::If(condition, ..) => matches!(&condition.kind, ExprKind::Do(Builtin::Not, zero)
+                if matches!(zero.as_slice(), [Expr { kind: ExprKind::Do(Builtin::Eq, _), .. }])),
+            _ => false,
         }
     }
 
     pub(super) fn absent(&self, value: &Expr) -> Diagnostic {
         let name = self.type_name(&value.ty);
         let why = match &value.kind {
-            ExprKind::Do(Builtin::Div, _) => "the divisor may be zero, and then there is no quotient",
+            _ if Self::is_quotient(value) => "the divisor may be zero, and then there is no quotient",
             ExprKind::Do(Builtin::At, _) => "the list may be shorter",
             _ => "it may be absent",
         };

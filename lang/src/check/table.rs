@@ -115,6 +115,9 @@ impl<'t> Checker<'t> {
                 None => finding,
             };
             self.report(finding);
+            // What was probably meant stands in for it, so that the table is not found wanting a second time.
+            let meant = self.nearest(&name.node, names.iter().map(|n| n.node.as_str()));
+            return names.iter().position(|n| Some(n.node.as_str()) == meant);
         }
         found
     }
@@ -176,7 +179,8 @@ impl<'t> Checker<'t> {
                     Diagnostic::error("flow::result", value.span, "this finishes with a value, and none is declared")
                         .help("declare it: `strategy NAME(…) -> TYPE { … }`"),
                 );
-                None
+                // The rule stands all the same: it leads away from its source.
+                Some(Target::Finish(None))
             }
             (None, Some(ty)) => {
                 let ty = self.type_name(ty);
@@ -188,7 +192,7 @@ impl<'t> Checker<'t> {
                     )
                     .help("write `-> finish VALUE`"),
                 );
-                None
+                Some(Target::Finish(None))
             }
         }
     }
@@ -212,6 +216,9 @@ impl<'t> Checker<'t> {
             }
         }
         for (i, name) in names.iter().enumerate() {
+            if names[..i].iter().any(|earlier| earlier.node == name.node) {
+                continue;
+            }
             if !reached[i] {
                 self.report(
                     Diagnostic::error("rules::unreachable", name.span, format!("`{}` is never entered", name.node))
@@ -247,7 +254,10 @@ impl<'t> Checker<'t> {
                                 format!("`{}` never ends: it is never `done`", name.node),
                             )
                             .label(name.span, "declared here")
-                            .help("leave `done` out"),
+                            .help(format!(
+                                "bound what it does, such as `for 1 min`, or leave it on a condition: `{} -> … on after 1 min`",
+                                name.node
+                            )),
                         );
                     }
                 }

@@ -183,7 +183,7 @@ impl<'t> Checker<'t> {
             ("truth", other) => {
                 let finding =
                     Diagnostic::error("tests::truth", member.span, format!("there is no `truth.{other}` to ask for"));
-                let finding = match self.suggestion(other, TRUTHS.into_iter()) {
+                let finding = match self.suggestion(other, TRUTHS) {
                     Some(help) => finding.help(help),
                     None => finding,
                 };

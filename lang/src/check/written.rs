@@ -39,6 +39,8 @@ impl<'t> Checker<'t> {
                 && dimension::unit(unit, &own).is_some()
             {
                 finding.help(format!("to divide by a variable, write a blank: `{unit} / {name}`"))
+            } else if let Some(habit) = run_together(&word.node, &own) {
+                finding.help(habit)
             } else if let Some(near) = nearest_unit(&word.node, &known) {
                 finding.help(format!("did you mean `{near}`?"))
             } else {
@@ -175,4 +177,15 @@ fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         _ => return suggest::nearest(word, known.iter().copied()),
     };
     known.iter().copied().find(|k| *k == meant)
+}
+
+/// What is meant by a unit with digits in it: `1h30min`, `0x1f`.
+fn run_together(word: &str, own: &dyn Fn(&str) -> Option<Unit>) -> Option<String> {
+    if word.strip_prefix('x').is_some_and(|digits| digits.chars().all(|c| c.is_ascii_hexdigit())) && word.len() > 1 {
+        return Some("numbers are decimal: write this one with the digits 0 to 9".to_string());
+    }
+    let (unit, rest) = word.split_at(word.find(|c: char| c.is_ascii_digit())?);
+    let (number, other) = rest.split_at(rest.find(|c: char| !c.is_ascii_digit())?);
+    (dimension::unit(unit, own).is_some() && dimension::unit(other, own).is_some())
+        .then(|| format!("add them: `… {unit} + {number} {other}`"))
 }

@@ -8,7 +8,7 @@ mod walk;
 pub use activity::*;
 pub use interval::Interval;
 pub use simulated::*;
-pub use walk::{activity_children, block_children, children};
+pub use walk::{activity_children, block_children, calls_in, children};
 
 use crate::source::Span;
 use crate::types::Type;

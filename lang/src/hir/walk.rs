@@ -1,8 +1,8 @@
 //! Walks over the checked program: the statements of a block, the expressions of anything.
 
 use super::{
-    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, Hir, InputPart, Stmt, StmtKind, Target, TextPart,
-    With,
+    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Stmt, StmtKind, Target,
+    TextPart, With,
 };
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ impl Hir {
 
 impl Activity {
     /// The activities that it names itself.
-    fn calls(&self) -> Vec<ActivityId> {
+    pub fn calls(&self) -> Vec<ActivityId> {
         let mut calls = Vec::new();
         let mut blocks: Vec<&Block> = Vec::new();
         match &self.body {
@@ -48,6 +48,19 @@ impl Activity {
         }
         calls
     }
+}
+
+/// The functions that a block calls.
+pub fn calls_in(block: &Block) -> Vec<FnId> {
+    fn walk(e: &Expr, calls: &mut Vec<FnId>) {
+        if let ExprKind::Call(id, _) = e.kind {
+            calls.push(id);
+        }
+        children(e, &mut |child| walk(child, calls));
+    }
+    let mut calls = Vec::new();
+    block_children(block, &mut |e| walk(e, &mut calls));
+    calls
 }
 
 /// The overlays among what `with` puts in force.

@@ -67,10 +67,20 @@ pub(super) fn take<'a>(pairs: &mut std::iter::Peekable<impl Iterator<Item = P<'a
 
 pub(super) fn file(b: &mut Builder, pairs: Pairs<Rule>) -> File {
     let mut file = File::default();
-    for pair in pairs.flat_map(Pair::into_inner) {
+    let mut pairs = pairs.flat_map(Pair::into_inner).peekable();
+    while let Some(pair) = pairs.next() {
         match pair.as_rule() {
             Rule::EOI => {}
             Rule::bad_item => b.bad(&pair, Place::Item),
+            Rule::crowded => {
+                let at = b.span(&pair);
+                let word = pairs.peek().and_then(|next| next.as_str().split_whitespace().next()).unwrap_or("");
+                let span = Span { end: at.start + word.len() as u32, ..at };
+                b.refused.push(
+                    Diagnostic::error("layout::line", span, "this declaration begins on the line of another")
+                        .help("begin each declaration on a line of its own"),
+                );
+            }
             _ => file.items.extend(item(b, pair)),
         }
     }

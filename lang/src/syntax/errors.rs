@@ -1,6 +1,7 @@
 //! What to say of text that the grammar cannot read: what was found, what was expected, in the language's own terms.
 
 use super::build::{Bad, Place};
+use super::habits::habit;
 use super::{Grammar, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
@@ -20,7 +21,7 @@ pub fn begins_item(word: &str) -> bool {
 }
 
 /// Words that may begin a clause of a block.
-const CLAUSE_WORDS: [&str; 32] = [
+pub(super) const CLAUSE_WORDS: [&str; 32] = [
     "behavior", "with", "signal", "memory", "let", "var", "on", "start", "area", "limits", "requires", "recovery",
     "amend", "abort", "finish", "report", "log", "if", "match", "for", "while", "loop", "goto", "follow", "dubins",
     "steer", "keep", "hold", "loiter", "wait", "watch", "override",
@@ -59,6 +60,9 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             None if bad.place == Place::Item => {
                 finding.help("a file holds behaviors, strategies, missions, scenarios, …")
             }
+            None if word == "return" => {
+                finding.help("a function gives its last expression, and a behavior ends with `finish`")
+            }
             None => finding
                 .help(format!("after a name comes `=`, `(`, or in a switching table `->`; not {}", found(after_word))),
         };
@@ -92,10 +96,10 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
     } else {
         format!("expected {expected}, found {}", found(rest))
     };
-    let finding = Diagnostic::error("syntax::expected", span, message);
-    match hint(rest) {
-        Some(hint) => finding.help(hint),
-        None => finding,
+    let before = text[..offset].rsplit(['\n', ';', '{']).next().unwrap_or("");
+    match habit(before, rest, &expected) {
+        Some(habit) => Diagnostic::error("syntax::expected", span, habit.message.unwrap_or(message)).help(habit.help),
+        None => Diagnostic::error("syntax::expected", span, message),
     }
 }
 
@@ -120,20 +124,6 @@ fn found(rest: &str) -> String {
         "" => "the end of the line".to_string(),
         token => format!("`{token}`"),
     }
-}
-
-/// What other languages write here, and what ours does.
-fn hint(rest: &str) -> Option<String> {
-    let hints = [
-        ("&&", "write `and`"),
-        ("||", "write `or`"),
-        ("!", "write `not`"),
-        ("===", "write `==`"),
-        ("=>", "write `->`"),
-        ("->", "a rule is `A -> B on X`, in a strategy or a mission"),
-        ("'", "texts stand between `\"`"),
-    ];
-    hints.iter().find(|(sign, _)| rest.starts_with(sign)).map(|(_, hint)| (*hint).to_string())
 }
 
 /// The rules that the grammar would have taken, as kinds of things, each once.

@@ -4,6 +4,7 @@ mod build;
 mod build_block;
 mod build_expr;
 mod errors;
+mod habits;
 mod scan;
 pub mod tree;
 mod words;

@@ -106,6 +106,7 @@ impl<'a> Scanner<'a> {
             match c {
                 '\n' => self.newline(),
                 '/' if self.rest().starts_with("//") => self.comment(),
+                '/' if self.rest().starts_with("/*") => self.bracketed_comment(),
                 '"' => self.text(),
                 '(' | '[' | '{' => {
                     self.open(c);
@@ -198,6 +199,22 @@ impl<'a> Scanner<'a> {
         self.comments.push(Comment { span: self.span(start, end) });
         self.blank(start, end);
         self.at = end;
+    }
+
+    /// `/* … */` is taken out like a comment, so that what it says is not read as a script.
+    fn bracketed_comment(&mut self) {
+        let start = self.at;
+        let length = self.rest().find("*/").map_or(2, |at| at + 2);
+        self.findings.push(
+            Diagnostic::error("layout::comment", self.span(start, start + 2), "comments begin with `//`")
+                .help("write `//` at the front of each of its lines, and leave `/*` and `*/` out"),
+        );
+        for byte in &mut self.out[start..start + length] {
+            if *byte != b'\n' {
+                *byte = b' ';
+            }
+        }
+        self.at += length;
     }
 
     fn text(&mut self) {

@@ -12,7 +12,7 @@ mod tests;
 
 pub use albacore_lang::Script;
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
-pub use albacore_lang::source::{FileId, Source, Sources};
+pub use albacore_lang::source::{FileId, Source, Sources, Span};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use files::{FileError, Files, load};

@@ -11,7 +11,7 @@ use albacore_machine::{Event, Machine, Outcome};
 use albacore_program::{AREA_WORDS, PROGRAM_VERSION, Program, Shape};
 use albacore_sim::{Scenario, Simulator};
 use albacore_trace::journal::{Closing, JournalHeader, SourceDigest};
-use albacore_trace::{BehaviorTrace, Depths, Digest, Header};
+use albacore_trace::{BehaviorTrace, Depths, Digest, Header, Picture};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, Vertical};
 use std::io;
 use std::sync::Arc;
@@ -453,12 +453,19 @@ impl Run {
     pub fn svg(&self) -> String {
         let summary = self.summary(0.0);
         let scenario = &self.plan.scenario;
-        let flow = (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean);
-        let sources = scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect();
-        let (area, plume, deepest) = (self.area_corners(), self.vehicle.filaments().collect(), self.deepest_sought());
+        let (area, deepest) = (self.area_corners(), self.deepest_sought());
         let sounded = if deepest.is_some() { area.as_slice() } else { &[] };
-        let depths = Depths::sound(sounded, |p| self.water_depth(p));
-        self.picture.svg(&summary, area, plume, sources, self.start, flow, (depths, deepest))
+        let world = Picture {
+            depths: Depths::sound(sounded, |p| self.water_depth(p)),
+            area,
+            plume: self.vehicle.filaments().collect(),
+            sources: scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect(),
+            deepest,
+            start: Some(self.start),
+            flow: (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean),
+            ..Picture::default()
+        };
+        self.picture.svg(&summary, world)
     }
 }
 

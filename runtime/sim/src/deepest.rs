@@ -13,16 +13,17 @@ const FINE_M: f64 = 1e-3;
 impl Bottom {
     /// The deepest point of an area, to a millimetre where the bottom is curved; of several equally deep the first found.
     pub fn deepest(&self, area: &Area) -> Point {
-        let (corners, edges) = (area.corners(), area.edges().collect::<Vec<_>>());
-        let bound =
-            |of: fn(&Point) -> f64, pick: fn(f64, f64) -> f64| corners.iter().map(of).reduce(pick).unwrap_or(0.0);
-        let (north, east): (fn(&Point) -> f64, fn(&Point) -> f64) = (|p| p.north, |p| p.east);
-        let low = Point::new(bound(north, f64::min), bound(east, f64::min));
-        let mut half = 0.5 * (Point::new(bound(north, f64::max), bound(east, f64::max)) - low);
+        let edges: Vec<Edge> = area.edges().collect();
+        let (mut low, mut high) = (area.center(), area.center());
+        for corner in area.corners() {
+            low = Point::new(low.north.min(corner.north), low.east.min(corner.east));
+            high = Point::new(high.north.max(corner.north), high.east.max(corner.east));
+        }
+        let mut half = 0.5 * (high - low);
         let mut deepest = self.deepest_of_grid(&edges, inside(&edges, low + half), half, GRID);
         while half.length() > FINE_M {
-            deepest = self.deepest_of_grid(&edges, deepest, half, CLOSER);
             half = 0.5 * half;
+            deepest = self.deepest_of_grid(&edges, deepest, half, CLOSER);
         }
         deepest
     }

@@ -1,0 +1,104 @@
+//! Reads a script and the modules that it imports, each once.
+
+use crate::Library;
+use crate::check::Module;
+use crate::diagnostic::Diagnostic;
+use crate::source::{Source, Sources};
+use crate::syntax;
+use crate::syntax::tree::{self, Item};
+use std::collections::BTreeMap;
+
+/// A script imports this many modules at most, all in all.
+const MODULES_MAX: usize = 256;
+
+/// Reads modules, each once.
+pub struct Loader<'a> {
+    pub library: &'a dyn Library,
+    pub sources: Sources,
+    pub modules: Vec<Module>,
+    pub known: BTreeMap<String, usize>,
+    pub findings: Vec<Diagnostic>,
+}
+
+impl<'a> Loader<'a> {
+    pub fn new(library: &'a dyn Library) -> Self {
+        let (sources, modules, known) = (Sources::default(), Vec::new(), BTreeMap::new());
+        Loader { library, sources, modules, known, findings: Vec::new() }
+    }
+
+    /// Reads a script, all it imports, and what every script knows.
+    pub fn read_all(&mut self, entry: Source) {
+        // A file of the prelude is checked as what it is: what it declares is known everywhere.
+        let is_prelude = self.library.prelude().iter().any(|source| source.name == entry.name);
+        self.read(entry, String::new(), is_prelude, &mut Vec::new());
+        for source in self.library.prelude() {
+            if !self.known.contains_key(&*source.name) {
+                let name = module_name(&source.name);
+                self.read(source, name, true, &mut Vec::new());
+            }
+        }
+    }
+
+    pub fn read(&mut self, source: Source, name: String, prelude: bool, path: &mut Vec<String>) -> usize {
+        let file = self.sources.add(source.clone());
+        let index = self.modules.len();
+        self.known.insert(source.name.to_string(), index);
+        let parsed = syntax::parse(file, &source.text);
+        self.findings.extend(parsed.findings);
+        self.modules.push(Module { name, tree: parsed.file, prelude, ..Module::default() });
+        path.push(source.name.to_string());
+        let uses: Vec<tree::Path> = self.modules[index]
+            .tree
+            .items
+            .iter()
+            .filter_map(|item| if let Item::Use(paths) = item { Some(paths.clone()) } else { None })
+            .flatten()
+            .collect();
+        for wanted in uses {
+            if let Some(imported) = self.import(&source, &wanted, path) {
+                let name = wanted.parts.last().map(|p| p.node.clone()).unwrap_or_default();
+                self.modules[index].imports.insert(name, imported);
+            }
+        }
+        path.pop();
+        index
+    }
+
+    fn import(&mut self, importer: &Source, wanted: &tree::Path, path: &mut Vec<String>) -> Option<usize> {
+        let parts: Vec<String> = wanted.parts.iter().map(|p| p.node.clone()).collect();
+        let source = match self.library.module(importer, &parts) {
+            Ok(source) => source,
+            Err(help) => {
+                let message = format!("there is no module `{}`", wanted.text());
+                self.findings.push(Diagnostic::error("imports::unknown", wanted.span, message).help(help));
+                return None;
+            }
+        };
+        if let Some(start) = path.iter().position(|p| *p == *source.name) {
+            let mut chain: Vec<&str> = path[start..].iter().map(String::as_str).collect();
+            chain.push(&source.name);
+            let message = format!("this import leads back to its beginning: {}", chain.join(" -> "));
+            self.findings.push(
+                Diagnostic::error("imports::cycle", wanted.span, message)
+                    .help("move what both need into a module that neither of them imports from"),
+            );
+            return None;
+        }
+        if let Some(&index) = self.known.get(&*source.name) {
+            return Some(index);
+        }
+        if self.modules.len() >= MODULES_MAX {
+            let message = format!("more than {MODULES_MAX} modules are imported");
+            self.findings.push(Diagnostic::error("imports::many", wanted.span, message));
+            return None;
+        }
+        let name = parts.last().cloned().unwrap_or_default();
+        Some(self.read(source, name, false, path))
+    }
+}
+
+/// What a module of a file is called: the file's name without its folders.
+pub fn module_name(file: &str) -> String {
+    let stem = file.rsplit(['/', '\\', ':']).next().unwrap_or(file);
+    stem.trim_end_matches(".alb").trim_end_matches('>').to_string()
+}

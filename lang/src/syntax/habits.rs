@@ -1,0 +1,158 @@
+//! What other languages and other pens write here, and how ours writes it: the help of a message about unreadable text.
+
+/// What to say instead of what was expected, when a habit shows; the message may stay as it is.
+pub(super) struct Habit {
+    /// What is wrong, where that can be said better than by what was expected.
+    pub message: Option<String>,
+    /// How it is written.
+    pub help: String,
+}
+
+/// The habit behind a text that could be read up to a place: `before` is what stands before it on its line, `rest` what
+/// follows. `expected` tells what the grammar would have taken.
+pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let only = |help: &str| Some(Habit { message: None, help: help.to_string() });
+    let signs = [
+        ("&&", "write `and`"),
+        ("||", "write `or`"),
+        ("!", "write `not`"),
+        ("===", "write `==`"),
+        ("=>", "write `->`"),
+        ("->", "a rule is `A -> B on X`, in a strategy or a mission"),
+        ("'", "texts stand between `\"`"),
+        ("#", "comments begin with `//`"),
+        ("%", "`%` is the unit percent; for the remainder of whole numbers write `a - b * floor(a / b)`"),
+    ];
+    if before.trim_start().starts_with("use ") {
+        return only(
+            "modules are named by words and dots, from the project's folder: `use search`, `use folder.search`",
+        );
+    }
+    if let Some((_, help)) = signs.iter().find(|(sign, _)| rest.starts_with(sign)) {
+        return only(help);
+    }
+    if rest.starts_with('=') {
+        return match before.trim_end().strip_suffix(['+', '-', '*', '/']) {
+            Some(_) => only("an assignment names both sides: `n = n + 1`"),
+            None if expected.contains("`{`") => only("to compare write `==`"),
+            None => None,
+        };
+    }
+    if expected.contains("`{`") && rest.starts_with('\n') && rest.trim_start().starts_with('{') {
+        return only("the `{` stands on the same line");
+    }
+    if let Some(word) = before.split_whitespace().next_back().filter(|word| ["wait", "hold"].contains(word))
+        && rest.starts_with(|c: char| c.is_ascii_digit())
+    {
+        let time = rest.split(['\n', ';', '}']).next().unwrap_or("").trim();
+        return Some(Habit {
+            message: Some(format!("`for` is missing after `{word}`")),
+            help: format!("write `{word} for {time}`"),
+        });
+    }
+    number(before, rest).or_else(|| setpoint(before, rest, expected)).or_else(|| crowded(rest))
+}
+
+/// Two numbers in a row, or a number of another base.
+fn number(before: &str, rest: &str) -> Option<Habit> {
+    let last = before.split_whitespace().next_back()?;
+    if let Some(digits) = last.strip_prefix("0x") {
+        let help = match u64::from_str_radix(digits, 16) {
+            Ok(number) => format!("write `{number}`"),
+            Err(_) => "write it with the digits 0 to 9".to_string(),
+        };
+        return Some(Habit { message: Some(format!("`{last}` is no number: numbers are decimal")), help });
+    }
+    let (number, unit) = quantity(before)?;
+    let goes_on = rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    if unit == "%" && goes_on {
+        return Some(Habit {
+            message: Some(format!("`{number} %` is a ratio, {number} percent: there is no remainder operator")),
+            help: "for the remainder of whole numbers write `a - b * floor(a / b)`".to_string(),
+        });
+    }
+    let next: String = rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
+    if next.is_empty() || unit.is_empty() {
+        return None;
+    }
+    let after = rest[next.len()..].trim_start();
+    let its_unit: String = after.chars().take_while(|c| c.is_alphanumeric() || "/^%°".contains(*c)).collect();
+    let message = Some(format!("a quantity is one number and one unit: `{next}` cannot follow `{number} {unit}`"));
+    let help = if its_unit.is_empty() {
+        format!("write one number, such as `{number}.5 {unit}`")
+    } else {
+        format!("add them: `{number} {unit} + {next} {its_unit}`")
+    };
+    Some(Habit { message, help })
+}
+
+/// The number and the unit with which a text ends.
+fn quantity(text: &str) -> Option<(&str, &str)> {
+    let text = text.trim_end();
+    let unit = text.rfind(|c: char| c.is_ascii_digit()).map(|at| text[at + 1..].trim_start())?;
+    let rest = text[..text.len() - unit.len()].trim_end();
+    let number = &rest[rest.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len()..];
+    let is_unit = unit == "%" || unit.chars().all(|c| c.is_alphanumeric() || "/^°".contains(c));
+    (!number.is_empty() && is_unit).then_some((number, unit))
+}
+
+/// A setpoint without the word before it.
+fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let channel = |word: &str| ["depth", "altitude", "speed"].into_iter().find(|c| *c == word);
+    let first = rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
+    let has_setpoints = before.split_whitespace().any(|word| word == "with" || word == "at");
+    // `goto p speed 3 m/s`
+    if let Some(channel) = channel(first) {
+        let value = rest[first.len()..].split(['\n', ';', ',', '{', '}']).next().unwrap_or("").trim();
+        return Some(if has_setpoints {
+            Habit {
+                message: Some(format!("a comma is missing before `{channel}`")),
+                help: format!("write `, {channel} {value}`"),
+            }
+        } else {
+            Habit {
+                message: Some(format!("`at` is missing before `{channel}`")),
+                help: format!("write `at {channel} {value}`"),
+            }
+        });
+    }
+    // `goto p, speed 3 m/s`
+    let (head, last) = before.trim_end().rsplit_once([' ', ','])?;
+    let value = rest.split(['\n', ';', ',', '{', '}']).next().unwrap_or("").trim();
+    if let Some(channel) = channel(last)
+        && !has_setpoints
+        && !head.trim().is_empty()
+    {
+        return Some(Habit {
+            message: Some(format!("`at` is missing before `{channel}`")),
+            help: format!("write `at {channel} {value}` in place of `, {channel} {value}`"),
+        });
+    }
+    // `goto p at 3 m/s`
+    if expected.starts_with("`depth`") && rest.starts_with(|c: char| c.is_ascii_digit()) {
+        return Some(Habit { message: None, help: format!("say what `{value}` is: `at speed {value}`, for example") });
+    }
+    None
+}
+
+/// Two statements on one line.
+fn crowded(rest: &str) -> Option<Habit> {
+    let word = rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
+    super::errors::CLAUSE_WORDS
+        .contains(&word)
+        .then(|| Habit { message: None, help: "a statement begins on a line of its own, or after `;`".to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_are_found_at_the_end() {
+        assert_eq!(quantity("wait for 1 h "), Some(("1", "h")));
+        assert_eq!(quantity("x + 4.5 % "), Some(("4.5", "%")));
+        assert_eq!(quantity("3m"), Some(("3", "m")));
+        assert_eq!(quantity("36°10.8'N 75°44 "), Some(("44", "")));
+        assert_eq!(quantity("goto p "), None);
+    }
+}
