@@ -192,7 +192,7 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
             text.push_str(&format!(" at ({north:.1}, {east:.1}) m"));
         }
         if let Some(error) = report.error_m {
-            text.push_str(&format!(", {error:.1} m from the nearest source"));
+            text.push_str(&format!(", {error:.1} m from the true one"));
         }
         text.push('\n');
     }

@@ -112,3 +112,43 @@ fn a_filter_that_leaves_nothing_says_so() {
     let (code, said) = project.test(&["--filter", "north"]);
     assert_eq!(code, Some(0), "{said}");
 }
+
+/// What only the simulator knows: tests may ask for it, of what was reported and of what it told them before.
+const TRUTHS: &str = r#"
+mission north in pitted within 5 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 200 m, width: 200 m)
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 5 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    steer 0 deg for 60 s
+    report "there": position
+}
+
+scenario pitted {
+    bottom(from: 10 m, to: 10 m)
+    pit("one", at: point(north: 58 m, east: 3 m), depth: 2 m, radius: 20 m)
+    pit("deeper, and not in the area", at: point(north: 500 m, east: 3 m), depth: 5 m, radius: 20 m)
+    vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 3 m, spread: 5 m)
+}
+
+test "truths" {
+    run north in pitted seeds 1..4
+    expect distance(truth.start, point(north: 0 m, east: 0 m)) < 5 m
+    expect distance(truth.deepest, point(north: 58 m, east: 3 m)) < 10 cm
+    expect truth.depth_at(truth.deepest) > 11.99 m and truth.depth_at(truth.deepest + 20 m toward east) < 11.3 m
+    expect truth.depth_at(reported("there")) > 95 % * truth.depth_at(truth.deepest)
+    expect truth.depth_at(truth.deepest + 10 * truth.depth_at(truth.deepest) toward east) < 10.01 m
+    expect always truth.depth_at(truth.position) > 9.9 m
+    expect truth.depth_at(reported("nowhere")) > 0 m
+    expect truth.depth_at(truth.start) > 11 m
+}
+"#;
+
+#[test]
+fn what_is_true_can_be_asked_for() {
+    let project = Project::new("truths", "10 s", "5 m");
+    std::fs::write(project.0.join("north.alb"), TRUTHS).unwrap();
+    let (code, said) = project.test(&[]);
+    assert_eq!(code, Some(1), "{said}");
+    insta::assert_snapshot!(said);
+}

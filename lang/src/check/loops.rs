@@ -4,6 +4,7 @@ use super::expr::article;
 use super::flow::takes_time;
 use super::{Checker, Temporal, facts};
 use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
 use crate::hir::{Block, Expr, ExprKind, Interval, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Condition, ForOver};
@@ -53,6 +54,9 @@ impl<'t> Checker<'t> {
                 return Some(Stmt { kind: StmtKind::ForEdges { var, area, body }, span });
             }
         }
+        if let Some(kind) = self.for_rows(name, written, block) {
+            return Some(Stmt { kind, span });
+        }
         let list = self.expr(written, None);
         let element = match &list.ty {
             Type::List(inner, _) => (**inner).clone(),
@@ -79,6 +83,28 @@ impl<'t> Checker<'t> {
             (var, c.block(block))
         });
         Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
+    }
+
+    /// `for row in area.rows(step)`: the lines of a lawn-mower, computed one by one.
+    fn for_rows(&mut self, name: &tree::Name, written: &tree::Expr, block: &tree::Block) -> Option<StmtKind> {
+        let tree::ExprKind::Call(callee, args) = &written.kind else { return None };
+        let tree::ExprKind::Member(base, member) = &callee.kind else { return None };
+        if member.node != "rows" || self.module_named(base).is_some() {
+            return None;
+        }
+        let area = self.expr_as(base, &Type::Area, "what is walked in rows");
+        let params = &[("step", Type::Quantity(Dimension::LENGTH))];
+        let given = self.simple_args("rows", params, args, written.span).and_then(|mut given| given.pop());
+        let step = given.unwrap_or_else(|| self.unknown(written.span));
+        if step.range.low <= 0.0 && step.ty != Type::Unknown {
+            self.report(
+                Diagnostic::error("ranges::step", step.span, "rows must lie farther apart than nothing")
+                    .help("use a positive constant, or a parameter with a range such as `in 5 m..100 m`"),
+            );
+        }
+        self.enter_loop();
+        let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, Type::Line), c.block(block)));
+        Some(StmtKind::ForRows { var, area, step, body })
     }
 
     /// A range that runs backwards: a loop over it would never go round.

@@ -51,7 +51,7 @@ fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
     let more: &[&str] = match ty {
         Type::Point => &["north", "east"],
         Type::Vector(_) => &["north", "east", "length", "toward", "dot"],
-        Type::Area => &["center", "edges", "corner", "contains", "run"],
+        Type::Area => &["center", "edges", "rows", "corner", "contains", "run"],
         Type::Edge => &["normal", "line"],
         Type::Line => &["start", "end", "length", "heading"],
         Type::List(..) => &["count", "first", "top", "spread", "insert", "remove", "clear"],
@@ -238,6 +238,9 @@ impl<'t> Checker<'t> {
     }
 
     fn method(&mut self, base: &tree::Expr, member: &tree::Name, args: &[tree::Arg], span: Span) -> Expr {
+        if let Some(value) = self.test_method(base, member, args, span) {
+            return value;
+        }
         let value = self.expr(base, None);
         if value.ty == Type::Unknown {
             for arg in args {
@@ -273,6 +276,13 @@ impl<'t> Checker<'t> {
                         self.unknown(span)
                     }
                 }
+            }
+            (Type::Area, "rows") => {
+                self.report(
+                    Diagnostic::error("types::rows", span, "`rows` can only be walked")
+                        .help("write `for row in area.rows(step) { … }`"),
+                );
+                self.unknown(span)
             }
             (Type::Area, "contains") => {
                 let Some(point) = self.simple_args("contains", POINT_PARAM, args, span) else {

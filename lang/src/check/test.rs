@@ -11,12 +11,17 @@ use crate::types::Type;
 /// A test runs this many seeds at most.
 const SEEDS_MAX: f64 = 1_000_000.0;
 
+/// What stands after `truth`.
+const TRUTHS: [&str; 5] = ["position", "nearest_source", "start", "deepest", "depth_at"];
+
 /// The test whose expectations are being checked.
 pub(super) struct TestScope {
     /// The mission that it runs.
     mission: usize,
     /// What its expectations speak of.
     names: TestNames<usize>,
+    /// The points whose true water depth they ask for, and the variables of the answers.
+    depths: Vec<(Expr, usize)>,
 }
 
 impl<'t> Checker<'t> {
@@ -73,10 +78,9 @@ impl<'t> Checker<'t> {
                     TestClause::Run { .. } => {}
                 }
             }
-            let names = c.test.take().map(|t| t.names);
-            (expects, snapshots, names)
+            (expects, snapshots, c.test.take())
         });
-        let (expects, snapshots, names) = checked;
+        let (expects, snapshots, known) = checked;
         for seed in &snapshots {
             if *seed < seeds.0 || *seed > seeds.1 {
                 self.report(
@@ -89,7 +93,7 @@ impl<'t> Checker<'t> {
                 );
             }
         }
-        let (Some(args), Some(scenario), Some(known)) = (args, scenario, names) else { return };
+        let (Some(args), Some(scenario), Some(known)) = (args, scenario, known) else { return };
         self.hir.tests.push(Test {
             name,
             span: test.name.span,
@@ -100,7 +104,8 @@ impl<'t> Checker<'t> {
             expects,
             snapshots,
             vars: scope.vars,
-            known,
+            known: known.names,
+            depths: known.depths,
         });
     }
 
@@ -129,13 +134,15 @@ impl<'t> Checker<'t> {
         let vars = TestNames {
             position: var(self, "truth.position", Type::Point),
             nearest_source: var(self, "truth.nearest_source", Type::Point),
+            start: var(self, "truth.start", Type::Point),
+            deepest: var(self, "truth.deepest", Type::Point),
             time: var(self, "time", Type::Quantity(Dimension::TIME)),
             completed: var(self, "completed", Type::Bool),
             area: var(self, "the mission's area", Type::Area),
             reported: Vec::new(),
             reported_at: Vec::new(),
         };
-        self.test = Some(TestScope { mission, names: vars });
+        self.test = Some(TestScope { mission, names: vars, depths: Vec::new() });
     }
 
     fn expect(&mut self, mode: &ExpectMode, holds: &tree::Expr, span: Span) -> Expect {
@@ -164,13 +171,25 @@ impl<'t> Checker<'t> {
         Expect { when, holds, span }
     }
 
-    /// `truth.position`, and the area of the mission by the mission's name.
-    pub(super) fn test_member(&self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
+    /// `truth.position` and the like, and the area of the mission by the mission's name.
+    pub(super) fn test_member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let test = self.test.as_ref()?;
         let tree::ExprKind::Name(name) = &base.kind else { return None };
         let id = match (name.as_str(), member.node.as_str()) {
             ("truth", "position") => test.names.position,
             ("truth", "nearest_source") => test.names.nearest_source,
+            ("truth", "start") => test.names.start,
+            ("truth", "deepest") => test.names.deepest,
+            ("truth", other) => {
+                let finding =
+                    Diagnostic::error("tests::truth", member.span, format!("there is no `truth.{other}` to ask for"));
+                let finding = match self.suggestion(other, TRUTHS) {
+                    Some(help) => finding.help(help),
+                    None => finding,
+                };
+                self.report(finding);
+                return Some(self.unknown(span));
+            }
             _ => {
                 let full = &self.activity_signatures[test.mission].name;
                 let mission = full.rsplit('.').next().unwrap_or(full);
@@ -178,6 +197,29 @@ impl<'t> Checker<'t> {
                 own.then_some(test.names.area)?
             }
         };
+        Some(self.variable(id, span))
+    }
+
+    /// `truth.depth_at(p)`: how deep the water truly is at a point.
+    pub(super) fn test_method(
+        &mut self,
+        base: &tree::Expr,
+        member: &tree::Name,
+        args: &[tree::Arg],
+        span: Span,
+    ) -> Option<Expr> {
+        self.test.as_ref()?;
+        let is_truth = matches!(&base.kind, tree::ExprKind::Name(name) if name == "truth");
+        if !is_truth || member.node != "depth_at" {
+            return None;
+        }
+        let Some(given) = self.simple_args("depth_at", &[("point", Type::Point)], args, span) else {
+            return Some(self.unknown(span));
+        };
+        let id = self.declare_hidden("truth.depth_at".into(), VarKind::Signal, Type::Quantity(Dimension::LENGTH), span);
+        if let Some(test) = &mut self.test {
+            test.depths.extend(given.into_iter().map(|point| (point, id)));
+        }
         Some(self.variable(id, span))
     }
 

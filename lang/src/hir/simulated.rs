@@ -58,6 +58,8 @@ pub struct Test {
     pub vars: Vec<Var>,
     /// Which of them is what.
     pub known: TestNames<VarId>,
+    /// The points whose true water depth is asked for, and where the answers go; what one asks with comes before it.
+    pub depths: Vec<(Expr, VarId)>,
 }
 
 /// What the expectations of a test speak of: variables here, the words that hold them once lowered.
@@ -67,6 +69,10 @@ pub struct TestNames<T> {
     pub position: T,
     /// The true source nearest to the latest report, else to the vehicle.
     pub nearest_source: T,
+    /// Where the vehicle started.
+    pub start: T,
+    /// The deepest point of the mission's area.
+    pub deepest: T,
     /// Seconds since the run began.
     pub time: T,
     /// Whether the mission came to its own end.
@@ -106,6 +112,8 @@ impl<T: Copy> TestNames<T> {
         TestNames {
             position: f(self.position),
             nearest_source: f(self.nearest_source),
+            start: f(self.start),
+            deepest: f(self.deepest),
             time: f(self.time),
             completed: f(self.completed),
             area: f(self.area),

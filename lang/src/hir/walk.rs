@@ -79,6 +79,7 @@ impl Stmt {
             | StmtKind::ForRange { body, .. }
             | StmtKind::ForList { body, .. }
             | StmtKind::ForEdges { body, .. }
+            | StmtKind::ForRows { body, .. }
             | StmtKind::While { body, .. } => vec![body],
             _ => Vec::new(),
         }
@@ -172,6 +173,11 @@ pub fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
             }
             StmtKind::ForList { list: e, body, .. } | StmtKind::ForEdges { area: e, body, .. } => {
                 f(e);
+                block_children(body, f);
+            }
+            StmtKind::ForRows { area, step, body, .. } => {
+                f(area);
+                f(step);
                 block_children(body, f);
             }
             StmtKind::While { condition, body, .. } => {

@@ -71,6 +71,7 @@ impl<'a> Lowering<'a> {
             }
             StmtKind::ForList { var, list, body } => self.for_list(*var, list, body),
             StmtKind::ForEdges { var, area, body } => self.for_edges(*var, area, body),
+            StmtKind::ForRows { var, area, step, body } => self.for_rows(*var, area, step, body),
             StmtKind::While { condition, bind, body } => {
                 let top = self.here();
                 let unless = self.scratch(|l| {
@@ -191,16 +192,39 @@ impl<'a> Lowering<'a> {
         self.land(done);
     }
 
-    fn for_edges(&mut self, var: usize, area: &Expr, body: &Block) {
-        // An area that is a variable cannot change while it is walked; any other is copied.
-        let area = match area.kind {
+    /// An area that is a variable cannot change while it is walked; any other is copied.
+    fn walked_area(&mut self, area: &Expr) -> Slot {
+        match area.kind {
             hir::ExprKind::Var(id) => self.frame.vars[id],
             _ => {
                 let copy = self.lasting(self.words(&Type::Area));
                 self.scratch(|l| l.expr_into(area, copy));
                 copy
             }
-        };
+        }
+    }
+
+    /// Each row is computed when its turn comes: there are none left when there is none of the next index.
+    fn for_rows(&mut self, var: usize, area: &Expr, step: &Expr, body: &Block) {
+        let area = self.walked_area(area);
+        let (apart, counter) = (self.lasting(1), self.lasting(1));
+        self.scratch(|l| l.expr_into(step, apart));
+        self.emit(Op::Const { to: counter, value: 0.0 });
+        let top = self.here();
+        let to = self.frame.vars[var];
+        let done = self.scratch(|l| {
+            let there = l.temp(1);
+            l.emit(Op::RowAt { to, there, area, step: apart, index: counter });
+            l.emit(Op::JumpUnless { unless: there, to: 0 })
+        });
+        self.body(body);
+        self.count_up(counter);
+        self.emit(Op::Jump { to: top });
+        self.land(done);
+    }
+
+    fn for_edges(&mut self, var: usize, area: &Expr, body: &Block) {
+        let area = self.walked_area(area);
         let counter = self.lasting(1);
         self.emit(Op::Const { to: counter, value: 0.0 });
         let top = self.here();

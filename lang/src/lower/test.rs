@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, When, children};
+use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children};
 use crate::source::Sources;
 use crate::types::TypeTable;
 use albacore_program::{Code, Program, Shape, Slot};
@@ -42,6 +42,8 @@ pub struct ExpectProgram {
     pub place: String,
     /// When it must hold; at the end in this share of the runs, or always.
     pub share: Option<f64>,
+    /// The points whose true water depth it asks for, in order, and where the answers go.
+    pub depths: Vec<(Code, Slot)>,
     /// The condition.
     pub holds: Code,
     /// The reports that it speaks of.
@@ -59,6 +61,9 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     for expect in &test.expects {
         lowering.prepare(&expect.holds);
     }
+    for (point, _) in &test.depths {
+        lowering.prepare(point);
+    }
     let lowered = std::cell::RefCell::new((Vec::new(), None));
     let words = lowering.twice(&test.vars, 0, |l| {
         let at = |id: usize| l.frame.vars[id];
@@ -71,7 +76,10 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
             .iter()
             .map(|expect| {
                 let mut needs = Vec::new();
-                unwrapped(&expect.holds, &mut needs);
+                let mut asked = Vec::new();
+                depths(&expect.holds, &test.depths, &mut asked);
+                let conditions = asked.iter().map(|(point, _)| point).chain([&expect.holds]);
+                conditions.for_each(|e| unwrapped(e, &mut needs));
                 let needs = reports.iter().filter(|(id, _)| needs.contains(id)).map(|(_, slot)| *slot).collect();
                 let mut sides = Vec::new();
                 compared(&expect.holds, &mut sides);
@@ -86,6 +94,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                         When::AtTheEnd(share) => Some(share),
                         When::Always => None,
                     },
+                    depths: asked.into_iter().map(|(point, to)| (l.code(point), l.frame.vars[*to])).collect(),
                     holds: l.code(&expect.holds),
                     needs,
                     watched,
@@ -123,6 +132,17 @@ fn unwrapped(e: &Expr, out: &mut Vec<usize>) {
         out.push(id);
     }
     children(e, &mut |child| unwrapped(child, out));
+}
+
+/// The true depths that an expression asks for, those that they are asked with before them.
+fn depths<'e>(e: &Expr, known: &'e [(Expr, VarId)], out: &mut Vec<&'e (Expr, VarId)>) {
+    if let ExprKind::Var(id) = e.kind
+        && let Some(asked) = known.iter().find(|(_, answer)| *answer == id)
+    {
+        depths(&asked.0, known, out);
+        out.push(asked);
+    }
+    children(e, &mut |child| depths(child, known, out));
 }
 
 /// Both sides of the comparisons of a condition, constants left out.

@@ -8,8 +8,10 @@ mod geodetic;
 mod heading;
 pub mod math;
 mod plane;
+mod rows;
 
 pub use area::{AREA_CORNERS_MAX, Area, AreaError, Edge};
 pub use geodetic::{Geodetic, TangentFrame};
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};
+pub use rows::{ROWS_MAX, row};

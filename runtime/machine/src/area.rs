@@ -2,7 +2,7 @@
 
 use crate::execute::bounded;
 use crate::state::Run;
-use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector};
+use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector, row};
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Slot};
 
 /// Corners whose coordinates along a direction differ by less than this, in metres, are equally far.
@@ -31,6 +31,11 @@ impl Run {
         Line { start: self.point(at), end: self.point(at + 2) }
     }
 
+    pub fn set_line(&mut self, at: Slot, line: Line) {
+        self.set_point(at, line.start);
+        self.set_point(at + 2, line.end);
+    }
+
     pub fn set_area(&mut self, to: Slot, area: Option<&Area>) {
         self.state.words[to as usize..(to + AREA_WORDS) as usize].fill(0.0);
         let Some(area) = area else { return };
@@ -55,13 +60,16 @@ impl Run {
         Edge { line, normal: self.vector(area + 1 + AREA_CORNER_WORDS * i + 2) }
     }
 
+    pub fn row_of(&self, area: Slot, step: f64, index: u32) -> Option<Line> {
+        row((0..self.corners(area)).map(|i| self.edge_of(area, i)), step, index)
+    }
+
     pub fn edge(&self, at: Slot) -> Edge {
         Edge { line: self.line(at), normal: self.vector(at + 4) }
     }
 
     pub fn set_edge(&mut self, at: Slot, edge: Edge) {
-        self.set_point(at, edge.line.start);
-        self.set_point(at + 2, edge.line.end);
+        self.set_line(at, edge.line);
         self.set_vector(at + 4, edge.normal);
     }
 

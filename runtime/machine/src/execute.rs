@@ -133,6 +133,13 @@ impl Run {
                     let edge = self.edge_of(b(area), self.get(b(index)) as u32);
                     self.set_edge(b(to), edge);
                 }
+                Op::RowAt { to, there, area, step, index } => {
+                    let row = self.row_of(b(area), self.get(b(step)), self.get(b(index)) as u32);
+                    self.set(b(there), truth(row.is_some()));
+                    if let Some(row) = row {
+                        self.set_line(b(to), row);
+                    }
+                }
                 Op::NearestEdge { to, area, point } => {
                     let edge = self.nearest_edge(b(area), self.point(b(point)));
                     self.set_edge(b(to), edge);

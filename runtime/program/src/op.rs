@@ -236,6 +236,14 @@ pub enum Op {
         area: Slot,
         index: Slot,
     },
+    /// The row of an index of those that lie `step` metres apart; `there` tells whether there is one.
+    RowAt {
+        to: Slot,
+        there: Slot,
+        area: Slot,
+        step: Slot,
+        index: Slot,
+    },
     NearestEdge {
         to: Slot,
         area: Slot,

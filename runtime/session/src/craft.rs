@@ -37,6 +37,14 @@ impl Craft {
         }
     }
 
+    /// How deep the water is at a point, m: known in simulation only.
+    pub fn water_depth(&self, at: Point) -> Option<f64> {
+        match self {
+            Craft::Simulated(simulator) => Some(simulator.water_depth(at)),
+            Craft::Linked(_) => None,
+        }
+    }
+
     /// The plume's filaments, for the picture.
     pub fn filaments(&self) -> Vec<(Point, f64)> {
         match self {

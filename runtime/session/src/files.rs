@@ -5,7 +5,8 @@ use albacore_lang::{Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 7] = [
+const STDLIB: [(&str, &str); 8] = [
+    ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),

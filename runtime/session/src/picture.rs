@@ -1,7 +1,7 @@
 //! What the picture of a run is made of, gathered while it goes.
 
 use crate::summary::Summary;
-use albacore_geometry::{Point, Vector};
+use albacore_geometry::Point;
 use albacore_program::number;
 use albacore_trace::Picture;
 
@@ -31,15 +31,8 @@ impl Sketch {
         self.declared.push((name.to_string(), at));
     }
 
-    pub fn svg(
-        &self,
-        summary: &Summary,
-        area: Vec<Point>,
-        plume: Vec<(Point, f64)>,
-        sources: Vec<(String, Point)>,
-        start: Point,
-        flow: Option<Vector>,
-    ) -> String {
+    /// The picture of all that was gathered, in the world that is known.
+    pub fn svg(&self, summary: &Summary, world: Picture) -> String {
         let mut subtitle = vec![format!(
             "scenario {}, seed {}: {} after {}",
             summary.scenario,
@@ -47,25 +40,20 @@ impl Sketch {
             summary.outcome.replace('_', " "),
             number::seconds(summary.ticks).trim()
         )];
+        let sought = if world.deepest.is_some() { "deepest point" } else { "nearest true one" };
         for report in &summary.reports {
-            let error = report
-                .error_m
-                .map(|e| format!(", {} from the nearest true one", number::metres(e)))
-                .unwrap_or_default();
+            let error =
+                report.error_m.map(|e| format!(", {} from the {sought}", number::metres(e))).unwrap_or_default();
             subtitle.push(format!("{} declared at {} s{error}", report.name, number::fixed(report.t_s, 1)));
         }
         Picture {
             title: summary.mission.clone(),
             subtitle,
-            area,
-            plume,
             track: self.track.clone(),
             behaviors: self.behaviors.clone(),
             detections: self.detections.clone(),
             declared: self.declared.clone(),
-            sources,
-            start: Some(start),
-            flow,
+            ..world
         }
         .svg()
     }

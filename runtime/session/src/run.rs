@@ -5,14 +5,14 @@ use crate::journal::Keeper;
 use crate::picture;
 use crate::summary::{Report, Summary};
 use crate::world;
-use albacore_geometry::{Heading, Point, TangentFrame, Vector};
+use albacore_geometry::{Area, Heading, Point, TangentFrame, Vector};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{Script, suggestion};
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_program::{AREA_WORDS, PROGRAM_VERSION, Program, Shape};
 use albacore_sim::{Scenario, Simulator};
 use albacore_trace::journal::{Closing, JournalHeader, SourceDigest};
-use albacore_trace::{BehaviorTrace, Digest, Header};
+use albacore_trace::{BehaviorTrace, Depths, Digest, Header, Picture};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, Vertical};
 use std::io;
 use std::sync::Arc;
@@ -147,6 +147,8 @@ pub struct Run {
     reason: String,
     switches: u64,
     odometer: Odometer,
+    /// The deepest point of the mission's area, once it has one; none where the water is equally deep everywhere.
+    deepest: Option<Point>,
     picture: picture::Sketch,
     /// Where the vehicle was first, for the picture.
     start: Option<Point>,
@@ -169,7 +171,8 @@ impl Run {
     pub fn new(plan: &Plan, seed: u64) -> Result<Self, PlanError> {
         let simulator = Simulator::new(&plan.scenario, seed)
             .map_err(|error| PlanError::Asked("the scenario cannot be".into(), Some(error.faults.join("; "))))?;
-        Run::with(plan, seed, Craft::Simulated(Box::new(simulator)), Some(plan.scenario.vehicle.start))
+        let start = simulator.truth().position;
+        Run::with(plan, seed, Craft::Simulated(Box::new(simulator)), Some(start))
     }
 
     /// A run on a vehicle at the end of a link, at its first tick; the seed only names it.
@@ -201,6 +204,7 @@ impl Run {
             reason: String::new(),
             switches: 0,
             odometer,
+            deepest: None,
             picture: picture::Sketch::default(),
             start,
             asked_for_control: false,
@@ -263,6 +267,34 @@ impl Run {
         sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
     }
 
+    /// Where the vehicle started.
+    pub fn start(&self) -> Point {
+        self.start.unwrap_or(Point::ORIGIN)
+    }
+
+    /// How deep the water truly is at a point, in metres; no number where the truth is not known.
+    pub fn water_depth(&self, at: Point) -> f64 {
+        self.vehicle.water_depth(at).unwrap_or(f64::NAN)
+    }
+
+    /// The deepest point of the mission's area, once it has one; none where the water is equally deep everywhere.
+    pub fn deepest(&self) -> Option<Point> {
+        self.deepest
+    }
+
+    /// The deepest point, where that is what is sought: there are pits to be found, and no sources.
+    fn deepest_sought(&self) -> Option<Point> {
+        let world = &self.plan.scenario;
+        self.deepest.filter(|_| world.sources.is_empty() && !world.bottom.pits.is_empty())
+    }
+
+    /// The corners of the mission's area, once it has one.
+    fn area_corners(&self) -> Vec<Point> {
+        let Some(words) = self.area_words() else { return Vec::new() };
+        let corner = |i: usize| 1 + albacore_program::AREA_CORNER_WORDS as usize * i;
+        (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
+    }
+
     /// The words of the mission's area, once it has one.
     pub(crate) fn area_words(&self) -> Option<&[f64]> {
         let program = &self.plan.program;
@@ -301,6 +333,10 @@ impl Run {
         let sent = command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
         let events = self.machine.events().to_vec();
         self.hear();
+        if self.deepest.is_none() && !self.plan.scenario.bottom.is_level() {
+            let area = Area::polygon(&self.area_corners()).ok();
+            self.deepest = area.map(|area| self.plan.scenario.bottom.deepest(&area));
+        }
         self.note(tick, &events);
         self.journal.tick(tick, &self.snapshot, command.as_ref(), &events);
         if let Err(error) = sent {
@@ -453,7 +489,7 @@ impl Run {
         let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
         let frame = self.plan.frame();
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
-        let error_m = place.and_then(|p| Some(self.nearest_source(p)?.distance(p)));
+        let error_m = place.and_then(|p| Some(self.nearest_source(p).or(self.deepest_sought())?.distance(p)));
         if let Some(place) = place {
             self.picture.declared(&site.name, place);
         }
@@ -494,22 +530,21 @@ impl Run {
 
     /// The picture of the run so far, as SVG.
     pub fn svg(&self) -> String {
-        let area = self.area_words().map(|words| {
-            let corner = |i: usize| 1 + albacore_program::AREA_CORNER_WORDS as usize * i;
-            (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
-        });
         let summary = self.summary(0.0);
         let scenario = &self.plan.scenario;
-        let flow = (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean);
-        let sources = scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect();
-        self.picture.svg(
-            &summary,
-            area.unwrap_or_default(),
-            self.vehicle.filaments(),
-            sources,
-            self.start.unwrap_or(Point::ORIGIN),
-            flow,
-        )
+        let (area, deepest) = (self.area_corners(), self.deepest_sought());
+        let sounded = if deepest.is_some() { area.as_slice() } else { &[] };
+        let world = Picture {
+            depths: Depths::sound(sounded, |p| self.water_depth(p)),
+            area,
+            plume: self.vehicle.filaments(),
+            sources: scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect(),
+            deepest,
+            start: self.start,
+            flow: (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean),
+            ..Picture::default()
+        };
+        self.picture.svg(&summary, world)
     }
 }
 

@@ -4,7 +4,9 @@ use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue};
 use albacore_machine::Evaluation;
 use albacore_program::{AREA_CORNER_WORDS, Slot};
-use albacore_sim::{Adcp, Bottom, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Plume, Scenario, Source};
+use albacore_sim::{
+    Adcp, Bottom, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Pit, Plume, Scenario, Sounder, Source,
+};
 
 /// A clause of a scenario with its numbers computed.
 struct Clause<'a> {
@@ -51,8 +53,15 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
                 to: c.number("to")?,
                 toward: c.heading("toward")?,
                 across: c.number("across")?,
+                pits: std::mem::take(&mut scenario.bottom.pits),
             };
         }
+        "pit" => scenario.bottom.pits.push(Pit {
+            name: c.text("name")?,
+            at: c.point("at")?,
+            depth: c.number("depth")?,
+            radius: c.number("radius")?,
+        }),
         "plume" => {
             let layer = c.number("layer")?;
             scenario.plume = Some(Plume {
@@ -76,6 +85,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
             let model = c.clause("model").ok_or("a vehicle needs a model: write `vehicle(kinematic, start: …)`")?;
             scenario.vehicle = KinematicVehicle {
                 start: c.point("start")?,
+                start_spread: c.number("spread")?,
                 heading: c.heading("heading")?,
                 depth: c.number("depth")?,
                 speed_max: model.number("speed_max")?,
@@ -109,6 +119,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
             };
         }
         "adcp" => scenario.adcp = Adcp { noise: c.number("noise")? },
+        "sounder" => scenario.sounder = Sounder { noise: c.number("noise")? },
         other => return Err(format!("the simulator knows no `{other}`")),
     }
     Ok(())

@@ -46,6 +46,7 @@ pub struct Report {
     pub latitude_deg: Option<f64>,
     /// Where on the globe.
     pub longitude_deg: Option<f64>,
-    /// In simulation the distance to the nearest true source.
+    /// In simulation the distance to the nearest true source; without sources, to the deepest point of the mission's area
+    /// where the bottom has pits.
     pub error_m: Option<f64>,
 }

@@ -2,6 +2,7 @@
 
 use crate::run::{Plan, PlanError, Run, Running};
 use crate::summary::Summary;
+use albacore_geometry::Point;
 use albacore_lang::{ExpectProgram, Script, TestProgram};
 use albacore_machine::Evaluation;
 use albacore_program::{AREA_WORDS, number};
@@ -91,28 +92,34 @@ fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError
             tell(&mut evaluation, test, &run, over);
         }
         for &i in always.iter().filter(|&&i| run.tick() > 1 && breaches[i].is_none()).collect::<Vec<_>>() {
-            breaches[i] = breach(&mut evaluation, test, &test.expects[i], run.tick());
+            breaches[i] = breach(&mut evaluation, test, &test.expects[i], &run);
         }
         if over {
             break;
         }
     }
     for (i, expect) in test.expects.iter().enumerate().filter(|(_, e)| e.share.is_some()) {
-        breaches[i] = breach(&mut evaluation, test, expect, run.tick());
+        breaches[i] = breach(&mut evaluation, test, expect, &run);
     }
     let trace = test.snapshots.contains(&seed).then(|| run.trace().to_string());
     Ok(Judged { seed, breaches, trace })
 }
 
 /// What was found, when an expectation does not hold.
-fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgram, tick: u64) -> Option<String> {
-    let when = number::seconds(tick.saturating_sub(1));
+fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgram, run: &Run) -> Option<String> {
+    let when = number::seconds(run.tick().saturating_sub(1));
     for need in &expect.needs {
         if evaluation.words(*need, 1)[0] == 0.0 {
             let mut reports = test.slots.reported.iter().chain(&test.slots.reported_at);
             let what = reports.find(|(_, slot)| slot == need).map_or("", |(name, _)| name);
             return Some(format!("nothing was reported as \"{what}\" ({})", when.trim()));
         }
+    }
+    for (point, answer) in &expect.depths {
+        evaluation.run(&test.program, point.entry);
+        let words = evaluation.words(point.value, 2);
+        let depth = run.water_depth(Point::new(words[0], words[1]));
+        evaluation.set(*answer, &[depth]);
     }
     evaluation.run(&test.program, expect.holds.entry);
     if evaluation.words(expect.holds.value, 1)[0] != 0.0 {
@@ -136,13 +143,16 @@ fn tell(evaluation: &mut Evaluation, test: &TestProgram, run: &Run, over: bool) 
     let slots = &test.slots;
     let position = run.true_position();
     evaluation.set(slots.position, &[position.north, position.east]);
+    let (start, deepest) = (run.start(), run.deepest().unwrap_or(position));
+    evaluation.set(slots.start, &[start.north, start.east]);
+    evaluation.set(slots.deepest, &[deepest.north, deepest.east]);
     evaluation.set(slots.time, &[run.tick().saturating_sub(1) as f64 * TICK_S]);
     evaluation.set(slots.area, run.area_words().unwrap_or(&[0.0; AREA_WORDS as usize]));
     let summary: Summary = run.summary(0.0);
     evaluation.set(slots.completed, &[f64::from(u8::from(over && summary.outcome == "completed"))]);
     let place = |r: &crate::Report| Some((r.north_m?, r.east_m?));
     let latest = summary.reports.iter().rev().find_map(place);
-    let from = latest.map_or(position, |(north, east)| albacore_geometry::Point::new(north, east));
+    let from = latest.map_or(position, |(north, east)| Point::new(north, east));
     let nearest = run.nearest_source(from).unwrap_or(from);
     evaluation.set(slots.nearest_source, &[nearest.north, nearest.east]);
     for (name, slot) in &slots.reported {

@@ -55,7 +55,8 @@ impl World {
             depth if depth > 0.0 => Vertical::Depth(depth),
             _ => Vertical::Altitude(ROWS_ALTITUDE),
         };
-        Ok(FrontSeat::new(simulator, self.frame, rows, (vehicle.start, vehicle.heading), vertical))
+        let start = simulator.truth().position;
+        Ok(FrontSeat::new(simulator, self.frame, rows, (start, vehicle.heading), vertical))
     }
 }
 

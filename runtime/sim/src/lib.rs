@@ -5,6 +5,7 @@
 //! the same bits in debug and release: every random number is a pure function of seed, stream and index ([`Noise`]).
 
 mod bottom;
+mod deepest;
 mod kinematics;
 mod noise;
 mod normal;
@@ -13,13 +14,15 @@ pub mod presets;
 mod scenario;
 mod sensors;
 mod simulator;
+mod start;
 mod validate;
 mod water;
 mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Plume, Scenario, Source, UpperFlow,
+    Adcp, Bottom, Flow, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Pit, Plume, Scenario, Sounder, Source,
+    UpperFlow,
 };
 pub use simulator::{CHANNELS, Simulator, Truth};
 pub use validate::ScenarioError;

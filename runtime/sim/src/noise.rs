@@ -31,6 +31,10 @@ pub enum Stream {
     GroundVelocity = 9,
     /// Noise of the acoustic position fixes.
     Lbl = 10,
+    /// Noise of the echo sounder.
+    Sounder = 11,
+    /// Where the vehicle starts.
+    Start = 12,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.

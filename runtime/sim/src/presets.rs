@@ -16,7 +16,7 @@ pub fn duck_2003_flat() -> Scenario {
     Scenario {
         region: Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0).ok(),
         flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), upper: None },
-        bottom: Bottom { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0 },
+        bottom: Bottom { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0, pits: Vec::new() },
         plume: Some(Plume::default()),
         sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
         vehicle: KinematicVehicle { start: place(527.0, -163.5), ..KinematicVehicle::default() },

@@ -28,6 +28,8 @@ pub struct Scenario {
     pub fluorometer: Fluorometer,
     /// The flow sensor.
     pub adcp: Adcp,
+    /// The echo sounder.
+    pub sounder: Sounder,
 }
 
 /// The water's motion.
@@ -98,7 +100,7 @@ impl Default for Meander {
     }
 }
 
-/// A plane bottom, level beyond either end of its slope.
+/// A plane bottom, level beyond either end of its slope, with pits in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bottom {
@@ -110,11 +112,33 @@ pub struct Bottom {
     pub toward: Heading,
     /// The length of the slope, m, centred on the frame's origin. Default 1000.
     pub across: f64,
+    /// Where it is deeper than the plane. Default none.
+    pub pits: Vec<Pit>,
+}
+
+/// A smooth round hollow in the bottom: a Gaussian.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Pit {
+    /// What it is called.
+    pub name: String,
+    /// Its middle. Default the frame's origin.
+    pub at: Point,
+    /// How much deeper than the plane it is in its middle, m. Default 1.
+    pub depth: f64,
+    /// The standard deviation of its Gaussian, m: there it is 61 % as deep as in its middle. Default 20.
+    pub radius: f64,
+}
+
+impl Default for Pit {
+    fn default() -> Self {
+        Pit { name: String::from("pit"), at: Point::ORIGIN, depth: 1.0, radius: 20.0 }
+    }
 }
 
 impl Default for Bottom {
     fn default() -> Self {
-        Bottom { from: 20.0, to: 20.0, toward: Heading::NORTH, across: 1000.0 }
+        Bottom { from: 20.0, to: 20.0, toward: Heading::NORTH, across: 1000.0, pits: Vec::new() }
     }
 }
 
@@ -180,6 +204,8 @@ impl Default for Source {
 pub struct KinematicVehicle {
     /// Where it starts. Default the frame's origin.
     pub start: Point,
+    /// Each seed starts somewhere else, evenly in a disc of this radius about `start`, m. Default 0: all there.
+    pub start_spread: f64,
     /// Its heading at the start. Default north.
     pub heading: Heading,
     /// Its depth at the start, m. Default 0.
@@ -208,6 +234,7 @@ impl Default for KinematicVehicle {
     fn default() -> Self {
         KinematicVehicle {
             start: Point::ORIGIN,
+            start_spread: 0.0,
             heading: Heading::NORTH,
             depth: 0.0,
             speed_max: 2.6,
@@ -290,4 +317,12 @@ impl Default for Adcp {
     fn default() -> Self {
         Adcp { noise: 0.05 }
     }
+}
+
+/// The echo sounder, read at every tick: the height above the bottom, and with the vehicle's depth that of the water.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Sounder {
+    /// Standard deviation of one echo, m. Default 0.
+    pub noise: f64,
 }

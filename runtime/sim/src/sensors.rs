@@ -3,7 +3,9 @@
 mod fluorometer;
 mod position;
 mod profiler;
+mod sounder;
 
 pub use fluorometer::Fluorometer;
 pub use position::Positioning;
 pub use profiler::{Profiler, View};
+pub use sounder::EchoSounder;

@@ -2,7 +2,7 @@
 
 use crate::kinematics::Kinematics;
 use crate::scenario::Scenario;
-use crate::sensors::{Fluorometer, Positioning, Profiler, View};
+use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
 use crate::validate::ScenarioError;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
@@ -73,6 +73,7 @@ pub struct Simulator {
     positioning: Positioning,
     profiler: Profiler,
     fluorometer: Fluorometer,
+    sounder: EchoSounder,
     endurance: f64,
     control: Control,
     command: Option<Command>,
@@ -87,18 +88,20 @@ impl Simulator {
         scenario.validate()?;
         let channels = CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect();
         let world = World::new(scenario, seed);
-        let start = scenario.vehicle.start;
-        let altitude = world.water_depth(start) - scenario.vehicle.depth;
+        let vehicle = scenario.vehicle.placed(seed);
+        let start = vehicle.start;
+        let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
             channels,
-            vehicle: Kinematics::new(&scenario.vehicle, world.flow(start, altitude, 0.0), seed),
+            vehicle: Kinematics::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),
             intake_ahead: scenario.fluorometer.ahead,
             positioning: Positioning::new(scenario.navigation.as_ref(), start, seed),
             profiler: Profiler::new(scenario.adcp.noise, seed),
             fluorometer: Fluorometer::new(&scenario.fluorometer, seed),
-            endurance: scenario.vehicle.endurance,
+            sounder: EchoSounder::new(&scenario.sounder, seed),
+            endurance: vehicle.endurance,
             control: Control::Disconnected,
             command: None,
             truth: Truth::default(),
@@ -117,6 +120,11 @@ impl Simulator {
     /// Seconds since tick 0, at the tick last sensed.
     pub fn time_s(&self) -> f64 {
         self.tick.unwrap_or(0) as f64 * TICK_S
+    }
+
+    /// The water's true depth at a point, m.
+    pub fn water_depth(&self, p: Point) -> f64 {
+        self.world.water_depth(p)
     }
 
     /// The plume's filaments now: where they are, and their radii (standard deviations of Gaussians) in metres.
@@ -183,14 +191,15 @@ impl Simulator {
 
     fn measure(&mut self, tick: u64, snapshot: &mut Snapshot) {
         let truth = self.truth;
+        let echo = self.sounder.reading(tick, truth.altitude);
         let (position, sigma) = self.positioning.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
         snapshot.push(COURSE, &[truth.course.radians()]);
         snapshot.push(HEADING, &[truth.heading.radians()]);
         snapshot.push(SPEED, &[truth.speed_over_ground]);
         snapshot.push(DEPTH, &[truth.depth]);
-        snapshot.push(ALTITUDE, &[truth.altitude]);
-        snapshot.push(WATER_DEPTH, &[truth.depth + truth.altitude]);
+        snapshot.push(ALTITUDE, &[echo]);
+        snapshot.push(WATER_DEPTH, &[truth.depth + echo]);
         let view = View {
             ground_velocity: self.vehicle.ground_velocity,
             flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),

@@ -69,6 +69,13 @@ impl Scenario {
         faults.positive("bottom.to", self.bottom.to);
         faults.positive("bottom.across", self.bottom.across);
         faults.finite("bottom.toward", [self.bottom.toward.radians(), 0.0]);
+        for pit in &self.bottom.pits {
+            let name = &pit.name;
+            faults.finite(&format!("pit {name}: at"), [pit.at.north, pit.at.east]);
+            // A pit only deepens, so that the water is nowhere shallower than the plane.
+            faults.positive(&format!("pit {name}: depth"), pit.depth);
+            faults.positive(&format!("pit {name}: radius"), pit.radius);
+        }
         // An area that was read from a file has not met its constructor.
         if let Some(Err(error)) = self.region.as_ref().map(|region| Area::polygon(region.corners())) {
             faults.0.push(format!("`region`: {error}"));
@@ -180,8 +187,11 @@ impl Scenario {
         let v = &self.vehicle;
         faults.finite("vehicle.start", [v.start.north, v.start.east]);
         faults.finite("vehicle.heading", [v.heading.radians(), 0.0]);
+        faults.not_negative("vehicle.start_spread", v.start_spread);
         faults.not_negative("vehicle.depth", v.depth);
-        let water = self.bottom.depth_at(v.start);
+        // Where the start is scattered it may be anywhere: as shallow as the plane ever is.
+        let water =
+            if v.start_spread > 0.0 { self.bottom.from.min(self.bottom.to) } else { self.bottom.depth_at(v.start) };
         faults.unless(
             v.depth <= water || !water.is_finite(),
             format!(
@@ -235,6 +245,7 @@ impl Scenario {
         );
         faults.finite("fluorometer.ahead", [fluorometer.ahead, 0.0]);
         faults.not_negative("adcp.noise", self.adcp.noise);
+        faults.not_negative("sounder.noise", self.sounder.noise);
     }
 }
 

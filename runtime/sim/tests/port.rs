@@ -1,7 +1,7 @@
 //! The simulator as a machine sees it: through the port alone.
 
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_sim::{Bottom, Flow, Fluorometer, Lbl, Navigation, Scenario, Simulator, UpperFlow, presets};
+use albacore_sim::{Bottom, Flow, Fluorometer, Lbl, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow, presets};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 
@@ -151,4 +151,38 @@ fn impossible_plumes_are_refused() {
     }
     assert_eq!(presets::duck_2003().validate(), Ok(()));
     assert_eq!(presets::duck_2003_flat().validate(), Ok(()));
+}
+
+#[test]
+fn over_a_pit_the_water_is_deeper_and_echoes_are_as_noisy_as_told() {
+    let pit = Pit { at: Point::new(60.0, 3.0), depth: 2.0, radius: 15.0, ..Pit::default() };
+    let bottom = Bottom { pits: vec![pit], ..Bottom::flat(10.0) };
+    let mut over = Scenario { bottom, ..scenario() };
+    let exact = driven(&over, 60, "water_depth").unwrap();
+    let deepest = exact.iter().map(|sample| sample[0]).fold(0.0, f64::max);
+    assert!((deepest - 12.0).abs() < 0.02 && (exact[0][0] - 10.0).abs() < 0.01, "{deepest}");
+
+    over.sounder = Sounder { noise: 0.05 };
+    let errors: Vec<f64> = driven(&over, 60, "water_depth")
+        .unwrap()
+        .iter()
+        .zip(&exact)
+        .map(|(noisy, exact)| noisy[0] - exact[0])
+        .collect();
+    let deviation = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+    assert!((deviation - 0.05).abs() < 0.005, "{deviation}");
+}
+
+#[test]
+fn impossible_pits_and_starts_are_refused() {
+    let mut bad = scenario();
+    bad.bottom.pits = vec![Pit { depth: -1.0, radius: 0.0, ..Pit::default() }];
+    bad.bottom.to = 4.0;
+    bad.vehicle.depth = 5.0;
+    assert!(!bad.validate().unwrap_err().to_string().contains("below the bottom"), "it starts where the water is 7 m");
+    bad.vehicle.start_spread = 50.0;
+    bad.sounder.noise = f64::NAN;
+    let said = bad.validate().unwrap_err();
+    assert_eq!(said.faults.len(), 4, "{said}");
+    assert!(said.to_string().contains("`pit pit: depth` is -1") && said.to_string().contains("below the bottom"));
 }

@@ -118,6 +118,7 @@ fn chase(
         sources: vec![("dye".to_string(), source)],
         start: Some(start),
         flow: Some(0.125 * down.unit()),
+        ..Picture::default()
     })
 }
 

@@ -15,4 +15,4 @@ mod words;
 pub use behavior::{BehaviorTrace, Header};
 pub use compare::{Difference, first_difference, same_behavior};
 pub use digest::Digest;
-pub use picture::Picture;
+pub use picture::{Depths, Picture};

@@ -1,6 +1,7 @@
 //! The picture of a run: a chart of the track, the plume and what was found, as an SVG that needs nothing else.
 
 mod chart;
+mod contours;
 mod frame;
 mod labels;
 mod panel;
@@ -8,6 +9,7 @@ mod svg;
 mod track;
 
 use albacore_geometry::{Point, Vector};
+pub use contours::Depths;
 use frame::Frame;
 use svg::Svg;
 
@@ -44,6 +46,10 @@ pub struct Picture {
     pub declared: Vec<(String, Point)>,
     /// The true sources, by name.
     pub sources: Vec<(String, Point)>,
+    /// The bottom's shape, where it is what is searched.
+    pub depths: Depths,
+    /// The deepest point of the operating area, where it is what is searched.
+    pub deepest: Option<Point>,
     /// Where the vehicle started.
     pub start: Option<Point>,
     /// The mean flow, in m/s.
@@ -83,7 +89,14 @@ impl Picture {
     /// All points that must be on the chart. The plume may leave it.
     fn extent(&self) -> impl Iterator<Item = Point> {
         let places = self.declared.iter().chain(&self.sources).map(|(_, p)| *p);
-        let all = self.area.iter().copied().chain(self.track.iter().map(|(p, _)| *p)).chain(places).chain(self.start);
+        let all = self
+            .area
+            .iter()
+            .copied()
+            .chain(self.track.iter().map(|(p, _)| *p))
+            .chain(places)
+            .chain(self.start)
+            .chain(self.deepest);
         all.filter(|p| is_place(*p))
     }
 }

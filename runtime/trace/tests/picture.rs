@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that fails may panic")]
 
 use albacore_geometry::{Area, Heading, Point, Vector};
-use albacore_trace::{Digest, Picture};
+use albacore_trace::{Depths, Digest, Picture};
 
 fn full() -> Picture {
     let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0).unwrap();
@@ -20,6 +20,7 @@ fn full() -> Picture {
         sources: vec![("dye".into(), Point::ORIGIN)],
         start: Some(Point::new(-300.0, 200.0)),
         flow: Some(Vector::new(-0.0957, 0.0803)),
+        ..Picture::default()
     }
 }
 
@@ -116,4 +117,16 @@ fn only_behaviors_that_were_active_are_in_the_legend() {
     picture.track.retain(|(_, behavior)| *behavior != 5);
     let svg = picture.svg();
     assert!(svg.contains(">b4<") && !svg.contains(">b5<"));
+}
+
+#[test]
+fn a_searched_bottom_is_drawn_as_lines_of_equal_depth() {
+    let pit = |p: Point| 4.0 + 2.0 / (1.0 + p.distance(Point::new(20.0, -30.0)) / 40.0);
+    let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 320.0, 220.0).unwrap();
+    let depths = Depths::sound(area.corners(), pit);
+    let deepest = Some(Point::new(20.0, -30.0));
+    let svg = Picture { area: area.corners().to_vec(), depths, deepest, ..Picture::default() }.svg();
+    check(&svg);
+    assert!(svg.contains("depth, every 0.2 m") && svg.contains("truly deepest"));
+    assert!(svg.matches("stroke-opacity").count() > 6 && svg.len() < 100_000, "{} bytes", svg.len());
 }

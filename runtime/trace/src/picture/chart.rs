@@ -1,4 +1,4 @@
-//! The chart itself, from the bottom up: water, grid, plume, area, track, detections, marks, labels.
+//! The chart itself, from the bottom up: water, grid, depths, plume, area, track, detections, marks, labels.
 
 use super::{Picture, frame::Frame, is_place, labels::Labels, style, svg::Svg, svg::px, track::Run};
 use albacore_geometry::Point;
@@ -29,6 +29,7 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     svg.raw("<g clip-path=\"url(#chart)\">");
     area(svg, picture, frame, "fill=\"#fff\"");
     grid(svg, frame);
+    picture.depths.draw(svg, frame);
     plume(svg, picture, frame);
     area(svg, picture, frame, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"8 5\"");
     detections(svg, picture, frame);
@@ -136,8 +137,9 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
         named.iter().filter(|(_, p)| is_place(*p)).map(|(name, p)| (name.clone(), frame.place(*p))).collect()
     };
     let (sources, declared) = (places(&picture.sources), places(&picture.declared));
-    let start = picture.start.filter(|p| is_place(*p)).map(|p| frame.place(p));
+    let [start, deepest] = [picture.start, picture.deepest].map(|p| p.filter(|p| is_place(*p)).map(|p| frame.place(p)));
     let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
+    taken.extend(deepest.map(|at| (at, RING)));
     taken.extend(declared.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
     let mut outline: Vec<_> = picture.area.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect();
     outline.extend(outline.first().copied());
@@ -145,7 +147,7 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let mut labels = Labels::new(lines, &taken);
 
     start.into_iter().for_each(|at| start_mark(svg, at));
-    sources.iter().for_each(|(_, at)| source_mark(svg, *at));
+    sources.iter().map(|(_, at)| *at).chain(deepest).for_each(|at| source_mark(svg, at));
     declared.iter().for_each(|(_, at)| declared_mark(svg, *at));
     for (name, at) in &declared {
         labels.put(svg, frame, *at, name, "#111");

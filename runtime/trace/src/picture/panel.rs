@@ -1,6 +1,6 @@
 //! The panel beside the chart: north, flow, scale bar, and what the colours and marks mean.
 
-use super::{Picture, chart, frame::Frame, frame::round_down, is_place, style, svg, svg::Svg, svg::px};
+use super::{Picture, chart, contours, frame::Frame, frame::round_down, is_place, style, svg, svg::Svg, svg::px};
 use albacore_geometry::Vector;
 use albacore_program::number;
 
@@ -31,13 +31,14 @@ pub struct Panel<'a> {
     picture: &'a Picture,
     scale: f64,
     behaviors: Vec<u16>,
-    marks: Vec<(&'static str, Mark)>,
+    marks: Vec<(String, Mark)>,
 }
 
 impl<'a> Panel<'a> {
     /// The panel for a picture: it names only what is to be seen.
     pub fn new(picture: &'a Picture, frame: &Frame) -> Self {
         let seen: std::collections::BTreeSet<u16> = picture.track.iter().map(|(_, behavior)| *behavior).collect();
+        let depths = picture.depths.legend();
         let there = [
             (picture.start.is_some(), "start", chart::start_mark as Mark),
             (!picture.area.is_empty(), "operating area", area_mark),
@@ -45,8 +46,11 @@ impl<'a> Panel<'a> {
             (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),
             (!picture.declared.is_empty(), "declared", chart::declared_mark),
             (!picture.sources.is_empty(), "true source", chart::source_mark),
+            (picture.deepest.is_some(), "truly deepest", chart::source_mark),
+            (!depths.is_empty(), &depths, depth_mark),
         ];
-        let marks = there.into_iter().filter(|(there, ..)| *there).map(|(_, name, mark)| (name, mark)).collect();
+        let marks =
+            there.into_iter().filter(|(there, ..)| *there).map(|(_, name, mark)| (name.to_string(), mark)).collect();
         Panel { picture, scale: frame.scale, behaviors: seen.into_iter().collect(), marks }
     }
 
@@ -157,6 +161,13 @@ fn whole_degrees(flow: Vector) -> String {
 fn area_mark(svg: &mut Svg, (x, y): (f64, f64)) {
     let corners = [(x - 13.0, y - 6.0), (x + 13.0, y - 6.0), (x + 13.0, y + 6.0), (x - 13.0, y + 6.0)];
     svg.path(&corners, true, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"5 3\"");
+}
+
+fn depth_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    for (dy, opacity) in [(-4.0, "0.4"), (0.0, "0.7"), (4.0, "1")] {
+        let attributes = format!("stroke=\"{}\" stroke-opacity=\"{opacity}\"", contours::COLOUR);
+        svg.line((x - 13.0, y + dy), (x + 13.0, y + dy), &attributes);
+    }
 }
 
 fn plume_mark(svg: &mut Svg, (x, y): (f64, f64)) {
