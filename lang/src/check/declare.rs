@@ -49,7 +49,7 @@ impl<'t> Checker<'t> {
                 }
             }
         }
-        if self.calls_too_deep() {
+        if self.recursion() || self.calls_too_deep() {
             return;
         }
         // Whether a behavior can end depends on what it calls: tables come when all bodies are known.

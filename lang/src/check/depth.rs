@@ -34,8 +34,7 @@ fn too_deep(count: usize, calls: &dyn Fn(usize) -> Vec<usize>) -> Option<usize> 
     (0..count).find_map(|id| height(id, 0, calls, &mut heights).err())
 }
 
-/// How deep calls lead from here; an error where they lead too deep. What is being asked counts as nothing: recursion is an
-/// error of its own.
+/// How deep calls lead from here, where they lead back nowhere; an error where they lead too deep.
 fn height(
     id: usize,
     depth: usize,

@@ -16,6 +16,7 @@ mod members;
 mod names;
 mod operators;
 mod params;
+mod recursion;
 mod scenario;
 mod sense;
 mod table;

@@ -226,7 +226,7 @@ impl<'a> Lowering<'a> {
         self.path
             .iter()
             .rev()
-            .find_map(|(name, _)| hir.activities.iter().find(|a| a.owner.is_none() && a.full_name == *name))
+            .find_map(|name| hir.activities.iter().find(|a| a.owner.is_none() && a.full_name == *name))
             .map_or(&[], |a| &a.vars)
     }
 

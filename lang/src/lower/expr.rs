@@ -1,7 +1,6 @@
 //! Expressions to code.
 
 use super::{FnCode, Lowering};
-use crate::diagnostic::Diagnostic;
 use crate::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart};
 use crate::types::Type;
 use albacore_program::{Code, Input, Op, Slot, Text, Valued};
@@ -190,10 +189,7 @@ impl<'a> Lowering<'a> {
             return *code;
         }
         let function = &self.hir.fns[id];
-        let span = function.vars.first().map_or_else(|| function.body.value.as_ref().map(|v| v.span), |v| Some(v.span));
-        if self.recursion(&function.name, span) {
-            return FnCode { entry: 0, result: 0, words: 1 };
-        }
+        self.path.push(function.name.clone());
         self.prepare_block(&function.body);
         for order in function.vars.iter().filter_map(|v| v.order.as_ref()) {
             self.prepare(&order.key);
@@ -212,28 +208,6 @@ impl<'a> Lowering<'a> {
         let code = FnCode { entry: entry.get(), result: result.get(), words };
         self.fns.insert(id, code);
         code
-    }
-
-    /// Whether this is being lowered already; if not, it is from now on.
-    pub(super) fn recursion(&mut self, name: &str, span: Option<crate::source::Span>) -> bool {
-        let Some(start) = self.path.iter().position(|(n, _)| n == name) else {
-            if let Some(span) = span.or_else(|| self.path.last().map(|(_, s)| *s)) {
-                self.path.push((name.to_string(), span));
-            }
-            return false;
-        };
-        let mut chain: Vec<&str> = self.path[start..].iter().map(|(n, _)| n.as_str()).collect();
-        chain.push(name);
-        let finding = Diagnostic::error(
-            "flow::recursion",
-            self.path[start].1,
-            format!("`{name}` calls itself: {}", chain.join(" -> ")),
-        )
-        .help("what is called must be known before launch: use a loop");
-        if !self.findings.contains(&finding) {
-            self.findings.push(finding);
-        }
-        true
     }
 
     fn builtin(&mut self, op: Builtin, operands: &[Expr], to: Slot) {

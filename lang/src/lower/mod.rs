@@ -52,8 +52,8 @@ struct Lowering<'a> {
     origin: Option<Geodetic>,
     fns: BTreeMap<usize, FnCode>,
     units: BTreeMap<usize, UnitCode>,
-    /// What is being lowered, outermost first: to find recursion.
-    path: Vec<(String, Span)>,
+    /// The names of what is being lowered, outermost first.
+    path: Vec<String>,
     frame: Frame,
     findings: Vec<Diagnostic>,
     /// What a test gives the mission in place of its defaults.

@@ -2,7 +2,6 @@
 
 use super::{Lowering, UnitCode};
 use crate::hir::{self, Action, Block, Decl, Expr, ExprKind, StmtKind, activity_children, block_children, children};
-use albacore_program::header;
 
 impl<'a> Lowering<'a> {
     /// A declaration of the left margin with its own frame, lowered when first needed.
@@ -11,9 +10,7 @@ impl<'a> Lowering<'a> {
             return *unit;
         }
         let activity = &self.hir.activities[id];
-        if self.recursion(&activity.full_name, Some(activity.span)) {
-            return UnitCode { activity: 0, words: header::WORDS };
-        }
+        self.path.push(activity.full_name.clone());
         self.prepare_activity(id);
         let index = std::cell::Cell::new(0);
         let words = self.twice(&activity.vars, 0, |l| {
@@ -84,9 +81,7 @@ impl<'a> Lowering<'a> {
         block.each(&mut |stmt| match &stmt.kind {
             StmtKind::Timed(timed) => {
                 if let Action::Call(id, _) = timed.action {
-                    self.path.push((format!("the call of {}", self.hir.activities[id].full_name), stmt.span));
                     self.unit(id);
-                    self.path.pop();
                 }
             }
             StmtKind::With(items, _) => self.prepare_with(items),

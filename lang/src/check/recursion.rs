@@ -1,0 +1,92 @@
+//! What calls itself. There is no recursion in the language: what can ever be active is known before launch, and so is the
+//! memory that it takes.
+
+use super::Checker;
+use crate::diagnostic::Diagnostic;
+use crate::hir::calls_in;
+use crate::source::Span;
+
+impl<'t> Checker<'t> {
+    /// Reports what calls itself, each circle once; tells whether there is one.
+    pub(super) fn recursion(&mut self) -> bool {
+        let activities: Vec<Vec<usize>> = self.hir.activities.iter().map(|a| a.calls()).collect();
+        let of_activities = circles(&activities).into_iter().map(|circle| {
+            circle.iter().map(|&id| (self.hir.activities[id].name.clone(), self.hir.activities[id].span)).collect()
+        });
+        let fns: Vec<Vec<usize>> = self.hir.fns.iter().map(|f| calls_in(&f.body)).collect();
+        let of_fns = circles(&fns).into_iter().map(|circle| {
+            circle.iter().map(|&id| (self.hir.fns[id].name.clone(), self.fn_signatures[id].span)).collect()
+        });
+        let circles: Vec<Vec<(String, Span)>> = of_activities.chain(of_fns).collect();
+        for circle in &circles {
+            self.report(finding(circle));
+        }
+        !circles.is_empty()
+    }
+}
+
+fn finding(circle: &[(String, Span)]) -> Diagnostic {
+    let (first, span) = &circle[0];
+    let others: Vec<String> = circle[1..].iter().map(|(name, _)| format!("`{name}`")).collect();
+    let through = if others.is_empty() { String::new() } else { format!(" through {}", others.join(", ")) };
+    let mut finding = Diagnostic::error("flow::recursion", *span, format!("`{first}` calls itself{through}"))
+        .help("what can be active must be known before launch: use `loop` or `while`");
+    for (i, (_, span)) in circle.iter().enumerate().skip(1) {
+        finding = finding.label(*span, format!("is called by `{}`", circle[i - 1].0));
+    }
+    finding
+}
+
+/// The circles among calls: from each node that is part of one and of no circle found before, the way back to it.
+fn circles(calls: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Seen {
+        Not,
+        /// On the way from where the search began.
+        OnTheWay,
+        Done,
+    }
+    let mut seen = vec![Seen::Not; calls.len()];
+    let mut circles = Vec::new();
+    for start in 0..calls.len() {
+        if seen[start] != Seen::Not {
+            continue;
+        }
+        // The way so far: each node with how many of its calls were looked at.
+        let mut way = vec![(start, 0)];
+        seen[start] = Seen::OnTheWay;
+        while let Some((node, looked)) = way.last_mut() {
+            let Some(&next) = calls[*node].get(*looked) else {
+                seen[*node] = Seen::Done;
+                way.pop();
+                continue;
+            };
+            *looked += 1;
+            match seen[next] {
+                Seen::Not => {
+                    seen[next] = Seen::OnTheWay;
+                    way.push((next, 0));
+                }
+                Seen::OnTheWay => {
+                    let from = way.iter().position(|(node, _)| *node == next).unwrap_or_default();
+                    circles.push(way[from..].iter().map(|(node, _)| *node).collect());
+                }
+                Seen::Done => {}
+            }
+        }
+    }
+    circles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::circles;
+
+    #[test]
+    fn each_circle_is_found_once() {
+        assert_eq!(circles(&[vec![1], vec![2], vec![]]), Vec::<Vec<usize>>::new());
+        assert_eq!(circles(&[vec![0]]), [[0]]);
+        assert_eq!(circles(&[vec![1], vec![2], vec![1, 3], vec![]]), [[1, 2]]);
+        assert_eq!(circles(&[vec![1, 1], vec![0]]), [[0, 1]]);
+    }
+}
