@@ -88,8 +88,8 @@ impl<'a> Lowering<'a> {
         let conditions = activity.aborts.iter().map(|(_, c)| c).chain(activity.reactions.iter().map(|(c, _)| c));
         let condition_timers = self.place_timers(conditions);
 
-        let entry = self.here();
         if activity.kind == Kind::Mission {
+            self.program.mission.params = self.here();
             // Nobody calls a mission: its parameters have their defaults, which `--set` may have changed.
             for (param, default) in activity.defaults.iter().enumerate() {
                 let given = self.mission_args.and_then(|args| args.get(param));
@@ -98,7 +98,9 @@ impl<'a> Lowering<'a> {
                     self.scratch(|l| l.expr_into(e, to));
                 }
             }
+            self.emit(Op::Return);
         }
+        let entry = self.here();
         signal_timers.iter().for_each(|timers| self.reset_timers(timers));
         self.reset_timers(&condition_timers);
         for (decl, timers) in activity.decls.iter().zip(&signal_timers) {

@@ -52,6 +52,8 @@ pub enum Event {
     TimedOut,
     /// The mission is over.
     Ended(Outcome),
+    /// The mission waits for the first sample of a required input: index into the program's inputs.
+    Awaited(u32),
 }
 
 /// How a mission ended.

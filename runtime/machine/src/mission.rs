@@ -163,29 +163,30 @@ impl Run {
 
     /// One tick of whatever phase the mission is in.
     fn live(&mut self, p: &Program) -> Option<Command> {
-        let began = !matches!(self.state.phase, Phase::Waiting);
+        let began = self.state.phase != Phase::Waiting;
         match self.state.control {
             Control::InControl => {}
             // The vehicle does not listen for a while: the mission stands still.
             Control::Suspended => return None,
             Control::Refused => return self.over(p, Outcome::Refused),
             Control::Released if began => return self.over(p, Outcome::ReleasedByVehicle),
-            Control::TimedOut | Control::Disconnected if began => return self.over(p, Outcome::LinkLost),
+            Control::TimedOut => return self.over(p, Outcome::LinkLost),
+            Control::Disconnected if began => return self.over(p, Outcome::LinkLost),
             _ => return None,
         }
         match self.state.phase {
             Phase::Over(_) => None,
             Phase::Waiting => {
-                if !self.ready(p) {
-                    return None;
-                }
-                self.start(p);
-                self.after_step(p, Status::Running)
+                self.state.phase = Phase::Awaiting;
+                self.state.began = self.state.tick;
+                self.execute(p, p.mission.params, p.mission.base);
+                self.take_requirements(p);
+                self.await_inputs(p)
             }
+            Phase::Awaiting => self.await_inputs(p),
             Phase::Running | Phase::Holding(_) => {
                 // The time limit bounds the run: it does not stand still while the mission is held.
-                let lived = (self.state.tick - self.state.began) as f64;
-                let time_is_up = self.state.within.is_some_and(|ticks| lived >= ticks);
+                let time_is_up = self.time_is_up();
                 if let Some(held) = self.hold_while_stale(p, time_is_up) {
                     return held;
                 }
@@ -200,15 +201,63 @@ impl Run {
         }
     }
 
-    /// Whether every required input without an `at first` has come, and what guidance itself needs.
-    fn ready(&mut self, p: &Program) -> bool {
-        p.mission.requires.iter().all(|r| r.at_first.is_some() || self.has_sample(&p.inputs[r.input as usize]))
+    /// Begins once every required input has come that has no `at first`. One that never came is as old as the mission: what
+    /// is to be done when it is stale is done, and the mission's time runs.
+    fn await_inputs(&mut self, p: &Program) -> Option<Command> {
+        let lived = (self.state.tick - self.state.began) as f64;
+        let mut waits = false;
+        for (i, require) in p.mission.requires.iter().enumerate() {
+            let input = &p.inputs[require.input as usize];
+            if require.at_first.is_some() || self.has_sample(input) {
+                continue;
+            }
+            waits = true;
+            let Requirement { fresh, patience, .. } = self.state.requires[i];
+            if !std::mem::replace(&mut self.state.requires[i].stale, true) {
+                self.events.push(Event::Awaited(require.input));
+            }
+            if lived > fresh + patience.unwrap_or(0.0) {
+                self.events.push(Event::Aborted(format!("`{}` has never come", input.name)));
+                return self.over(p, Outcome::Aborted);
+            }
+        }
+        if !waits {
+            self.start(p);
+            return self.after_step(p, Status::Running);
+        }
+        if self.time_is_up() {
+            self.events.push(Event::TimedOut);
+            return self.over(p, Outcome::TimedOut);
+        }
+        // Rule 6: at the very start the present heading and depth, speed 0, as far as they are known.
+        let knows = |at: Option<Slot>| at.is_some_and(|at| self.get(at + Input::STAMP) >= 0.0);
+        (knows(self.senses.heading) && knows(self.senses.depth)).then(|| Command {
+            heading: self.heading(),
+            speed: 0.0,
+            vertical: Vertical::Depth(self.depth()),
+        })
+    }
+
+    fn time_is_up(&self) -> bool {
+        let lived = (self.state.tick - self.state.began) as f64;
+        self.state.within.is_some_and(|ticks| lived >= ticks)
+    }
+
+    /// The numbers of the requirements and of the time limit.
+    fn take_requirements(&mut self, p: &Program) {
+        let mut requires = Vec::new();
+        for require in &p.mission.requires {
+            let fresh = self.number(p, &require.fresh);
+            let patience = require.hold_for.as_ref().map(|code| self.number(p, code));
+            requires.push(Requirement { fresh, patience, stale: false });
+        }
+        self.state.requires = requires;
+        self.state.within = p.mission.within.as_ref().map(|code| self.number(p, code));
     }
 
     fn start(&mut self, p: &Program) {
         let base = p.mission.base;
         self.state.phase = Phase::Running;
-        self.state.began = self.state.tick;
         self.state.filtered = self.heading();
         // Rule 6: at the very start the present heading and depth, speed 0.
         self.state.asked =
@@ -226,14 +275,7 @@ impl Run {
             }
         }
         self.enter(p, p.mission.activity, base, None);
-        let mut requires = Vec::new();
-        for require in &p.mission.requires {
-            let fresh = self.number(p, &require.fresh);
-            let patience = require.hold_for.as_ref().map(|code| self.number(p, code));
-            requires.push(Requirement { fresh, patience, stale: false });
-        }
-        self.state.requires = requires;
-        self.state.within = p.mission.within.as_ref().map(|code| self.number(p, code));
+        self.take_requirements(p);
         self.compute_limits(p);
     }
 

@@ -30,7 +30,7 @@ pub struct State {
     pub(crate) limited: [bool; 3],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
     pub(crate) requires: Vec<Requirement>,
-    /// The mission's time limit in ticks, and the tick on which it began.
+    /// The mission's time limit in ticks, and the tick from which it counts: the first on which we drive.
     pub(crate) within: Option<f64>,
     pub(crate) began: u64,
     /// Channels that overlays set in this tick.
@@ -40,8 +40,10 @@ pub struct State {
 /// Where a mission is in its life.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
-    /// Before control is ours and the required inputs have come.
+    /// Before control is ours.
     Waiting,
+    /// We drive, and required inputs have not come yet.
+    Awaiting,
     /// Under way.
     Running,
     /// A required input is stale: the vehicle stays, since this many ticks.

@@ -17,7 +17,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 1;
+pub const PROGRAM_VERSION: u32 = 2;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -57,6 +57,8 @@ pub struct Mission {
     pub base: Slot,
     /// The slot of its operating area, in its frame.
     pub area: Option<Slot>,
+    /// Gives its parameters their values; run before anything else.
+    pub params: Addr,
     /// Its time limit, in ticks.
     pub within: Option<Code>,
     /// Where the local frame touches the globe.

@@ -96,6 +96,7 @@ impl Wording {
                 ("limit", format!("{}  {} -> {}", channel_name(*channel), print(*asked), print(*given)))
             }
             Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel_name(*channel))),
+            Event::Awaited(input) => ("wait", format!("for the first {}", self.names.input(*input))),
             Event::Stale(input) => ("stale", self.names.input(*input).to_string()),
             Event::Fresh(input) => ("fresh", self.names.input(*input).to_string()),
             Event::Aborted(why) => ("abort", self.columns(&one_line(why), Some(position), "", "")),

@@ -1,0 +1,42 @@
+//! A mission that waits for the first sample of what it requires: what is commanded meanwhile, and that it then begins. In the
+//! simulator every sensor speaks at once, so the samples are given by hand.
+
+#![expect(clippy::unwrap_used, reason = "a test whose script cannot be read has failed")]
+
+use albacore_machine::{Event, Machine};
+use albacore_session::{Plan, load};
+use albacore_vehicle::{Channel, Command, Control, Snapshot, Vertical};
+use std::path::Path;
+
+/// The channels that the test speaks on.
+const HEADING: u16 = 0;
+const DEPTH: u16 = 1;
+const FLOW: u16 = 2;
+
+#[test]
+fn it_keeps_still_until_the_last_input_has_come_and_then_begins() {
+    let path = Path::new("tests/rules/17_limit_while_awaiting.alb");
+    let plan = Plan::new(&load(path, None, &[]).unwrap(), &path.display().to_string(), None, None).unwrap();
+    let channel = |name: &str, width| Channel { name: name.into(), width };
+    let channels = [channel("heading", 1), channel("depth", 1), channel("flow", 2)];
+    let mut machine = Machine::new(plan.program, &channels).unwrap();
+    let mut tick = |samples: &[(u16, &[f64])]| -> (Option<Command>, Vec<Event>) {
+        let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
+        samples.iter().for_each(|(channel, numbers)| snapshot.push(*channel, numbers));
+        (machine.step(&snapshot), machine.events().to_vec())
+    };
+    let begun = |events: &[Event]| events.iter().any(|e| matches!(e, Event::Entered(_)));
+
+    // Nothing is known of the vehicle: nothing can be asked of it.
+    let (command, events) = tick(&[]);
+    assert_eq!(command, None);
+    assert!(events.iter().any(|e| matches!(e, Event::Awaited(_))));
+    // What it does already, at no speed.
+    let (command, events) = tick(&[(HEADING, &[1.5]), (DEPTH, &[4.0])]);
+    let command = command.unwrap();
+    assert_eq!((command.heading.radians(), command.speed, command.vertical), (1.5, 0.0, Vertical::Depth(4.0)));
+    assert!(events.is_empty(), "{events:?}");
+    // It begins on the tick of the sample.
+    let (command, events) = tick(&[(FLOW, &[0.1, 0.0])]);
+    assert!(command.is_some() && begun(&events), "{events:?}");
+}
