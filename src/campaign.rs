@@ -6,13 +6,13 @@ mod table;
 mod told;
 
 use crate::exit::Exit;
-use crate::{interruption, message, plan};
+use crate::{interruption, message, output, plan};
 use albacore_session::campaign::{Campaign as MissionCampaign, Tally};
 use albacore_session::{Plan, Run};
 use indicatif::{ProgressBar, ProgressStyle};
 use origin::Origin;
 use seeds::Seeds;
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -120,16 +120,11 @@ impl Campaign {
 
     fn sum_up(&self, plan: &Plan, tally: &Tally) {
         let told = Told::new(plan, self.seeds, &self.out, tally);
-        let text = if self.json {
-            match serde_json::to_string_pretty(&told) {
-                Ok(text) => text + "\n",
-                Err(error) => return message::error(&error.to_string(), None),
-            }
+        if self.json {
+            output::print_json(&told);
         } else {
-            told.human()
-        };
-        // A closed pipe is silent.
-        let _ = std::io::stdout().lock().write_all(text.as_bytes());
+            output::print(&told.human());
+        }
         let (crowded, most) = tally.crowded();
         if crowded > 0 {
             message::write(&format!(

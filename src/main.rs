@@ -7,6 +7,7 @@ mod exit;
 mod interruption;
 mod kept;
 mod message;
+mod output;
 mod plan;
 mod repl;
 mod run;
@@ -62,5 +63,5 @@ fn main() -> ExitCode {
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
     };
-    ExitCode::from(exit)
+    ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })
 }

@@ -3,12 +3,13 @@
 use crate::exit::Exit;
 use crate::interruption;
 use crate::message;
+use crate::output;
 use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
 use rustyline::error::ReadlineError;
 use rustyline::history::MemHistory;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{Completer, Editor, Helper, Highlighter, Hinter};
-use std::io::{BufRead, IsTerminal, Write};
+use std::io::{BufRead, IsTerminal};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
@@ -129,10 +130,7 @@ fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
 /// Answers go to standard output, what is wrong to standard error; a closed pipe is silent.
 fn hear(said: Say) {
     match said {
-        Say::Text(text) => {
-            let mut out = std::io::stdout().lock();
-            let _ = out.write_all(text.as_bytes()).and_then(|()| out.write_all(b"\n"));
-        }
+        Say::Text(text) => output::print(&format!("{text}\n")),
         Say::Findings(findings, sources) => message::findings(findings, sources),
         Say::Error(what, help) => message::error(what, help),
     }

@@ -4,10 +4,10 @@ use crate::clock::{self, Pace, now};
 use crate::exit::Exit;
 use crate::kept::Kept;
 use crate::vehicle::told;
-use crate::{interruption, message, plan};
+use crate::{interruption, message, output, plan};
 use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Summary, Url};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -150,19 +150,11 @@ impl Run {
     }
 
     fn tell(&self, summary: &Summary, picture: Option<&Path>) {
-        let text = if self.json {
-            match serde_json::to_string_pretty(summary) {
-                Ok(text) => text + "\n",
-                Err(error) => {
-                    message::error(&error.to_string(), None);
-                    return;
-                }
-            }
+        if self.json {
+            output::print_json(summary);
         } else {
-            human(summary, picture)
-        };
-        // A closed pipe is silent.
-        let _ = std::io::stdout().lock().write_all(text.as_bytes());
+            output::print(&human(summary, picture));
+        }
     }
 }
 
@@ -176,7 +168,7 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
         summary.seed,
         summary.outcome.replace('_', " ")
     );
-    if !summary.reason.is_empty() && summary.outcome != "completed" {
+    if !summary.reason.is_empty() && summary.outcome != "completed" && summary.outcome != summary.reason {
         text.push_str(&format!(" ({})", summary.reason));
     }
     text.push_str(&format!(

@@ -3,8 +3,8 @@
 use crate::exit::Exit;
 use crate::kept::whole;
 use crate::message;
+use crate::output::print;
 use albacore_session::{Failure, PlanError, Script, TestResult, first_difference, run_test, same_behavior};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Run the tests of scripts.
@@ -69,7 +69,7 @@ impl Test {
             message::error(&what, Some("`albacore test PATH` runs the `test` blocks of the scripts in PATH"));
             return Exit::Usage;
         }
-        say(&format!("{} passed, {} failed\n", count.passed, count.failed));
+        print(&format!("{} passed, {} failed\n", count.passed, count.failed));
         match exit {
             Exit::Well if count.failed > 0 => Exit::NotWell,
             exit => exit,
@@ -106,12 +106,12 @@ impl Test {
             let seeds = format!("seeds {}..{}", result.seeds.0, result.seeds.1);
             if problems.is_empty() {
                 count.passed += 1;
-                say(&format!("ok      {}  \"{}\"  {seeds}\n", result.place, result.name));
+                print(&format!("ok      {}  \"{}\"  {seeds}\n", result.place, result.name));
             } else {
                 count.failed += 1;
-                say(&format!("FAILED  {}  \"{}\"  {seeds}\n", result.place, result.name));
+                print(&format!("FAILED  {}  \"{}\"  {seeds}\n", result.place, result.name));
                 for problem in problems {
-                    say(&problem);
+                    print(&problem);
                 }
             }
         }
@@ -129,7 +129,7 @@ impl Test {
             let written = file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
             return match written {
                 Ok(()) => {
-                    say(&format!("        wrote {}\n", file.display()));
+                    print(&format!("        wrote {}\n", file.display()));
                     None
                 }
                 Err(error) => Some(format!("        `{}` cannot be written: {error}\n", file.display())),
@@ -200,9 +200,4 @@ fn scripts_of(path: &Path) -> std::io::Result<Vec<PathBuf>> {
     }
     found.sort();
     Ok(found)
-}
-
-/// A closed pipe is silent.
-fn say(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
 }

@@ -1,8 +1,6 @@
 //! A mission that waits for the first sample of what it requires: what is commanded meanwhile, and that it then begins. In the
 //! simulator every sensor speaks at once, so the samples are given by hand.
 
-#![expect(clippy::unwrap_used, reason = "a test whose script cannot be read has failed")]
-
 use albacore_machine::{Event, Machine};
 use albacore_session::{Plan, load};
 use albacore_vehicle::{Channel, Command, Control, Snapshot, Vertical};

@@ -105,3 +105,27 @@ fn a_closed_pipe_is_silent() {
         assert_eq!(output.status.code(), Some(0), "{args:?}");
     }
 }
+
+#[test]
+fn a_scenario_of_another_file_is_named_with_its_file() {
+    let output = albacore(&["run", BOX, "--in", "missions/box.alb#tidal_stream", "--no-out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    ends_with(
+        &["run", BOX, "--in", "missions/bax.alb#tidal_stream", "--no-out"],
+        2,
+        "there is no file `missions/bax.alb`",
+    );
+    ends_with(&["run", BOX, "--in", "missions/box.alb#tidal_steam", "--no-out"], 2, "did you mean `tidal_stream`?");
+}
+
+/// A device that is always full.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_cannot_be_written_is_said_and_a_failure() {
+    for args in [&["run", BOX, "--no-out"][..], &["run", BOX, "--no-out", "--json"], &["test", BOX]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = command(args).stdout(full).stderr(Stdio::piped()).output().unwrap();
+        assert_eq!(output.status.code(), Some(4), "{args:?}: {}", stderr(&output));
+        assert_eq!(stderr(&output).matches("cannot be written to standard output").count(), 1, "{args:?}");
+    }
+}

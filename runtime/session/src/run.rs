@@ -49,8 +49,8 @@ pub enum PlanError {
 }
 
 impl Plan {
-    /// Chooses the mission (by name, else the one named like the file, else the only one) and the scenario (by name, else
-    /// the mission's own).
+    /// Chooses the mission (by name, else the one named like the file, else the only one) and the scenario (by name, or as
+    /// `file.alb#name`, else the mission's own).
     pub fn new(script: &Script, file: &str, mission: Option<&str>, scenario: Option<&str>) -> Result<Self, PlanError> {
         let (name, program) = chosen(script, file, mission)?;
         let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
@@ -61,7 +61,15 @@ impl Plan {
                 format!("name one with `--in`, or write `mission {name} in SCENARIO`; there is {}", known.join(", "));
             return Err(PlanError::Asked(message, Some(help)));
         };
-        Plan::with(script, Arc::new(program), &wanted)
+        let program = Arc::new(program);
+        match wanted.split_once('#') {
+            None => Plan::with(script, program, &wanted),
+            Some((file, wanted)) => {
+                let other = other_script(file)?;
+                let plan = Plan::with(&other, program, wanted)?;
+                Ok(Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan })
+            }
+        }
     }
 
     /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.
@@ -88,6 +96,17 @@ impl Plan {
         let (scenario, scenario_name) = (Arc::new(world), lowered.name);
         Ok(Plan { program, scenario, scenario_name, sources: sources(script) })
     }
+}
+
+/// A script whose scenario alone is wanted.
+fn other_script(file: &str) -> Result<Script, PlanError> {
+    let script = crate::load(std::path::Path::new(file), None, &[])
+        .map_err(|error| PlanError::Asked(error.message, error.help))?;
+    if script.is_sound() {
+        return Ok(script);
+    }
+    let help = format!("`albacore check {file}` tells which");
+    Err(PlanError::Asked(format!("`{file}` has errors"), Some(help)))
 }
 
 /// The mission that is meant, by its name, and ready to run.
