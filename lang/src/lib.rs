@@ -74,7 +74,7 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
     let mut findings = std::mem::take(&mut loader.findings);
     let main = &modules[MAIN].tree;
     let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
-    let overrides = overrides(sources, set, chosen.as_ref(), main, &mut findings);
+    let overrides = overrides(sources, set, chosen.as_ref(), &mut findings);
     let unreadable = findings.iter().any(|f| f.code.starts_with("syntax::"));
     let checked = check::check(modules, overrides.clone());
     let later = checked.findings.into_iter().filter(|f| !(unreadable && is_echo(f)));
@@ -173,7 +173,6 @@ fn overrides(
     sources: &mut Sources,
     set: &[String],
     mission: Option<&tree::Activity>,
-    tree: &tree::File,
     findings: &mut Vec<Diagnostic>,
 ) -> Vec<Override> {
     let mut overrides = Vec::new();
@@ -192,11 +191,12 @@ fn overrides(
         let file = sources.add(source);
         match syntax::parse_expression(file, &blanked) {
             Ok(value) => {
-                let (declaration, param) = match place.trim().rsplit_once('.') {
-                    Some((declaration, param)) => (declaration.to_string(), param.to_string()),
-                    None => (owner_of(place.trim(), mission, tree), place.trim().to_string()),
+                let (declarations, param) = match place.trim().rsplit_once('.') {
+                    Some((declaration, param)) => (vec![declaration.to_string()], param.to_string()),
+                    None => (owners_of(place.trim(), mission), place.trim().to_string()),
                 };
-                overrides.push(Override { declaration, param, value, found: None });
+                let place = Span { file, start: 0, end: place.trim_end().len() as u32 };
+                overrides.push(Override { declarations, param, place, value, found: None });
             }
             Err(finding) => findings.push(finding),
         }
@@ -205,22 +205,15 @@ fn overrides(
 }
 
 /// A plain name is a parameter of the mission, or else of its scenario.
-fn owner_of(param: &str, mission: Option<&tree::Activity>, tree: &tree::File) -> String {
-    let Some(mission) = mission else { return String::new() };
-    let has = |params: &[tree::Param]| params.iter().any(|p| p.name.node == param);
-    if !has(&mission.params)
+fn owners_of(param: &str, mission: Option<&tree::Activity>) -> Vec<String> {
+    let Some(mission) = mission else { return Vec::new() };
+    let mut owners = vec![mission.name.node.clone()];
+    if !mission.params.iter().any(|p| p.name.node == param)
         && let ActivityKind::Mission { scenario: Some(path), .. } = &mission.kind
     {
-        let name = path.parts.last().map_or("", |p| p.node.as_str());
-        let scenario = tree.items.iter().find_map(|item| match item {
-            Item::Scenario { name: n, params, .. } if n.node == name => Some(params),
-            _ => None,
-        });
-        if scenario.is_none_or(|params| has(params)) {
-            return name.to_string();
-        }
+        owners.extend(path.parts.last().map(|name| name.node.clone()));
     }
-    mission.name.node.clone()
+    owners
 }
 
 /// The file that is run is always the first.

@@ -11,10 +11,12 @@ use crate::types::Type;
 /// A parameter set from outside, as by `--set cpt_2005.beta=30deg`.
 #[derive(Clone, Debug)]
 pub struct Override {
-    /// The declaration, by its own name or with its module, and the parameter.
-    pub declaration: String,
+    /// The declarations that may be meant, each by its own name or with its module.
+    pub declarations: Vec<String>,
     /// The parameter.
     pub param: String,
+    /// Where both are named.
+    pub place: Span,
     /// The value.
     pub value: tree::Expr,
     /// The declaration that has it, by its full name, once that is found.
@@ -73,32 +75,46 @@ impl<'t> Checker<'t> {
         let found = self
             .overrides
             .iter_mut()
-            .find(|o| o.param == param && (o.declaration == owner || o.declaration == full))?;
+            .find(|o| o.param == param && o.declarations.iter().any(|d| *d == owner || *d == full))?;
         found.found = Some(if self.modules[m].name.is_empty() { owner.to_string() } else { full });
         Some(found.value.clone())
     }
 
+    /// A parameter that is to be set and that nothing has.
     pub(super) fn unknown_override(&mut self, unused: &Override) {
-        let mut all: Vec<String> = Vec::new();
-        for signature in &self.activity_signatures {
-            let short = signature.name.rsplit('.').next().unwrap_or("");
-            if unused.declaration == short || unused.declaration == signature.name {
-                all.extend(signature.params.iter().map(|p| p.name.clone()));
-            }
+        let mut owners: Vec<(String, Vec<String>)> = Vec::new();
+        for signature in self.activity_signatures.iter().filter(|s| !s.params.is_empty()) {
+            owners.push((signature.name.clone(), signature.params.iter().map(|p| p.name.clone()).collect()));
         }
-        for scenario in &self.hir.scenarios {
-            if unused.declaration == scenario.name {
-                all.extend(scenario.vars.iter().map(|v| v.name.clone()));
-            }
+        for scenario in self.hir.scenarios.iter().filter(|s| !s.vars.is_empty()) {
+            owners.push((scenario.name.clone(), scenario.vars.iter().map(|v| v.name.clone()).collect()));
         }
-        let finding = Diagnostic::error(
-            "set::unknown",
-            unused.value.span,
-            format!("`{}` has no parameter `{}`", unused.declaration, unused.param),
-        );
-        let finding = match self.suggestion(&unused.param, all.iter().map(String::as_str)) {
-            Some(help) => finding.help(help),
-            None => finding.help(format!("nothing named `{}` takes parameters", unused.declaration)),
+        let short = |full: &str| full.rsplit('.').next().unwrap_or_default().to_string();
+        let is_meant = |owner: &str| unused.declarations.iter().any(|d| d == owner || *d == short(owner));
+        let params: Vec<&str> =
+            owners.iter().filter(|(o, _)| is_meant(o)).flat_map(|(_, params)| params).map(String::as_str).collect();
+        let named = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" nor ");
+        let Override { declarations, param, place, .. } = unused;
+        let finding = |message: String| Diagnostic::error("set::unknown", *place, message);
+        let finding = match declarations.as_slice() {
+            [] => finding(format!("whose parameter is `{param}`?"))
+                .help("choose the mission with `--mission`, or write `--set DECLARATION.PARAMETER=VALUE`"),
+            [only] if params.is_empty() => {
+                let known: Vec<String> = owners.iter().map(|(owner, _)| short(owner)).collect();
+                let help = self.suggestion(&short(only), known.iter().map(String::as_str));
+                let help = help.unwrap_or_else(|| "it names a declaration with parameters, and one of them".to_string());
+                finding(format!("nothing named `{only}` takes parameters")).help(help)
+            }
+            several => {
+                let neither = if several.len() > 1 { "neither " } else { "" };
+                let negated = if several.len() > 1 { "has" } else { "has no" };
+                let what = if several.len() > 1 { "a parameter" } else { "parameter" };
+                let help = self.suggestion(param, params.iter().copied());
+                let help = help.unwrap_or_else(|| {
+                    "a parameter of another declaration is written `--set DECLARATION.PARAMETER=VALUE`".to_string()
+                });
+                finding(format!("{neither}{} {negated} {what} `{param}`", named(several))).help(help)
+            }
         };
         self.report(finding);
     }

@@ -18,7 +18,7 @@ pub fn check(hir: &Hir, missions: &[usize], overrides: &[Override]) -> Vec<Diagn
             continue;
         }
         let names: Vec<&str> = missions.iter().map(|&id| hir.activities[id].name.as_str()).collect();
-        let (declaration, missions) = (&set.declaration, suggest::listed(&names));
+        let (declaration, missions) = (set.declarations.first().map_or("", String::as_str), suggest::listed(&names));
         findings.push(
             Diagnostic::error(
                 "set::unreached",
