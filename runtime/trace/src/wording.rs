@@ -6,7 +6,7 @@ use crate::words::{INDENT, cause_name, channel_name, control_name, indented, one
 use albacore_geometry::Point;
 use albacore_machine::Event;
 use albacore_program::number;
-use albacore_program::{ActivityId, Channel, Program, Rule, Shape};
+use albacore_program::{ActivityId, Cause, Channel, Program, Rule, Shape};
 
 /// The widest that the column of what happened gets by itself.
 const WHAT_WIDTH_MAX: usize = 48;
@@ -65,7 +65,8 @@ impl Wording {
             Event::Switched { rule, from, exit, values } => {
                 let what = indented(active.depth(*from), &self.names.switch_label(*from, *rule));
                 let rule = self.names.program.rules.get(*rule as usize);
-                let why = self.guard(rule, *from, *exit, values);
+                let done = all.contains(&Event::Left(*from, Cause::Done));
+                let why = self.guard(rule, *from, *exit, done, values);
                 ("switch", self.columns(&what, Some(position), rule.map_or("?", |rule| &rule.place), &why))
             }
             Event::Remembered(memory, words) => {
@@ -121,15 +122,18 @@ impl Wording {
         line
     }
 
-    /// The values that a rule's guard looked at; the guard as written when there are none.
-    fn guard(&self, rule: Option<&Rule>, from: ActivityId, exit: u32, values: &[f64]) -> String {
+    /// The values that a rule's guard looked at; the guard as written when there are none. `done` tells whether the behavior
+    /// had come to its end.
+    fn guard(&self, rule: Option<&Rule>, from: ActivityId, exit: u32, done: bool, values: &[f64]) -> String {
         let exit = self.names.entry(from).and_then(|entry| entry.exits.get(exit as usize));
         let watched = exit.map_or(&[][..], |exit| &exit.watched);
         if watched.is_empty() {
             let guard = rule.and_then(|rule| rule.text.split_once(" on "));
             return guard.map(|(_, guard)| format!("on {}", one_line(guard))).unwrap_or_default();
         }
-        self.values(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values)
+        let asks_done = exit.is_some_and(|exit| exit.guard_done.is_some());
+        let done = if asks_done { format!("done = {done}, ") } else { String::new() };
+        done + &self.values(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values)
     }
 
     fn values<'a>(&self, named: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
