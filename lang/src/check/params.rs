@@ -107,7 +107,14 @@ impl<'t> Checker<'t> {
         let scope = Scope::new(m, Setting::Constant);
         let ((first, last), _) =
             self.within(scope, |c| (c.expr_as(&range.first, ty, "the range"), c.expr_as(&range.last, ty, "the range")));
-        match (first.range.constant(), last.range.constant()) {
+        if !range.inclusive && *ty != Type::Int && last.ty != Type::Unknown {
+            self.report(
+                Diagnostic::error("ranges::open", last.span, "only whole numbers have a last before the end")
+                    .help("write `..`, which holds both ends"),
+            );
+        }
+        let without_last = if range.inclusive { 0.0 } else { 1.0 };
+        match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
             (Some(low), Some(high)) if low <= high => Some(Interval::new(low, high)),
             (Some(_), Some(_)) => {
                 self.report(

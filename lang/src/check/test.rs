@@ -53,7 +53,8 @@ impl<'t> Checker<'t> {
             (args, c.scenario_named(scenario), first, last)
         });
         let (args, scenario, first, last) = setup;
-        let seeds = match (first.range.constant(), last.range.constant()) {
+        let without_last = if seeds.inclusive { 0.0 } else { 1.0 };
+        let seeds = match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
             (Some(a), Some(b)) if a >= 0.0 && a <= b && b - a < SEEDS_MAX => (a as u64, b as u64),
             _ => {
                 self.report(

@@ -1,6 +1,6 @@
 //! Expressions to code.
 
-use super::{FnCode, Lowering};
+use super::{FnCode, Lowering, THE_CALL};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart};
 use crate::types::Type;
@@ -222,7 +222,8 @@ impl<'a> Lowering<'a> {
             }
             return false;
         };
-        let mut chain: Vec<&str> = self.path[start..].iter().map(|(n, _)| n.as_str()).collect();
+        let steps = self.path[start..].iter().map(|(n, _)| n.as_str());
+        let mut chain: Vec<&str> = steps.filter(|n| !n.starts_with(THE_CALL)).collect();
         chain.push(name);
         let finding = Diagnostic::error(
             "flow::recursion",

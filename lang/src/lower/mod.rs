@@ -28,6 +28,9 @@ use std::collections::BTreeMap;
 /// A run's words at most: a program that needs more is refused.
 const WORDS_MAX: u32 = 4_000_000;
 
+/// What a call on the way to what is being lowered is called, before the name.
+const THE_CALL: &str = "the call of ";
+
 /// A lowered function.
 #[derive(Clone, Copy)]
 struct FnCode {

@@ -1,6 +1,6 @@
 //! Callees before callers: whatever is called is lowered ahead of what calls it.
 
-use super::{Lowering, UnitCode};
+use super::{Lowering, THE_CALL, UnitCode};
 use crate::hir::{self, Action, Block, Decl, Expr, ExprKind, StmtKind, activity_children, block_children, children};
 use albacore_program::header;
 
@@ -12,7 +12,10 @@ impl<'a> Lowering<'a> {
         }
         let activity = &self.hir.activities[id];
         if self.recursion(&activity.full_name, Some(activity.span)) {
-            return UnitCode { activity: 0, words: header::WORDS };
+            // What calls it finds something in its place, and goes on to further mistakes.
+            let nothing = UnitCode { activity: 0, words: header::WORDS };
+            self.units.insert(id, nothing);
+            return nothing;
         }
         self.prepare_activity(id);
         let index = std::cell::Cell::new(0);
@@ -84,7 +87,7 @@ impl<'a> Lowering<'a> {
         block.each(&mut |stmt| match &stmt.kind {
             StmtKind::Timed(timed) => {
                 if let Action::Call(id, _) = timed.action {
-                    self.path.push((format!("the call of {}", self.hir.activities[id].full_name), stmt.span));
+                    self.path.push((format!("{THE_CALL}{}", self.hir.activities[id].full_name), stmt.span));
                     self.unit(id);
                     self.path.pop();
                 }
