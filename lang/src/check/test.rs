@@ -242,8 +242,9 @@ impl<'t> Checker<'t> {
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test.as_ref()?;
         let when = match name {
-            "reported" | "has_reported" => false,
-            "reported_at" => true,
+            "reported" => false,
+            // What was reported may be no place: it was reported all the same.
+            "reported_at" | "has_reported" => true,
             _ => return None,
         };
         let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
