@@ -14,6 +14,7 @@ mission north in still within 5 min {
     with depth 3 m, speed 1 m/s
     steer 0 deg for SECONDS
     report "there": position
+    report "seconds": SECONDS
 }
 
 scenario still {
@@ -24,6 +25,7 @@ scenario still {
 test "goes north" {
     run north in still seeds 1..4
     expect in 75 % of runs: distance(reported("there"), point(north: 10 m, east: 0 m)) < METRES
+    expect has_reported("there") and has_reported("seconds") and not has_reported("depth")
     expect always north.op.gap(truth.position) > 0 m
     snapshot switches of seed 2
 }

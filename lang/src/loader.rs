@@ -57,7 +57,12 @@ impl<'a> Loader<'a> {
         for wanted in uses {
             if let Some(imported) = self.import(&source, &wanted, path) {
                 let name = wanted.parts.last().map(|p| p.node.clone()).unwrap_or_default();
-                self.modules[index].imports.insert(name, imported);
+                let earlier = self.modules[index].imports.insert(name.clone(), imported);
+                if earlier.is_some_and(|earlier| earlier != imported) {
+                    let message = format!("two modules would be called `{name}` here");
+                    let finding = Diagnostic::error("imports::twice", wanted.span, message);
+                    self.findings.push(finding.help("give one of the files another name"));
+                }
             }
         }
         path.pop();

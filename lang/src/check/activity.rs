@@ -2,13 +2,14 @@
 
 use super::expr::article;
 use super::facts;
+use super::timed::same_channel;
 use super::{Checker, Scope, Setting, Temporal, flow};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
 use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
 use crate::types::Type;
-use albacore_program::Channel;
+use albacore_program::{Channel, Guide};
 
 /// The parts of an activity, gathered clause by clause.
 #[derive(Default)]
@@ -361,6 +362,9 @@ impl<'t> Checker<'t> {
                 .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
             );
         }
+        if let Kind::Sets(channel) = kind {
+            self.sets_only(channel, block);
+        }
         if matches!(kind, Kind::Sets(_)) && !flow::leaves(block) {
             self.report(
                 Diagnostic::error(
@@ -369,6 +373,34 @@ impl<'t> Checker<'t> {
                     format!("`{}` ends and leaves its channel to nobody", a.name.node),
                 )
                 .help("write its statements in a `loop { … }`"),
+            );
+        }
+    }
+
+    /// An overlay that owns a channel has nothing to say of the others.
+    fn sets_only(&mut self, channel: Channel, block: &hir::Block) {
+        let mut found = Vec::new();
+        block.each(&mut |stmt| {
+            let hir::StmtKind::Timed(timed) = &stmt.kind else { return };
+            let foreign = match &timed.action {
+                hir::Action::Keep(kept, _) => !same_channel(*kept, channel),
+                hir::Action::Guide(guide, _) => *guide != Guide::Wait,
+                hir::Action::Call(..) => false,
+            };
+            if foreign || !timed.at.is_empty() {
+                found.push(stmt.span);
+            }
+        });
+        let (name, setpoint) =
+            if channel == Channel::Speed { ("speed", "keep speed V") } else { ("vertical", "keep depth D") };
+        for span in found {
+            self.report(
+                Diagnostic::error(
+                    "channels::other",
+                    span,
+                    format!("an overlay that sets the {name} does nothing else"),
+                )
+                .help(format!("it holds statements such as `{setpoint}` and `wait`")),
             );
         }
     }

@@ -13,7 +13,7 @@ const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const NUMBER: Type = Type::Quantity(Dimension::NONE);
 
 /// The functions that every script knows.
-const BUILTINS: [&str; 17] = [
+pub(super) const BUILTINS: [&str; 17] = [
     "point",
     "vector",
     "line",
@@ -138,6 +138,16 @@ impl<'t> Checker<'t> {
         self.arguments(what, &infos, args, span, None)
     }
 
+    /// Arguments that have their order only: a label would not move them.
+    fn unlabelled(&mut self, what: &str, args: &[tree::Arg]) {
+        for label in args.iter().filter_map(|arg| arg.label.as_ref()) {
+            self.report(
+                Diagnostic::error("args::label", label.span, format!("the arguments of `{what}` have no labels"))
+                    .help("leave it out, and mind their order"),
+            );
+        }
+    }
+
     /// So many arguments without labels, unchecked as yet.
     pub(super) fn positional<const N: usize>(
         &mut self,
@@ -145,6 +155,7 @@ impl<'t> Checker<'t> {
         args: &[tree::Arg],
         span: Span,
     ) -> Option<[tree::Expr; N]> {
+        self.unlabelled(what, args);
         let values: Vec<tree::Expr> = args.iter().map(|a| a.value.clone()).collect();
         match values.try_into() {
             Ok(array) => Some(array),
@@ -335,6 +346,7 @@ impl<'t> Checker<'t> {
             ));
             return self.unknown(span);
         }
+        self.unlabelled(name, args);
         let first = self.expr(&args[0].value, None);
         let ordered = matches!(first.ty, Type::Int | Type::Sign | Type::Quantity(_))
             || name != "abs" && matches!(first.ty, Type::Depth | Type::Altitude);

@@ -138,18 +138,7 @@ impl<'t> Checker<'t> {
             );
             return Type::Unknown;
         };
-        let ty = match (&x.ty, &y.ty) {
-            (Type::None, other) | (other, Type::None) => other.clone().optional(),
-            (Type::Optional(_), _) => x.ty.clone(),
-            (_, Type::Optional(_)) => y.ty.clone(),
-            (Type::Quantity(_), Type::Int | Type::Sign) | (_, Type::Unknown) => x.ty.clone(),
-            (Type::Int | Type::Sign, Type::Quantity(_)) => y.ty.clone(),
-            (Type::Int, Type::Int) if [&x, &y].iter().all(|v| v.range.constant().is_some_and(|n| n.abs() == 1.0)) => {
-                Type::Sign
-            }
-            (Type::Heading, _) | (_, Type::Heading) => Type::Heading,
-            _ => x.ty.clone(),
-        };
+        let ty = common_type([&*x, &*y]);
         a.value = Some(Box::new(self.coerce(*x, &ty, "the value of the other block")));
         b.value = Some(Box::new(self.coerce(*y, &ty, "the value of the other block")));
         ty
@@ -163,12 +152,11 @@ impl<'t> Checker<'t> {
         span: Span,
     ) -> Expr {
         let (on, mut arms, mut otherwise) = self.match_arms(on, arms, expected, true, span);
-        let mut ty: Option<Type> = None;
+        let ty = common_type(arms.iter().map(|(_, b)| b).chain(&otherwise).filter_map(|b| b.value.as_deref()));
         for block in arms.iter_mut().map(|(_, b)| b).chain(otherwise.iter_mut()) {
             match block.value.take() {
                 Some(value) => {
-                    let wanted = ty.get_or_insert_with(|| value.ty.clone()).clone();
-                    block.value = Some(Box::new(self.coerce(*value, &wanted, "the value of the other blocks")));
+                    block.value = Some(Box::new(self.coerce(*value, &ty, "the value of the other blocks")));
                 }
                 None => self.report(
                     Diagnostic::error("types::if_value", span, "every block of this `match` must end in a value")
@@ -176,7 +164,7 @@ impl<'t> Checker<'t> {
                 ),
             }
         }
-        self.make(ExprKind::Match(Box::new(on), arms, otherwise), ty.unwrap_or(Type::Unknown), span)
+        self.make(ExprKind::Match(Box::new(on), arms, otherwise), ty, span)
     }
 
     /// The arms of a `match` over an enum: each variant once, none forgotten.
@@ -254,4 +242,22 @@ impl<'t> Checker<'t> {
         }
         (on, checked, otherwise)
     }
+}
+
+/// The type that the values of all blocks can have: that of the first, unless another says more.
+fn common_type<'e>(values: impl IntoIterator<Item = &'e Expr> + Clone) -> Type {
+    let is_sign = |v: &Expr| v.ty == Type::Int && v.range.constant().is_some_and(|n| n.abs() == 1.0);
+    if values.clone().into_iter().all(is_sign) {
+        return Type::Sign;
+    }
+    let both = |x: Type, y: Type| match (&x, &y) {
+        (Type::None, other) | (other, Type::None) => other.clone().optional(),
+        (Type::Optional(_), _) => x,
+        (_, Type::Optional(_)) => y,
+        (Type::Quantity(_), Type::Int | Type::Sign) | (_, Type::Unknown) => x,
+        (Type::Int | Type::Sign, Type::Quantity(_)) => y,
+        (Type::Heading, _) | (_, Type::Heading) => Type::Heading,
+        _ => x,
+    };
+    values.into_iter().map(|v| v.ty.clone()).reduce(both).unwrap_or(Type::Unknown)
 }

@@ -17,6 +17,7 @@ impl<'t> Checker<'t> {
                 self.declare_item(m, item);
             }
         }
+        self.nothing_is_hidden();
         for (m, module) in modules.iter().enumerate() {
             for item in &module.tree.items {
                 self.declare_types(m, item);
@@ -168,6 +169,13 @@ impl<'t> Checker<'t> {
     fn declare_types(&mut self, m: usize, item: &'t Item) {
         match item {
             Item::Record { name, fields } => {
+                for (i, field) in fields.iter().enumerate() {
+                    if let Some(earlier) = fields[..i].iter().find(|f| f.name.node == field.name.node) {
+                        let message = format!("there are two fields `{}`", field.name.node);
+                        let finding = Diagnostic::error("names::twice", field.name.span, message);
+                        self.report(finding.label(earlier.name.span, "the first"));
+                    }
+                }
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Record(id)) = self.names[m].get(&name.node) {
                     self.types.records[id].fields = fields;

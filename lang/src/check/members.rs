@@ -248,7 +248,8 @@ impl<'t> Checker<'t> {
             }
             return value;
         }
-        if let (ExprKind::Input(id, InputPart::Value), "hits") = (&value.kind, member.node.as_str()) {
+        let has_order = matches!(value.ty, Type::Quantity(_) | Type::Int | Type::Depth | Type::Altitude);
+        if let (ExprKind::Input(id, InputPart::Value), "hits", true) = (&value.kind, member.node.as_str(), has_order) {
             return self.hits(*id, &value.ty.clone(), args, span);
         }
         if let Some(method) = methods(&value.ty).into_iter().find(|m| m.name == member.node) {

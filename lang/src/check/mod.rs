@@ -11,6 +11,7 @@ mod depth;
 mod expr;
 mod facts;
 mod flow;
+mod hidden;
 mod loops;
 mod members;
 mod names;

@@ -86,7 +86,9 @@ impl<'t> Checker<'t> {
         if let Some(id) = self.local(name) {
             return self.variable(id, span);
         }
-        let found = self.lookup(self.scope.module, name).cloned();
+        // What can only be called is no value: a behavior `flow` leaves the input `flow` what it is.
+        let value = self.lookup_if(self.scope.module, name, |def| !def.can_be_called());
+        let found = value.or_else(|| self.lookup(self.scope.module, name)).cloned();
         match found {
             Some(def) => self.def_value(&def, name, span),
             None => {

@@ -102,7 +102,8 @@ impl<'t> Checker<'t> {
             [only] if params.is_empty() => {
                 let known: Vec<String> = owners.iter().map(|(owner, _)| short(owner)).collect();
                 let help = self.suggestion(&short(only), known.iter().map(String::as_str));
-                let help = help.unwrap_or_else(|| "it names a declaration with parameters, and one of them".to_string());
+                let help =
+                    help.unwrap_or_else(|| "it names a declaration with parameters, and one of them".to_string());
                 finding(format!("nothing named `{only}` takes parameters")).help(help)
             }
             several => {
@@ -123,7 +124,14 @@ impl<'t> Checker<'t> {
         let scope = Scope::new(m, Setting::Constant);
         let ((first, last), _) =
             self.within(scope, |c| (c.expr_as(&range.first, ty, "the range"), c.expr_as(&range.last, ty, "the range")));
-        match (first.range.constant(), last.range.constant()) {
+        if !range.inclusive && *ty != Type::Int && last.ty != Type::Unknown {
+            self.report(
+                Diagnostic::error("ranges::open", last.span, "only whole numbers have a last before the end")
+                    .help("write `..`, which holds both ends"),
+            );
+        }
+        let without_last = if range.inclusive { 0.0 } else { 1.0 };
+        match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
             (Some(low), Some(high)) if low <= high => Some(Interval::new(low, high)),
             (Some(_), Some(_)) => {
                 self.report(

@@ -2,6 +2,7 @@
 
 use super::expr::article;
 use super::facts;
+use super::timed::loiters_for_ever;
 use super::{Checker, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
@@ -333,8 +334,7 @@ fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
     match &timed.action {
         hir::Action::Guide(guide, args) => match guide {
             Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => true,
-            Guide::Loiter => args.get(2).is_some_and(|turns| turns.range.constant() == Some(0.0)),
-            _ => false,
+            guide => loiters_for_ever(*guide, args),
         },
         hir::Action::Keep(..) => true,
         hir::Action::Call(id, _) => match &hir.activities[*id].body {

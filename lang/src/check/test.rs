@@ -53,7 +53,8 @@ impl<'t> Checker<'t> {
             (args, c.scenario_named(scenario), first, last)
         });
         let (args, scenario, first, last) = setup;
-        let seeds = match (first.range.constant(), last.range.constant()) {
+        let without_last = if seeds.inclusive { 0.0 } else { 1.0 };
+        let seeds = match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
             (Some(a), Some(b)) if a >= 0.0 && a <= b && b - a < SEEDS_MAX => (a as u64, b as u64),
             _ => {
                 self.report(
@@ -241,8 +242,9 @@ impl<'t> Checker<'t> {
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test.as_ref()?;
         let when = match name {
-            "reported" | "has_reported" => false,
-            "reported_at" => true,
+            "reported" => false,
+            // What was reported may be no place: it was reported all the same.
+            "reported_at" | "has_reported" => true,
             _ => return None,
         };
         let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };

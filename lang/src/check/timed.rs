@@ -208,8 +208,7 @@ impl<'t> Checker<'t> {
                     param("turns", Type::Quantity(Dimension::NONE), turns, None),
                     param("clockwise", Type::Bool, yes(true), None),
                 ];
-                let ends = args.iter().any(|a| a.label.as_ref().is_some_and(|l| l.node == "turns"));
-                (Guide::Loiter, params, ends)
+                (Guide::Loiter, params, true)
             }
             _ if args.first().and_then(|a| a.label.as_ref()).is_some_and(|l| l.node == "heading") => {
                 (Guide::SteerHeading, vec![param("heading", Type::Heading, None, None)], false)
@@ -217,6 +216,7 @@ impl<'t> Checker<'t> {
             _ => (Guide::Steer, vec![param("course", Type::Heading, None, None)], false),
         };
         let values = self.arguments(&verb.node, &params, args, span, None)?;
+        let ends = ends && !loiters_for_ever(guide, &values);
         Some((Action::Guide(guide, values), ends, None))
     }
 
@@ -319,8 +319,13 @@ impl<'t> Checker<'t> {
     }
 }
 
+/// Whether a statement circles without counting its turns.
+pub(super) fn loiters_for_ever(guide: Guide, args: &[hir::Expr]) -> bool {
+    guide == Guide::Loiter && args.get(2).is_some_and(|turns| turns.range.constant() == Some(0.0))
+}
+
 /// Depth and altitude are one channel, the vertical.
-fn same_channel(a: Channel, b: Channel) -> bool {
+pub(super) fn same_channel(a: Channel, b: Channel) -> bool {
     (a == Channel::Speed) == (b == Channel::Speed)
 }
 

@@ -162,6 +162,11 @@ const SIMPLE_TYPES: [&str; 14] = [
     "Line",
 ];
 
+/// Whether a name is that of a type which every script knows.
+pub(super) fn is_type(name: &str) -> bool {
+    SIMPLE_TYPES.contains(&name) || Dimension::of_type(name).is_some()
+}
+
 /// The unit that a word was probably meant to be: what people write elsewhere, then what is spelt alike.
 fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let meant = match word {

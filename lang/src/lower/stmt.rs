@@ -447,7 +447,8 @@ impl<'a> Lowering<'a> {
                 });
                 let call = self.program.calls.len() as u32 - 1;
                 self.emit(Op::Enter { call });
-                let result = self.program.activities[unit.activity as usize].result.as_ref().map_or(0, |r| r.slot);
+                let called = self.program.activities.get(unit.activity as usize);
+                let result = called.and_then(|called| called.result.as_ref()).map_or(0, |r| r.slot);
                 Running::Call { call, result: base + result }
             }
         }

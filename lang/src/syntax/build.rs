@@ -221,6 +221,11 @@ fn name_ty(b: &mut Builder, pair: P) -> TyKind {
         match part.as_rule() {
             Rule::path => path_ = path(b, part),
             Rule::dim_op => divide = part.as_str() == "/",
+            // The path stands for its first power.
+            Rule::number => {
+                let power = part.as_str().parse().unwrap_or(1.0);
+                factors.extend(path_.parts.first().map(|name| (name.clone(), power - 1.0)));
+            }
             _ => {
                 let mut inner = part.into_inner();
                 let Some(factor) = inner.next().map(|p| name(b, p)) else { continue };

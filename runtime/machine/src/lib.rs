@@ -1,4 +1,4 @@
-//! Executes a lowered mission tick by tick, by the numbered rules of time (shown in `tests/rules`).
+//! Executes a lowered mission tick by tick, by the numbered rules of time (`docs/language.md`, shown in `tests/rules`).
 //!
 //! The whole state of a run is one plain value, [`State`]: cloned, compared, serialised. The machine knows no vehicle:
 //! it takes what was sensed and gives what to command.
