@@ -16,6 +16,9 @@ use std::sync::atomic::AtomicBool;
 /// A line that goes on in so many others is taken as it is: it is no script.
 const LINES_AT_ONCE_MAX: usize = 10_000;
 
+/// What to do about bytes that are no text.
+const NOT_UTF8: &str = "it is left out; type it again, or send it as UTF-8";
+
 /// Drive a simulated vehicle line by line.
 #[derive(clap::Args)]
 pub struct Repl {
@@ -88,6 +91,9 @@ fn typed(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
             }
             Err(ReadlineError::Interrupted) => hear(Say::Text("`quit` or Ctrl-D leaves")),
             Err(ReadlineError::Eof) => return Exit::Well,
+            Err(ReadlineError::Io(error)) if error.kind() == std::io::ErrorKind::InvalidData => {
+                message::error("what was typed is no text in UTF-8", Some(NOT_UTF8));
+            }
             Err(error) => {
                 message::error(&format!("the terminal cannot be read: {error}"), None);
                 return Exit::Failed;
@@ -101,17 +107,22 @@ fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
     let mut exit = Exit::Well;
     let mut text = String::new();
     let mut input = std::io::stdin().lock();
-    loop {
-        let mut line = String::new();
-        let read = input.read_line(&mut line);
-        let over = match read {
+    for number in 1.. {
+        let mut line = Vec::new();
+        let over = match input.read_until(b'\n', &mut line) {
             Ok(bytes) => bytes == 0,
             Err(error) => {
-                message::error(&format!("standard input cannot be read: {error}"), Some("it is read as UTF-8"));
-                return Exit::Usage;
+                message::error(&format!("standard input cannot be read: {error}"), None);
+                return Exit::Failed;
             }
         };
-        text.push_str(&line);
+        match String::from_utf8(line) {
+            Ok(line) => text.push_str(&line),
+            Err(_) => {
+                message::error(&format!("line {number} of standard input is no text in UTF-8"), Some(NOT_UTF8));
+                exit = Exit::Script;
+            }
+        }
         if !over && Prompt::goes_on(&text) && text.lines().count() < LINES_AT_ONCE_MAX {
             continue;
         }
@@ -122,9 +133,10 @@ fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
         }
         text.clear();
         if over {
-            return exit;
+            break;
         }
     }
+    exit
 }
 
 /// Answers go to standard output, what is wrong to standard error; a closed pipe is silent.

@@ -51,6 +51,26 @@ fn what_is_declared_is_known() {
 }
 
 #[test]
+fn several_statements_of_a_line_are_done_in_order() {
+    let (code, answers) = answers("several", None);
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(3));
+}
+
+#[test]
+fn bytes_that_are_no_text_are_left_out() {
+    let out = out("bytes");
+    let mut child = session(None, &out).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(b"1 m + 1 m\nlet \xb0 = 3 m\n3 m + 4 m\n").unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    let said = std::fs::read_to_string(&out).unwrap();
+    assert!(
+        said.contains("2 m\n") && said.contains("line 2 of standard input is no text") && said.ends_with("7 m\n"),
+        "{said}"
+    );
+}
+
+#[test]
 fn wrong_lines_are_told_and_change_nothing() {
     let (code, answers) = answers("wrong", None);
     insta::assert_snapshot!(answers);

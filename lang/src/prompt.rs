@@ -91,6 +91,22 @@ impl Left {
         Left { name: None, slot: 0, shape: Shape::Bool, ty: Type::Unknown }
     }
 
+    /// Whether the value means the same when it is used again: texts are of the program that they stand in.
+    fn can_be_kept(&self, span: Span) -> Result<(), Vec<Diagnostic>> {
+        let finding =
+            |message: &str, help: &str| Err(vec![Diagnostic::error("prompt::value", span, message).help(help)]);
+        if self.name.is_some() && self.shape.has_text() {
+            return finding("a text cannot be given a name at the prompt", "write it where it is used");
+        }
+        match &self.ty {
+            Type::Unknown | Type::None => finding("the type of this cannot be told", "use it where a type is expected"),
+            Type::List(element, _) if **element == Type::Unknown => {
+                finding("of what is this a list?", "say it: `let list: [Point; 6] = []`")
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The value, taken from the words of the run.
     pub fn taken(&self, words: &[f64]) -> Named {
         let at = self.slot as usize;
@@ -220,7 +236,19 @@ impl Prompt {
                     let name = tree::Name { node: VALUE.to_string(), span };
                     clause.kind = tree::ClauseKind::Let { name, ty: None, value: timed.clone() };
                 }
-                tree::ClauseKind::Let { name: given, value, .. } => {
+                // What has a name may have another value: at the prompt that is said with or without `let`.
+                tree::ClauseKind::Assign { name, value } if known.iter().any(|n| n.name == name.node) => {
+                    let value = instant(value.clone());
+                    clause.kind = tree::ClauseKind::Let { name: name.clone(), ty: None, value };
+                }
+                tree::ClauseKind::Var { name, ty, value } => {
+                    let value = instant(value.clone());
+                    clause.kind = tree::ClauseKind::Let { name: name.clone(), ty: ty.clone(), value };
+                }
+                _ => {}
+            }
+            match &mut clause.kind {
+                tree::ClauseKind::Let { name: given, value, .. } if given.node != VALUE => {
                     expression = self.is_expression(value);
                     name = Some(given.node.clone());
                     // A name of the prompt may be given anew: its earlier value is still known while the line is read.
@@ -275,7 +303,15 @@ impl Prompt {
     /// Whether a statement is an expression, not a call that takes time.
     fn is_expression(&self, timed: &tree::Timed) -> bool {
         let tree::Action::Expr(e) = &timed.action else { return false };
-        let tree::ExprKind::Call(callee, _) = &e.kind else { return !timed.is_modified() };
+        let callee = match &e.kind {
+            tree::ExprKind::Call(callee, _) => callee,
+            // Of what is chosen some stands for a value, and some is done.
+            tree::ExprKind::If { then, otherwise, .. } => {
+                return otherwise.as_ref().is_some_and(|o| self.gives_value(then) && self.gives_value(o));
+            }
+            tree::ExprKind::Match { arms, .. } => return arms.iter().all(|arm| self.gives_value(&arm.block)),
+            _ => return !timed.is_modified(),
+        };
         let is_activity = |module: usize, name: &str| {
             self.modules[module]
                 .tree
@@ -295,6 +331,12 @@ impl Prompt {
             _ => false,
         };
         !called && !timed.is_modified()
+    }
+
+    /// Whether a block ends in an expression.
+    fn gives_value(&self, block: &tree::Block) -> bool {
+        let last = block.clauses.last();
+        last.is_some_and(|c| matches!(&c.kind, tree::ClauseKind::Timed(timed) if self.is_expression(timed)))
     }
 
     /// Checks a line as the body of a mission.
@@ -349,6 +391,9 @@ impl Prompt {
             let ty = activity.vars[id].ty.clone();
             Some(Left { name, slot: slot(id), shape: types.shape(&ty), ty })
         });
+        if let Some(left) = &value {
+            left.can_be_kept(activity.span)?;
+        }
         let reads = rules::inputs_read(hir, *mission)
             .into_iter()
             .filter(|(_, span)| span.file == file)
@@ -404,6 +449,13 @@ impl Script {
 /// Where a variable is in the frame of its unit: they lie one after the other, in the order of their declaration.
 fn slot_of(types: &TypeTable, vars: &[hir::Var], id: VarId) -> Slot {
     vars[..id].iter().map(|v| types.words(&v.ty)).sum()
+}
+
+/// A value that takes no time.
+fn instant(value: tree::Expr) -> tree::Timed {
+    let span = value.span;
+    let action = tree::Action::Expr(value);
+    tree::Timed { action, duration: None, until: None, within: None, at: Vec::new(), repeated: None, span }
 }
 
 /// Whether a text begins as what stands at the left margin of a file.

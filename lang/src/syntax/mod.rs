@@ -56,6 +56,31 @@ pub fn goes_on(source: &str) -> bool {
     scan::scan(FileId(0), source).goes_on
 }
 
+/// The statements and declarations that stand in no block, each as it is written: what `;` and the ends of lines part.
+pub fn statements(source: &str) -> Vec<&str> {
+    let scanned = scan::scan(FileId(0), source);
+    let mut statements = Vec::new();
+    let (mut start, mut depth, mut in_text, mut escaped) = (0, 0_usize, false, false);
+    // What parts statements is one byte wide, and the text that was scanned is as long as the source.
+    for (at, byte) in scanned.text.bytes().enumerate().chain([(source.len(), b'\n')]) {
+        match byte {
+            b'\n' | b';' if (depth == 0 && !in_text) || at == source.len() => {
+                if scanned.text.get(start..at).is_some_and(|s| !s.trim().is_empty()) {
+                    statements.extend(source.get(start..at).map(str::trim));
+                }
+                start = at + 1;
+            }
+            b'\n' => in_text = false,
+            b'"' if !escaped => in_text = !in_text,
+            b'(' | b'[' | b'{' if !in_text => depth += 1,
+            b')' | b']' | b'}' if !in_text => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        escaped = in_text && byte == b'\\' && !escaped;
+    }
+    statements
+}
+
 /// Reads a source by a rule of the grammar: what was built of it, the findings, the comments.
 fn read<T>(
     file: FileId,
@@ -110,4 +135,22 @@ pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagno
 
 fn touches(a: Span, b: Span) -> bool {
     a.start < b.end.max(b.start + 1) && b.start < a.end.max(a.start + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::statements;
+
+    #[test]
+    fn statements_are_parted_where_nothing_is_open() {
+        assert_eq!(statements("a; b\nc // d; e\n"), ["a", "b", "c // d; e"]);
+        assert_eq!(
+            statements("fn f() -> Int {\n 1; 2\n}\nlog \"a; {b}\""),
+            ["fn f() -> Int {\n 1; 2\n}", "log \"a; {b}\""]
+        );
+        assert_eq!(statements("a +\n b"), ["a +\n b"]);
+        assert_eq!(statements("if x { a }\nelse { b }"), ["if x { a }\nelse { b }"]);
+        assert_eq!(statements("log \"é\"; ( ; "), ["log \"é\"", "( ;"]);
+        assert!(statements(" ;; \n // nothing").is_empty());
+    }
 }

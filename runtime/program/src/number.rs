@@ -62,7 +62,7 @@ pub fn point(p: Point) -> String {
 
 /// A compass direction in degrees, without the unit: `291.0`. In [0, 360) as printed: 359.96 is `0.0`.
 pub fn compass(angle_rad: f64) -> String {
-    Printer { texts: &[], number: fixed }.compass(angle_rad)
+    Printer { texts: &[], number: fixed, is_brief: false }.compass(angle_rad)
 }
 
 /// A compass direction: `291.0 deg`.
@@ -91,12 +91,12 @@ pub fn value(shape: &Shape, words: &[f64]) -> String {
 
 /// As [`value`], for a program whose texts are known.
 pub fn value_with(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
-    Printer { texts, number: fixed }.value(shape, words)
+    Printer { texts, number: fixed, is_brief: false }.value(shape, words)
 }
 
 /// As [`value_with`], for a person who asks for one value: as many digits as it takes, and no more: `20 m`, `0.3333 m`.
 pub fn brief(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
-    Printer { texts, number: |x, _| shortest(x) }.value(shape, words)
+    Printer { texts, number: |x, _| shortest(x), is_brief: true }.value(shape, words)
 }
 
 /// A number to four decimals, and with an exponent when it is small; without zeros at the end.
@@ -117,6 +117,7 @@ fn shortest(x: f64) -> String {
 struct Printer<'a> {
     texts: &'a [Text],
     number: fn(f64, u8) -> String,
+    is_brief: bool,
 }
 
 impl Printer<'_> {
@@ -129,6 +130,10 @@ impl Printer<'_> {
             Shape::Bool if first.is_nan() => UNKNOWN.to_string(),
             Shape::Bool => (first != 0.0).to_string(),
             Shape::Int => fixed(first, 0),
+            // More than all of something is no share of it.
+            Shape::Quantity(display) if self.is_brief && display.unit == "%" && first.abs() > 1.0 => {
+                (self.number)(first, display.decimals)
+            }
             Shape::Quantity(display) => with_unit((self.number)(first / display.scale, display.decimals), display),
             Shape::Heading => format!("{} deg", self.compass(first)),
             Shape::Depth | Shape::Altitude => format!("{} m", metre(first)),

@@ -58,6 +58,16 @@ pub const AREA_WORDS: u32 = 1 + AREA_CORNER_WORDS * albacore_geometry::AREA_CORN
 pub const EDGE_WORDS: u32 = 6;
 
 impl Shape {
+    /// Whether a text is in it, which means something only beside the texts of its program.
+    pub fn has_text(&self) -> bool {
+        match self {
+            Shape::Text => true,
+            Shape::Record(_, fields) => fields.iter().any(|(_, shape)| shape.has_text()),
+            Shape::Optional(shape) | Shape::List(shape, _) => shape.has_text(),
+            _ => false,
+        }
+    }
+
     /// How many words it takes.
     pub fn words(&self) -> u32 {
         match self {

@@ -63,6 +63,8 @@ pub struct Prompt {
     now: Moment,
     past: Past,
     names: Vec<Named>,
+    /// The person has interrupted what was being done.
+    stopped: bool,
 }
 
 /// What a prompt is opened with.
@@ -123,7 +125,7 @@ impl Prompt {
             .map_err(|error| OpenError::Asked(error.to_string(), None))?;
         let past = Past::beginning_with(&now);
         let (seed, names) = (opening.seed, Vec::new());
-        Ok(Prompt { files, lines, script, mission, scenario_name, scenario, seed, now, past, names })
+        Ok(Prompt { files, lines, script, mission, scenario_name, scenario, seed, now, past, names, stopped: false })
     }
 
     /// What is loaded, in one line.
@@ -135,18 +137,25 @@ impl Prompt {
         format!("{mission}world {}, seed {}; `help` tells what can be typed", self.scenario_name, self.seed)
     }
 
-    /// Whether a text wants another line before it can be entered.
+    /// Whether a text wants another line before it can be entered. Two blank lines end it: whoever forgot a
+    /// bracket is told so.
     pub fn goes_on(text: &str) -> bool {
-        albacore_lang::syntax::goes_on(text)
+        !text.ends_with("\n\n\n") && albacore_lang::syntax::goes_on(text)
     }
 
-    /// Does what was typed. A raised flag stops the vehicle, and is lowered again.
+    /// Does what was typed, one statement after the other, until one is wrong. A raised flag stops the vehicle and what would
+    /// have come after, and is lowered again.
     pub fn enter(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
-        match command::of(text) {
-            Some(command) => self.command(command, interrupted, say),
-            None if text.trim().is_empty() || text.trim_start().starts_with("//") => Answer::Done,
-            None => self.line(text, interrupted, say),
+        for statement in albacore_lang::syntax::statements(text) {
+            let answer = match command::of(statement) {
+                Some(command) => self.command(command, interrupted, say),
+                None => self.line(statement, interrupted, say),
+            };
+            if answer != Answer::Done || std::mem::take(&mut self.stopped) {
+                return answer;
+            }
         }
+        Answer::Done
     }
 
     fn command(&mut self, command: Command, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
@@ -158,8 +167,8 @@ impl Prompt {
             Command::Start => return self.start(say),
             Command::Stop => self.stop(say),
             Command::Step(ticks) => self.drive(ticks, interrupted, say),
-            Command::Miscounted => {
-                say(Say::Error("`step` takes a count of ticks, from 1 to 360000", Some("a tick is 100 ms")));
+            Command::Misused(what, help) => {
+                say(Say::Error(what, Some(help)));
                 return Answer::Wrong;
             }
             Command::Run(None) if self.now.task.is_none() => {
@@ -202,7 +211,7 @@ impl Prompt {
                 }
                 Err(what) => return wrong(&what, say),
             },
-            Some(Line::Statements(drive)) => return self.begin(drive, &known, interrupted, say),
+            Some(Line::Statements(drive)) => return self.begin(text, drive, &known, interrupted, say),
         }
         Answer::Done
     }
@@ -259,13 +268,20 @@ impl Prompt {
     }
 
     /// Begins statements, and drives them to their end unless they have none.
-    fn begin(&mut self, drive: Drive, known: &[Named], interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+    fn begin(
+        &mut self,
+        text: &str,
+        drive: Drive,
+        known: &[Named],
+        interrupted: &AtomicBool,
+        say: &mut Listener,
+    ) -> Answer {
         let machine = match self.machine(&drive, known) {
             Ok(machine) => machine,
             Err(what) => return wrong(&what, say),
         };
         let left = drive.value.unwrap_or_else(Left::nothing);
-        self.now.task = Some(Task::new(machine, Some(left)));
+        self.now.task = Some(Task::new(machine, Some(left), text));
         self.past.pin(&self.now);
         if drive.endless {
             self.drive(1, interrupted, say);
@@ -286,7 +302,7 @@ impl Prompt {
         let name = program.mission.name.clone();
         match self.machine_for(program) {
             Ok(machine) => {
-                self.now.task = Some(Task::new(machine, None));
+                self.now.task = Some(Task::new(machine, None, &name));
                 self.past.pin(&self.now);
                 say(Say::Text(&format!("{name} begins: `run 5 min` or `step` lets time go by")));
                 Answer::Done
@@ -307,6 +323,7 @@ impl Prompt {
         let until = self.now.tick + ticks;
         while self.now.tick < until {
             if interrupted.swap(false, Ordering::Relaxed) {
+                self.stopped = true;
                 return self.stop(say);
             }
             let ended = match self.now.step(&mut |line| say(Say::Text(line))) {
@@ -341,8 +358,13 @@ impl Prompt {
         let Some(moment) = self.past.before(to) else {
             let earliest = self.past.earliest();
             let lived = (self.now.tick - earliest) as f64 * TICK_S;
-            let what = format!("time goes back {} s at most from here", number::fixed(lived, 1));
-            say(Say::Error(&what, Some("what came earlier is no longer remembered, or has never been")));
+            let most = number::fixed(lived, 1);
+            let what = format!("time goes back {most} s at most from here");
+            let help = match lived > 0.0 {
+                true => format!("`back {most} s` goes back to the earliest moment that is remembered"),
+                false => "this is the earliest moment".to_string(),
+            };
+            say(Say::Error(&what, Some(&help)));
             return Answer::Wrong;
         };
         self.now = moment;
@@ -396,7 +418,8 @@ impl Prompt {
             .skip(first)
             .map(|id| program.activities[id as usize].name.as_str())
             .collect();
-        if names.is_empty() { "a statement of the prompt".to_string() } else { names.join(" > ") }
+        let own = task.left.is_some().then(|| task.text.lines().next().unwrap_or_default());
+        own.into_iter().chain(names).collect::<Vec<_>>().join(" > ")
     }
 
     fn tell_names(&self, say: &mut Listener) {

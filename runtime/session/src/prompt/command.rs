@@ -33,8 +33,8 @@ pub enum Command<'a> {
     Start,
     Stop,
     Step(u64),
-    /// Something after `step` that is no count.
-    Miscounted,
+    /// One of these words, and something with it that makes no sense: what is wrong, and how it is used.
+    Misused(&'static str, &'static str),
     /// For a time as it was typed, or to the end.
     Run(Option<&'a str>),
     Back(&'a str),
@@ -44,8 +44,9 @@ pub enum Command<'a> {
 pub fn of(text: &str) -> Option<Command<'_>> {
     let text = text.trim();
     let (word, rest) = text.split_once(char::is_whitespace).map_or((text, ""), |(word, rest)| (word, rest.trim()));
-    // `step = 3 m` and `run.x` are no commands.
-    let has_time = rest.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
+    // `step = 3 m` and `run + x` are the language's; `run -3 s` is meant as a command.
+    let negative = rest.starts_with('-') && rest[1..].starts_with(|c: char| c.is_ascii_digit());
+    let has_value = negative || rest.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
     Some(match (word, rest) {
         ("help" | "?", "") => Command::Help,
         ("quit" | "exit", "") => Command::Quit,
@@ -54,13 +55,25 @@ pub fn of(text: &str) -> Option<Command<'_>> {
         ("start", "") => Command::Start,
         ("stop", "") => Command::Stop,
         ("step", "") => Command::Step(1),
-        ("step", count) if count.starts_with(|c: char| c.is_ascii_digit()) => {
+        ("step", count) if has_value => {
             let ticks = count.parse().ok().filter(|ticks| (1..=TICKS_MAX).contains(ticks));
-            ticks.map_or(Command::Miscounted, Command::Step)
+            let help = "for example `step 10`; for a time write `run 10 s`";
+            ticks.map_or(Command::Misused("`step` takes a count of ticks, from 1 to 360000", help), Command::Step)
         }
         ("run", "") => Command::Run(None),
-        ("run", time) if has_time => Command::Run(Some(time)),
-        ("back", time) if has_time => Command::Back(time),
+        ("run" | "back", _) if negative => {
+            Command::Misused("time goes by in one direction", "`run 30 s` goes on, `back 30 s` goes back")
+        }
+        ("run", time) if has_value => Command::Run(Some(time)),
+        ("back", "") => Command::Misused("how far back?", "for example `back 30 s`"),
+        ("back", time) if has_value => Command::Back(time),
+        ("load" | "open", _) if has_value || rest.starts_with(['"', '.', '/']) => {
+            let help = "leave, and open the prompt with it: `albacore repl FILE.alb`; `use NAME` imports a module";
+            Command::Misused("a script is not loaded at the prompt", help)
+        }
+        ("quit" | "exit" | "help" | "names" | "stop" | "start", _) if has_value => {
+            Command::Misused("this command stands alone on its line", "`help` lists the commands")
+        }
         _ => return None,
     })
 }
@@ -74,11 +87,11 @@ mod tests {
         assert_eq!(of(" run 5 min "), Some(Command::Run(Some("5 min"))));
         assert_eq!(of("run"), Some(Command::Run(None)));
         assert_eq!(of("step 3"), Some(Command::Step(3)));
-        assert_eq!(of("step 0"), Some(Command::Miscounted));
+        for misused in ["step 0", "step -1", "step 10 s", "run -3 s", "back", "quit now", "load box.alb"] {
+            assert!(matches!(of(misused), Some(Command::Misused(..))), "{misused}");
+        }
         assert_eq!(of("behavior"), Some(Command::Behavior));
-        for language in
-            ["behavior b { hold for 1 s }", "step + 3 m", "step = 3", "run = 3", "goto home", "2 m", "", "back"]
-        {
+        for language in ["behavior b { hold for 1 s }", "step + 3 m", "step = 3", "run = 3", "goto home", "2 m", ""] {
             assert_eq!(of(language), None, "{language}");
         }
     }

@@ -34,6 +34,8 @@ pub struct Task {
     pub machine: Machine,
     /// What a line leaves at its end; none for the script's mission.
     pub left: Option<Left>,
+    /// The line, or the mission's name.
+    pub text: String,
     trace: BehaviorTrace,
 }
 
@@ -44,10 +46,10 @@ pub struct End {
 }
 
 impl Task {
-    pub fn new(machine: Machine, left: Option<Left>) -> Self {
+    pub fn new(machine: Machine, left: Option<Left>, text: &str) -> Self {
         let header = Header { mission: String::new(), scenario: String::new(), seed: 0, tick_s: TICK_S };
         let trace = BehaviorTrace::new(machine.program(), &header);
-        Task { machine, left, trace }
+        Task { machine, left, text: text.to_string(), trace }
     }
 
     /// What happened in a tick, as lines. That a line of the prompt is a mission is nobody's concern.
