@@ -58,6 +58,16 @@ impl Svg {
         self.raw(&format!("<path d=\"{}\" {attributes}/>", lines.map(moves).collect::<String>()));
     }
 
+    /// Begins a group that tells a text to whoever points at it. Ends with [`Svg::end`].
+    pub fn titled(&mut self, text: &str) {
+        self.raw(&format!("<g><title>{}</title>", escaped(text)));
+    }
+
+    /// Ends a group.
+    pub fn end(&mut self) {
+        self.raw("</g>");
+    }
+
     /// The document.
     pub fn finish(mut self) -> String {
         self.raw("</svg>");
@@ -83,7 +93,7 @@ pub fn px(x: f64) -> String {
 }
 
 /// A text as XML takes it. What XML forbids altogether becomes a blank.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
