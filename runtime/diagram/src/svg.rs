@@ -1,7 +1,7 @@
 //! The diagram as a picture.
 
 use crate::graph::{Graph, Link, Node};
-use crate::layout::{LOOP, Layout, Point, Rect, Route, Size, Wire, layout};
+use crate::layout::{Layout, Point, Rect, Route, Size, Wire, layout};
 use crate::wrap::wrapped;
 use albacore_lang::diagram::{Diagram, Guard};
 use albacore_svg::{Svg, px, text_width};

@@ -18,6 +18,8 @@ const BEND: f64 = 6.0;
 pub const LOOP: f64 = 28.0;
 /// Between two lines that meet the same side of a box.
 const PORT: f64 = 20.0;
+/// From the side of a box to the next line that meets it.
+const CORNER: f64 = 14.0;
 
 /// A width and a height.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -162,9 +164,8 @@ impl Layers {
             met[above].1 += 1;
             met[below].0 += 1;
         }
-        for (item, (above, below)) in self.items.iter_mut().zip(met) {
-            // One line needs no more room than there is: labels and bends stay as they are.
-            let half = f64::from(above.max(below).saturating_sub(1)) * PORT / 2.0;
+        for (item, (above, below)) in self.items.iter_mut().zip(met).filter(|(item, _)| item.layer % 2 == 0) {
+            let half = f64::from(above.max(below).saturating_sub(1)) * PORT / 2.0 + CORNER;
             (item.left, item.right) = (item.left.max(half), item.right.max(half));
         }
     }

@@ -2,8 +2,10 @@
 
 use super::Layers;
 
-/// So many times the layers are gone through, down and up by turns.
-const SWEEPS: usize = 24;
+/// So many times the layers are gone through, down and up by turns, from each order that is tried.
+const SWEEPS: usize = 12;
+/// So many times lines are tried elsewhere.
+const ROUNDS: usize = 4;
 
 /// Which items of the layer above, and of the layer below, each item is joined to.
 struct Joined {
@@ -11,7 +13,9 @@ struct Joined {
     below: Vec<Vec<usize>>,
 }
 
-/// Orders the rows: from both an order and its mirror image, since neither is better to begin with.
+/// Orders the rows. What is tried from is an order and its mirror image, since neither is better to begin with, and then
+/// the best so far with one whole line moved to the left or to the right of everything: a line that is on the wrong side of
+/// a box in several layers gets away from there in no smaller step.
 pub fn arrange(layers: &mut Layers) {
     let mut joined =
         Joined { above: vec![Vec::new(); layers.items.len()], below: vec![Vec::new(); layers.items.len()] };
@@ -19,20 +23,48 @@ pub fn arrange(layers: &mut Layers) {
         joined.below[above].push(below);
         joined.above[below].push(above);
     }
-    let mirrored = layers.rows.iter().map(|row| row.iter().rev().copied().collect()).collect();
-    let mut best: Option<(usize, Vec<Vec<usize>>)> = None;
-    for first in [std::mem::take(&mut layers.rows), mirrored] {
-        let mut rows: Vec<Vec<usize>> = first;
-        for sweep in 0..SWEEPS {
-            sweep_once(&mut rows, &joined, sweep % 2 == 0);
-            transpose(&mut rows, &joined);
-            let crossings = crossings(&rows, &joined);
-            if best.as_ref().is_none_or(|(least, _)| crossings < *least) {
-                best = Some((crossings, rows.clone()));
+    let mut best = Best { crossings: usize::MAX, rows: Vec::new() };
+    let rows = std::mem::take(&mut layers.rows);
+    best.improve(rows.iter().map(|row| row.iter().rev().copied().collect()).collect(), &joined);
+    best.improve(rows, &joined);
+    for _ in 0..ROUNDS {
+        let before = best.crossings;
+        for chain in layers.chains.iter().filter(|chain| chain.items.len() > 3) {
+            let moved = |i: &usize| chain.items[1..chain.items.len() - 1].contains(i);
+            for to_right in [false, true] {
+                if best.crossings == 0 {
+                    break;
+                }
+                let mut rows = best.rows.clone();
+                rows.iter_mut().for_each(|row| row.sort_by_key(|i| moved(i) == to_right));
+                best.improve(rows, &joined);
             }
         }
+        if best.crossings == before {
+            break;
+        }
     }
-    layers.rows = best.map(|(_, rows)| rows).unwrap_or_default();
+    layers.rows = best.rows;
+}
+
+/// The best order so far.
+struct Best {
+    crossings: usize,
+    rows: Vec<Vec<usize>>,
+}
+
+impl Best {
+    /// Keeps the best order to which sweeps lead from another one.
+    fn improve(&mut self, mut rows: Vec<Vec<usize>>, joined: &Joined) {
+        for sweep in 0..SWEEPS {
+            transpose(&mut rows, joined);
+            let crossings = crossings(&rows, joined);
+            if crossings < self.crossings {
+                *self = Best { crossings, rows: rows.clone() };
+            }
+            sweep_once(&mut rows, joined, sweep % 2 == 0);
+        }
+    }
 }
 
 /// Puts each item of a layer to the mean place of those that it is joined to in the layer before.

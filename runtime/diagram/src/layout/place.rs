@@ -1,14 +1,25 @@
 //! Where in its layer an item is: lines as straight as the order and the sizes allow.
 
-use super::Layers;
+use super::{CORNER, Chain, Layers};
 
 /// Between two items of a layer.
 const GAP: f64 = 16.0;
 /// So many times the layers are gone through.
-const ROUNDS: usize = 400;
-/// Differences of less than this, in pixels, are as good as none.
+const ROUNDS: usize = 600;
+/// Ways of less than this, in pixels, are as good as none: much at first, then less and less.
 const NEAR_FIRST: f64 = 4096.0;
-const NEAR_LAST: f64 = 1.0;
+const NEARER: f64 = 0.975;
+const NEAR_LAST: f64 = 0.1;
+/// How much more a line is to be straight between what it passes than at its ends.
+const INNER: f64 = 4.0;
+/// And how much more when it leads down, as a diagram is read.
+const DOWN: f64 = 2.0;
+/// How much lines want to meet boxes at their middle, where they need not.
+const MIDDLE: f64 = 0.3;
+/// A line that only just meets its box straight is to do so for certain.
+const SLACK: f64 = 2.0;
+/// A line that goes sideways by less than this, in pixels, looks crooked, and goes straight if there is nearly room.
+const CROOKED: f64 = 10.0;
 
 /// The middle of every item.
 ///
@@ -16,44 +27,88 @@ const NEAR_LAST: f64 = 1.0;
 /// which is a problem of least squares; weights that fall with the way itself turn squares into lengths, little by little.
 /// Lengths leave a few long bends, where squares would leave many short ones.
 pub fn places(layers: &Layers) -> Vec<f64> {
-    let mut joined: Vec<Vec<(usize, f64)>> = vec![Vec::new(); layers.items.len()];
-    for chain in &layers.chains {
-        for (i, pair) in chain.items.windows(2).enumerate() {
-            // Boxes have room for a line beside their middle: what a line passes on its way is to be in line first.
-            let inner = i > 0 && i + 2 < chain.items.len();
-            let weight = if inner { 4.0 } else { 1.0 };
-            joined[pair[0]].push((pair[1], weight));
-            joined[pair[1]].push((pair[0], weight));
-        }
-    }
+    let joined = joined(layers);
     let mut at = vec![0.0; layers.items.len()];
     let mut near = NEAR_FIRST;
     for round in 0..ROUNDS {
-        near = (near * 0.97_f64).max(NEAR_LAST);
+        near = (near * NEARER).max(NEAR_LAST);
         for step in 0..layers.rows.len() {
             let row = &layers.rows[if round % 2 == 0 { step } else { layers.rows.len() - 1 - step }];
-            let wanted: Vec<(f64, f64)> = row.iter().map(|&i| wanted(i, &joined[i], &at, near)).collect();
-            let apart: Vec<f64> = row
-                .windows(2)
-                .map(|pair| layers.items[pair[0]].right + GAP + layers.items[pair[1]].left)
-                .collect();
+            let wanted: Vec<(f64, f64)> = row.iter().map(|&i| wanted(at[i], &joined[i], &at, near)).collect();
+            let room = |pair: &[usize]| layers.items[pair[0]].right + GAP + layers.items[pair[1]].left;
+            let apart: Vec<f64> = row.windows(2).map(room).collect();
             for (&i, x) in row.iter().zip(spread(&wanted, &apart)) {
                 at[i] = x;
             }
         }
     }
+    for chain in &layers.chains {
+        straighten(layers, chain, &mut at);
+    }
     at
 }
 
-/// Where an item wants to be, and how much.
-fn wanted(item: usize, joined: &[(usize, f64)], at: &[f64], near: f64) -> (f64, f64) {
-    let (mut sum, mut weights) = (0.0, 0.0);
-    for &(other, weight) in joined {
-        let weight = weight / (at[other] - at[item]).abs().max(near);
-        sum += weight * at[other];
-        weights += weight;
+/// Takes small steps out of a line between its boxes: from its label on, what it passes goes where it comes from.
+fn straighten(layers: &Layers, chain: &Chain, at: &mut [f64]) {
+    let Some(inner) = chain.items.len().checked_sub(1).and_then(|last| chain.items.get(1..last)) else { return };
+    let mut inner = inner.to_vec();
+    if chain.up {
+        inner.reverse();
     }
-    if weights > 0.0 { (sum / weights, weights) } else { (at[item], 1.0) }
+    for pair in inner.windows(2) {
+        let (to, item) = (at[pair[0]], pair[1]);
+        let row = &layers.rows[layers.items[item].layer];
+        let place = row.iter().position(|i| *i == item).unwrap_or(0);
+        let clear = |a: usize, b: usize, ax: f64, bx: f64| {
+            ax + layers.items[a].right + GAP / 2.0 <= bx - layers.items[b].left
+        };
+        let left = place.checked_sub(1).is_none_or(|left| clear(row[left], item, at[row[left]], to));
+        let right = row.get(place + 1).is_none_or(|&right| clear(item, right, to, at[right]));
+        if (at[item] - to).abs() < CROOKED && left && right {
+            at[item] = to;
+        }
+    }
+}
+
+/// How an item is joined to another one.
+struct Joint {
+    to: usize,
+    weight: f64,
+    /// So far sideways the line needs no bend, since it meets a box beside its middle.
+    reach: f64,
+}
+
+fn joined(layers: &Layers) -> Vec<Vec<Joint>> {
+    let mut joined: Vec<Vec<Joint>> = layers.items.iter().map(|_| Vec::new()).collect();
+    for chain in &layers.chains {
+        for (i, pair) in chain.items.windows(2).enumerate() {
+            let is_first = i == 0;
+            let is_last = i + 2 == chain.items.len();
+            let inner = if is_first || is_last { 1.0 } else { INNER };
+            let weight = if chain.up { inner } else { inner * DOWN };
+            let item = pair[usize::from(is_last)];
+            let reach = if is_first || is_last { (layers.items[item].left - CORNER - SLACK).max(0.0) } else { 0.0 };
+            joined[pair[0]].push(Joint { to: pair[1], weight, reach });
+            joined[pair[1]].push(Joint { to: pair[0], weight, reach });
+        }
+    }
+    joined
+}
+
+/// Where an item wants to be, and how much.
+fn wanted(x: f64, joined: &[Joint], at: &[f64], near: f64) -> (f64, f64) {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    let mut pull = |to: f64, weight: f64| {
+        let weight = weight / (to - x).abs().max(near);
+        sum += weight * to;
+        weights += weight;
+    };
+    for joint in joined {
+        let to = at[joint.to];
+        pull(x.clamp(to - joint.reach, to + joint.reach), joint.weight);
+        pull(to, joint.weight * MIDDLE);
+    }
+    if weights > 0.0 { (sum / weights, weights) } else { (x, 1.0) }
 }
 
 /// Places in order, with distances between them of at least `apart`, and as near as possible to where each is wanted, by

@@ -1,16 +1,14 @@
 //! From places to the page: how high each layer is, where a line meets its boxes, and how it bends on its way.
 
-use super::{Chain, Item, LOOP, Layers, Layout, PORT, Point, Rect, Route, Size, Wire, place};
+use super::{CORNER, Chain, Item, LOOP, Layers, Layout, PORT, Point, Rect, Route, Size, Wire, place};
 
 /// Between two layers, at least.
-const BETWEEN: f64 = 24.0;
+const BETWEEN: f64 = 28.0;
 /// So much more for each pixel that a line goes sideways there, up to a limit: a bend needs room.
-const SLANT: f64 = 0.16;
-const BETWEEN_MAX: f64 = 72.0;
+const SLANT: f64 = 0.2;
+const BETWEEN_MAX: f64 = 84.0;
 /// Straight at each end of a line: room for an arrow.
 const STRAIGHT: f64 = 12.0;
-/// From the corner of a box to the next line that meets it.
-const CORNER: f64 = 12.0;
 
 /// What was placed, on the page.
 pub fn draw(layers: &Layers, nodes: &[Size], wires: &[Wire], places: &[f64]) -> Layout {
