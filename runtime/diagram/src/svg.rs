@@ -14,9 +14,9 @@ const TOP: f64 = 92.0;
 const BOTTOM: f64 = 56.0;
 
 /// Letters of a script have one width: that of the widest of the fonts asked for, in parts of their size.
-const CODE: &str = "font-family=\"Menlo, Consolas, 'DejaVu Sans Mono', monospace\"";
-const CODE_WIDTH: f64 = 0.61;
+const CODE: &str = "font-family=\"Menlo, Consolas, 'DejaVu Sans Mono', monospace\" font-size=\"11.5\"";
 const CODE_SIZE: f64 = 11.5;
+const CODE_WIDTH: f64 = 0.61;
 const CODE_LINE: f64 = 15.0;
 /// Bold letters are wider than others.
 const BOLD: f64 = 1.16;
@@ -44,10 +44,10 @@ pub fn svg(diagram: &Diagram) -> String {
     let mut svg = Svg::new(width, height);
     svg.text((EDGE, 38.0), "font-size=\"20\" font-weight=\"bold\" fill=\"#1a1a1a\"", &diagram.name);
     for ((link, label), route) in graph.links.iter().zip(&labels).zip(&layout.routes) {
-        svg.titled(&spelt(&graph, link));
-        page.line(&mut svg, link, route);
-        page.label(&mut svg, label, route.label);
-        svg.end();
+        svg.titled(&spelt(&graph, link), CODE, |svg| {
+            page.line(svg, link, route);
+            page.label(svg, label, route.label);
+        });
     }
     for (node, area) in graph.nodes.iter().zip(&layout.nodes) {
         page.node(&mut svg, node, *area);
@@ -120,12 +120,12 @@ fn end(node: &Node) -> (&'static str, Vec<String>) {
 fn size(node: &Node) -> Size {
     let bold = |text: &str| text_width(text, NAME_SIZE) * BOLD;
     match node {
-        Node::Behavior(name) => Size { width: (bold(name) + 32.0).max(104.0).ceil(), height: 40.0 },
+        Node::Behavior(name) => Size { width: (bold(name) + 32.0).max(120.0).ceil(), height: 40.0 },
         _ => {
             let (word, lines) = end(node);
             let letters = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0) as f64;
             let width = bold(word).max(letters * CODE_SIZE * CODE_WIDTH) + 36.0;
-            Size { width: width.max(88.0).ceil(), height: 40.0 + CODE_LINE * lines.len() as f64 }
+            Size { width: width.max(120.0).ceil(), height: 40.0 + CODE_LINE * lines.len() as f64 }
         }
     }
 }
@@ -176,7 +176,7 @@ impl Placed {
         svg.text((x, first), &bold(colour), word);
         for (i, line) in lines.iter().enumerate() {
             let at = (x, first + CODE_LINE * (i + 1) as f64 + 1.0);
-            svg.text(at, &format!("{CODE} font-size=\"{CODE_SIZE}\" text-anchor=\"middle\" fill=\"{INK}\""), line);
+            svg.text(at, &format!("{CODE} text-anchor=\"middle\" fill=\"{INK}\""), line);
         }
     }
 
@@ -192,18 +192,19 @@ impl Placed {
     fn line(&self, svg: &mut Svg, link: &Link, route: &Route) {
         let (Some(first), Some(last)) = (route.curves.first(), route.curves.last()) else { return };
         let mut data = String::new();
+        let mut curves = route.curves.iter().map(|curve| curve.map(|point| self.at(point))).peekable();
         let mut pen = None;
-        for curve in &route.curves {
-            let [from, c, d, to] = curve.map(|point| self.at(point));
+        while let Some([from, c, d, to]) = curves.next() {
             if pen != Some(from) {
                 data.push_str(&format!("M{}", pair(from)));
             }
-            if from.0 == to.0 && c.0 == d.0 && c.0 == from.0 {
-                data.push_str(&format!("L{}", pair(to)));
-            } else {
-                data.push_str(&format!("C{} {} {}", pair(c), pair(d), pair(to)));
-            }
             pen = Some(to);
+            let goes_on = curves.peek().is_some_and(|[next, .., end]| *next == to && next.0 == end.0);
+            if from.0 != to.0 {
+                data.push_str(&format!("C{} {} {}", pair(c), pair(d), pair(to)));
+            } else if !goes_on {
+                data.push_str(&format!("L{}", pair(to)));
+            }
         }
         let dashes = if link.back { " stroke-dasharray=\"6 4\"" } else { "" };
         svg.raw(&format!("<path d=\"{data}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.4\"{dashes}/>"));
@@ -217,17 +218,16 @@ impl Placed {
     fn label(&self, svg: &mut Svg, label: &Label, area: Rect) {
         let area = self.area(area);
         let mut y = area.top + 3.0 + CODE_LINE * 0.76;
-        let code = |fill: &str| format!("{CODE} font-size=\"{CODE_SIZE}\" fill=\"{fill}\"");
         for (rule, lines) in &label.guards {
-            let number = format!("{} font-weight=\"bold\"", code(BLUE));
+            let number = format!("fill=\"{BLUE}\" font-weight=\"bold\"");
             svg.text((area.left + 4.0, y), &number, &rule.to_string());
             for line in lines {
-                svg.text((area.left + 4.0 + label.indent, y), &code("#1a1a1a"), line);
+                svg.text((area.left + 4.0 + label.indent, y), "fill=\"#1a1a1a\"", line);
                 y += CODE_LINE;
             }
         }
         if label.back {
-            svg.text((area.left + 4.0 + label.indent, y), &format!("{} font-style=\"italic\"", code("#666")), BACK);
+            svg.text((area.left + 4.0 + label.indent, y), "fill=\"#666\" font-style=\"italic\"", BACK);
         }
     }
 }

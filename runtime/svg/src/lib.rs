@@ -58,13 +58,10 @@ impl Svg {
         self.raw(&format!("<path d=\"{}\" {attributes}/>", lines.map(moves).collect::<String>()));
     }
 
-    /// Begins a group that tells a text to whoever points at it. Ends with [`Svg::end`].
-    pub fn titled(&mut self, text: &str) {
-        self.raw(&format!("<g><title>{}</title>", escaped(text)));
-    }
-
-    /// Ends a group.
-    pub fn end(&mut self) {
+    /// Elements that tell a text to whoever points at them.
+    pub fn titled(&mut self, text: &str, attributes: &str, draw: impl FnOnce(&mut Svg)) {
+        self.raw(&format!("<g {attributes}><title>{}</title>", escaped(text)));
+        draw(self);
         self.raw("</g>");
     }
 
@@ -93,7 +90,7 @@ pub fn px(x: f64) -> String {
 }
 
 /// A text as XML takes it. What XML forbids altogether becomes a blank.
-pub fn escaped(text: &str) -> String {
+fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

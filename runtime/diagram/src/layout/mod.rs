@@ -8,6 +8,8 @@ mod order;
 mod place;
 mod ranks;
 mod route;
+#[cfg(test)]
+mod tests;
 
 /// A point of the page, in pixels right and down.
 pub type Point = (f64, f64);

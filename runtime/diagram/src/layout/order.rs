@@ -4,8 +4,8 @@ use super::Layers;
 
 /// So many times the layers are gone through, down and up by turns, from each order that is tried.
 const SWEEPS: usize = 12;
-/// So many times lines are tried elsewhere.
-const ROUNDS: usize = 4;
+/// Pairs of neighbours that are looked at, all in all: more than enough for any table that one can read.
+const COST_MAX: usize = 1_000_000;
 
 /// Which items of the layer above, and of the layer below, each item is joined to.
 struct Joined {
@@ -27,14 +27,18 @@ pub fn arrange(layers: &mut Layers) {
     let rows = std::mem::take(&mut layers.rows);
     best.improve(rows.iter().map(|row| row.iter().rev().copied().collect()).collect(), &joined);
     best.improve(rows, &joined);
-    for _ in 0..ROUNDS {
+    // What a try costs grows with the square of the rows.
+    let cost: usize = best.rows.iter().map(|row| row.len() * row.len()).sum();
+    let mut tries = COST_MAX / cost.max(1);
+    loop {
         let before = best.crossings;
         for chain in layers.chains.iter().filter(|chain| chain.items.len() > 3) {
             let moved = |i: &usize| chain.items[1..chain.items.len() - 1].contains(i);
             for to_right in [false, true] {
-                if best.crossings == 0 {
+                if best.crossings == 0 || tries == 0 {
                     break;
                 }
+                tries -= 1;
                 let mut rows = best.rows.clone();
                 rows.iter_mut().for_each(|row| row.sort_by_key(|i| moved(i) == to_right));
                 best.improve(rows, &joined);

@@ -5,13 +5,13 @@ use super::{CORNER, Chain, Layers};
 /// Between two items of a layer.
 const GAP: f64 = 16.0;
 /// So many times the layers are gone through.
-const ROUNDS: usize = 600;
+const ROUNDS: usize = 1200;
 /// Ways of less than this, in pixels, are as good as none: much at first, then less and less.
 const NEAR_FIRST: f64 = 4096.0;
-const NEARER: f64 = 0.975;
+const NEARER: f64 = 0.99;
 const NEAR_LAST: f64 = 0.1;
 /// How much more a line is to be straight between what it passes than at its ends.
-const INNER: f64 = 4.0;
+const INNER: f64 = 8.0;
 /// And how much more when it leads down, as a diagram is read.
 const DOWN: f64 = 2.0;
 /// How much lines want to meet boxes at their middle, where they need not.
