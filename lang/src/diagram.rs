@@ -85,28 +85,23 @@ impl Script {
                 return Err(NoDiagram { message, help: Some(format!("name one of {}", suggest::listed(several))) });
             }
         };
-        if let Some(found) = tables.iter().find(|a| a.full_name == chosen) {
-            return diagram(found, &self.hir, &self.sources).ok_or_else(|| self.without_table(chosen));
-        }
-        if self.hir.activities.iter().any(|a| a.owner.is_none() && a.full_name == chosen) {
-            return Err(self.without_table(chosen));
+        if let Some(found) = self.hir.activities.iter().find(|a| a.owner.is_none() && a.full_name == chosen) {
+            return diagram(found, &self.hir, &self.sources).ok_or_else(|| {
+                let is_sequence = matches!(found.body, Body::Sequence(_));
+                let help = is_sequence.then(|| "its statements run one after the other".to_string());
+                NoDiagram { message: format!("`{chosen}` has no switching table"), help }
+            });
         }
         let all: Vec<&str> = names(true).into_iter().chain(names(false)).collect();
         let message = format!("`{file}` knows no strategy or mission `{chosen}`");
         // Of an imported strategy, the module is soon forgotten.
         let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_string();
-        let help = match nearest(chosen, all.iter().copied()).or(all.iter().copied().find(|n| last(n) == last(chosen))) {
+        let help = match nearest(chosen, all.iter().copied()).or(all.iter().copied().find(|n| last(n) == last(chosen)))
+        {
             Some(near) => Some(format!("did you mean `{near}`?")),
             None => (!all.is_empty()).then(|| format!("switching tables are {}", suggest::listed(&all))),
         };
         Err(NoDiagram { message, help })
-    }
-
-    fn without_table(&self, name: &str) -> NoDiagram {
-        NoDiagram {
-            message: format!("`{name}` has no switching table"),
-            help: Some("its statements run one after the other".into()),
-        }
     }
 }
 
@@ -131,7 +126,9 @@ fn diagram(activity: &Activity, hir: &Hir, sources: &Sources) -> Option<Diagram>
             let same = |e: &&mut Edge| (e.source, &e.target, e.back) == (source, &target, rule.back);
             match edges.iter_mut().find(same) {
                 Some(edge) => edge.guards.push(guard.clone()),
-                None => edges.push(Edge { source, target: target.clone(), back: rule.back, guards: vec![guard.clone()] }),
+                None => {
+                    edges.push(Edge { source, target: target.clone(), back: rule.back, guards: vec![guard.clone()] })
+                }
             }
         }
     }

@@ -57,7 +57,9 @@ pub fn load_or_module(path: &Path) -> Result<Script, FileError> {
         let help = match nearest(name, modules) {
             _ if file.is_file() => Some(format!("did you mean `{}`?", file.display())),
             Some(near) => Some(format!("did you mean `{near}`?")),
-            None => Some(format!("there is {}; a script is named by its file, such as `mission.alb`", modules.join(", "))),
+            None => {
+                Some(format!("there is {}; a script is named by its file, such as `mission.alb`", modules.join(", ")))
+            }
         };
         return Err(FileError { message: format!("the standard library has no module `{name}`"), help });
     };

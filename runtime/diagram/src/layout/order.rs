@@ -123,7 +123,8 @@ fn crossings(rows: &[Vec<usize>], joined: &Joined) -> usize {
     for pair in rows.windows(2) {
         let place = places(&pair[1], joined.below.len());
         for (i, &a) in pair[0].iter().enumerate() {
-            sum += pair[0][i + 1..].iter().map(|&b| inverted(&joined.below[a], &joined.below[b], &place)).sum::<usize>();
+            sum +=
+                pair[0][i + 1..].iter().map(|&b| inverted(&joined.below[a], &joined.below[b], &place)).sum::<usize>();
         }
     }
     sum

@@ -23,9 +23,9 @@ const CROOKED: f64 = 10.0;
 
 /// The middle of every item.
 ///
-/// What is made small is the sum of the sideways ways of all lines. Each layer in turn is put where the others want it,
-/// which is a problem of least squares; weights that fall with the way itself turn squares into lengths, little by little.
-/// Lengths leave a few long bends, where squares would leave many short ones.
+/// What is made small is how far lines go sideways. Each layer in turn is put where the others want it, which is a problem
+/// of least squares; weights that fall with the way itself turn its square into its root, little by little. Squares would
+/// give each line many short bends; roots leave it one long one.
 pub fn places(layers: &Layers) -> Vec<f64> {
     let joined = joined(layers);
     let mut at = vec![0.0; layers.items.len()];
@@ -59,9 +59,8 @@ fn straighten(layers: &Layers, chain: &Chain, at: &mut [f64]) {
         let (to, item) = (at[pair[0]], pair[1]);
         let row = &layers.rows[layers.items[item].layer];
         let place = row.iter().position(|i| *i == item).unwrap_or(0);
-        let clear = |a: usize, b: usize, ax: f64, bx: f64| {
-            ax + layers.items[a].right + GAP / 2.0 <= bx - layers.items[b].left
-        };
+        let clear =
+            |a: usize, b: usize, ax: f64, bx: f64| ax + layers.items[a].right + GAP / 2.0 <= bx - layers.items[b].left;
         let left = place.checked_sub(1).is_none_or(|left| clear(row[left], item, at[row[left]], to));
         let right = row.get(place + 1).is_none_or(|&right| clear(item, right, to, at[right]));
         if (at[item] - to).abs() < CROOKED && left && right {
@@ -99,7 +98,8 @@ fn joined(layers: &Layers) -> Vec<Vec<Joint>> {
 fn wanted(x: f64, joined: &[Joint], at: &[f64], near: f64) -> (f64, f64) {
     let (mut sum, mut weights) = (0.0, 0.0);
     let mut pull = |to: f64, weight: f64| {
-        let weight = weight / (to - x).abs().max(near);
+        let way = (to - x).abs().max(near);
+        let weight = weight / (way * way.sqrt());
         sum += weight * to;
         weights += weight;
     };

@@ -42,9 +42,8 @@ fn along(curve: &[Point; 4]) -> impl Iterator<Item = Point> {
     (0..=20).map(move |i| {
         let t = f64::from(i) / 20.0;
         let u = 1.0 - t;
-        let mix = |a: f64, b: f64, c: f64, d: f64| {
-            u * u * u * a + 3.0 * u * u * t * b + 3.0 * u * t * t * c + t * t * t * d
-        };
+        let mix =
+            |a: f64, b: f64, c: f64, d: f64| u * u * u * a + 3.0 * u * u * t * b + 3.0 * u * t * t * c + t * t * t * d;
         (mix(a.0, b.0, c.0, d.0), mix(a.1, b.1, c.1, d.1))
     })
 }
