@@ -65,7 +65,7 @@ impl Node {
             Node::Behavior(name) => name.clone(),
             Node::Finish(None) => "finish".into(),
             Node::Finish(Some(result)) => format!("finish {result}"),
-            Node::Abort(why) => format!("abort \"{why}\""),
+            Node::Abort(why) => format!("abort \"{}\"", why.replace('"', "\\\"")),
         }
     }
 }

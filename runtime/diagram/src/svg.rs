@@ -113,7 +113,7 @@ fn end(node: &Node) -> (&'static str, Vec<String>) {
     match node {
         Node::Behavior(_) | Node::Finish(None) => ("finish", Vec::new()),
         Node::Finish(Some(result)) => ("finish", wrapped(result, LETTERS)),
-        Node::Abort(why) => ("abort", wrapped(&format!("\"{why}\""), LETTERS)),
+        Node::Abort(why) => ("abort", wrapped(why, LETTERS)),
     }
 }
 
