@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod clock;
 mod exit;
+mod graph;
 mod interruption;
 mod kept;
 mod message;
@@ -41,6 +42,8 @@ enum Verb {
     /// A row for each seed, in their order: the same bytes on any number of cores and after any interruption. Ends with 0
     /// when every seed was run, whatever came of it; with 1 when interrupted.
     Campaign(campaign::Campaign),
+    /// Draw the switching diagram of a strategy.
+    Graph(graph::Graph),
     /// Serve a simulated vehicle at the far end of a link.
     Vehicle(vehicle::Vehicle),
 }
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
         Verb::Campaign(campaign) => campaign.run(),
+        Verb::Graph(graph) => graph.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
     };
     ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })

@@ -2,12 +2,22 @@
 
 use crate::exit::Exit;
 use crate::message;
-use albacore_session::{Plan, PlanError, Script};
+use albacore_session::{FileError, Plan, PlanError, Script};
 use std::path::Path;
 
 /// Loads a script, or says what is wrong and how the program ends.
 pub fn script(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script, Exit> {
-    let script = albacore_session::load(path, mission, set).map_err(|error| {
+    sound(albacore_session::load(path, mission, set))
+}
+
+/// Loads a script, or a module of the standard library by its bare name.
+pub fn script_or_module(path: &Path) -> Result<Script, Exit> {
+    sound(albacore_session::load_or_module(path))
+}
+
+/// What was loaded, if it can be used; else what is wrong is said.
+fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
+    let script = loaded.map_err(|error| {
         message::error(&error.message, error.help.as_deref());
         Exit::Usage
     })?;

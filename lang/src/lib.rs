@@ -5,6 +5,7 @@
 
 mod check;
 pub mod diagnostic;
+pub mod diagram;
 mod dimension;
 mod hir;
 mod loader;

@@ -81,6 +81,11 @@ pub fn statements(source: &str) -> Vec<&str> {
     statements
 }
 
+/// A stretch of a source with blanks for its comments.
+pub(crate) fn uncommented(file: FileId, stretch: &str) -> String {
+    scan::scan(file, stretch).text
+}
+
 /// Reads a source by a rule of the grammar: what was built of it, the findings, the comments.
 fn read<T>(
     file: FileId,

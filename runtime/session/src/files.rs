@@ -45,6 +45,27 @@ pub fn load(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script
     Ok(albacore_lang::load(source, &files, mission, set))
 }
 
+/// Reads and checks a script file, or a module of the standard library. A bare name, without a dot or a folder, is a
+/// module's, whatever files there are.
+pub fn load_or_module(path: &Path) -> Result<Script, FileError> {
+    let Some(name) = path.to_str().filter(|name| !name.contains(['.', '/', '\\'])) else {
+        return load(path, None, &[]);
+    };
+    let Some(source) = stdlib(name) else {
+        let modules = STDLIB.map(|(name, _)| name);
+        let file = path.with_extension("alb");
+        let help = match nearest(name, modules) {
+            _ if file.is_file() => Some(format!("did you mean `{}`?", file.display())),
+            Some(near) => Some(format!("did you mean `{near}`?")),
+            None => {
+                Some(format!("there is {}; a script is named by its file, such as `mission.alb`", modules.join(", ")))
+            }
+        };
+        return Err(FileError { message: format!("the standard library has no module `{name}`"), help });
+    };
+    Ok(albacore_lang::load(source, &Files::around(Path::new("")), None, &[]))
+}
+
 /// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it.
 pub fn load_library() -> Script {
     let nothing = Source { name: "the standard library".into(), text: "".into() };

@@ -13,6 +13,7 @@ mod summary;
 mod tests;
 mod world;
 
+pub use albacore_diagram as diagram;
 pub use albacore_lang::Script;
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::source::{FileId, Source, Sources, Span};
@@ -20,7 +21,7 @@ pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{LinkError, Transport, Url, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
-pub use files::{FileError, Files, load, load_library};
+pub use files::{FileError, Files, load, load_library, load_or_module};
 pub use link::{Called, call};
 pub use run::{Plan, PlanError, Run, Running};
 pub use summary::{Report, Summary};

@@ -5,13 +5,12 @@ mod contours;
 mod frame;
 mod labels;
 mod panel;
-mod svg;
 mod track;
 
 use albacore_geometry::{Point, Vector};
+use albacore_svg::{self as svg, Svg};
 pub use contours::Depths;
 use frame::Frame;
-use svg::Svg;
 
 /// Behaviors by colour (Okabe and Ito's, less yellow, plus wine and grey): told apart by the colour-blind and on white paper.
 const PALETTE: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#6b6b6b"];

@@ -58,6 +58,13 @@ impl Svg {
         self.raw(&format!("<path d=\"{}\" {attributes}/>", lines.map(moves).collect::<String>()));
     }
 
+    /// Elements that tell a text to whoever points at them.
+    pub fn titled(&mut self, text: &str, attributes: &str, draw: impl FnOnce(&mut Svg)) {
+        self.raw(&format!("<g {attributes}><title>{}</title>", escaped(text)));
+        draw(self);
+        self.raw("</g>");
+    }
+
     /// The document.
     pub fn finish(mut self) -> String {
         self.raw("</svg>");

@@ -1,0 +1,76 @@
+//! `albacore graph`: the switching diagram of a strategy.
+
+use crate::exit::Exit;
+use crate::{kept, message, plan};
+use albacore_session::diagram::{self, Diagram};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Draw the switching diagram of a strategy.
+#[derive(clap::Args)]
+pub struct Graph {
+    /// The script: a path, or a module of the standard library by its bare name (`cpt`; a file of that name is `./cpt`).
+    #[arg(value_name = "SCRIPT.alb")]
+    script: PathBuf,
+    /// The strategy, or the mission that has a table: `cpt_2005`, or `cpt.cpt_2005` of a script that imports it; else the
+    /// only one in the script.
+    name: Option<String>,
+    /// How it is drawn.
+    #[arg(long, value_enum, default_value_t = Format::Svg)]
+    format: Format,
+    /// The file to write; else standard output.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Format {
+    /// A picture.
+    Svg,
+    /// For Graphviz.
+    Dot,
+    /// For Mermaid, in Markdown.
+    Mermaid,
+}
+
+impl Graph {
+    /// Draws it.
+    pub fn run(&self) -> Exit {
+        let script = match plan::script_or_module(&self.script) {
+            Ok(script) => script,
+            Err(exit) => return exit,
+        };
+        match script.diagram(self.name.as_deref()) {
+            Ok(diagram) => self.write(&self.format.of(&diagram)),
+            Err(none) => {
+                message::error(&none.message, none.help.as_deref());
+                Exit::Usage
+            }
+        }
+    }
+
+    fn write(&self, text: &str) -> Exit {
+        let Some(path) = &self.out else {
+            // A closed pipe is silent.
+            let _ = std::io::stdout().lock().write_all(text.as_bytes());
+            return Exit::Well;
+        };
+        match kept::whole(path, text) {
+            Ok(()) => Exit::Well,
+            Err(error) => {
+                message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
+                Exit::Failed
+            }
+        }
+    }
+}
+
+impl Format {
+    fn of(self, diagram: &Diagram) -> String {
+        match self {
+            Format::Svg => diagram::svg(diagram),
+            Format::Dot => diagram::dot(diagram),
+            Format::Mermaid => diagram::mermaid(diagram),
+        }
+    }
+}
