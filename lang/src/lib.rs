@@ -6,6 +6,7 @@
 mod check;
 pub mod diagnostic;
 mod dimension;
+mod echo;
 mod hir;
 mod loader;
 mod lower;
@@ -26,10 +27,6 @@ use diagnostic::Diagnostic;
 use loader::{Loader, module_name};
 use source::{FileId, Source, Sources, Span};
 use syntax::tree::{self, ActivityKind, Item};
-
-/// What is found missing when something could not be read: no second mistake.
-const ECHOES: [&str; 6] =
-    ["names::unknown", "types::result", "types::if_value", "rules::start", "rules::unreachable", "rules::ending"];
 
 /// Where imported modules come from.
 pub trait Library {
@@ -70,15 +67,13 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
 
 /// Checks what was read.
 fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script {
-    let Loader { sources, modules, .. } = loader;
+    let Loader { sources, modules, unread, .. } = loader;
     let mut findings = std::mem::take(&mut loader.findings);
     let main = &modules[MAIN].tree;
     let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
     let overrides = overrides(sources, set, chosen.as_ref(), main, &mut findings);
-    let unreadable = findings.iter().any(|f| f.code.starts_with("syntax::"));
     let checked = check::check(modules, overrides.clone());
-    let later = checked.findings.into_iter().filter(|f| !(unreadable && is_echo(f)));
-    findings.extend(later);
+    findings.extend(checked.findings.into_iter().filter(|f| !echo::is_echo(f, unread, sources)));
     let mut missions = Vec::new();
     for item in &main.items {
         if let Item::Activity(a) = item
@@ -140,12 +135,6 @@ impl Script {
         let id = self.hir.scenarios.iter().position(|s| s.name == name)?;
         Some(lower::scenario(&self.hir, &self.types, &self.sources, id, origin))
     }
-}
-
-/// Whether a finding may only miss what could not be read.
-fn is_echo(finding: &Diagnostic) -> bool {
-    let misspelt = finding.help.as_ref().is_some_and(|help| help.starts_with("did you mean"));
-    ECHOES.contains(&finding.code) || (finding.code == "rules::unknown" && !misspelt)
 }
 
 /// The mission that is meant: the one asked for, else the one named like the file, else the only one.

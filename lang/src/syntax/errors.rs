@@ -35,7 +35,7 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
     let (start, end) = (bad.span.start as usize, bad.span.end as usize);
     let stretch = &text[start..end];
     let (rule, words) = match bad.place {
-        Place::Item => (Rule::item_only, &ITEM_WORDS[..]),
+        Place::Item | Place::Head => (Rule::item_only, &ITEM_WORDS[..]),
         Place::Clause => (Rule::clause_only, &CLAUSE_WORDS[..]),
         Place::TestClause => (Rule::test_clause_only, &TEST_WORDS[..]),
     };

@@ -38,9 +38,6 @@ pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
             None => None,
         };
     }
-    if expected.contains("`{`") && rest.starts_with('\n') && rest.trim_start().starts_with('{') {
-        return only("the `{` stands on the same line");
-    }
     if let Some(word) = before.split_whitespace().next_back().filter(|word| ["wait", "hold"].contains(word))
         && rest.starts_with(|c: char| c.is_ascii_digit())
     {
