@@ -7,6 +7,7 @@ mod check;
 pub mod diagnostic;
 mod dimension;
 mod echo;
+mod foreign;
 mod hir;
 mod loader;
 mod lower;
@@ -73,7 +74,8 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
     let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
     let overrides = overrides(sources, set, chosen.as_ref(), main, &mut findings);
     let checked = check::check(modules, overrides.clone());
-    findings.extend(checked.findings.into_iter().filter(|f| !echo::is_echo(f, unread, sources)));
+    let later = checked.findings.into_iter().filter(|f| !echo::is_echo(f, unread, sources));
+    findings.extend(later.map(|finding| missing_use(finding, sources, loader.library)));
     let mut missions = Vec::new();
     for item in &main.items {
         if let Item::Activity(a) = item
@@ -135,6 +137,19 @@ impl Script {
         let id = self.hir.scenarios.iter().position(|s| s.name == name)?;
         Some(lower::scenario(&self.hir, &self.types, &self.sources, id, origin))
     }
+}
+
+/// `maneuver.bowtie(…)` where nothing is named `maneuver`: there may be such a module to import.
+fn missing_use(finding: Diagnostic, sources: &Sources, library: &dyn Library) -> Diagnostic {
+    let span = finding.span();
+    let source = sources.get(span.file);
+    let is_head = source.text.get(span.end as usize..).is_some_and(|after| after.starts_with('.'));
+    let name = sources.text(span);
+    if finding.code == "names::unknown" && is_head && library.module(source, &[name.to_string()]).is_ok() {
+        let help = format!("write `use {name}` at the top of the file");
+        return finding.help(help);
+    }
+    finding
 }
 
 /// The mission that is meant: the one asked for, else the one named like the file, else the only one.

@@ -168,6 +168,7 @@ impl<'t> Checker<'t> {
     fn declare_types(&mut self, m: usize, item: &'t Item) {
         match item {
             Item::Record { name, fields } => {
+                self.fields_once(fields);
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Record(id)) = self.names[m].get(&name.node) {
                     self.types.records[id].fields = fields;
@@ -182,6 +183,7 @@ impl<'t> Checker<'t> {
                 }
             }
             Item::Input { name, ty, fields } => {
+                self.fields_once(fields);
                 let ty = self.written_type(m, ty);
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Input(id)) = self.names[m].get(&name.node) {
@@ -190,6 +192,16 @@ impl<'t> Checker<'t> {
                 }
             }
             _ => {}
+        }
+    }
+
+    fn fields_once(&mut self, fields: &[tree::Field]) {
+        for (i, field) in fields.iter().enumerate() {
+            if let Some(first) = fields[..i].iter().find(|f| f.name.node == field.name.node) {
+                let message = format!("there are two fields `{}`", field.name.node);
+                let finding = Diagnostic::error("names::twice", field.name.span, message);
+                self.report(finding.label(first.name.span, "the first").help("choose another name, or leave it out"));
+            }
         }
     }
 

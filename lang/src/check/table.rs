@@ -326,17 +326,9 @@ fn finishes(block: &hir::Block) -> bool {
 }
 
 fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
-    use albacore_program::Guide;
-    if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() {
-        return false;
-    }
     match &timed.action {
-        hir::Action::Guide(guide, args) => match guide {
-            Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => true,
-            Guide::Loiter => args.get(2).is_some_and(|turns| turns.range.constant() == Some(0.0)),
-            _ => false,
-        },
-        hir::Action::Keep(..) => true,
+        _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
+        hir::Action::Guide(..) | hir::Action::Keep(..) => flow::endless(timed),
         hir::Action::Call(id, _) => match &hir.activities[*id].body {
             Body::Sequence(block) if !path.contains(id) => {
                 path.push(*id);

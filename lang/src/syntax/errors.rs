@@ -4,6 +4,7 @@ use super::build::{Bad, Place};
 use super::habits::habit;
 use super::{Grammar, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::foreign;
 use crate::source::{FileId, Span};
 use crate::suggest;
 use pest::Parser;
@@ -55,13 +56,13 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             }
             _ => Diagnostic::error("syntax::clause", span, format!("`{word}` begins no statement")),
         };
+        if let Some(help) = foreign::help(&word) {
+            return finding.help(help);
+        }
         return match suggest::nearest(&word, words.iter().copied()) {
             Some(near) => finding.help(format!("did you mean `{near}`?")),
             None if bad.place == Place::Item => {
                 finding.help("a file holds behaviors, strategies, missions, scenarios, …")
-            }
-            None if word == "return" => {
-                finding.help("a function gives its last expression, and a behavior ends with `finish`")
             }
             None => finding
                 .help(format!("after a name comes `=`, `(`, or in a switching table `->`; not {}", found(after_word))),

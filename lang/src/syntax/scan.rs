@@ -272,6 +272,13 @@ impl<'a> Scanner<'a> {
         }
         self.at = start + length;
         self.last = Last::Ends;
+        if closed && hole > 0 {
+            let span = self.span(start, self.at);
+            self.findings.push(
+                Diagnostic::error("syntax::text", span, "this text ends inside its `{ }`")
+                    .help("close it with `}`, or write `\\{` for the sign itself; no `\"` stands inside `{ }`"),
+            );
+        }
         if !closed {
             let span = self.span(start, self.at);
             self.findings.push(
