@@ -119,6 +119,11 @@ impl Script {
         self.hir.scenarios.iter().map(|s| s.name.as_str())
     }
 
+    /// The scenarios of the script's own file.
+    pub fn own_scenarios(&self) -> impl Iterator<Item = &str> {
+        self.hir.scenarios.iter().filter(|s| s.span.file == ENTRY).map(|s| s.name.as_str())
+    }
+
     /// A mission, ready for the machine.
     pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;

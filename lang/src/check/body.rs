@@ -413,7 +413,7 @@ impl<'t> Checker<'t> {
                 _ => {
                     let value = self.expr(e, None);
                     if value.ty != Type::Unknown {
-                        self.unused(span);
+                        self.unused(span, "name it with `let`, or remove it");
                     }
                     return None;
                 }
@@ -421,7 +421,13 @@ impl<'t> Checker<'t> {
             _ => {
                 let value = self.expr(e, None);
                 if value.ty != Type::Unknown {
-                    self.unused(span);
+                    let help = match &e.kind {
+                        K::Unary(op, _) if matches!(op.node, tree::Unary::Pos | tree::Unary::Neg) => {
+                            "to go on with the line before, end that line with the operator"
+                        }
+                        _ => "name it with `let`, or remove it",
+                    };
+                    self.unused(span, help);
                 }
                 return None;
             }
@@ -429,11 +435,8 @@ impl<'t> Checker<'t> {
         Some(Stmt { kind, span })
     }
 
-    fn unused(&mut self, span: Span) {
-        self.report(
-            Diagnostic::error("flow::unused", span, "this computes a value that nobody reads")
-                .help("name it with `let`, or remove it"),
-        );
+    fn unused(&mut self, span: Span, help: &str) {
+        self.report(Diagnostic::error("flow::unused", span, "this computes a value that nobody reads").help(help));
     }
 
     fn list_change(&mut self, base: &tree::Expr, what: &str, args: &[tree::Arg], span: Span) -> Option<Stmt> {

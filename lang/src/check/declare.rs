@@ -156,6 +156,7 @@ impl<'t> Checker<'t> {
             Item::Scenario { name, .. } => {
                 self.hir.scenarios.push(hir::Scenario {
                     name: name.node.clone(),
+                    span: name.span,
                     vars: Vec::new(),
                     defaults: Vec::new(),
                     clauses: Vec::new(),
