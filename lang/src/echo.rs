@@ -35,13 +35,18 @@ const PARTS: [&str; 14] = [
     "time::instant_loop",
 ];
 
+/// Words after which a name is declared, inside a declaration.
+const DECLARING: [&str; 8] = ["let", "var", "memory", "signal", "behavior", "area", "for", "clause"];
+
 /// Whether a finding may only miss what could not be read.
 pub fn is_echo(finding: &Diagnostic, unread: &[Unread], sources: &Sources) -> bool {
     let span = finding.span();
     if NAMES.contains(&finding.code) {
         let name = sources.text(span);
         return unread.iter().any(|u| {
-            u.item.is_none_or(|item| holds(item, span)) && words(sources.text(u.span)).any(|w| words(name).any(|n| n == w))
+            let text = sources.text(u.span);
+            u.item.is_none_or(|item| holds(item, span))
+                && words(name).any(|name| may_declare(text, name, u.item.is_none()))
         });
     }
     PARTS.contains(&finding.code) && unread.iter().any(|u| u.item.is_some_and(|item| holds(item, span)))
@@ -49,6 +54,21 @@ pub fn is_echo(finding: &Diagnostic, unread: &[Unread], sources: &Sources) -> bo
 
 fn holds(outer: Span, inner: Span) -> bool {
     outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
+}
+
+/// Whether a text may declare a name: a whole declaration any name in it, a part of one what a word or a type says.
+fn may_declare(text: &str, name: &str, whole: bool) -> bool {
+    let mut before = "";
+    let mut rest = text;
+    while let Some(word) = words(rest).next() {
+        let at = rest.find(word).unwrap_or(0);
+        rest = &rest[at + word.len()..];
+        if word == name && (whole || DECLARING.contains(&before) || rest.trim_start().starts_with(':')) {
+            return true;
+        }
+        before = word;
+    }
+    false
 }
 
 fn words(text: &str) -> impl Iterator<Item = &str> {

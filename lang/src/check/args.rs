@@ -6,9 +6,9 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval};
 use crate::source::Span;
-use crate::{foreign, suggest};
 use crate::syntax::tree;
 use crate::types::Type;
+use crate::{foreign, suggest};
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const NUMBER: Type = Type::Quantity(Dimension::NONE);
@@ -90,7 +90,9 @@ impl<'t> Checker<'t> {
                     let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
                     let finding = match names.as_slice() {
                         [] => finding.help(format!("write `{what}()`")),
-                        names => finding.help(format!("leave out what is too much: it takes {}", suggest::listed(names))),
+                        names => {
+                            finding.help(format!("leave out what is too much: it takes {}", suggest::listed(names)))
+                        }
                     };
                     self.report(finding);
                     break;

@@ -421,11 +421,10 @@ impl<'t> Checker<'t> {
             _ => {
                 let value = self.expr(e, None);
                 if value.ty != Type::Unknown {
-                    let help = match &e.kind {
-                        K::Unary(op, _) if matches!(op.node, tree::Unary::Pos | tree::Unary::Neg) => {
-                            "to go on with the line before, end that line with the operator"
-                        }
-                        _ => "name it with `let`, or remove it",
+                    let help = if begins_with_sign(e) {
+                        "to go on with the line before, end that line with the operator"
+                    } else {
+                        "name it with `let`, or remove it"
                     };
                     self.unused(span, help);
                 }
@@ -468,5 +467,14 @@ impl<'t> Checker<'t> {
             if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
         };
         Some(Stmt { kind, span })
+    }
+}
+
+/// Whether an expression begins with `+` or `-`: it may have been meant to go on with the line before.
+fn begins_with_sign(e: &tree::Expr) -> bool {
+    match &e.kind {
+        tree::ExprKind::Unary(op, _) => matches!(op.node, tree::Unary::Pos | tree::Unary::Neg),
+        tree::ExprKind::Binary(_, left, _) => begins_with_sign(left),
+        _ => false,
     }
 }

@@ -105,15 +105,17 @@ impl<'t> Checker<'t> {
             {
                 finding.help("give it a unit, such as `m`")
             }
-            (Type::Point, Type::Heading) => finding.help(
-                "to go to a point write `goto POINT`; the direction to it is `(POINT - position).toward`",
-            ),
+            (Type::Point, Type::Heading) => {
+                finding.help("to go to a point write `goto POINT`; the direction to it is `(POINT - position).toward`")
+            }
             (Type::Vector(_), Type::Heading) => finding.help("the direction of a vector is its `.toward`"),
             (Type::Heading, Type::Point) => finding.help("to go in a direction write `steer HEADING`"),
             (Type::Quantity(d), Type::Point) if *d == Dimension::ANGLE => {
                 finding.help("to go in a direction write `steer HEADING`")
             }
-            (Type::Point, Type::Line) => finding.help("to go to a point write `goto POINT`; a line is `line(start, end)`"),
+            (Type::Point, Type::Line) => {
+                finding.help("to go to a point write `goto POINT`; a line is `line(start, end)`")
+            }
             (Type::List(a, _), Type::List(b, m)) if a == b || matches!(value.kind, ExprKind::List(_)) => {
                 finding.help(format!("it holds {m} at most: leave elements out, or declare it longer"))
             }
@@ -121,6 +123,7 @@ impl<'t> Checker<'t> {
                 finding.help(format!("give it a unit, such as `{}`", d.display().unit))
             }
             (Type::Quantity(has), Type::Quantity(wants)) => finding.help(scaling_help(*has, *wants)),
+            (Type::Vector(has), Type::Vector(wants)) => finding.help(scaling_help(*has, *wants)),
             (Type::Vector(d), Type::Point) if *d == Dimension::LENGTH => {
                 finding.help("a vector leads from one point to another: write `POINT + VECTOR`")
             }

@@ -47,7 +47,8 @@ pub(super) fn leaves(block: &Block) -> bool {
 pub(super) fn never_goes_on(stmt: &Stmt) -> bool {
     match &stmt.kind {
         StmtKind::Finish(_) | StmtKind::Abort(_) | StmtKind::Loop(_) => true,
-        StmtKind::Timed(timed) => endless(timed),
+        // That its outcome is never known is told where it is bound.
+        StmtKind::Timed(timed) => timed.result.is_none() && endless(timed),
         StmtKind::If(_, a, b) => leaves(a) && leaves(b),
         StmtKind::With(_, body) => leaves(body),
         StmtKind::Match(_, arms, otherwise) => {

@@ -1,8 +1,8 @@
 //! Fields and methods of values: what stands after a dot.
 
-use super::{Checker, Def};
 use super::expr::article;
 use super::names::Found;
+use super::{Checker, Def};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
@@ -168,11 +168,12 @@ impl<'t> Checker<'t> {
             Diagnostic::error("names::value", span, format!("a variant of `{name}` is written without it"))
                 .help(format!("write `{}`", member.node))
         } else {
-            Diagnostic::error("names::unknown", member.span, format!("`{name}` has no variant `{}`", member.node))
-                .help(match self.nearest(&member.node, known.iter().copied()) {
+            Diagnostic::error("names::unknown", member.span, format!("`{name}` has no variant `{}`", member.node)).help(
+                match self.nearest(&member.node, known.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`? it is written without `{name}.`"),
                     None => format!("its variants are written alone: {}", suggest::listed(&known)),
-                })
+                },
+            )
         };
         self.report(finding);
         Some(self.unknown(span))

@@ -91,6 +91,8 @@ impl<'t> Checker<'t> {
         let found = self.lookup(self.scope.module, name).cloned();
         match found {
             Some(def) => self.def_value(&def, name, span),
+            // What was refused has no name, and has been told.
+            None if name.is_empty() => self.unknown(span),
             None => {
                 self.unknown_name(name, span);
                 self.unknown(span)
@@ -161,7 +163,10 @@ impl<'t> Checker<'t> {
         let finding = self.unknown_name_finding(&name.node, name.span);
         let help = match self.scope.setting {
             Setting::Body => {
-                format!("declare it: `memory {0}: TYPE = …` at the top, or `let {0} = …` here if it never changes", name.node)
+                format!(
+                    "declare it: `memory {0}: TYPE = …` at the top, or `let {0} = …` here if it never changes",
+                    name.node
+                )
             }
             _ => format!("declare it: `var {0} = …` here, or `memory {0}: TYPE = …` to keep it", name.node),
         };

@@ -351,9 +351,7 @@ impl<'t> Checker<'t> {
                 && read.ty == Type::Quantity(Dimension::NONE);
             if let Some(x) = number.range.constant().filter(|x| is_ratio && *x > 1.0 && number.ty == Type::Int) {
                 let message = format!("a ratio of {x} is {} %", x * 100.0);
-                self.report(
-                    Diagnostic::warning("ranges::ratio", number.span, message).help(format!("write `{x} %`")),
-                );
+                self.report(Diagnostic::warning("ranges::ratio", number.span, message).help(format!("write `{x} %`")));
             }
         }
     }
@@ -388,6 +386,11 @@ impl<'t> Checker<'t> {
         Some(match (op, &a.ty, &b.ty) {
             (Binary::Add, Text, _) | (Binary::Add, _, Text) => {
                 "write one text, with values between `{` and `}`: `\"{a} and {b}\"`".into()
+            }
+            (Binary::Add | Binary::Sub, Heading, x) | (Binary::Add, x, Heading)
+                if x.dimension() == Some(Dimension::NONE) =>
+            {
+                "give the number a unit: `deg`".into()
             }
             (_, Heading, _) | (_, _, Heading) if op.compares() => {
                 "a heading is a direction: compare the angle between two, `abs(heading - north) < 3 deg`".into()

@@ -150,7 +150,9 @@ impl<'t> Checker<'t> {
             )
             .help("give what it is computed from a range of its own, or hold it with `clamp(x, low, high)`"),
         };
-        self.report(finding.label(declared, format!("`{param}` is {}{bounds}", if among == "in" { "in " } else { "" })));
+        self.report(
+            finding.label(declared, format!("`{param}` is {}{bounds}", if among == "in" { "in " } else { "" })),
+        );
     }
 
     pub(super) fn shown_number(&self, x: f64, ty: &Type) -> String {

@@ -83,7 +83,13 @@ pub fn scenario(
     let mut program = lowering.program;
     program.words = words;
     program.mission.activity = entry;
-    Ok(ScenarioProgram { name: scenario.name.clone(), span: scenario.span, origin: lowering.origin, program, clauses: clauses.into_inner() })
+    Ok(ScenarioProgram {
+        name: scenario.name.clone(),
+        span: scenario.span,
+        origin: lowering.origin,
+        program,
+        clauses: clauses.into_inner(),
+    })
 }
 
 impl<'a> Lowering<'a> {

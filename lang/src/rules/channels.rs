@@ -93,7 +93,10 @@ impl Walk<'_> {
         if let Owner::Overlay(earlier) = *slot {
             let finding = Diagnostic::error("channels::twice", span, format!("the {name} belongs to an overlay here"))
                 .label(earlier, "put on here")
-                .help("take the overlay off, or leave the setpoint out");
+                .help(match owner {
+                    Owner::Overlay(_) => "take one of the two overlays off",
+                    _ => "take the overlay off, or leave the setpoint out",
+                });
             self.tell(finding);
             return;
         }

@@ -1,7 +1,7 @@
 //! What to say of text that the grammar cannot read: what was found, what was expected, in the language's own terms.
 
 use super::build::{Bad, Place};
-use super::habits::habit;
+use super::habits::{habit, untyped_memory};
 use super::{Grammar, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::foreign;
@@ -41,6 +41,10 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
         Place::TestClause => (Rule::test_clause_only, &TEST_WORDS[..]),
     };
     let word: String = stretch.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+    if let Some((end, habit)) = untyped_memory(stretch) {
+        let span = Span { file, start: start as u32, end: (start + end) as u32 };
+        return Diagnostic::error("syntax::expected", span, habit.message.unwrap_or_default()).help(habit.help);
+    }
     let error = Grammar::parse(rule, stretch).err();
     let offset = error.as_ref().map_or(0, |e| match e.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,

@@ -81,7 +81,7 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
         return only("write `==`");
     }
     if rest.starts_with('>') && last.ends_with('=') {
-        return only("a rule is written with `->`, and at least with `>=`");
+        return only(if rest.contains(" on ") { "a rule is `A -> B on X`: write `->`" } else { "write `>=`" });
     }
     if before.contains("->") && [last, next.as_str()].iter().any(|word| ["when", "if", "while"].contains(word)) {
         return only("a rule is `A -> B on X`: write `on`");
@@ -95,12 +95,6 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
     if rest.starts_with(':') && rest[1..].trim_start_matches([' ', '\t', '\r']).starts_with('\n') {
         return only("a block stands between `{` and `}`");
     }
-    if first == "memory" && rest.starts_with('=') {
-        return Some(Habit {
-            message: Some(format!("the type of `{last}` is missing")),
-            help: format!("write `memory {last}: TYPE = …`, with `Int`, `Length`, `Point` or another type"),
-        });
-    }
     if first == "report" && last == "report" && !next.is_empty() {
         let value = rest.split(['\n', ';', '}']).next().unwrap_or("").trim();
         let value = value.split_once(": ").map_or(value, |(_, value)| value);
@@ -113,6 +107,21 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
         return only("write `run MISSION in SCENARIO seeds 1..20`");
     }
     None
+}
+
+/// `memory q = 3`: where its name ends, and what to say.
+pub(super) fn untyped_memory(clause: &str) -> Option<(usize, Habit)> {
+    let after = clause.strip_prefix("memory ")?.trim_start();
+    let name = &after[..after.find(|c: char| !c.is_alphanumeric() && c != '_')?];
+    let begins = after[name.len()..].trim_start();
+    let end = clause.len() - after.len() + name.len();
+    (!name.is_empty() && begins.starts_with('=') && !begins.starts_with("==")).then(|| {
+        let habit = Habit {
+            message: Some(format!("of what type is `{name}`?")),
+            help: format!("write `memory {name}: TYPE = …`, with `Int`, `Length`, `Point` or another type"),
+        };
+        (end, habit)
+    })
 }
 
 /// Two numbers in a row, or a number of another base.

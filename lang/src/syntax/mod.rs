@@ -55,7 +55,9 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
         let tree = build::file(b, pairs);
         unread.extend(b.bad.iter().map(|bad| Unread { span: bad.span, item: bad.item }));
         // A declaration whose head is unreadable is known by no name.
-        unread.extend(b.bad.iter().filter(|bad| bad.place == build::Place::Head).map(|bad| Unread { span: bad.span, item: None }));
+        unread.extend(
+            b.bad.iter().filter(|bad| bad.place == build::Place::Head).map(|bad| Unread { span: bad.span, item: None }),
+        );
         tree
     });
     if tree.is_none() {

@@ -3,6 +3,7 @@
 //! The text that comes out has the same length as the one that went in, so that every span stays true. A comment and a
 //! newline that ends nothing become blanks; the grammar then needs one rule for blanks and one for the end of a statement.
 
+use super::errors::begins_item;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
@@ -149,8 +150,7 @@ impl<'a> Scanner<'a> {
 
     fn newline(&mut self) {
         let in_brackets = matches!(self.open.last(), Some(Open { bracket: '(' | '[', .. }));
-        let goes_on =
-            in_brackets || self.last == Last::Goes || self.next_word_is("else") || self.block_on_next_line();
+        let goes_on = in_brackets || self.last == Last::Goes || self.next_word_is("else") || self.block_on_next_line();
         if goes_on {
             self.blank(self.at, self.at + 1);
         } else {
@@ -164,8 +164,11 @@ impl<'a> Scanner<'a> {
     /// At the left margin: an item here means that whatever is open was never closed.
     fn margin(&mut self) {
         let word: String = self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-        if !self.open.is_empty() && ITEM_WORDS.contains(&word.as_str()) {
-            self.all_unclosed(0);
+        // In a strategy a behavior may stand at the margin too; in round brackets nothing is declared.
+        let block = self.open.iter().rposition(|open| open.bracket == '{').map_or(0, |at| at + 1);
+        let level = if ITEM_WORDS.contains(&word.as_str()) { 0 } else { block };
+        if self.open.len() > level && begins_item(&word) {
+            self.all_unclosed(level);
             self.chained = 0;
             // The newline before this item was swallowed when a round bracket was open: give it back.
             if self.at > 0 && self.source.as_bytes()[self.at - 1] == b'\n' {
