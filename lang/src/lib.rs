@@ -150,11 +150,18 @@ fn missing_use(finding: Diagnostic, sources: &Sources, library: &dyn Library) ->
     let source = sources.get(span.file);
     let is_head = source.text.get(span.end as usize..).is_some_and(|after| after.starts_with('.'));
     let name = sources.text(span);
-    if finding.code == "names::unknown" && is_head && library.module(source, &[name.to_string()]).is_ok() {
+    if finding.code != "names::unknown" || !is_head {
+        return finding;
+    }
+    if library.module(source, &[name.to_string()]).is_ok() {
         let help = format!("write `use {name}` at the top of the file");
         return finding.help(help);
     }
-    finding
+    if finding.help.is_none() {
+        finding.help("before a dot stands a value, or a module that `use` names")
+    } else {
+        finding
+    }
 }
 
 /// The mission that is meant: the one asked for, else the one named like the file, else the only one.

@@ -77,6 +77,9 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
     if matches!(next.as_str(), "elif" | "elsif" | "elseif") {
         return only("write `else if`");
     }
+    if ["seconds", "minutes", "hours", "metres", "meters", "degrees", "knots"].contains(&next.as_str()) {
+        return only("a quantity is a number and a unit, such as `10 min`");
+    }
     if rest.starts_with('=') && last.ends_with("==") {
         return only("write `==`");
     }

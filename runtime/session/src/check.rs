@@ -30,17 +30,19 @@ fn scenario(script: &Script, name: &str) -> Vec<Diagnostic> {
 
 /// A fault of the simulator's, at the clause that it names.
 fn of_fault(scenario: &ScenarioProgram, fault: &str) -> Diagnostic {
-    let named = fault.split(|c: char| !c.is_alphanumeric() && c != '_').find(|word| !word.is_empty());
-    let clause = scenario.clauses.iter().find(|clause| Some(clause.name.as_str()) == named);
+    let named = fault.split(|c: char| !c.is_alphanumeric() && c != '_').find(|word| !word.is_empty()).unwrap_or("");
+    let clause = scenario.clauses.iter().find(|clause| clause.name == named.trim_end_matches('s'));
     let span = clause.map_or(scenario.span, |c| c.span);
     let found = |message: &str| Diagnostic::error("scenarios::world", span, message);
     // What must be is the mend; what is needed and missing is another clause.
     match fault.rsplit_once(": ") {
         Some((message, must)) if must.starts_with("it must") => found(message).help(must),
-        _ if fault.contains("needs a `region`") => found(fault).help("add `region(rectangle(…))` to the scenario"),
         _ if fault.contains("flow.mean` is 0") => {
             found(fault).help("add `flow(12 cm/s toward 140 deg)` to the scenario")
         }
-        _ => found(fault),
+        _ => match fault.split_once(" a `").and_then(|(_, needed)| needed.split_once('`')) {
+            Some((needed, _)) => found(fault).help(format!("add `{needed}(…)` to the scenario")),
+            None => found(fault),
+        },
     }
 }
