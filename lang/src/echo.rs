@@ -3,6 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::source::{Sources, Span};
 use crate::syntax::Unread;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Findings that nothing has a name: what could not be read may have declared it.
 const NAMES: [&str; 9] = [
@@ -38,37 +39,57 @@ const PARTS: [&str; 14] = [
 /// Words after which a name is declared, inside a declaration.
 const DECLARING: [&str; 8] = ["let", "var", "memory", "signal", "behavior", "area", "for", "clause"];
 
-/// Whether a finding may only miss what could not be read.
-pub fn is_echo(finding: &Diagnostic, unread: &[Unread], sources: &Sources) -> bool {
-    let span = finding.span();
-    if NAMES.contains(&finding.code) {
-        let name = sources.text(span);
-        return unread.iter().any(|u| {
+/// The names that unreadable text may have declared.
+pub struct Echoes<'a> {
+    /// Those of whole declarations, known everywhere.
+    anywhere: BTreeSet<&'a str>,
+    /// Those of parts of a declaration, known in it.
+    inside: BTreeMap<Span, BTreeSet<&'a str>>,
+}
+
+impl<'a> Echoes<'a> {
+    pub fn of(unread: &[Unread], sources: &'a Sources) -> Self {
+        let mut echoes = Echoes { anywhere: BTreeSet::new(), inside: BTreeMap::new() };
+        for u in unread {
             let text = sources.text(u.span);
-            u.item.is_none_or(|item| holds(item, span))
-                && words(name).any(|name| may_declare(text, name, u.item.is_none()))
-        });
+            match u.item {
+                None => echoes.anywhere.extend(words(text)),
+                Some(item) => echoes.inside.entry(item).or_default().extend(declared(text)),
+            }
+        }
+        echoes
     }
-    PARTS.contains(&finding.code) && unread.iter().any(|u| u.item.is_some_and(|item| holds(item, span)))
+
+    /// Whether a finding may only miss what could not be read.
+    pub fn holds_back(&self, finding: &Diagnostic, sources: &Sources) -> bool {
+        let span = finding.span();
+        let mut items = self.inside.iter().filter(|(item, _)| holds(**item, span));
+        if NAMES.contains(&finding.code) {
+            let known: Vec<_> = items.map(|(_, names)| names).chain([&self.anywhere]).collect();
+            return words(sources.text(span)).any(|name| known.iter().any(|names| names.contains(name)));
+        }
+        PARTS.contains(&finding.code) && items.next().is_some()
+    }
 }
 
 fn holds(outer: Span, inner: Span) -> bool {
     outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
 }
 
-/// Whether a text may declare a name: a whole declaration any name in it, a part of one what a word or a type says.
-fn may_declare(text: &str, name: &str, whole: bool) -> bool {
+/// The names that a part of a declaration may declare: a word before them says so, or a type after them.
+fn declared(text: &str) -> Vec<&str> {
+    let mut names = Vec::new();
     let mut before = "";
     let mut rest = text;
     while let Some(word) = words(rest).next() {
         let at = rest.find(word).unwrap_or(0);
         rest = &rest[at + word.len()..];
-        if word == name && (whole || DECLARING.contains(&before) || rest.trim_start().starts_with(':')) {
-            return true;
+        if DECLARING.contains(&before) || rest.trim_start().starts_with(':') {
+            names.push(word);
         }
         before = word;
     }
-    false
+    names
 }
 
 fn words(text: &str) -> impl Iterator<Item = &str> {

@@ -25,6 +25,7 @@ use albacore_geometry::Geodetic;
 use albacore_program::Program;
 use check::Override;
 use diagnostic::Diagnostic;
+use echo::Echoes;
 use loader::{Loader, module_name};
 use source::{FileId, Source, Sources, Span};
 use syntax::tree::{self, ActivityKind, Item};
@@ -74,7 +75,8 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
     let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
     let overrides = overrides(sources, set, chosen.as_ref(), main, &mut findings);
     let checked = check::check(modules, overrides.clone());
-    let later = checked.findings.into_iter().filter(|f| !echo::is_echo(f, unread, sources));
+    let echoes = Echoes::of(unread, sources);
+    let later = checked.findings.into_iter().filter(|f| !echoes.holds_back(f, sources));
     findings.extend(later.map(|finding| missing_use(finding, sources, loader.library)));
     let mut missions = Vec::new();
     for item in &main.items {
