@@ -24,12 +24,7 @@ impl Check {
                 Ok(script) => {
                     let mut findings = script.findings.clone();
                     if script.is_sound() {
-                        let missions: Vec<String> = script.missions().map(|m| m.name.clone()).collect();
-                        for name in missions {
-                            if let Some(Err(more)) = script.mission(&name) {
-                                findings.extend(more);
-                            }
-                        }
+                        findings.extend(albacore_session::findings(&script));
                     }
                     albacore_session::settle(&mut findings);
                     message::findings(&findings, &script.sources);

@@ -7,6 +7,8 @@ mod check;
 pub mod diagnostic;
 pub mod diagram;
 mod dimension;
+mod echo;
+mod foreign;
 mod hir;
 mod loader;
 mod lower;
@@ -24,13 +26,10 @@ use albacore_geometry::Geodetic;
 use albacore_program::Program;
 use check::Override;
 use diagnostic::Diagnostic;
+use echo::Echoes;
 use loader::{Loader, module_name};
 use source::{FileId, Source, Sources, Span};
 use syntax::tree::{self, ActivityKind, Item};
-
-/// What is found missing when something could not be read: no second mistake.
-const ECHOES: [&str; 6] =
-    ["names::unknown", "types::result", "types::if_value", "rules::start", "rules::unreachable", "rules::ending"];
 
 /// Where imported modules come from.
 pub trait Library {
@@ -71,15 +70,15 @@ pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[
 
 /// Checks what was read.
 fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script {
-    let Loader { sources, modules, .. } = loader;
+    let Loader { sources, modules, unread, .. } = loader;
     let mut findings = std::mem::take(&mut loader.findings);
     let main = &modules[MAIN].tree;
     let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
     let overrides = overrides(sources, set, chosen.as_ref(), &mut findings);
-    let unreadable = findings.iter().any(|f| f.code.starts_with("syntax::"));
     let checked = check::check(modules, overrides.clone());
-    let later = checked.findings.into_iter().filter(|f| !(unreadable && is_echo(f)));
-    findings.extend(later);
+    let echoes = Echoes::of(unread, sources);
+    let later = checked.findings.into_iter().filter(|f| !echoes.holds_back(f, sources));
+    findings.extend(later.map(|finding| missing_use(finding, sources, loader.library)));
     let mut missions = Vec::new();
     for item in &main.items {
         if let Item::Activity(a) = item
@@ -123,6 +122,11 @@ impl Script {
         self.hir.scenarios.iter().map(|s| s.name.as_str())
     }
 
+    /// The scenarios of the script's own file.
+    pub fn own_scenarios(&self) -> impl Iterator<Item = &str> {
+        self.hir.scenarios.iter().filter(|s| s.span.file == ENTRY).map(|s| s.name.as_str())
+    }
+
     /// A mission, ready for the machine.
     pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
@@ -143,10 +147,24 @@ impl Script {
     }
 }
 
-/// Whether a finding may only miss what could not be read.
-fn is_echo(finding: &Diagnostic) -> bool {
-    let misspelt = finding.help.as_ref().is_some_and(|help| help.starts_with("did you mean"));
-    ECHOES.contains(&finding.code) || (finding.code == "rules::unknown" && !misspelt)
+/// `maneuver.bowtie(…)` where nothing is named `maneuver`: there may be such a module to import.
+fn missing_use(finding: Diagnostic, sources: &Sources, library: &dyn Library) -> Diagnostic {
+    let span = finding.span();
+    let source = sources.get(span.file);
+    let is_head = source.text.get(span.end as usize..).is_some_and(|after| after.starts_with('.'));
+    let name = sources.text(span);
+    if finding.code != "names::unknown" || !is_head {
+        return finding;
+    }
+    if library.module(source, &[name.to_string()]).is_ok() {
+        let help = format!("write `use {name}` at the top of the file");
+        return finding.help(help);
+    }
+    if finding.help.is_none() {
+        finding.help("before a dot stands a value, or a module that `use` names")
+    } else {
+        finding
+    }
 }
 
 /// The mission that is meant: the one asked for, else the one named like the file, else the only one.

@@ -4,8 +4,8 @@ use crate::Library;
 use crate::check::Module;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Source, Sources};
-use crate::syntax;
 use crate::syntax::tree::{self, Item};
+use crate::syntax::{self, Unread};
 use std::collections::BTreeMap;
 
 /// A script imports this many modules at most, all in all.
@@ -18,12 +18,14 @@ pub struct Loader<'a> {
     pub modules: Vec<Module>,
     pub known: BTreeMap<String, usize>,
     pub findings: Vec<Diagnostic>,
+    /// What could not be read, in all of them.
+    pub unread: Vec<Unread>,
 }
 
 impl<'a> Loader<'a> {
     pub fn new(library: &'a dyn Library) -> Self {
         let (sources, modules, known) = (Sources::default(), Vec::new(), BTreeMap::new());
-        Loader { library, sources, modules, known, findings: Vec::new() }
+        Loader { library, sources, modules, known, findings: Vec::new(), unread: Vec::new() }
     }
 
     /// Reads a script, all it imports, and what every script knows.
@@ -45,6 +47,7 @@ impl<'a> Loader<'a> {
         self.known.insert(source.name.to_string(), index);
         let parsed = syntax::parse(file, &source.text);
         self.findings.extend(parsed.findings);
+        self.unread.extend(parsed.unread);
         self.modules.push(Module { name, tree: parsed.file, prelude, ..Module::default() });
         path.push(source.name.to_string());
         let uses: Vec<tree::Path> = self.modules[index]
@@ -76,6 +79,7 @@ impl<'a> Loader<'a> {
             Err(help) => {
                 let message = format!("there is no module `{}`", wanted.text());
                 self.findings.push(Diagnostic::error("imports::unknown", wanted.span, message).help(help));
+                self.unread.push(Unread { span: wanted.span, item: None });
                 return None;
             }
         };

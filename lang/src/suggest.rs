@@ -2,17 +2,28 @@
 
 /// The candidate nearest to a misspelt name, when it is near enough to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let name = name.to_lowercase();
     let allowed = match name.chars().count() {
-        0..=2 => 1,
-        3..=6 => 2,
+        0..=5 => 1,
+        6..=9 => 2,
         _ => 3,
     };
     candidates
         .into_iter()
-        .map(|candidate| (strsim::osa_distance(&name.to_lowercase(), &candidate.to_lowercase()), candidate))
-        .filter(|&(distance, candidate)| distance <= allowed && distance < candidate.chars().count())
+        .map(|candidate| (distance(&name, &candidate.to_lowercase()), candidate))
+        .filter(|&((distance, _), candidate)| distance <= allowed && distance < candidate.chars().count())
         .min()
         .map(|(_, candidate)| candidate)
+}
+
+/// How many slips of the fingers lie between two words; the same letters in another order are one, and come first.
+fn distance(a: &str, b: &str) -> (usize, bool) {
+    let sorted = |word: &str| {
+        let mut letters: Vec<char> = word.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    if a != b && sorted(a) == sorted(b) { (1, false) } else { (strsim::osa_distance(a, b), true) }
 }
 
 /// "did you mean `x`?", or else what there is.
@@ -45,5 +56,7 @@ mod tests {
         assert_eq!(nearest("strer", ["steer", "goto", "follow"]), Some("steer"));
         assert_eq!(nearest("mission", ["steer", "goto"]), None);
         assert_eq!(nearest("x", ["y"]), None);
+        assert_eq!(nearest("foo", ["cos", "flow"]), None);
+        assert_eq!(nearest("whit", ["wait", "with"]), Some("with"));
     }
 }

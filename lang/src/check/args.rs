@@ -8,6 +8,7 @@ use crate::hir::{Builtin, Expr, ExprKind, Interval};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
+use crate::{foreign, suggest};
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const NUMBER: Type = Type::Quantity(Dimension::NONE);
@@ -86,6 +87,13 @@ impl<'t> Checker<'t> {
                         arg.value.span,
                         format!("`{what}` takes {}, not {}", count(params.len()), args.len()),
                     );
+                    let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
+                    let finding = match names.as_slice() {
+                        [] => finding.help(format!("write `{what}()`")),
+                        names => {
+                            finding.help(format!("leave out what is too much: it takes {}", suggest::listed(names)))
+                        }
+                    };
                     self.report(finding);
                     break;
                 }
@@ -294,9 +302,10 @@ impl<'t> Checker<'t> {
                 let finding =
                     Diagnostic::error("names::unknown", name_span, format!("nothing named `{name}` can be called"));
                 let known = BUILTINS.iter().copied().chain(self.callable_names());
-                let finding = match self.nearest(name, known) {
-                    Some(near) => finding.help(format!("did you mean `{near}`?")),
-                    None => finding
+                let finding = match (foreign::help(name), self.nearest(name, known)) {
+                    (Some(help), _) => finding.help(help),
+                    (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
+                    (None, None) => finding
                         .help("functions, behaviors and strategies of other modules are written `module.name(…)`"),
                 };
                 self.report(finding);

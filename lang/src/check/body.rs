@@ -1,7 +1,7 @@
 //! Blocks and the statements in them.
 
 use super::expr::article;
-use super::{Checker, Setting};
+use super::{Checker, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Block, Expr, Interval, Order, Stmt, StmtKind, VarKind};
 use crate::source::Span;
@@ -37,8 +37,14 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn declare_params(&mut self, params: &[tree::Param], infos: &[super::ParamInfo]) {
-        for (param, info) in params.iter().zip(infos) {
-            let id = self.declare(&param.name, VarKind::Param, info.ty.clone());
+        for (i, (param, info)) in params.iter().zip(infos).enumerate() {
+            // That two have one name has been told.
+            let is_second = params[..i].iter().any(|p| p.name.node == param.name.node);
+            let id = if is_second {
+                self.declare_hidden(param.name.node.clone(), VarKind::Param, info.ty.clone(), param.name.span)
+            } else {
+                self.declare(&param.name, VarKind::Param, info.ty.clone())
+            };
             self.scope.vars[id].range = info.range.unwrap_or(Interval::ANY);
             self.list_order(id, &param.ty);
         }
@@ -99,13 +105,14 @@ impl<'t> Checker<'t> {
         let mut left_at: Option<Span> = None;
         for (i, clause) in clauses.iter().enumerate() {
             if let Some(span) = left_at.take() {
-                self.report(
-                    Diagnostic::error("flow::unreachable", clause.span, "this is never reached")
-                        .label(span, "nothing goes on after this"),
-                );
-            }
-            if matches!(clause.kind, ClauseKind::Finish(_) | ClauseKind::Abort { on: None, .. }) {
-                left_at = Some(clause.span);
+                let finding = Diagnostic::error("flow::unreachable", clause.span, "this is never reached")
+                    .label(span, "nothing goes on after this");
+                let endless = matches!(&stmts.last(), Some(Stmt { kind: StmtKind::Timed(_), .. }));
+                self.report(if endless {
+                    finding.help("it never ends by itself: bound it with `for T` or `until X`")
+                } else {
+                    finding
+                });
             }
             if let ClauseKind::With(items) = &clause.kind {
                 // `with` holds to the end of its block: the rest of it is its own.
@@ -125,7 +132,12 @@ impl<'t> Checker<'t> {
                 stmts.push(Stmt { kind: StmtKind::With(with, body), span: clause.span });
                 break;
             }
-            stmts.extend(self.stmt(clause));
+            let stmt = self.stmt(clause);
+            let ends_here = matches!(clause.kind, ClauseKind::Finish(_) | ClauseKind::Abort { on: None, .. });
+            if ends_here || stmt.as_ref().is_some_and(flow::never_goes_on) {
+                left_at = Some(clause.span);
+            }
+            stmts.extend(stmt);
         }
         stmts
     }
@@ -401,7 +413,7 @@ impl<'t> Checker<'t> {
                 _ => {
                     let value = self.expr(e, None);
                     if value.ty != Type::Unknown {
-                        self.unused(span);
+                        self.unused(span, "name it with `let`, or remove it");
                     }
                     return None;
                 }
@@ -409,7 +421,12 @@ impl<'t> Checker<'t> {
             _ => {
                 let value = self.expr(e, None);
                 if value.ty != Type::Unknown {
-                    self.unused(span);
+                    let help = if begins_with_sign(e) {
+                        "to go on with the line before, end that line with the operator"
+                    } else {
+                        "name it with `let`, or remove it"
+                    };
+                    self.unused(span, help);
                 }
                 return None;
             }
@@ -417,11 +434,8 @@ impl<'t> Checker<'t> {
         Some(Stmt { kind, span })
     }
 
-    fn unused(&mut self, span: Span) {
-        self.report(
-            Diagnostic::error("flow::unused", span, "this computes a value that nobody reads")
-                .help("name it with `let`, or remove it"),
-        );
+    fn unused(&mut self, span: Span, help: &str) {
+        self.report(Diagnostic::error("flow::unused", span, "this computes a value that nobody reads").help(help));
     }
 
     fn list_change(&mut self, base: &tree::Expr, what: &str, args: &[tree::Arg], span: Span) -> Option<Stmt> {
@@ -453,5 +467,14 @@ impl<'t> Checker<'t> {
             if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
         };
         Some(Stmt { kind, span })
+    }
+}
+
+/// Whether an expression begins with `+` or `-`: it may have been meant to go on with the line before.
+fn begins_with_sign(e: &tree::Expr) -> bool {
+    match &e.kind {
+        tree::ExprKind::Unary(op, _) => matches!(op.node, tree::Unary::Pos | tree::Unary::Neg),
+        tree::ExprKind::Binary(_, left, _) => begins_with_sign(left),
+        _ => false,
     }
 }

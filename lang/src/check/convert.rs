@@ -94,10 +94,36 @@ impl<'t> Checker<'t> {
             (Type::Quantity(d), Type::Altitude) if *d == Dimension::LENGTH => {
                 finding.help("an altitude is counted from the bottom: write `altitude + LENGTH`, or a constant")
             }
+            (Type::Int | Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::NONE) => {
+                match value.range.constant() {
+                    Some(x) => finding.help(format!("give it a unit: `{x} deg`")),
+                    None => finding.help("give it a unit: `north + 1 deg * x`"),
+                }
+            }
+            (Type::Int | Type::Quantity(_), Type::Depth | Type::Altitude)
+                if value.ty.dimension() == Some(Dimension::NONE) =>
+            {
+                finding.help("give it a unit, such as `m`")
+            }
+            (Type::Point, Type::Heading) => {
+                finding.help("to go to a point write `goto POINT`; the direction to it is `(POINT - position).toward`")
+            }
+            (Type::Vector(_), Type::Heading) => finding.help("the direction of a vector is its `.toward`"),
+            (Type::Heading, Type::Point) => finding.help("to go in a direction write `steer HEADING`"),
+            (Type::Quantity(d), Type::Point) if *d == Dimension::ANGLE => {
+                finding.help("to go in a direction write `steer HEADING`")
+            }
+            (Type::Point, Type::Line) => {
+                finding.help("to go to a point write `goto POINT`; a line is `line(start, end)`")
+            }
+            (Type::List(a, _), Type::List(b, m)) if a == b || matches!(value.kind, ExprKind::List(_)) => {
+                finding.help(format!("it holds {m} at most: leave elements out, or declare it longer"))
+            }
             (Type::Int | Type::Quantity(_), Type::Quantity(d)) if value.ty.dimension() == Some(Dimension::NONE) => {
                 finding.help(format!("give it a unit, such as `{}`", d.display().unit))
             }
             (Type::Quantity(has), Type::Quantity(wants)) => finding.help(scaling_help(*has, *wants)),
+            (Type::Vector(has), Type::Vector(wants)) => finding.help(scaling_help(*has, *wants)),
             (Type::Vector(d), Type::Point) if *d == Dimension::LENGTH => {
                 finding.help("a vector leads from one point to another: write `POINT + VECTOR`")
             }
@@ -138,12 +164,27 @@ impl<'t> Checker<'t> {
 
 /// By what a quantity must be multiplied or divided to become another.
 fn scaling_help(has: Dimension, wants: Dimension) -> String {
-    let (factor, divisor) = (wants / has, has / wants);
-    if let Some(name) = divisor.type_name() {
-        format!("divide it by {}", article(name))
-    } else if let Some(name) = factor.type_name() {
-        format!("multiply it by {}", article(name))
-    } else {
-        format!("`{has}` and `{wants}` are different things")
+    match scaling(has, wants) {
+        Some(Scaling { verb, by }) => format!("{verb} it by {by}"),
+        None => format!("a value in `{}` is asked for", wants.display().unit),
+    }
+}
+
+/// How a quantity becomes one of another dimension.
+pub(super) struct Scaling {
+    /// `multiply` or `divide`.
+    pub verb: &'static str,
+    /// By what.
+    pub by: String,
+}
+
+/// By what a quantity must be multiplied or divided, when that has a name. A time is said as a time, not as its inverse.
+pub(super) fn scaling(has: Dimension, wants: Dimension) -> Option<Scaling> {
+    let named = |d: Dimension| d.type_name().filter(|name| *name != "Frequency").map(article);
+    let (factor, divisor) = (named(wants / has), named(has / wants));
+    match (divisor, factor) {
+        (Some(by), _) => Some(Scaling { verb: "divide", by }),
+        (None, Some(by)) => Some(Scaling { verb: "multiply", by }),
+        (None, None) => None,
     }
 }

@@ -157,6 +157,7 @@ impl<'t> Checker<'t> {
             Item::Scenario { name, .. } => {
                 self.hir.scenarios.push(hir::Scenario {
                     name: name.node.clone(),
+                    span: name.span,
                     vars: Vec::new(),
                     defaults: Vec::new(),
                     clauses: Vec::new(),
@@ -169,13 +170,7 @@ impl<'t> Checker<'t> {
     fn declare_types(&mut self, m: usize, item: &'t Item) {
         match item {
             Item::Record { name, fields } => {
-                for (i, field) in fields.iter().enumerate() {
-                    if let Some(earlier) = fields[..i].iter().find(|f| f.name.node == field.name.node) {
-                        let message = format!("there are two fields `{}`", field.name.node);
-                        let finding = Diagnostic::error("names::twice", field.name.span, message);
-                        self.report(finding.label(earlier.name.span, "the first"));
-                    }
-                }
+                self.fields_once(fields);
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Record(id)) = self.names[m].get(&name.node) {
                     self.types.records[id].fields = fields;
@@ -190,6 +185,7 @@ impl<'t> Checker<'t> {
                 }
             }
             Item::Input { name, ty, fields } => {
+                self.fields_once(fields);
                 let ty = self.written_type(m, ty);
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Input(id)) = self.names[m].get(&name.node) {
@@ -198,6 +194,16 @@ impl<'t> Checker<'t> {
                 }
             }
             _ => {}
+        }
+    }
+
+    fn fields_once(&mut self, fields: &[tree::Field]) {
+        for (i, field) in fields.iter().enumerate() {
+            if let Some(first) = fields[..i].iter().find(|f| f.name.node == field.name.node) {
+                let message = format!("there are two fields `{}`", field.name.node);
+                let finding = Diagnostic::error("names::twice", field.name.span, message);
+                self.report(finding.label(first.name.span, "the first").help("choose another name, or leave it out"));
+            }
         }
     }
 

@@ -1,7 +1,9 @@
 //! What a checked block does to time and to what follows it.
 
-use crate::hir::{Block, StmtKind};
+use super::timed::loiters_for_ever;
+use crate::hir::{Action, Block, Stmt, StmtKind, Timed};
 use crate::source::Span;
+use albacore_program::Guide;
 
 /// Whether every path through a block takes time, or leaves it for good.
 pub(super) fn takes_time(block: &Block) -> bool {
@@ -39,13 +41,33 @@ pub(super) fn aborts(block: &Block) -> Option<Span> {
 
 /// Whether a block never comes to its end.
 pub(super) fn leaves(block: &Block) -> bool {
-    block.stmts.last().is_some_and(|stmt| match &stmt.kind {
+    block.stmts.last().is_some_and(never_goes_on)
+}
+
+/// Whether what stands after a statement is never reached, as far as the statement itself tells.
+pub(super) fn never_goes_on(stmt: &Stmt) -> bool {
+    match &stmt.kind {
         StmtKind::Finish(_) | StmtKind::Abort(_) | StmtKind::Loop(_) => true,
+        // That its outcome is never known is told where it is bound.
+        StmtKind::Timed(timed) => timed.result.is_none() && endless(timed),
         StmtKind::If(_, a, b) => leaves(a) && leaves(b),
         StmtKind::With(_, body) => leaves(body),
         StmtKind::Match(_, arms, otherwise) => {
             !arms.is_empty() && arms.iter().all(|(_, b)| leaves(b)) && otherwise.as_ref().is_none_or(leaves)
         }
         _ => false,
-    })
+    }
+}
+
+/// Whether guidance or a setpoint never ends by itself, and nothing ends it. Calls are not asked.
+pub(super) fn endless(timed: &Timed) -> bool {
+    if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() {
+        return false;
+    }
+    match &timed.action {
+        Action::Guide(Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait, _) => true,
+        Action::Guide(guide, args) => loiters_for_ever(*guide, args),
+        Action::Call(..) => false,
+        Action::Keep(..) => true,
+    }
 }

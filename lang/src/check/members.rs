@@ -1,12 +1,13 @@
 //! Fields and methods of values: what stands after a dot.
 
-use super::Checker;
 use super::expr::article;
 use super::names::Found;
+use super::{Checker, Def};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 
@@ -78,6 +79,9 @@ impl<'t> Checker<'t> {
                     self.unknown(span)
                 }
             };
+        }
+        if let Some(value) = self.variant_of(base, member, span) {
+            return value;
         }
         let value = self.expr(base, None);
         if let Some(part) = self.input_part(&value, member, span) {
@@ -152,6 +156,29 @@ impl<'t> Checker<'t> {
         }
     }
 
+    /// `Colour.Blue`: variants are written without their enum.
+    fn variant_of(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
+        let tree::ExprKind::Name(name) = &base.kind else { return None };
+        let &Def::Enum(id) = self.lookup(self.scope.module, name).filter(|_| self.local(name).is_none())? else {
+            return None;
+        };
+        let variants = self.types.enums[id].variants.clone();
+        let known: Vec<&str> = variants.iter().map(String::as_str).collect();
+        let finding = if known.contains(&member.node.as_str()) {
+            Diagnostic::error("names::value", span, format!("a variant of `{name}` is written without it"))
+                .help(format!("write `{}`", member.node))
+        } else {
+            Diagnostic::error("names::unknown", member.span, format!("`{name}` has no variant `{}`", member.node)).help(
+                match self.nearest(&member.node, known.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`? it is written without `{name}.`"),
+                    None => format!("its variants are written alone: {}", suggest::listed(&known)),
+                },
+            )
+        };
+        self.report(finding);
+        Some(self.unknown(span))
+    }
+
     /// `x.age`, `x.peak` and the fields of inputs.
     fn input_part(&mut self, value: &Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let ExprKind::Input(id, InputPart::Value) = value.kind else { return None };
@@ -184,7 +211,8 @@ impl<'t> Checker<'t> {
             name.span,
             format!("the module `{}` has no `{}`", self.modules[module].name, name.node),
         );
-        let names: Vec<String> = self.names[module].keys().cloned().collect();
+        let public = self.names[module].iter().filter(|(_, def)| !matches!(def, Def::Unit(_)));
+        let names: Vec<String> = public.map(|(name, _)| name.clone()).collect();
         let finding = match self.suggestion(&name.node, names.iter().map(String::as_str)) {
             Some(help) => finding.help(help),
             None => finding,

@@ -3,8 +3,10 @@
 use super::facts::Place;
 use super::{Checker, Def, Setting};
 use crate::diagnostic::Diagnostic;
+use crate::foreign;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 
@@ -91,6 +93,8 @@ impl<'t> Checker<'t> {
         let found = value.or_else(|| self.lookup(self.scope.module, name)).cloned();
         match found {
             Some(def) => self.def_value(&def, name, span),
+            // What was refused has no name, and has been told.
+            None if name.is_empty() => self.unknown(span),
             None => {
                 self.unknown_name(name, span);
                 self.unknown(span)
@@ -106,6 +110,7 @@ impl<'t> Checker<'t> {
                 let value = self.module_signal(*id);
                 if self.scope.setting == Setting::Function || self.scope.setting == Setting::Constant {
                     self.no_inputs_here(name, span);
+                    return self.unknown(span);
                 }
                 Expr { span, ..value }
             }
@@ -115,6 +120,7 @@ impl<'t> Checker<'t> {
             Def::Input(id) => {
                 if self.scope.setting == Setting::Function || self.scope.setting == Setting::Constant {
                     self.no_inputs_here(name, span);
+                    return self.unknown(span);
                 }
                 let input = &self.hir.inputs[*id];
                 let range = self.scope.facts.narrowed(Place::Input(*id), Interval::ANY);
@@ -126,6 +132,10 @@ impl<'t> Checker<'t> {
                 let finding = match other {
                     Def::Fn(_) | Def::Record(_) => finding.help(format!("write `{name}(…)`")),
                     Def::Activity(_) => finding.help(format!("call it as a statement: `{name}(…)`")),
+                    Def::Enum(id) => {
+                        let variants: Vec<&str> = self.types.enums[*id].variants.iter().map(String::as_str).collect();
+                        finding.help(format!("its variants are written alone: {}", suggest::listed(&variants)))
+                    }
                     _ => finding,
                 };
                 self.report(finding);
@@ -146,18 +156,39 @@ impl<'t> Checker<'t> {
     }
 
     fn unknown_name(&mut self, name: &str, span: Span) {
+        let finding = self.unknown_name_finding(name, span);
+        self.report(finding);
+    }
+
+    /// What is assigned and was never declared.
+    fn undeclared(&mut self, name: &tree::Name) {
+        let finding = self.unknown_name_finding(&name.node, name.span);
+        let help = match self.scope.setting {
+            Setting::Body => {
+                format!(
+                    "declare it: `memory {0}: TYPE = …` at the top, or `let {0} = …` here if it never changes",
+                    name.node
+                )
+            }
+            _ => format!("declare it: `var {0} = …` here, or `memory {0}: TYPE = …` to keep it", name.node),
+        };
+        self.report(if finding.help.is_none() { finding.help(help) } else { finding });
+    }
+
+    fn unknown_name_finding(&self, name: &str, span: Span) -> Diagnostic {
         let finding = Diagnostic::error("names::unknown", span, format!("nothing is named `{name}` here"));
-        let finding = if self.modules[self.scope.module].imports.contains_key(name) {
+        if self.modules[self.scope.module].imports.contains_key(name) {
             Diagnostic::error("names::module", span, format!("`{name}` is a module, no value"))
                 .help(format!("write `{name}.NAME`"))
+        } else if let Some(help) = foreign::help(name) {
+            finding.help(help)
         } else if let Some(near) = self.nearest(name, self.known_names()) {
             finding.help(format!("did you mean `{near}`?"))
         } else if let Some(module) = self.module_that_has(name) {
             finding.help(format!("the module `{module}` has one: write `{module}.{name}`"))
         } else {
             finding
-        };
-        self.report(finding);
+        }
     }
 
     fn module_that_has(&self, name: &str) -> Option<&str> {
@@ -225,7 +256,7 @@ impl<'t> Checker<'t> {
                         format!("`{}` is {what} and cannot be assigned", name.node),
                     ));
                 }
-                None => self.unknown_name(&name.node, name.span),
+                None => self.undeclared(name),
             }
             return None;
         };

@@ -1,11 +1,12 @@
 //! Operators between two operands: the whole table of what can be calculated with what.
 
 use super::Checker;
+use super::convert::{Scaling, scaling};
 use super::expr::article;
 use super::facts;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval};
+use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
 use crate::source::{Span, Spanned};
 use crate::syntax::tree::{self, Binary};
 use crate::types::Type;
@@ -215,7 +216,10 @@ impl<'t> Checker<'t> {
     fn quotient(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
         let Some(divisor) = b.ty.dimension() else { return self.no_such(op, &a, &b, span) };
         if b.range.constant() == Some(0.0) {
-            self.report(Diagnostic::error("ranges::zero", b.span, "this divides by zero"));
+            self.report(
+                Diagnostic::error("ranges::zero", b.span, "this divides by zero")
+                    .help("divide by something else, or leave the division out"),
+            );
             return self.unknown(span);
         }
         let proved = b.range.excludes_zero() || b.ty == Type::Sign;
@@ -316,6 +320,7 @@ impl<'t> Checker<'t> {
         if !comparable {
             return self.no_such(op, &a, &b, span);
         }
+        self.sensible_ratio(&a, &b);
         let (a, b) = match (a.ty.is_optional(), b.ty.is_optional()) {
             (true, false) => {
                 let ty = a.ty.clone();
@@ -339,6 +344,18 @@ impl<'t> Checker<'t> {
         };
         let compared = Expr { kind: ExprKind::Do(builtin, operands), ty: Bool, span, range: Interval::ANY };
         if negate { self.operation(Builtin::Not, vec![compared], Bool, span) } else { compared }
+    }
+
+    /// `battery < 10`: an input that is a ratio, and a number that was meant as percent.
+    fn sensible_ratio(&mut self, a: &Expr, b: &Expr) {
+        for (read, number) in [(a, b), (b, a)] {
+            let is_ratio = matches!(read.kind, ExprKind::Input(_, InputPart::Value | InputPart::Peak))
+                && read.ty == Type::Quantity(Dimension::NONE);
+            if let Some(x) = number.range.constant().filter(|x| is_ratio && *x > 1.0 && number.ty == Type::Int) {
+                let message = format!("a ratio of {x} is {} %", x * 100.0);
+                self.report(Diagnostic::warning("ranges::ratio", number.span, message).help(format!("write `{x} %`")));
+            }
+        }
     }
 
     /// Two operands that an operator does not take: each is labelled with what it is.
@@ -369,6 +386,17 @@ impl<'t> Checker<'t> {
     fn operator_help(&self, op: Binary, a: &Expr, b: &Expr) -> Option<String> {
         use Type::*;
         Some(match (op, &a.ty, &b.ty) {
+            (Binary::Add, Text, _) | (Binary::Add, _, Text) => {
+                "write one text, with values between `{` and `}`: `\"{a} and {b}\"`".into()
+            }
+            (Binary::Add | Binary::Sub, Heading, x) | (Binary::Add, x, Heading)
+                if x.dimension() == Some(Dimension::NONE) =>
+            {
+                "give the number a unit: `deg`".into()
+            }
+            (_, Heading, _) | (_, _, Heading) if op.compares() => {
+                "a heading is a direction: compare the angle between two, `abs(heading - north) < 3 deg`".into()
+            }
             (Binary::Add, Heading, Heading) => {
                 "a heading is turned by an angle: `HEADING + ANGLE`; the angle between two is `HEADING - HEADING`"
                     .into()
@@ -402,13 +430,8 @@ impl<'t> Checker<'t> {
                 if e.is_none() {
                     return Some(format!("give the number on the right a unit, such as `{}`", d.display().unit));
                 }
-                if let Some(name) = (e / d).type_name() {
-                    format!("divide the right-hand side by {}", article(name))
-                } else if let Some(name) = (d / e).type_name() {
-                    format!("multiply the right-hand side by {}", article(name))
-                } else {
-                    return Option::None;
-                }
+                let Scaling { verb, by } = scaling(e, d)?;
+                format!("{verb} the right-hand side by {by}")
             }
             _ => return Option::None,
         })

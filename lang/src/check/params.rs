@@ -49,7 +49,8 @@ impl<'t> Checker<'t> {
                     param.name.span,
                     format!("there are two parameters `{}`", param.name.node),
                 )
-                .label(earlier.span, "the first");
+                .label(earlier.span, "the first")
+                .help("choose another name, or leave it out");
                 self.report(finding);
             }
             let ty = self.written_type(m, &param.ty);
@@ -154,14 +155,18 @@ impl<'t> Checker<'t> {
             return;
         }
         let show = |x: f64| self.shown_number(x, &value.ty);
-        let bounds = format!("{}..{}", show(range.low), show(range.high));
+        let (bounds, among) = match (range.low.is_finite(), range.high.is_finite()) {
+            (true, false) => (format!("{} or more", show(range.low)), "of"),
+            (false, true) => (format!("{} or less", show(range.high)), "of"),
+            _ => (format!("{}..{}", show(range.low), show(range.high)), "in"),
+        };
         let finding = match value.range.constant() {
             Some(x) => Diagnostic::error(
                 "ranges::outside",
                 value.span,
                 format!("{} is outside the range of `{param}`", show(x)),
             )
-            .help(format!("choose a value in {bounds}")),
+            .help(format!("choose a value {among} {bounds}")),
             None => Diagnostic::error(
                 "ranges::unproved",
                 value.span,
@@ -169,7 +174,9 @@ impl<'t> Checker<'t> {
             )
             .help("give what it is computed from a range of its own, or hold it with `clamp(x, low, high)`"),
         };
-        self.report(finding.label(declared, format!("`{param}` is in {bounds}")));
+        self.report(
+            finding.label(declared, format!("`{param}` is {}{bounds}", if among == "in" { "in " } else { "" })),
+        );
     }
 
     pub(super) fn shown_number(&self, x: f64, ty: &Type) -> String {

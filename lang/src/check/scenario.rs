@@ -95,8 +95,22 @@ impl<'t> Checker<'t> {
             }
             clauses
         });
+        self.clauses_once(&clauses);
         self.hir.scenarios[id].clauses = clauses;
         self.hir.scenarios[id].vars = scope.vars;
+    }
+
+    /// A clause whose first parameter is a name may stand several times: each is another thing. All others stand once.
+    fn clauses_once(&mut self, clauses: &[ClauseUse]) {
+        for (i, clause) in clauses.iter().enumerate() {
+            let first = clauses[..i].iter().find(|c| c.name == clause.name);
+            let has_name = clause.args.first().is_some_and(|(param, _)| param == "name");
+            if let Some(first) = first.filter(|_| !has_name) {
+                let message = format!("a scenario has one `{}`", clause.name);
+                let finding = Diagnostic::error("scenarios::twice", clause.span, message);
+                self.report(finding.label(first.span, "the first").help("leave one of them out"));
+            }
+        }
     }
 
     /// `flow(12 cm/s toward 140 deg, meander: 8 deg)`, or as an argument `lbl(every: 120 s)`.
@@ -144,6 +158,7 @@ impl<'t> Checker<'t> {
         // Clauses as arguments are taken out first: the rest are arguments like any.
         let mut values: Vec<(String, ClauseArg)> = Vec::new();
         let mut plain_args = Vec::new();
+        let mut failed = false;
         for arg in args {
             let head = match &arg.value.kind {
                 K::Call(callee, _) => callee.as_ref(),
@@ -170,14 +185,50 @@ impl<'t> Checker<'t> {
                         format!("`{name}` takes no `{inner_name}`"),
                     )),
                 }
+            } else if let Some(kind) = self.misspelt_clause(head, arg, &params, &nested) {
+                failed = true;
+                let written = match &head.kind {
+                    K::Name(name) => name.as_str(),
+                    _ => "this",
+                };
+                let message = format!("there is no {kind} named `{written}`");
+                let known: Vec<String> = self
+                    .clauses
+                    .iter()
+                    .filter(|c| c.kind.as_ref() == Some(&kind))
+                    .map(|c| c.signature.name.clone())
+                    .collect();
+                let finding = Diagnostic::error("scenarios::clause", head.span, message);
+                let finding = match self.suggestion(written, known.iter().map(String::as_str)) {
+                    Some(help) => finding.help(help),
+                    None => finding,
+                };
+                self.report(finding);
             } else {
                 plain_args.push(arg.clone());
             }
         }
         let plain: Vec<super::ParamInfo> =
             params.iter().zip(&nested).filter(|(_, n)| n.is_none()).map(|(p, _)| p.clone()).collect();
-        let checked = self.arguments(&name, &plain, &plain_args, e.span, None)?;
+        let checked = self.arguments(&name, &plain, &plain_args, e.span, None).filter(|_| !failed)?;
         values.extend(plain.into_iter().map(|p| p.name).zip(checked.into_iter().map(ClauseArg::Value)));
         Some(ClauseUse { name, span: e.span, args: values })
+    }
+
+    /// The kind of clause that a name which nobody has stands for: the one that its parameter takes, else the first of those
+    /// that the clause takes.
+    fn misspelt_clause(
+        &self,
+        head: &tree::Expr,
+        arg: &tree::Arg,
+        params: &[super::ParamInfo],
+        nested: &[Option<String>],
+    ) -> Option<String> {
+        let tree::ExprKind::Name(name) = &head.kind else { return None };
+        if self.local(name).is_some() || self.lookup(self.scope.module, name).is_some() {
+            return None;
+        }
+        let fits = |p: &super::ParamInfo| arg.label.as_ref().is_none_or(|label| label.node == p.name);
+        params.iter().zip(nested).find_map(|(p, kind)| kind.clone().filter(|_| fits(p)))
     }
 }

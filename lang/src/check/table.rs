@@ -2,7 +2,6 @@
 
 use super::expr::article;
 use super::facts;
-use super::timed::loiters_for_ever;
 use super::{Checker, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
@@ -327,16 +326,9 @@ fn finishes(block: &hir::Block) -> bool {
 }
 
 fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
-    use albacore_program::Guide;
-    if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() {
-        return false;
-    }
     match &timed.action {
-        hir::Action::Guide(guide, args) => match guide {
-            Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => true,
-            guide => loiters_for_ever(*guide, args),
-        },
-        hir::Action::Keep(..) => true,
+        _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
+        hir::Action::Guide(..) | hir::Action::Keep(..) => flow::endless(timed),
         hir::Action::Call(id, _) => match &hir.activities[*id].body {
             Body::Sequence(block) if !path.contains(id) => {
                 path.push(*id);

@@ -5,6 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Expect, Expr, ExprKind, Interval, Test, TestNames, VarKind, When};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind, ExpectMode, Item, TestClause};
 use crate::types::Type;
 
@@ -184,9 +185,9 @@ impl<'t> Checker<'t> {
             ("truth", other) => {
                 let finding =
                     Diagnostic::error("tests::truth", member.span, format!("there is no `truth.{other}` to ask for"));
-                let finding = match self.suggestion(other, TRUTHS) {
-                    Some(help) => finding.help(help),
-                    None => finding,
+                let finding = match self.nearest(other, TRUTHS) {
+                    Some(near) => finding.help(format!("did you mean `truth.{near}`?")),
+                    None => finding.help(format!("there is {}", suggest::listed(&TRUTHS))),
                 };
                 self.report(finding);
                 return Some(self.unknown(span));

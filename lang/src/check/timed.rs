@@ -310,7 +310,7 @@ impl<'t> Checker<'t> {
                     if let Some(values) =
                         self.arguments(&signature.name, &signature.params, args, e.span, Some(signature.span))
                     {
-                        with.push(With::Overlay(id, values));
+                        with.push(With::Overlay(id, values, e.span));
                     }
                 }
             }

@@ -281,7 +281,8 @@ pub enum StmtKind {
 #[allow(missing_docs, reason = "each variant is what it says")]
 pub enum With {
     Setpoint(Channel, Expr),
-    Overlay(ActivityId, Vec<Expr>),
+    /// An overlay with its arguments, and where it is put on.
+    Overlay(ActivityId, Vec<Expr>, Span),
 }
 
 /// A statement that takes time.

@@ -8,6 +8,8 @@ use crate::source::Span;
 pub struct Scenario {
     /// Its name.
     pub name: String,
+    /// Where it is declared.
+    pub span: Span,
     /// Its parameters.
     pub vars: Vec<Var>,
     /// Their defaults.

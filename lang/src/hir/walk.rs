@@ -65,7 +65,7 @@ pub fn calls_in(block: &Block) -> Vec<FnId> {
 
 /// The overlays among what `with` puts in force.
 fn overlays(items: &[With]) -> impl Iterator<Item = ActivityId> {
-    items.iter().filter_map(|item| if let With::Overlay(id, _) = item { Some(*id) } else { None })
+    items.iter().filter_map(|item| if let With::Overlay(id, ..) = item { Some(*id) } else { None })
 }
 
 impl Stmt {
@@ -212,7 +212,7 @@ fn with_children<'e>(items: &'e [With], f: &mut dyn FnMut(&'e Expr)) {
     for item in items {
         match item {
             With::Setpoint(_, e) => f(e),
-            With::Overlay(_, args) => args.iter().for_each(&mut *f),
+            With::Overlay(_, args, _) => args.iter().for_each(&mut *f),
         }
     }
 }

@@ -71,7 +71,7 @@ impl<'a> Lowering<'a> {
 
     fn prepare_with(&mut self, items: &[hir::With]) {
         for item in items {
-            if let hir::With::Overlay(id, _) = item {
+            if let hir::With::Overlay(id, ..) = item {
                 self.unit(*id);
             }
         }

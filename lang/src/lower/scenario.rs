@@ -5,7 +5,7 @@ use super::activity::middle;
 use super::watch::scenario_positions;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse, ExprKind, Hir, TextPart};
-use crate::source::Sources;
+use crate::source::{Sources, Span};
 use crate::types::{Type, TypeTable};
 use albacore_geometry::Geodetic;
 use albacore_program::{Op, Program, Shape, Slot};
@@ -15,6 +15,8 @@ use albacore_program::{Op, Program, Shape, Slot};
 pub struct ScenarioProgram {
     /// Its name.
     pub name: String,
+    /// Where it is declared.
+    pub span: Span,
     /// Where the local frame touches the globe.
     pub origin: Option<Geodetic>,
     /// The code, and nothing else.
@@ -30,6 +32,8 @@ pub struct ScenarioClause {
     pub name: String,
     /// `file:line`.
     pub place: String,
+    /// Where it stands.
+    pub span: Span,
     /// Its arguments by the names of its parameters, defaults included.
     pub args: Vec<(String, ScenarioValue)>,
 }
@@ -79,7 +83,13 @@ pub fn scenario(
     let mut program = lowering.program;
     program.words = words;
     program.mission.activity = entry;
-    Ok(ScenarioProgram { name: scenario.name.clone(), origin: lowering.origin, program, clauses: clauses.into_inner() })
+    Ok(ScenarioProgram {
+        name: scenario.name.clone(),
+        span: scenario.span,
+        origin: lowering.origin,
+        program,
+        clauses: clauses.into_inner(),
+    })
 }
 
 impl<'a> Lowering<'a> {
@@ -107,7 +117,7 @@ impl<'a> Lowering<'a> {
             };
             args.push((name.clone(), value));
         }
-        ScenarioClause { name: clause.name.clone(), place: self.sources.place(clause.span), args }
+        ScenarioClause { name: clause.name.clone(), place: self.sources.place(clause.span), span: clause.span, args }
     }
 }
 

@@ -250,7 +250,7 @@ impl<'a> Lowering<'a> {
                     let at = self.frame.header + header::SETPOINTS;
                     self.scratch(|l| l.setpoint(*channel, e, at));
                 }
-                With::Overlay(id, args) => {
+                With::Overlay(id, args, _) => {
                     let unit = self.units[id];
                     let base = self.lasting(unit.words);
                     self.scratch(|l| l.args(args, base));

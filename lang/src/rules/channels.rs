@@ -1,7 +1,8 @@
 //! One owner for each channel on every way that leads to a statement: speed and vertical are set, and set once.
 
+use super::limits::{self, Limit};
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, Block, Body, Decl, Hir, Kind, StmtKind, Timed, With};
+use crate::hir::{Action, Block, Body, Decl, Expr, Hir, Kind, StmtKind, Timed, With};
 use crate::source::Span;
 use albacore_program::{Channel, Guide};
 use std::collections::BTreeSet;
@@ -28,6 +29,8 @@ struct Owners {
 
 struct Walk<'a> {
     hir: &'a Hir,
+    /// The mission's limits.
+    limits: Vec<Limit>,
     /// The calls that lead here.
     path: Vec<(String, Span)>,
     seen: BTreeSet<(usize, Owners)>,
@@ -36,7 +39,8 @@ struct Walk<'a> {
 
 /// Walks all ways from a mission to its statements.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
-    let mut walk = Walk { hir, path: Vec::new(), seen: BTreeSet::new(), findings: Vec::new() };
+    let limits = limits::of(hir, mission);
+    let mut walk = Walk { hir, limits, path: Vec::new(), seen: BTreeSet::new(), findings: Vec::new() };
     walk.activity(mission, Owners { vertical: Owner::Nobody, speed: Owner::Nobody });
     walk.findings
 }
@@ -49,7 +53,7 @@ impl Walk<'_> {
         let activity = &self.hir.activities[id];
         for decl in &activity.decls {
             if let Decl::With(items) = decl {
-                owners = self.with(items, owners, activity.span);
+                owners = self.with(items, owners);
             }
         }
         match &activity.body {
@@ -62,15 +66,18 @@ impl Walk<'_> {
         }
     }
 
-    fn with(&mut self, items: &[With], mut owners: Owners, span: Span) -> Owners {
+    fn with(&mut self, items: &[With], mut owners: Owners) -> Owners {
         for item in items {
             match item {
-                With::Setpoint(channel, e) => self.own(&mut owners, *channel, Owner::Setpoint, e.span),
-                With::Overlay(id, args) => {
-                    let place = args.first().map_or(span, |a| a.span);
+                With::Setpoint(channel, e) => {
+                    self.limited(*channel, e);
+                    self.own(&mut owners, *channel, Owner::Setpoint, e.span);
+                }
+                With::Overlay(id, _, place) => {
                     if let Kind::Sets(channel) = self.hir.activities[*id].kind {
-                        self.own(&mut owners, channel, Owner::Overlay(place), place);
+                        self.own(&mut owners, channel, Owner::Overlay(*place), *place);
                     }
+                    self.overlay(*id);
                 }
             }
         }
@@ -86,11 +93,36 @@ impl Walk<'_> {
         if let Owner::Overlay(earlier) = *slot {
             let finding = Diagnostic::error("channels::twice", span, format!("the {name} belongs to an overlay here"))
                 .label(earlier, "put on here")
-                .help("take the overlay off, or leave the setpoint out");
+                .help(match owner {
+                    Owner::Overlay(_) => "take one of the two overlays off",
+                    _ => "take the overlay off, or leave the setpoint out",
+                });
             self.tell(finding);
             return;
         }
         *slot = owner;
+    }
+
+    /// A setpoint that no limit lets through.
+    fn limited(&mut self, channel: Channel, setpoint: &Expr) {
+        if let Some(finding) = limits::beyond(&self.limits, channel, setpoint) {
+            self.tell(finding);
+        }
+    }
+
+    /// What an overlay keeps is limited too; that nothing else is set in it is right.
+    fn overlay(&mut self, id: usize) {
+        let mut kept = Vec::new();
+        if let Body::Sequence(block) = &self.hir.activities[id].body {
+            block.each(&mut |stmt| {
+                if let StmtKind::Timed(timed) = &stmt.kind
+                    && let Action::Keep(channel, e) = &timed.action
+                {
+                    kept.push((*channel, e));
+                }
+            });
+        }
+        kept.into_iter().for_each(|(channel, e)| self.limited(channel, e));
     }
 
     fn tell(&mut self, mut finding: Diagnostic) {
@@ -112,7 +144,7 @@ impl Walk<'_> {
         for stmt in &block.stmts {
             match &stmt.kind {
                 StmtKind::With(items, body) => {
-                    let inner = self.with(items, owners, stmt.span);
+                    let inner = self.with(items, owners);
                     self.block(body, inner);
                 }
                 StmtKind::Timed(timed) => self.timed(timed, owners, stmt.span),
@@ -123,6 +155,7 @@ impl Walk<'_> {
 
     fn timed(&mut self, timed: &Timed, mut owners: Owners, span: Span) {
         for (channel, e) in &timed.at {
+            self.limited(*channel, e);
             self.own(&mut owners, *channel, Owner::Setpoint, e.span);
         }
         let (vertical, speed) = match &timed.action {
@@ -137,7 +170,10 @@ impl Walk<'_> {
             Action::Guide(Guide::Hold, _) => (true, false),
             Action::Guide(..) => (true, true),
             // What is kept is its own setpoint. In an overlay nothing else is needed.
-            Action::Keep(..) => (false, false),
+            Action::Keep(channel, e) => {
+                self.limited(*channel, e);
+                (false, false)
+            }
         };
         if vertical && owners.vertical == Owner::Nobody {
             self.tell(

@@ -73,7 +73,7 @@ impl Walk<'_> {
 
     fn with(&mut self, items: &[With]) {
         for item in items {
-            if let With::Overlay(id, _) = item {
+            if let With::Overlay(id, ..) = item {
                 self.activity(*id);
             }
         }

@@ -2,6 +2,7 @@
 
 mod channels;
 mod inputs;
+mod limits;
 mod unreached;
 
 pub use unreached::check as unreached;

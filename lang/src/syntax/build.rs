@@ -23,12 +23,16 @@ pub(super) struct Builder {
 pub(super) struct Bad {
     pub span: Span,
     pub place: Place,
+    /// The declaration in which it stands.
+    pub item: Option<Span>,
 }
 
 /// Where a bad stretch stands, which tells how to look at it again.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Place {
     Item,
+    /// A declaration up to its `{`: its block could be read.
+    Head,
     Clause,
     TestClause,
 }
@@ -51,7 +55,7 @@ impl Builder {
 
     pub fn bad(&mut self, pair: &P, place: Place) {
         let span = self.span(pair);
-        self.bad.push(Bad { span, place });
+        self.bad.push(Bad { span, place, item: None });
     }
 }
 
@@ -72,6 +76,7 @@ pub(super) fn file(b: &mut Builder, pairs: Pairs<Rule>) -> File {
         match pair.as_rule() {
             Rule::EOI => {}
             Rule::bad_item => b.bad(&pair, Place::Item),
+            Rule::headless => file.items.extend(within_item(b, pair, headless)),
             Rule::crowded => {
                 let at = b.span(&pair);
                 let word = pairs.peek().and_then(|next| next.as_str().split_whitespace().next()).unwrap_or("");
@@ -81,10 +86,37 @@ pub(super) fn file(b: &mut Builder, pairs: Pairs<Rule>) -> File {
                         .help("begin each declaration on a line of its own"),
                 );
             }
-            _ => file.items.extend(item(b, pair)),
+            _ => file.items.extend(within_item(b, pair, item)),
         }
     }
     file
+}
+
+/// Builds an item; what is unreadable in it stands in it.
+fn within_item(b: &mut Builder, pair: P, build: impl FnOnce(&mut Builder, P) -> Option<Item>) -> Option<Item> {
+    let (span, before) = (b.span(&pair), b.bad.len());
+    let built = build(b, pair);
+    b.bad[before..].iter_mut().for_each(|bad| bad.item = Some(span));
+    built
+}
+
+/// An item whose block can be read, and not what stands before it. Nobody can name it: with what it is called is unknown.
+fn headless(b: &mut Builder, pair: P) -> Option<Item> {
+    let mut inner = pair.into_inner();
+    let (head, body) = (inner.next()?, inner.next()?);
+    let at = b.span(&head);
+    b.bad.push(Bad { span: Span { end: b.span(&body).start + 1, ..at }, place: Place::Head, item: None });
+    let mut words = head.as_str().split(|c: char| !c.is_alphanumeric() && c != '_');
+    let word = words.next()?;
+    let name = Name { node: format!("{}…", words.next().unwrap_or("")), span: at };
+    let body = block(b, body);
+    let kind = match word {
+        "scenario" => return Some(Item::Scenario { name, params: Vec::new(), body }),
+        "mission" => ActivityKind::Mission { scenario: None, within: None },
+        "strategy" => ActivityKind::Strategy,
+        _ => ActivityKind::Behavior,
+    };
+    Some(Item::Activity(Activity { kind, name, params: Vec::new(), result: None, body }))
 }
 
 fn item(b: &mut Builder, pair: P) -> Option<Item> {

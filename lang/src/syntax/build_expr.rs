@@ -200,7 +200,7 @@ fn primary(b: &mut Builder, pair: P) -> Expr {
             ExprKind::Number { value, unit: inner.next().map(|u| name(b, u)) }
         }
         Rule::geodetic => {
-            let mut halves = pair.into_inner().map(degrees);
+            let mut halves = pair.into_inner().map(|half| degrees(b, half));
             ExprKind::Geodetic {
                 latitude_deg: halves.next().unwrap_or(0.0),
                 longitude_deg: halves.next().unwrap_or(0.0),
@@ -253,8 +253,19 @@ fn match_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
     let mut inner = parts(pair);
     let on = Box::new(expr(b, inner.next()?));
     let mut arms = Vec::new();
+    let mut crowded = false;
     for arm in inner {
+        if arm.as_rule() == Rule::crowded_arm {
+            crowded = true;
+            continue;
+        }
         let span = b.span(&arm);
+        if std::mem::take(&mut crowded) {
+            b.refused.push(
+                Diagnostic::error("layout::line", span, "this arm begins on the line of another")
+                    .help("begin each arm on a line of its own, or after `;`"),
+            );
+        }
         let mut names = Vec::new();
         for part in parts(arm) {
             if part.as_rule() == Rule::name {
@@ -268,14 +279,22 @@ fn match_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
 }
 
 /// Degrees, and minutes when written; south and west are negative.
-fn degrees(pair: P) -> f64 {
+fn degrees(b: &mut Builder, pair: P) -> f64 {
+    let span = b.span(&pair);
     let mut value = 0.0;
     let mut unit = 1.0;
     for part in pair.into_inner() {
         match part.as_str() {
             "S" | "W" => value = -value,
             number => {
-                value += number.parse::<f64>().unwrap_or(0.0) / unit;
+                let number = number.parse::<f64>().unwrap_or(0.0);
+                if unit > 1.0 && number >= 60.0 {
+                    b.refused.push(
+                        Diagnostic::error("types::position", span, format!("{number}' is more than a degree"))
+                            .help("minutes of arc are less than 60: has a digit slipped?"),
+                    );
+                }
+                value += number / unit;
                 unit *= 60.0;
             }
         }

@@ -1,9 +1,10 @@
 //! What to say of text that the grammar cannot read: what was found, what was expected, in the language's own terms.
 
 use super::build::{Bad, Place};
-use super::habits::habit;
+use super::habits::{habit, untyped_memory};
 use super::{Grammar, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::foreign;
 use crate::source::{FileId, Span};
 use crate::suggest;
 use pest::Parser;
@@ -35,11 +36,15 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
     let (start, end) = (bad.span.start as usize, bad.span.end as usize);
     let stretch = &text[start..end];
     let (rule, words) = match bad.place {
-        Place::Item => (Rule::item_only, &ITEM_WORDS[..]),
+        Place::Item | Place::Head => (Rule::item_only, &ITEM_WORDS[..]),
         Place::Clause => (Rule::clause_only, &CLAUSE_WORDS[..]),
         Place::TestClause => (Rule::test_clause_only, &TEST_WORDS[..]),
     };
     let word: String = stretch.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+    if let Some((end, habit)) = untyped_memory(stretch) {
+        let span = Span { file, start: start as u32, end: (start + end) as u32 };
+        return Diagnostic::error("syntax::expected", span, habit.message.unwrap_or_default()).help(habit.help);
+    }
     let error = Grammar::parse(rule, stretch).err();
     let offset = error.as_ref().map_or(0, |e| match e.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
@@ -55,13 +60,13 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             }
             _ => Diagnostic::error("syntax::clause", span, format!("`{word}` begins no statement")),
         };
+        if let Some(help) = foreign::help(&word) {
+            return finding.help(help);
+        }
         return match suggest::nearest(&word, words.iter().copied()) {
             Some(near) => finding.help(format!("did you mean `{near}`?")),
             None if bad.place == Place::Item => {
                 finding.help("a file holds behaviors, strategies, missions, scenarios, …")
-            }
-            None if word == "return" => {
-                finding.help("a function gives its last expression, and a behavior ends with `finish`")
             }
             None => finding
                 .help(format!("after a name comes `=`, `(`, or in a switching table `->`; not {}", found(after_word))),

@@ -13,6 +13,20 @@ pub(super) struct Habit {
 pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let only = |help: &str| Some(Habit { message: None, help: help.to_string() });
     let signs = [
+        ("→", "write `->`"),
+        ("≤", "write `<=`"),
+        ("≥", "write `>=`"),
+        ("≠", "write `!=`"),
+        ("×", "write `*`"),
+        ("·", "write `*`"),
+        ("÷", "write `/`"),
+        ("−", "write the minus of the keyboard, `-`"),
+        ("–", "write the minus of the keyboard, `-`"),
+        ("“", "texts stand between straight quotes, `\"`"),
+        ("”", "texts stand between straight quotes, `\"`"),
+        ("„", "texts stand between straight quotes, `\"`"),
+        ("‘", "texts stand between straight quotes, `\"`"),
+        ("’", "texts stand between straight quotes, `\"`; minutes of arc are written `'`"),
         ("&&", "write `and`"),
         ("||", "write `or`"),
         ("!", "write `not`"),
@@ -31,6 +45,9 @@ pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     if let Some((_, help)) = signs.iter().find(|(sign, _)| rest.starts_with(sign)) {
         return only(help);
     }
+    if let Some(habit) = sentence(before, rest) {
+        return Some(habit);
+    }
     if rest.starts_with('=') {
         return match before.trim_end().strip_suffix(['+', '-', '*', '/']) {
             Some(_) => only("an assignment names both sides: `n = n + 1`"),
@@ -38,19 +55,76 @@ pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
             None => None,
         };
     }
-    if expected.contains("`{`") && rest.starts_with('\n') && rest.trim_start().starts_with('{') {
-        return only("the `{` stands on the same line");
-    }
     if let Some(word) = before.split_whitespace().next_back().filter(|word| ["wait", "hold"].contains(word))
-        && rest.starts_with(|c: char| c.is_ascii_digit())
+        && rest.starts_with(|c: char| c.is_ascii_digit() || c == '(')
     {
         let time = rest.split(['\n', ';', '}']).next().unwrap_or("").trim();
+        let time = time.strip_prefix('(').and_then(|t| t.strip_suffix(')')).unwrap_or(time);
         return Some(Habit {
             message: Some(format!("`for` is missing after `{word}`")),
             help: format!("write `{word} for {time}`"),
         });
     }
     number(before, rest).or_else(|| setpoint(before, rest, expected)).or_else(|| crowded(rest))
+}
+
+/// A whole line of another language.
+fn sentence(before: &str, rest: &str) -> Option<Habit> {
+    let only = |help: &str| Some(Habit { message: None, help: help.to_string() });
+    let mut words = before.split_whitespace();
+    let (first, last) = (words.next().unwrap_or(""), before.split_whitespace().next_back().unwrap_or(""));
+    let next: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+    if matches!(next.as_str(), "elif" | "elsif" | "elseif") {
+        return only("write `else if`");
+    }
+    if ["seconds", "minutes", "hours", "metres", "meters", "degrees", "knots"].contains(&next.as_str()) {
+        return only("a quantity is a number and a unit, such as `10 min`");
+    }
+    if rest.starts_with('=') && last.ends_with("==") {
+        return only("write `==`");
+    }
+    if rest.starts_with('>') && last.ends_with('=') {
+        return only(if rest.contains(" on ") { "a rule is `A -> B on X`: write `->`" } else { "write `>=`" });
+    }
+    if before.contains("->") && [last, next.as_str()].iter().any(|word| ["when", "if", "while"].contains(word)) {
+        return only("a rule is `A -> B on X`: write `on`");
+    }
+    if next == "then" && before.contains("if ") {
+        return only("leave `then` out: `if X { … }`");
+    }
+    if rest.starts_with(':') && before.contains("range(") {
+        return only("write `for i in 0..<3 { … }`");
+    }
+    if rest.starts_with(':') && rest[1..].trim_start_matches([' ', '\t', '\r']).starts_with('\n') {
+        return only("a block stands between `{` and `}`");
+    }
+    if first == "report" && last == "report" && !next.is_empty() {
+        let value = rest.split(['\n', ';', '}']).next().unwrap_or("").trim();
+        let value = value.split_once(": ").map_or(value, |(_, value)| value);
+        return Some(Habit {
+            message: Some("a report has a name, which is a text".to_string()),
+            help: format!("write `report \"{next}\": {value}`"),
+        });
+    }
+    if first == "run" && !before.contains(" in ") {
+        return only("write `run MISSION in SCENARIO seeds 1..20`");
+    }
+    None
+}
+
+/// `memory q = 3`: where its name ends, and what to say.
+pub(super) fn untyped_memory(clause: &str) -> Option<(usize, Habit)> {
+    let after = clause.strip_prefix("memory ")?.trim_start();
+    let name = &after[..after.find(|c: char| !c.is_alphanumeric() && c != '_')?];
+    let begins = after[name.len()..].trim_start();
+    let end = clause.len() - after.len() + name.len();
+    (!name.is_empty() && begins.starts_with('=') && !begins.starts_with("==")).then(|| {
+        let habit = Habit {
+            message: Some(format!("of what type is `{name}`?")),
+            help: format!("write `memory {name}: TYPE = …`, with `Int`, `Length`, `Point` or another type"),
+        };
+        (end, habit)
+    })
 }
 
 /// Two numbers in a row, or a number of another base.

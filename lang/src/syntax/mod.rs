@@ -33,14 +33,37 @@ pub struct Parsed {
     pub file: tree::File,
     /// All that could not.
     pub findings: Vec<Diagnostic>,
+    /// Where that stands.
+    pub unread: Vec<Unread>,
     /// The comments, in order: the formatter and the documentation need them.
     pub comments: Vec<Comment>,
 }
 
+/// A stretch that could not be read. What it declares, nobody knows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unread {
+    /// Where.
+    pub span: Span,
+    /// The declaration in which it stands; none when the declaration itself could not be read.
+    pub item: Option<Span>,
+}
+
 /// Reads a source file.
 pub fn parse(file: FileId, source: &str) -> Parsed {
-    let (tree, findings, comments) = read(file, source, Rule::file, build::file);
-    Parsed { file: tree.unwrap_or_default(), findings, comments }
+    let mut unread = Vec::new();
+    let (tree, findings, comments) = read(file, source, Rule::file, |b, pairs| {
+        let tree = build::file(b, pairs);
+        unread.extend(b.bad.iter().map(|bad| Unread { span: bad.span, item: bad.item }));
+        // A declaration whose head is unreadable is known by no name.
+        unread.extend(
+            b.bad.iter().filter(|bad| bad.place == build::Place::Head).map(|bad| Unread { span: bad.span, item: None }),
+        );
+        tree
+    });
+    if tree.is_none() {
+        unread.push(Unread { span: Span { file, start: 0, end: source.len() as u32 }, item: None });
+    }
+    Parsed { file: tree.unwrap_or_default(), findings, unread, comments }
 }
 
 /// Reads statements that stand in no block: the lines of a prompt.

@@ -3,6 +3,7 @@
 //! The text that comes out has the same length as the one that went in, so that every span stays true. A comment and a
 //! newline that ends nothing become blanks; the grammar then needs one rule for blanks and one for the end of a statement.
 
+use super::errors::begins_item;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
@@ -55,9 +56,7 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
     };
     scanner.run();
     let goes_on = !scanner.open.is_empty() || scanner.last == Last::Goes;
-    for open in std::mem::take(&mut scanner.open) {
-        scanner.unclosed(open.bracket, open.at);
-    }
+    scanner.all_unclosed(0);
     let text = String::from_utf8(scanner.out).unwrap_or_default();
     Scanned { text, comments: scanner.comments, findings: scanner.findings, goes_on }
 }
@@ -151,7 +150,7 @@ impl<'a> Scanner<'a> {
 
     fn newline(&mut self) {
         let in_brackets = matches!(self.open.last(), Some(Open { bracket: '(' | '[', .. }));
-        let goes_on = in_brackets || self.last == Last::Goes || self.next_word_is("else");
+        let goes_on = in_brackets || self.last == Last::Goes || self.next_word_is("else") || self.block_on_next_line();
         if goes_on {
             self.blank(self.at, self.at + 1);
         } else {
@@ -165,11 +164,12 @@ impl<'a> Scanner<'a> {
     /// At the left margin: an item here means that whatever is open was never closed.
     fn margin(&mut self) {
         let word: String = self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-        if !self.open.is_empty() && ITEM_WORDS.contains(&word.as_str()) {
-            let outermost = self.open.swap_remove(0);
-            self.open.clear();
+        // In a strategy a behavior may stand at the margin too; in round brackets nothing is declared.
+        let block = self.open.iter().rposition(|open| open.bracket == '{').map_or(0, |at| at + 1);
+        let level = if ITEM_WORDS.contains(&word.as_str()) { 0 } else { block };
+        if self.open.len() > level && begins_item(&word) {
+            self.all_unclosed(level);
             self.chained = 0;
-            self.unclosed(outermost.bracket, outermost.at);
             // The newline before this item was swallowed when a round bracket was open: give it back.
             if self.at > 0 && self.source.as_bytes()[self.at - 1] == b'\n' {
                 self.out[self.at - 1] = b'\n';
@@ -178,16 +178,38 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    fn next_word_is(&self, word: &str) -> bool {
+    /// What comes next that is no blank, newline or comment.
+    fn next(&self) -> &'a str {
         let mut rest = self.rest();
         loop {
             rest = rest.trim_start();
             match rest.strip_prefix("//") {
                 Some(comment) => rest = comment.split_once('\n').map_or("", |(_, after)| after),
-                None => break,
+                None => return rest,
             }
         }
-        rest.strip_prefix(word).is_some_and(|after| !after.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    }
+
+    fn next_word_is(&self, word: &str) -> bool {
+        let after = self.next().strip_prefix(word);
+        after.is_some_and(|after| !after.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    }
+
+    /// A `{` on a line of its own belongs to the line before: told once, and read as if it stood there.
+    fn block_on_next_line(&mut self) -> bool {
+        let next = self.next();
+        if self.last != Last::Ends || !next.starts_with('{') {
+            return false;
+        }
+        let at = self.source.len() - next.len();
+        let span = self.span(at, at + 1);
+        if self.findings.last().is_none_or(|f| f.span() != span) {
+            self.findings.push(
+                Diagnostic::error("layout::brace", span, "this `{` stands on a line of its own")
+                    .help("write it at the end of the line before"),
+            );
+        }
+        true
     }
 
     fn comment(&mut self) {
@@ -253,6 +275,13 @@ impl<'a> Scanner<'a> {
         }
         self.at = start + length;
         self.last = Last::Ends;
+        if closed && hole > 0 {
+            let span = self.span(start, self.at);
+            self.findings.push(
+                Diagnostic::error("syntax::text", span, "this text ends inside its `{ }`")
+                    .help("close it with `}`, or write `\\{` for the sign itself; no `\"` stands inside `{ }`"),
+            );
+        }
         if !closed {
             let span = self.span(start, self.at);
             self.findings.push(
@@ -310,13 +339,8 @@ impl<'a> Scanner<'a> {
         };
         match self.open.iter().rposition(|open| open.bracket == wanted) {
             Some(index) => {
-                for (i, open) in self.open.split_off(index).into_iter().enumerate() {
-                    if i == 0 {
-                        self.chained = open.chained;
-                    } else {
-                        self.unclosed(open.bracket, open.at);
-                    }
-                }
+                self.all_unclosed(index + 1);
+                self.chained = self.open.pop().map_or(0, |open| open.chained);
             }
             None => {
                 let span = self.span(self.at, self.at + 1);
@@ -329,15 +353,22 @@ impl<'a> Scanner<'a> {
         self.at += 1;
     }
 
-    fn unclosed(&mut self, bracket: char, at: usize) {
+    /// What is open from a level on was never closed: told of the outermost, for what stands in it is open with it.
+    fn all_unclosed(&mut self, level: usize) {
+        let inside = self.open.split_off(level);
+        let Some(Open { bracket, at, .. }) = inside.first() else { return };
         let closer = match bracket {
             '(' => ')',
             '[' => ']',
             _ => '}',
         };
-        let span = self.span(at, at + 1);
+        let message = match inside.len() - 1 {
+            0 => format!("this `{bracket}` is never closed"),
+            1 => format!("this `{bracket}` is never closed, nor is one inside it"),
+            more => format!("this `{bracket}` is never closed, nor are {more} inside it"),
+        };
         self.findings.push(
-            Diagnostic::error("syntax::bracket", span, format!("this `{bracket}` is never closed"))
+            Diagnostic::error("syntax::bracket", self.span(*at, at + 1), message)
                 .help(format!("add the `{closer}` that belongs to it")),
         );
     }

@@ -19,6 +19,9 @@ const STDLIB: [(&str, &str); 8] = [
 /// Modules whose names every script knows.
 const PRELUDE: [&str; 3] = ["inputs", "scenarios", "world"];
 
+/// So many names are listed in a message at most.
+const LISTED_MAX: usize = 12;
+
 /// The file that marks a project's folder.
 const PROJECT_FILE: &str = "albacore.toml";
 
@@ -114,6 +117,9 @@ fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
         Some(format!("there is no folder `{}`", folder.display()))
     } else if scripts.is_empty() {
         Some(format!("`{}` holds no scripts", folder.display()))
+    } else if scripts.len() > LISTED_MAX {
+        let some = scripts[..LISTED_MAX].join(", ");
+        Some(format!("`{}` holds {some} and {} more", folder.display(), scripts.len() - LISTED_MAX))
     } else {
         Some(format!("`{}` holds {}", folder.display(), scripts.join(", ")))
     };
@@ -202,11 +208,20 @@ impl Library for Files {
         {
             return Ok(source);
         }
+        if let [module, name, ..] = path
+            && (stdlib(module).is_some() || self.root.join(module).with_extension("alb").is_file())
+        {
+            return Err(format!("`{module}` is a module: write `use {module}`, and then `{module}.{name}`"));
+        }
         let known = self.known();
         let wanted = path.join(".");
         Err(match nearest(&wanted, known.iter().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there is {}", known.join(", ")),
+            None if known.len() <= LISTED_MAX => format!("there is {}", known.join(", ")),
+            None => {
+                let standard: Vec<&str> = STDLIB.iter().map(|(name, _)| *name).collect();
+                format!("there is {}, and the scripts of this project's folder", standard.join(", "))
+            }
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Load, check and step a mission: the few types that the command line, the tests and the prompt all use.
 
 pub mod campaign;
+mod check;
 mod craft;
 mod files;
 mod journal;
@@ -21,6 +22,7 @@ pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{LinkError, Transport, Url, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
+pub use check::findings;
 pub use files::{FileError, Files, load, load_library, load_or_module};
 pub use link::{Called, call};
 pub use run::{Plan, PlanError, Run, Running};

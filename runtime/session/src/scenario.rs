@@ -1,6 +1,7 @@
 //! From what a scenario's script says to the simulator's own plain numbers.
 
 use albacore_geometry::{Area, Heading, Point, Vector};
+use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue};
 use albacore_machine::Evaluation;
 use albacore_program::{AREA_CORNER_WORDS, Slot};
@@ -14,15 +15,18 @@ struct Clause<'a> {
     words: &'a [f64],
 }
 
-/// The simulator's scenario; else what of it cannot be understood.
-pub(crate) fn scenario(program: &ScenarioProgram) -> Result<Scenario, String> {
+/// The simulator's scenario; else what of it cannot be understood, and where.
+pub(crate) fn scenario(program: &ScenarioProgram) -> Result<Scenario, Diagnostic> {
     let mut evaluation = Evaluation::new(&program.program);
     evaluation.run(&program.program, program.program.mission.activity);
     let words = evaluation.words(0, program.program.words);
     let mut scenario = Scenario::default();
     for clause in &program.clauses {
         let clause = Clause { clause, words };
-        apply(&mut scenario, &clause).map_err(|what| format!("{}: {what}", clause.clause.place))?;
+        apply(&mut scenario, &clause).map_err(|what| {
+            let message = format!("this clause cannot be: {what}");
+            Diagnostic::error("scenarios::clause", clause.clause.span, message)
+        })?;
     }
     Ok(scenario)
 }

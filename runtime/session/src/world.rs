@@ -61,7 +61,7 @@ impl World {
 }
 
 /// Where the missions lie that run in a scenario.
-fn place_of(script: &Script, scenario: &str) -> Result<Option<Geodetic>, PlanError> {
+pub(crate) fn place_of(script: &Script, scenario: &str) -> Result<Option<Geodetic>, PlanError> {
     let runs_in_it = |mission: &&albacore_lang::MissionInfo| mission.scenario.as_deref() == Some(scenario);
     let Some(mission) = script.missions().find(runs_in_it) else { return Ok(None) };
     match script.mission(&mission.name) {
@@ -86,7 +86,7 @@ pub(crate) fn scenario(
             return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
         }
     };
-    let world = crate::scenario::scenario(&lowered).map_err(|what| PlanError::Asked(what, None))?;
+    let world = crate::scenario::scenario(&lowered).map_err(|finding| PlanError::Script(vec![finding]))?;
     world.validate().map_err(|error| {
         let message = format!("the scenario `{}` cannot be", lowered.name);
         PlanError::Asked(message, Some(error.faults.join("; ")))
