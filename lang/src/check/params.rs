@@ -102,7 +102,8 @@ impl<'t> Checker<'t> {
             [only] if params.is_empty() => {
                 let known: Vec<String> = owners.iter().map(|(owner, _)| short(owner)).collect();
                 let help = self.suggestion(&short(only), known.iter().map(String::as_str));
-                let help = help.unwrap_or_else(|| "it names a declaration with parameters, and one of them".to_string());
+                let help =
+                    help.unwrap_or_else(|| "it names a declaration with parameters, and one of them".to_string());
                 finding(format!("nothing named `{only}` takes parameters")).help(help)
             }
             several => {

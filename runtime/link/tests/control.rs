@@ -20,6 +20,13 @@ impl Vehicle {
 
     /// One state with this mode; who drives then, and what was sent.
     fn says(&mut self, mode: u8) -> (Control, String) {
+        assert!(self.hear(mode));
+        self.controller.sense(&mut self.snapshot);
+        (self.snapshot.control, String::from_utf8(self.controller.take_output()).unwrap())
+    }
+
+    /// One state with this mode, a tick later; whether it makes a tick.
+    fn hear(&mut self, mode: u8) -> bool {
         self.time_ms += 100;
         let state = State {
             time_ms: self.time_ms,
@@ -39,9 +46,7 @@ impl Vehicle {
             leg: None,
         };
         self.controller.hear(seal(&state.to_string()).as_bytes());
-        assert!(self.controller.is_due());
-        self.controller.sense(&mut self.snapshot);
-        (self.snapshot.control, String::from_utf8(self.controller.take_output()).unwrap())
+        self.controller.is_due()
     }
 
     fn driven() -> Self {
@@ -147,4 +152,20 @@ fn a_release_is_asked_for_until_a_later_mode_shows_it_and_nothing_follows() {
     untaken.says(0x01);
     assert!(untaken.controller.release(), "who never asked has nothing to give back");
     assert!(untaken.controller.take_output().is_empty());
+}
+
+/// A clock that is corrected by 40 s, or a bad line that passes the sum, is no 40 s in which nothing was sensed.
+#[test]
+fn a_stamp_that_leaps_costs_no_time_and_is_told_only_when_others_agree() {
+    let mut vehicle = Vehicle::driven();
+    vehicle.time_ms += 40_000;
+    assert!(!vehicle.hear(0x0D));
+    vehicle.time_ms -= 40_100;
+    assert_eq!(vehicle.says(0x0D).0, Control::InControl);
+    assert!(vehicle.controller.take_notices().is_empty());
+    vehicle.time_ms += 40_000;
+    assert_eq!([0; 3].map(|_| vehicle.hear(0x0D)), [false, false, true]);
+    vehicle.controller.sense(&mut vehicle.snapshot);
+    assert!(!vehicle.snapshot.samples.is_empty() && !vehicle.controller.is_due(), "one tick, with what was sensed");
+    assert!(vehicle.controller.take_notices().concat().contains("its clock was set"));
 }

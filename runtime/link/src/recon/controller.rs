@@ -221,10 +221,13 @@ impl Controller {
 
     fn take_in_state(&mut self, state: &State) {
         let tick = match self.time.hear(state.time_ms) {
-            Stamp::Late => return,
+            Stamp::Doubtful => return,
             Stamp::Tick(tick) => tick,
             Stamp::ClockSet(tick) => {
-                self.notice("the vehicle's clock was set; the mission's time goes on".to_string());
+                // Who has lost the vehicle hears later what it said meanwhile: that tells nothing of its clock.
+                if !self.lost && self.want != Want::Leave {
+                    self.notice("the vehicle's time leapt: its clock was set; the mission's time goes on".to_string());
+                }
                 tick
             }
         };
