@@ -288,3 +288,26 @@ fn a_port_that_is_in_use_is_told_with_4() {
     send("-INT", &run);
     assert_eq!(run.wait_with_output().unwrap().status.code(), Some(1), "the first is not disturbed");
 }
+
+/// Another controller, and someone who babbles, do not take the vehicle from the mission that drives it.
+#[test]
+fn a_vehicle_that_is_driven_over_udp_hears_nobody_else() {
+    let folder = empty("udp-busy");
+    let vehicle = Vehicle::serve("udp:127.0.0.1:0?dialect=recon", &folder);
+    let mut run = vehicle.driven(&["--no-out"]);
+    let at = vehicle.link.trim_start_matches("udp:").split('?').next().unwrap();
+    let stray = UdpSocket::bind("127.0.0.1:0").unwrap();
+    for _ in 0..2000 {
+        let _ = stray.send_to(&[b'x'; 200], at);
+        std::thread::sleep(Duration::from_micros(100));
+    }
+    let second = vehicle.mission(&["--no-out"]).output().unwrap();
+    assert_eq!(second.status.code(), Some(4));
+    assert!(stderr(&second).contains("no other controller drives it"), "{}", stderr(&second));
+    assert!(run.try_wait().unwrap().is_none(), "the first drives on: {}", vehicle.said());
+    send("-INT", &run);
+    assert_eq!(run.wait_with_output().unwrap().status.code(), Some(1));
+    vehicle.says("override released");
+    let (_, said) = vehicle.stop();
+    assert!(!said.contains("timed out"), "{said}");
+}

@@ -20,6 +20,9 @@ pub trait Transport {
 
     /// Sends whole lines.
     fn send(&mut self, lines: &[u8]) -> Result<(), LinkError>;
+
+    /// From here on, and until it is let go, nobody is heard but who was heard last. A line has one other end anyway.
+    fn hold(&mut self, _held: bool) {}
 }
 
 /// Opens a link to a vehicle.
