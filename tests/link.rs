@@ -100,7 +100,12 @@ impl Vehicle {
     /// A mission that does not end by itself, once it drives the vehicle.
     #[track_caller]
     fn driven(&self, more: &[&str]) -> Child {
-        let run = self.mission(&["--mission", "stay"]).args(more).spawn().unwrap();
+        self.driven_by("stay", more)
+    }
+
+    #[track_caller]
+    fn driven_by(&self, mission: &str, more: &[&str]) -> Child {
+        let run = self.mission(&["--mission", mission]).args(more).spawn().unwrap();
         self.says("override taken");
         run
     }
@@ -200,6 +205,21 @@ fn a_vehicle_that_goes_away_is_told_with_4() {
     let output = run.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert!(stderr(&output).contains("is gone"), "{}", stderr(&output));
+}
+
+#[test]
+fn what_a_vehicle_refuses_is_in_the_trace() {
+    let folder = empty("refused");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let out = folder.join("run");
+    let mut run = vehicle.driven_by("dive", &["--out", &out.display().to_string()]);
+    vehicle.says("refused `#C,Depth,Altitude,0.50`");
+    grown(&out.join("journal"), 20_000);
+    send("-INT", &run);
+    assert_eq!(run.wait().unwrap().code(), Some(1));
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert!(trace.contains("s  vehicle  the vehicle says: error 2"), "{trace}");
+    assert!(trace.contains("s  vehicle  the vehicle does not follow `#C,Depth,Altitude,0.50`"), "{trace}");
 }
 
 #[test]
