@@ -11,6 +11,7 @@ use albacore_geometry::math::{atan2, radians};
 use albacore_geometry::{Heading, TangentFrame, Vector};
 use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
 use std::collections::VecDeque;
+use std::mem::discriminant;
 
 /// What a vehicle of this dialect measures, and how many numbers each takes.
 const CHANNELS: [(&str, usize); 10] = [
@@ -99,6 +100,8 @@ impl Goal {
     fn ask(&mut self, message: ToVehicle, now: u64) -> Option<String> {
         let begins = self.last + 1 < now;
         self.last = now;
+        // A depth says nothing of an altitude.
+        self.held = self.held.take().filter(|held| discriminant(held) == discriminant(&message));
         let agree = self.held.as_ref().is_some_and(|held| agree(held, &message));
         let asked = self.asked.insert(message);
         if agree || begins {
