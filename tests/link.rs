@@ -257,9 +257,11 @@ fn against(line: Option<&str>) -> Output {
 
 #[test]
 fn silence_another_dialect_and_a_stopped_clock_are_told_apart() {
-    let silent = stderr(&against(None));
+    let silent = against(None);
+    assert!(silent.stdout.is_empty(), "there is no result: {}", String::from_utf8_lossy(&silent.stdout));
+    let silent = stderr(&silent);
     assert!(silent.contains("nothing came from `udp:127.0.0.1:"), "{silent}");
-    assert!(silent.contains("check that the vehicle is on"), "{silent}");
+    assert_eq!(silent.matches("check that the vehicle is on").count(), 1, "{silent}");
     let other = stderr(&against(Some("$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n")));
     assert!(other.contains("none of them can be read as `recon`"), "{other}");
     let version = stderr(&against(Some("#V,Sep 14 2011, 13:17:09,*81\n")));
@@ -282,6 +284,10 @@ fn what_is_asked_for_wrongly_is_told() {
     run("udp:10.0.0.1?dialect=recon", 2, "has no port");
     run("serial:/dev/x?dialect=rekon", 2, "did you mean `recon`?");
     run("serial:/dev/there-is-no-such-port?dialect=recon", 4, "there is no port");
+    run("tcp:10.0.0.1:23456?dialect=recon", 2, "not built yet");
+    run("serial:/dev/x?dialect=recon&baud=0", 2, "0 baud");
+    run("udp:127.0.0.1:0?dialect=recon", 4, "at port 0");
+    ends_with(&["vehicle", "duck_2003", "--link", "tcp:x"], 2, "not built yet");
     run("pty:?dialect=recon", 4, "at which no vehicle waits");
     let serve = |world: &str, said: &str| ends_with(&["vehicle", world, "--link", "pty:?dialect=recon"], 2, said);
     serve("dock_2003", "did you mean `duck_2003`?");
