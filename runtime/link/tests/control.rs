@@ -248,3 +248,14 @@ fn a_stamp_that_leaps_costs_no_time_and_is_told_only_when_others_agree() {
     assert!(!vehicle.snapshot.samples.is_empty() && !vehicle.controller.is_due(), "one tick, with what was sensed");
     assert!(vehicle.controller.take_notices().concat().contains("its clock was set"));
 }
+
+/// Who has lost the vehicle and gives it back hears it again: the time between was no clock that was set.
+#[test]
+fn a_vehicle_that_is_heard_again_after_it_was_lost_did_not_set_its_clock() {
+    let mut vehicle = Vehicle::driven();
+    vehicle.controller.lose("silence".into());
+    vehicle.controller.release();
+    vehicle.time_ms += 250_000;
+    (0..5).for_each(|_| drop(vehicle.says(0x0D)));
+    assert_eq!(vehicle.controller.take_notices(), ["silence"]);
+}
