@@ -74,7 +74,11 @@ impl Run {
             message::error(&summary.reason, None);
         }
         let picture = kept.finish(&run);
-        self.tell(&summary, picture.as_deref());
+        // Of a vehicle that was never heard there is no more to tell.
+        let begun = self.link.is_none() || outcome != Outcome::Failed || summary.ticks > 0;
+        if begun || self.json {
+            self.tell(&summary, picture.as_deref());
+        }
         match outcome {
             _ if kept.has_failed() || run.release_failed() => Exit::Failed,
             Outcome::Failed | Outcome::LinkLost => Exit::Failed,

@@ -38,13 +38,13 @@ pub struct Vehicle {
 impl Vehicle {
     /// Serves until the person interrupts.
     pub fn run(&self) -> Exit {
-        let mut far_end = match self.far_end() {
-            Ok(far_end) => far_end,
-            Err(exit) => return exit,
-        };
         let url = match Url::parse(&self.link) {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),
+        };
+        let mut far_end = match self.far_end() {
+            Ok(far_end) => far_end,
+            Err(exit) => return exit,
         };
         let (mut transport, at) = match albacore_session::serve(&url) {
             Ok(open) => open,
@@ -105,6 +105,7 @@ impl Vehicle {
             pace.begin();
             far_end.tick(&bytes).map_err(|error| LinkError::new(error.to_string(), "report this: it should not be"))?;
             bytes.clear();
+            transport.hold(far_end.is_driven());
             transport.send(&far_end.take_output())?;
             for happening in far_end.take_happenings() {
                 say(far_end, &happening.to_string());

@@ -100,7 +100,12 @@ impl Vehicle {
     /// A mission that does not end by itself, once it drives the vehicle.
     #[track_caller]
     fn driven(&self, more: &[&str]) -> Child {
-        let run = self.mission(&["--mission", "stay"]).args(more).spawn().unwrap();
+        self.driven_by("stay", more)
+    }
+
+    #[track_caller]
+    fn driven_by(&self, mission: &str, more: &[&str]) -> Child {
+        let run = self.mission(&["--mission", mission]).args(more).spawn().unwrap();
         self.says("override taken");
         run
     }
@@ -203,6 +208,21 @@ fn a_vehicle_that_goes_away_is_told_with_4() {
 }
 
 #[test]
+fn what_a_vehicle_refuses_is_in_the_trace() {
+    let folder = empty("refused");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let out = folder.join("run");
+    let mut run = vehicle.driven_by("dive", &["--out", &out.display().to_string()]);
+    vehicle.says("refused `#C,Depth,Altitude,0.50`");
+    grown(&out.join("journal"), 20_000);
+    send("-INT", &run);
+    assert_eq!(run.wait().unwrap().code(), Some(1));
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert!(trace.contains("s  vehicle  the vehicle says: error 2"), "{trace}");
+    assert!(trace.contains("s  vehicle  the vehicle does not follow `#C,Depth,Altitude,0.50`"), "{trace}");
+}
+
+#[test]
 fn a_vehicle_that_falls_silent_is_told_with_4() {
     let folder = empty("silent");
     let vehicle = Vehicle::serve("udp:127.0.0.1:0?dialect=recon", &folder);
@@ -237,9 +257,11 @@ fn against(line: Option<&str>) -> Output {
 
 #[test]
 fn silence_another_dialect_and_a_stopped_clock_are_told_apart() {
-    let silent = stderr(&against(None));
+    let silent = against(None);
+    assert!(silent.stdout.is_empty(), "there is no result: {}", String::from_utf8_lossy(&silent.stdout));
+    let silent = stderr(&silent);
     assert!(silent.contains("nothing came from `udp:127.0.0.1:"), "{silent}");
-    assert!(silent.contains("check that the vehicle is on"), "{silent}");
+    assert_eq!(silent.matches("check that the vehicle is on").count(), 1, "{silent}");
     let other = stderr(&against(Some("$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n")));
     assert!(other.contains("none of them can be read as `recon`"), "{other}");
     let version = stderr(&against(Some("#V,Sep 14 2011, 13:17:09,*81\n")));
@@ -262,6 +284,10 @@ fn what_is_asked_for_wrongly_is_told() {
     run("udp:10.0.0.1?dialect=recon", 2, "has no port");
     run("serial:/dev/x?dialect=rekon", 2, "did you mean `recon`?");
     run("serial:/dev/there-is-no-such-port?dialect=recon", 4, "there is no port");
+    run("tcp:10.0.0.1:23456?dialect=recon", 2, "not built yet");
+    run("serial:/dev/x?dialect=recon&baud=0", 2, "0 baud");
+    run("udp:127.0.0.1:0?dialect=recon", 4, "at port 0");
+    ends_with(&["vehicle", "duck_2003", "--link", "tcp:x"], 2, "not built yet");
     run("pty:?dialect=recon", 4, "at which no vehicle waits");
     let serve = |world: &str, said: &str| ends_with(&["vehicle", world, "--link", "pty:?dialect=recon"], 2, said);
     serve("dock_2003", "did you mean `duck_2003`?");
@@ -287,4 +313,27 @@ fn a_port_that_is_in_use_is_told_with_4() {
     assert!(stderr(&second).contains("is in use by another program"), "{}", stderr(&second));
     send("-INT", &run);
     assert_eq!(run.wait_with_output().unwrap().status.code(), Some(1), "the first is not disturbed");
+}
+
+/// Another controller, and someone who babbles, do not take the vehicle from the mission that drives it.
+#[test]
+fn a_vehicle_that_is_driven_over_udp_hears_nobody_else() {
+    let folder = empty("udp-busy");
+    let vehicle = Vehicle::serve("udp:127.0.0.1:0?dialect=recon", &folder);
+    let mut run = vehicle.driven(&["--no-out"]);
+    let at = vehicle.link.trim_start_matches("udp:").split('?').next().unwrap();
+    let stray = UdpSocket::bind("127.0.0.1:0").unwrap();
+    for _ in 0..2000 {
+        let _ = stray.send_to(&[b'x'; 200], at);
+        std::thread::sleep(Duration::from_micros(100));
+    }
+    let second = vehicle.mission(&["--no-out"]).output().unwrap();
+    assert_eq!(second.status.code(), Some(4));
+    assert!(stderr(&second).contains("no other controller drives it"), "{}", stderr(&second));
+    assert!(run.try_wait().unwrap().is_none(), "the first drives on: {}", vehicle.said());
+    send("-INT", &run);
+    assert_eq!(run.wait_with_output().unwrap().status.code(), Some(1));
+    vehicle.says("override released");
+    let (_, said) = vehicle.stop();
+    assert!(!said.contains("timed out"), "{said}");
 }

@@ -137,10 +137,9 @@ impl<'t> Checker<'t> {
             tree::Action::Hold => (Action::Guide(Guide::Hold, Vec::new()), false, None),
             tree::Action::Wait => (Action::Guide(Guide::Wait, Vec::new()), false, None),
             tree::Action::Watch | tree::Action::Override => {
-                self.report(
-                    Diagnostic::error("time::control", span, "`watch` and `override` belong to a vehicle at the end of a link, which this version cannot drive yet")
-                        .help("leave them out: in the simulator the mission takes control at its start"),
-                );
+                self.report(Diagnostic::error("time::control", span, "`watch` and `override` are not built yet").help(
+                    "leave them out: a mission takes control of its vehicle at its start and gives it back at its end",
+                ));
                 return None;
             }
             tree::Action::Expr(e) => {

@@ -20,12 +20,19 @@ pub trait Transport {
 
     /// Sends whole lines.
     fn send(&mut self, lines: &[u8]) -> Result<(), LinkError>;
+
+    /// From here on, and until it is let go, nobody is heard but who was heard last. A line has one other end anyway.
+    fn hold(&mut self, _held: bool) {}
 }
 
 /// Opens a link to a vehicle.
 pub fn call(url: &Url) -> Result<Box<dyn Transport>, LinkError> {
     match &url.place {
         Place::Serial(path, baud) => Ok(Box::new(tty::Tty::open(path, *baud)?)),
+        Place::Udp { host, port: 0, .. } => Err(LinkError::new(
+            format!("no vehicle can be called at port 0 of `{host}`"),
+            "write the port at which it listens: `albacore vehicle` prints its own, real ones mostly use 23456",
+        )),
         Place::Udp { host, port, local } => Ok(Box::new(udp::Udp::call(host, *port, *local)?)),
         Place::Pty => Err(LinkError::new(
             "`pty:` makes a new terminal, at which no vehicle waits",
@@ -61,4 +68,17 @@ fn wait_for(descriptor: RawFd, wait: Duration) {
 /// Whether a call only has to be made again later.
 fn is_for_later(error: Errno) -> bool {
     matches!(error, Errno::EAGAIN | Errno::EINTR)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_vehicle_is_called_where_none_can_be() {
+        for (url, why) in [("pty:?dialect=recon", "no vehicle waits"), ("udp:127.0.0.1:0?dialect=recon", "port 0")] {
+            let error = call(&Url::parse(url).unwrap()).err().unwrap();
+            assert!(error.message.contains(why), "{error}");
+        }
+    }
 }

@@ -66,13 +66,21 @@ impl Url {
             "serial" if rest.is_empty() => {
                 return Err(LinkError::new("`serial:` names no device", "write `serial:/dev/ttyUSB0?dialect=recon`"));
             }
-            "serial" => Place::Serial(rest.to_string(), whole("baud", get("baud"), BAUD)?),
+            "serial" => match whole("baud", get("baud"), BAUD)? {
+                0 => return Err(LinkError::new("a line of 0 baud carries nothing", "write a number such as 57600")),
+                baud => Place::Serial(rest.to_string(), baud),
+            },
             "udp" => udp(rest, whole("local", get("local"), 0)?)?,
             "pty" if rest.is_empty() => Place::Pty,
             "pty" => {
                 let help =
                     format!("write `pty:?dialect=recon` to make one, or `serial:{rest}` to open one that is there");
                 return Err(LinkError::new(format!("`pty:` makes a new terminal and takes no `{rest}`"), help));
+            }
+            "tcp" => {
+                let help = "there is `udp:HOST:PORT?dialect=recon`; or join the connection to a pseudo terminal, and open that: \
+                            `serial:/dev/pts/N?dialect=recon`";
+                return Err(LinkError::new("links over `tcp:` are not built yet", help));
             }
             _ => return Err(unknown("kind of link", scheme, &SCHEMES)),
         };
@@ -192,6 +200,8 @@ mod tests {
             ("/dev/ttyUSB0", "is no link", "serial:/dev/ttyUSB0"),
             ("seriel:/dev/x?dialect=recon", "no kind of link `seriel`", "did you mean `serial`?"),
             ("carrier-pigeon:x?dialect=recon", "no kind of link", "`serial`, `udp`, `pty`"),
+            ("tcp:10.0.0.1:23456?dialect=recon", "`tcp:` are not built yet", "udp:HOST:PORT"),
+            ("serial:/dev/x?dialect=recon&baud=0", "0 baud", "57600"),
             ("udp:10.0.0.1?dialect=recon", "has no port", "23456"),
             ("udp:10.0.0.1:?dialect=recon", "has no port", "23456"),
             ("udp::23456?dialect=recon", "has no address", "udp:0.0.0.0:23456"),

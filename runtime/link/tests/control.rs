@@ -10,22 +10,38 @@ struct Vehicle {
     controller: Controller,
     snapshot: Snapshot,
     time_ms: u32,
+    /// What it says that it holds.
+    heading_goal: Heading,
+    depth_goal: f64,
 }
 
 impl Vehicle {
     fn new() -> Self {
         let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
-        Vehicle { controller: Controller::new(frame), snapshot: Snapshot::default(), time_ms: 0 }
+        Vehicle {
+            controller: Controller::new(frame),
+            snapshot: Snapshot::default(),
+            time_ms: 0,
+            heading_goal: Heading::NORTH,
+            depth_goal: 3.0,
+        }
     }
 
     /// One state with this mode; who drives then, and what was sent.
     fn says(&mut self, mode: u8) -> (Control, String) {
+        assert!(self.hear(mode));
+        self.controller.sense(&mut self.snapshot);
+        (self.snapshot.control, String::from_utf8(self.controller.take_output()).unwrap())
+    }
+
+    /// One state with this mode, a tick later; whether it makes a tick.
+    fn hear(&mut self, mode: u8) -> bool {
         self.time_ms += 100;
         let state = State {
             time_ms: self.time_ms,
             position: Geodetic::from_degrees(36.18, -75.74),
             depth: 3.0,
-            depth_goal: 3.0,
+            depth_goal: self.depth_goal,
             altitude: None,
             pitch: 0.0,
             roll: 0.0,
@@ -34,14 +50,12 @@ impl Vehicle {
             speed: 0.0,
             heading: Heading::NORTH,
             heading_rate: 0.0,
-            heading_goal: Heading::NORTH,
+            heading_goal: self.heading_goal,
             mode: Mode(mode),
             leg: None,
         };
         self.controller.hear(seal(&state.to_string()).as_bytes());
-        assert!(self.controller.is_due());
-        self.controller.sense(&mut self.snapshot);
-        (self.snapshot.control, String::from_utf8(self.controller.take_output()).unwrap())
+        self.controller.is_due()
     }
 
     fn driven() -> Self {
@@ -112,26 +126,96 @@ fn a_vehicle_that_never_lets_us_drive_refuses_after_half_a_minute() {
     }
 }
 
+/// A tick in which something is commanded; what was sent.
+fn commanded(vehicle: &mut Vehicle, command: &Command) -> String {
+    vehicle.says(0x0D);
+    vehicle.controller.command(command);
+    String::from_utf8(vehicle.controller.take_output()).unwrap()
+}
+
+const HEADING: &str = "#C,Heading,Goal,270.0,*6A\n";
+const SPEED: &str = "#C,Speed,1.50 meters/sec,*E3\n";
+const ALTITUDE: &str = "#C,Depth,Altitude,4.00,*33\n";
+
+fn west() -> Command {
+    Command { heading: Heading::from_degrees(270.0), speed: 1.5, vertical: Vertical::Altitude(4.0) }
+}
+
 #[test]
-fn goals_are_sent_when_they_change_when_nothing_acknowledges_them_and_twice_a_second() {
+fn goals_are_sent_one_a_tick_when_they_change_are_not_taken_up_and_twice_a_second() {
     let mut vehicle = Vehicle::driven();
-    let command = Command { heading: Heading::from_degrees(270.0), speed: 1.5, vertical: Vertical::Altitude(4.0) };
-    let tick = |vehicle: &mut Vehicle, command: &Command| {
-        vehicle.says(0x0D);
-        vehicle.controller.command(command);
-        String::from_utf8(vehicle.controller.take_output()).unwrap()
-    };
-    let all = "#C,Heading,Goal,270.0,*6A\n#C,Speed,1.50 meters/sec,*E3\n#C,Depth,Altitude,4.00,*33\n";
-    assert_eq!(tick(&mut vehicle, &command), all);
-    let unanswered: String = (0..2).map(|_| tick(&mut vehicle, &command)).collect();
-    assert_eq!(unanswered, all, "again after two ticks without an echo");
-    for body in ["C,Heading,Goal,270.0", "C,Speed,1.50 meters/sec", "C,Depth,Altitude,4.00"] {
+    let sent = [0; 6].map(|_| commanded(&mut vehicle, &west()));
+    assert_eq!(sent, [HEADING, SPEED, ALTITUDE, HEADING, SPEED, ALTITUDE], "again until they are taken up");
+    vehicle.heading_goal = west().heading;
+    for body in ["C,Speed,1.5 meters/sec", "C,Depth,Altitude,4"] {
         vehicle.controller.hear(seal(body).as_bytes());
     }
-    let answered: String = (0..5).map(|_| tick(&mut vehicle, &command)).collect();
-    assert_eq!(answered, all, "twice a second, because the vehicle leaves who is silent");
-    let turned = Command { heading: Heading::from_degrees(271.04), ..command };
-    assert_eq!(tick(&mut vehicle, &turned), seal("C,Heading,Goal,271.0"));
+    let answered = [0; 10].map(|_| commanded(&mut vehicle, &west()));
+    assert_eq!(answered[2..7], [HEADING, SPEED, ALTITUDE, "", ""], "twice a second: it leaves who is silent");
+    assert_eq!(answered[7..], [HEADING, SPEED, ALTITUDE]);
+    let turned = Command { heading: Heading::from_degrees(271.04), ..west() };
+    assert_eq!(commanded(&mut vehicle, &turned), seal("C,Heading,Goal,271.0"));
+}
+
+/// Echoes all that is said to it.
+fn echoed(vehicle: &mut Vehicle, command: &Command) {
+    let sent = commanded(vehicle, command);
+    vehicle.controller.hear(sent.as_bytes());
+}
+
+#[test]
+fn an_echo_is_no_acceptance() {
+    let mut vehicle = Vehicle::driven();
+    (0..30).for_each(|_| echoed(&mut vehicle, &west()));
+    assert!(vehicle.controller.take_notices().is_empty());
+    (0..80).for_each(|_| echoed(&mut vehicle, &west()));
+    let told = vehicle.controller.take_notices();
+    let wanted = "the vehicle does not follow `#C,Heading,Goal,270.0` and says `#C,Heading,Goal,0.0`";
+    assert!(told.len() == 1 && told[0].starts_with(wanted), "told once: {told:?}");
+    let deep = Command { vertical: Vertical::Depth(9.0), ..west() };
+    (0..40).for_each(|_| echoed(&mut vehicle, &deep));
+    assert!(
+        vehicle.controller.take_notices().concat().contains("`#C,Depth,Depth,9.00` and says `#C,Depth,Depth,3.00`")
+    );
+    vehicle.heading_goal = deep.heading;
+    vehicle.depth_goal = 9.0;
+    (0..10).for_each(|_| echoed(&mut vehicle, &deep));
+    vehicle.heading_goal = Heading::NORTH;
+    (0..40).for_each(|_| echoed(&mut vehicle, &deep));
+    assert_eq!(vehicle.controller.take_notices().len(), 1, "and again when it stops to follow");
+}
+
+#[test]
+fn a_heading_that_turns_is_followed_late_or_told() {
+    let mut vehicle = Vehicle::driven();
+    let turning = |tick: u32| Command { heading: Heading::from_degrees(f64::from(tick)), ..west() };
+    for tick in 0..200_u32 {
+        vehicle.heading_goal = turning(tick.saturating_sub(5)).heading;
+        echoed(&mut vehicle, &turning(tick));
+    }
+    assert_eq!(vehicle.controller.take_notices(), [""; 0], "half a second late");
+    vehicle.heading_goal = Heading::NORTH;
+    (0..60).for_each(|tick| echoed(&mut vehicle, &turning(150 + tick)));
+    assert!(vehicle.controller.take_notices().concat().contains("does not follow `#C,Heading,Goal,"));
+}
+
+/// Of speed and altitude the state tells no goal.
+#[test]
+fn a_goal_that_the_state_does_not_tell_is_told_when_nothing_echoes_it() {
+    let mut vehicle = Vehicle::driven();
+    vehicle.heading_goal = west().heading;
+    (0..40).for_each(|_| drop(commanded(&mut vehicle, &west())));
+    let told = vehicle.controller.take_notices().join("\n");
+    assert!(told.contains("`#C,Speed,1.50 meters/sec`;") && told.contains("`#C,Depth,Altitude,4.00`;"), "{told}");
+}
+
+#[test]
+fn an_error_without_a_text_is_told_and_what_a_modem_says_is_no_noise() {
+    let mut vehicle = Vehicle::driven();
+    vehicle.controller.hear(seal("E,107").as_bytes());
+    vehicle.controller.hear(b"#p,$CCMPC,0,1*7C\n");
+    assert_eq!(vehicle.controller.take_notices(), ["the vehicle says: error 107"]);
+    assert_eq!(vehicle.controller.count().unreadable, 0);
 }
 
 #[test]
@@ -147,4 +231,31 @@ fn a_release_is_asked_for_until_a_later_mode_shows_it_and_nothing_follows() {
     untaken.says(0x01);
     assert!(untaken.controller.release(), "who never asked has nothing to give back");
     assert!(untaken.controller.take_output().is_empty());
+}
+
+/// A clock that is corrected by 40 s, or a bad line that passes the sum, is no 40 s in which nothing was sensed.
+#[test]
+fn a_stamp_that_leaps_costs_no_time_and_is_told_only_when_others_agree() {
+    let mut vehicle = Vehicle::driven();
+    vehicle.time_ms += 40_000;
+    assert!(!vehicle.hear(0x0D));
+    vehicle.time_ms -= 40_100;
+    assert_eq!(vehicle.says(0x0D).0, Control::InControl);
+    assert!(vehicle.controller.take_notices().is_empty());
+    vehicle.time_ms += 40_000;
+    assert_eq!([0; 3].map(|_| vehicle.hear(0x0D)), [false, false, true]);
+    vehicle.controller.sense(&mut vehicle.snapshot);
+    assert!(!vehicle.snapshot.samples.is_empty() && !vehicle.controller.is_due(), "one tick, with what was sensed");
+    assert!(vehicle.controller.take_notices().concat().contains("its clock was set"));
+}
+
+/// Who has lost the vehicle and gives it back hears it again: the time between was no clock that was set.
+#[test]
+fn a_vehicle_that_is_heard_again_after_it_was_lost_did_not_set_its_clock() {
+    let mut vehicle = Vehicle::driven();
+    vehicle.controller.lose("silence".into());
+    vehicle.controller.release();
+    vehicle.time_ms += 250_000;
+    (0..5).for_each(|_| drop(vehicle.says(0x0D)));
+    assert_eq!(vehicle.controller.take_notices(), ["silence"]);
 }

@@ -254,7 +254,7 @@ fn unsafe_commands_are_refused_and_noticed() {
     assert!(pair.happenings.contains(&refused), "{:?}", pair.happenings);
     let notices = pair.controller.take_notices();
     assert!(notices.iter().any(|n| n.contains("error 2")), "{notices:?}");
-    assert!(notices.iter().any(|n| n.contains("does not accept `#C,Depth,Depth,400.00`")), "{notices:?}");
+    assert!(notices.iter().any(|n| n.contains("does not follow `#C,Depth,Depth,400.00`")), "{notices:?}");
     let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
     assert!((depth - 5.0).abs() < 0.011, "it holds what it held: {depth}");
 }

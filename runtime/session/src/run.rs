@@ -334,7 +334,7 @@ impl Run {
         match self.vehicle.port().ready() {
             Ok(true) => {}
             Ok(false) => {
-                self.hear();
+                self.hear(tick);
                 return Running::On;
             }
             Err(error) => return self.end(Outcome::Failed, &error.to_string()),
@@ -351,7 +351,7 @@ impl Run {
         let command = self.machine.step(&self.snapshot);
         let sent = command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
         let events = self.machine.events().to_vec();
-        self.hear();
+        self.hear(tick);
         if self.deepest.is_none() && !self.plan.scenario.bottom.is_level() {
             let area = Area::polygon(&self.area_corners()).ok();
             self.deepest = area.map(|area| self.plan.scenario.bottom.deepest(&area));
@@ -399,7 +399,7 @@ impl Run {
             self.reason = self.notices.last().cloned().unwrap_or_default();
         }
         let released = self.vehicle.port().release();
-        self.hear();
+        self.hear(self.tick());
         if let Err(error) = &released {
             self.notices.push(error.to_string());
             self.release_failed = true;
@@ -411,9 +411,12 @@ impl Run {
         Running::Over(outcome)
     }
 
-    fn hear(&mut self) {
-        let heard = self.vehicle.port().notices();
-        self.notices.extend(heard);
+    /// Takes down what the vehicle gave notice of: no part of the digest, for when it comes is no matter of the run.
+    fn hear(&mut self, tick: u64) {
+        for notice in self.vehicle.port().notices() {
+            self.trace.vehicle(tick, &notice);
+            self.notices.push(notice);
+        }
         let surplus = self.notices.len().saturating_sub(NOTICES_MAX);
         self.notices.drain(..surplus);
     }

@@ -86,6 +86,12 @@ impl BehaviorTrace {
         }
     }
 
+    /// Adds what the vehicle or the link to it gave notice of: a command refused or ignored, an error.
+    pub fn vehicle(&mut self, tick: u64, notice: &str) {
+        self.last_event = tick;
+        self.say(Kind::Event, tick, "vehicle", &one_line(notice));
+    }
+
     /// Adds a sample when one is due. Called on every tick, after [`Self::tick`].
     pub fn sample(&mut self, tick: u64, position: Option<Point>, heading: Option<Heading>, depth_m: Option<f64>) {
         if self.sample_every_ticks == 0 || tick < self.next_sample {

@@ -241,6 +241,14 @@ fn the_end_is_told_once_and_always() {
 }
 
 #[test]
+fn what_a_vehicle_gives_notice_of_is_a_line_and_no_behavior() {
+    let mut trace = BehaviorTrace::new(&program(47), &header());
+    trace.vehicle(42, "error 107,\nIllegal depth");
+    assert_eq!(trace.switches(), "    4.2 s  vehicle  error 107, Illegal depth\n");
+    assert!(same_behavior(&trace.switches(), ""));
+}
+
+#[test]
 fn samples_come_at_their_interval_and_can_be_turned_off() {
     let count = |every: u64| {
         let mut trace = BehaviorTrace::new(&program(47), &header()).with_samples_every(every);

@@ -7,10 +7,11 @@ use super::frame::{Deframer, seal};
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
 use super::vehicle_time::{Stamp, VehicleTime};
-use albacore_geometry::math::atan2;
-use albacore_geometry::{TangentFrame, Vector};
+use albacore_geometry::math::{atan2, radians};
+use albacore_geometry::{Heading, TangentFrame, Vector};
 use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
 use std::collections::VecDeque;
+use std::mem::discriminant;
 
 /// What a vehicle of this dialect measures, and how many numbers each takes.
 const CHANNELS: [(&str, usize); 10] = [
@@ -43,15 +44,20 @@ const POSITION_SIGMA: f64 = 3.0;
 pub(super) const FULL_SCALE_VOLTS: f64 = 5.0;
 /// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
 const DRIFT_TICKS: u64 = 50;
-/// A goal that is not acknowledged is sent again after this many ticks; public controllers leave 100 ms between commands.
-const ACKNOWLEDGED_TICKS: u64 = 2;
+/// A goal that the vehicle has not taken up is sent again after this many ticks.
+const UNCONFIRMED_TICKS: u64 = 2;
 /// Every goal is sent again after this many ticks, twice a second: goals latch, but a vehicle may lose one, and it leaves who
 /// is silent.
 const AGAIN_TICKS: u64 = 5;
 /// Who commands nothing says at least this often that it is there.
 const KEEP_ALIVE_TICKS: u64 = 10;
-/// A goal that is not acknowledged for this many ticks is one that the vehicle refuses.
+/// A goal that the vehicle has not taken up for this many ticks is one that it refuses.
 const IGNORED_TICKS: u64 = 30;
+/// How far what the vehicle holds may be from what was asked: what a goal that moves comes to while it is on its way. In
+/// degrees (the command filter lets a heading turn by 10 a second), m, and m/s.
+const HEADING_SLACK_DEG: f64 = 10.0;
+const HEIGHT_SLACK: f64 = 0.5;
+const SPEED_SLACK: f64 = 0.2;
 /// A vehicle that answers, but does not let us drive for this many ticks, refuses.
 const REQUEST_TICKS: u64 = 300;
 /// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
@@ -61,6 +67,11 @@ const WAITING_MAX: usize = 4096;
 /// Notices that wait to be read.
 const NOTICES_MAX: usize = 64;
 
+/// The places of the goals.
+const HEADING_GOAL: usize = 0;
+const SPEED_GOAL: usize = 1;
+const VERTICAL_GOAL: usize = 2;
+
 /// What the host wants of the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Want {
@@ -69,20 +80,71 @@ enum Want {
     Leave,
 }
 
-/// A goal as it was last sent.
+/// A goal: what is asked, and what the vehicle says that it holds.
 #[derive(Clone, Debug, Default)]
 struct Goal {
-    text: String,
-    sent: u64,
-    since: u64,
-    acknowledged: bool,
+    asked: Option<ToVehicle>,
+    /// The tick in which it was asked last.
+    last: u64,
+    /// What was sent last, and in which tick.
+    sent: Option<(String, u64)>,
+    /// What the vehicle reported last.
+    held: Option<ToVehicle>,
+    /// The last tick in which the two agreed.
+    agreed: u64,
     told: bool,
+}
+
+impl Goal {
+    /// Takes in what is asked in a tick; gives what to tell when the vehicle has not taken it up for too long.
+    fn ask(&mut self, message: ToVehicle, now: u64) -> Option<String> {
+        let begins = self.last + 1 < now;
+        self.last = now;
+        // A depth says nothing of an altitude.
+        self.held = self.held.take().filter(|held| discriminant(held) == discriminant(&message));
+        let agree = self.held.as_ref().is_some_and(|held| agree(held, &message));
+        let asked = self.asked.insert(message);
+        if agree || begins {
+            self.agreed = now;
+            self.told = false;
+        }
+        if self.told || now - self.agreed <= IGNORED_TICKS {
+            return None;
+        }
+        self.told = true;
+        let holds = self.held.as_ref().map(|held| format!(" and says `#{held}`")).unwrap_or_default();
+        Some(format!("the vehicle does not follow `#{asked}`{holds}; it may be protecting itself"))
+    }
+
+    /// The text to send, if it is time: it has changed, was not taken up, or was sent half a second ago.
+    fn due(&self, now: u64) -> Option<String> {
+        let asked = self.asked.as_ref().filter(|_| self.last == now)?.to_string();
+        let Some((sent, tick)) = &self.sent else { return Some(asked) };
+        let again = if self.agreed == now { AGAIN_TICKS } else { UNCONFIRMED_TICKS };
+        (*sent != asked || now - tick >= again).then_some(asked)
+    }
+}
+
+/// Whether what the vehicle holds is what was asked.
+fn agree(held: &ToVehicle, asked: &ToVehicle) -> bool {
+    match (held, asked) {
+        (ToVehicle::Heading(a), ToVehicle::Heading(b)) => (*a - *b).abs() <= radians(HEADING_SLACK_DEG),
+        (ToVehicle::Depth(a), ToVehicle::Depth(b)) | (ToVehicle::Altitude(a), ToVehicle::Altitude(b)) => {
+            (a - b).abs() <= HEIGHT_SLACK
+        }
+        (ToVehicle::Speed(SpeedGoal::MetresPerSecond(a)), ToVehicle::Speed(SpeedGoal::MetresPerSecond(b))) => {
+            (a - b).abs() <= SPEED_SLACK
+        }
+        _ => false,
+    }
 }
 
 /// What the vehicle said up to a tick.
 struct Heard {
     tick: u64,
     mode: Mode,
+    heading_goal: Heading,
+    depth_goal: f64,
     samples: Vec<Sample>,
 }
 
@@ -209,22 +271,24 @@ impl Controller {
             FromVehicle::Adcp(adcp) => self.take_in_adcp(&adcp),
             FromVehicle::Fluorometer { value, .. } => self.gather(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
             FromVehicle::Battery { percent, .. } => self.gather(BATTERY, &[percent / 100.0]),
-            FromVehicle::Accepted(text) => {
-                for goal in self.goals.iter_mut().filter(|g| g.text.strip_prefix("C,") == Some(&text)) {
-                    goal.acknowledged = true;
-                }
+            FromVehicle::Accepted(text) => self.take_in_echo(&text),
+            FromVehicle::Error(code, text) => {
+                let comma = if text.is_empty() { "" } else { ", " };
+                self.notice(format!("the vehicle says: error {code}{comma}{text}"));
             }
-            FromVehicle::Error(code, text) => self.notice(format!("the vehicle says: error {code}, {text}")),
             FromVehicle::Ctd(_) | FromVehicle::Version(_) | FromVehicle::Other(_) => {}
         }
     }
 
     fn take_in_state(&mut self, state: &State) {
         let tick = match self.time.hear(state.time_ms) {
-            Stamp::Late => return,
+            Stamp::Doubtful => return,
             Stamp::Tick(tick) => tick,
             Stamp::ClockSet(tick) => {
-                self.notice("the vehicle's clock was set; the mission's time goes on".to_string());
+                // Who has lost the vehicle hears later what it said meanwhile: that tells nothing of its clock.
+                if !self.lost && self.want != Want::Leave {
+                    self.notice("the vehicle's time leapt: its clock was set; the mission's time goes on".to_string());
+                }
                 tick
             }
         };
@@ -245,7 +309,26 @@ impl Controller {
         if self.heard.len() == WAITING_MAX {
             self.heard.pop_front();
         }
-        self.heard.push_back(Heard { tick, mode: state.mode, samples });
+        let State { mode, heading_goal, depth_goal, .. } = *state;
+        self.heard.push_back(Heard { tick, mode, heading_goal, depth_goal, samples });
+    }
+
+    /// An echo is no acceptance: what `#S` tells of the goals, it tells better. Of speed and altitude it tells nothing.
+    fn take_in_echo(&mut self, text: &str) {
+        match ToVehicle::parse(&format!("C,{text}")) {
+            Ok(speed @ ToVehicle::Speed(_)) => self.goals[SPEED_GOAL].held = Some(speed),
+            Ok(altitude @ ToVehicle::Altitude(_)) => self.goals[VERTICAL_GOAL].held = Some(altitude),
+            _ => {}
+        }
+    }
+
+    /// What the vehicle says that it holds. Its depth goal is the vehicle's own affair while it is asked for an altitude.
+    fn take_in_goals(&mut self, heading: Heading, depth: f64) {
+        self.goals[HEADING_GOAL].held = Some(ToVehicle::Heading(heading));
+        let vertical = &mut self.goals[VERTICAL_GOAL];
+        if matches!(vertical.asked, Some(ToVehicle::Depth(_))) {
+            vertical.held = Some(ToVehicle::Depth(depth));
+        }
     }
 
     fn take_in_adcp(&mut self, adcp: &Adcp) {
@@ -275,8 +358,10 @@ impl Controller {
         self.next_tick += 1;
         snapshot.samples.clear();
         let until = self.heard.iter().take_while(|heard| heard.tick <= tick).count();
-        for heard in self.heard.drain(..until) {
+        let heard: Vec<Heard> = self.heard.drain(..until).collect();
+        for heard in heard {
             self.mode = heard.mode;
+            self.take_in_goals(heard.heading_goal, heard.depth_goal);
             snapshot.samples.extend(heard.samples);
         }
         let before = self.control;
@@ -351,7 +436,8 @@ impl Controller {
         }
     }
 
-    /// Sends what of a command has changed, was not acknowledged, or was sent half a second ago.
+    /// Sends what of a command has changed, was not taken up, or was sent half a second ago: one goal a tick, the one that has
+    /// waited longest, because vehicles lose datagrams that come at once.
     pub fn command(&mut self, command: &Command) {
         if self.control != Control::InControl {
             return;
@@ -361,29 +447,16 @@ impl Controller {
             Vertical::Altitude(altitude) => ToVehicle::Altitude(altitude),
         };
         let speed = ToVehicle::Speed(SpeedGoal::MetresPerSecond(command.speed));
-        for (i, message) in [ToVehicle::Heading(command.heading), speed, vertical].iter().enumerate() {
-            self.send_goal(i, message);
-        }
-    }
-
-    fn send_goal(&mut self, index: usize, message: &ToVehicle) {
         let now = self.next_tick;
-        let text = message.to_string();
-        let goal = &mut self.goals[index];
-        let changed = goal.text != text;
-        let ago = now - goal.sent;
-        if changed {
-            *goal = Goal { since: now, text, ..Goal::default() };
-        } else if ago < ACKNOWLEDGED_TICKS || goal.acknowledged && ago < AGAIN_TICKS {
-            return;
+        for (i, message) in [ToVehicle::Heading(command.heading), speed, vertical].into_iter().enumerate() {
+            if let Some(ignored) = self.goals[i].ask(message, now) {
+                self.notice(ignored);
+            }
         }
-        goal.sent = now;
-        let ignored = !goal.acknowledged && !goal.told && now - goal.since > IGNORED_TICKS;
-        goal.told |= ignored;
-        if ignored {
-            self.notice(format!("the vehicle does not accept `#{message}`; it may be protecting itself"));
-        }
-        self.say(message);
+        let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now)?, goal)));
+        let Some((text, goal)) = due.min_by_key(|(_, goal)| goal.sent.as_ref().map(|(_, tick)| *tick)) else { return };
+        goal.sent = Some((text.clone(), now));
+        self.say(&text);
     }
 
     /// Says that we are here, without asking for anything.
@@ -416,7 +489,7 @@ impl Controller {
         false
     }
 
-    fn say(&mut self, message: &ToVehicle) {
+    fn say(&mut self, message: &impl ToString) {
         self.spoke = self.next_tick.saturating_sub(1);
         self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
     }

@@ -3,6 +3,11 @@
 /// The longest line, in bytes, as a public controller has it. A longer one is dropped whole.
 pub const LINE_MAX: usize = 1024;
 
+/// The most fields of a line, its letter included, as a public controller has it.
+const FIELDS_MAX: usize = 32;
+/// How a line begins that passes on what a modem says in NMEA, and has no sum of ours. No other line is one wrong byte away.
+const PASSED_ON: &[u8] = b"#p,$";
+
 /// Why a line is no frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unreadable {
@@ -15,6 +20,9 @@ pub enum Unreadable {
     /// The sum is another.
     #[error("a wrong checksum")]
     Checksum,
+    /// It has too many fields.
+    #[error("a line of more than 32 fields")]
+    TooManyFields,
     /// It is not ASCII.
     #[error("bytes that are no text")]
     NotText,
@@ -41,6 +49,9 @@ fn unseal(line: &[u8]) -> Result<&str, Unreadable> {
     else {
         return Err(Unreadable::NoFrame);
     };
+    if line[first..].starts_with(PASSED_ON) {
+        return text(&line[first + 1..]);
+    }
     let whole = unseal_at(&line[first..]);
     if whole.is_ok() || first == last { whole } else { unseal_at(&line[last..]) }
 }
@@ -57,8 +68,14 @@ fn unseal_at(frame: &[u8]) -> Result<&str, Unreadable> {
         return Err(Unreadable::Checksum);
     }
     let body = frame[1..star].strip_suffix(b",").ok_or(Unreadable::NoFrame)?;
-    let body = std::str::from_utf8(body).map_err(|_| Unreadable::NotText)?;
-    if body.is_ascii() { Ok(body) } else { Err(Unreadable::NotText) }
+    if body.iter().filter(|b| **b == b',').count() >= FIELDS_MAX {
+        return Err(Unreadable::TooManyFields);
+    }
+    text(body)
+}
+
+fn text(body: &[u8]) -> Result<&str, Unreadable> {
+    std::str::from_utf8(body).ok().filter(|body| body.is_ascii()).ok_or(Unreadable::NotText)
 }
 
 /// Cuts a stream of bytes into frames, however it was cut on its way. It holds one line at most.
@@ -159,6 +176,14 @@ mod tests {
         assert_eq!(read(b"\n\r\n  \n"), []);
         assert_eq!(read(b"$GPGGA,1*00\n"), [Err(Unreadable::NoFrame)]);
         assert_eq!(read(b"#*\n#,*\n*00\n#E,1,*\n").len(), 4);
+    }
+
+    #[test]
+    fn a_line_has_32_fields_at_most_and_what_a_modem_says_has_no_sum() {
+        let fields = |count: usize| format!("V{}", ",x".repeat(count - 1));
+        assert_eq!(read(seal(&fields(32)).as_bytes()), [Ok(fields(32))]);
+        assert_eq!(read(seal(&fields(33)).as_bytes()), [Err(Unreadable::TooManyFields)]);
+        assert_eq!(read(b"#p,$CCMPC,0,1*7C\n"), [Ok("p,$CCMPC,0,1*7C".into())]);
     }
 
     #[test]

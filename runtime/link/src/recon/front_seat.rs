@@ -187,10 +187,15 @@ impl<V: Vehicle> FrontSeat<V> {
         self.senses.position
     }
 
+    /// Whether a guest drives.
+    pub fn is_driven(&self) -> bool {
+        matches!(self.drive, Drive::Override(_))
+    }
+
     /// Whether a guest drives and has not been heard for a second. Who lets the vehicle's time run faster than real time
     /// should let it run no faster now: the guest may only be late, and its time-out is of the vehicle's time.
     pub fn waits_for_guest(&self) -> bool {
-        matches!(self.drive, Drive::Override(_)) && self.silent >= PATIENCE_TICKS
+        self.is_driven() && self.silent >= PATIENCE_TICKS
     }
 
     /// One tick, with the bytes that came since the last.
@@ -221,7 +226,7 @@ impl<V: Vehicle> FrontSeat<V> {
         for message in std::mem::take(&mut self.heard) {
             self.obey(&message);
         }
-        if matches!(self.drive, Drive::Override(_)) && self.silent >= TIMEOUT_TICKS {
+        if self.is_driven() && self.silent >= TIMEOUT_TICKS {
             self.happenings.push(Happening::TimedOut);
             self.go_back();
         }
@@ -231,7 +236,7 @@ impl<V: Vehicle> FrontSeat<V> {
         match message {
             ToVehicle::Override(true) => self.give_over(),
             ToVehicle::Override(false) => {
-                if matches!(self.drive, Drive::Override(_)) {
+                if self.is_driven() {
                     self.happenings.push(Happening::Released);
                     self.go_back();
                 }

@@ -227,9 +227,10 @@ impl FromVehicle {
             }
             'B' => battery(&fields),
             'C' => Some(FromVehicle::Accepted(rest.to_string())),
-            'E' => rest
-                .split_once(',')
-                .and_then(|(code, text)| Some(FromVehicle::Error(code.parse().ok()?, text.to_string()))),
+            'E' => {
+                let (code, text) = rest.split_once(',').unwrap_or((rest, ""));
+                code.parse().ok().map(|code| FromVehicle::Error(code, text.to_string()))
+            }
             'V' => Some(FromVehicle::Version(rest.to_string())),
             other => Some(FromVehicle::Other(other)),
         };
@@ -318,6 +319,7 @@ impl fmt::Display for FromVehicle {
                 write!(f, "B,C{},A{},P{}", fixed(*capacity, 1), fixed(*available, 1), fixed(*percent, 1))
             }
             FromVehicle::Accepted(text) => write!(f, "C,{text}"),
+            FromVehicle::Error(code, text) if text.is_empty() => write!(f, "E,{code}"),
             FromVehicle::Error(code, text) => write!(f, "E,{code},{text}"),
             FromVehicle::Version(text) => write!(f, "V,{text}"),
             FromVehicle::Other(letter) => write!(f, "{letter}"),
@@ -547,6 +549,7 @@ mod tests {
             "B,C1000.0,A523.4,P52.3",
             "C,Speed,1.50 meters/sec",
             "E,107,Illegal time",
+            "E,107",
             "V,Sep 14 2011, 13:17:09",
         ] {
             assert_eq!(FromVehicle::parse(body).unwrap().to_string(), body);

@@ -81,7 +81,7 @@ impl ReconVehicle {
             _ => String::new(),
         };
         let place = match &url.place {
-            Place::Udp { .. } => "the address and the port",
+            Place::Udp { .. } => "the address and the port, and that no other controller drives it",
             _ => "the cable and the device",
         };
         let dialect = url.dialect;

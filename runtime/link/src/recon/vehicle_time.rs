@@ -4,17 +4,25 @@ use super::fields::DAY_MS;
 
 /// Milliseconds in a tick.
 const TICK_MS: u64 = 100;
-/// A stamp that is further from the last one is a clock that was set, and not time that has passed: a minute.
-const JUMP_MS: u32 = 60_000;
-/// So many stamps in a row from before the last one are a clock that was set back, and no messages that come late.
-const LATE_MAX: u32 = 10;
+/// A stamp that is further from the last one is doubted: `#S` comes about nine times a second.
+const FOLLOWS_MS: u32 = 2_000;
+/// A stamp that is further still is a clock that was set, and not time that has passed: in this time, 5 s, whoever is not
+/// heard has been left.
+const PASSED_MS: u32 = 5_000;
+/// A stamp that is older by no more than this may be of a message that comes late.
+const LATE_MS: u32 = 60_000;
+/// A doubted stamp is believed when it is the last of so many that follow each other: one wrong line in 256 passes the sum.
+const AGREE: u32 = 3;
+/// ... and of so many, if they may be messages that come late.
+const AGREE_LATE: u32 = 10;
 
 /// Counts ticks by stamps of the day. The first stamp is tick 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct VehicleTime {
     last_ms: Option<u32>,
     passed_ms: u64,
-    late: u32,
+    /// The last stamp that was doubted, and how many of them have followed each other.
+    doubt: Option<(u32, u32)>,
 }
 
 /// What a stamp says.
@@ -22,8 +30,8 @@ pub struct VehicleTime {
 pub enum Stamp {
     /// It is of this tick.
     Tick(u64),
-    /// It is older than what was heard before: a message that comes late or twice.
-    Late,
+    /// It is no time: of a message that comes late or twice, or not to be believed yet.
+    Doubtful,
     /// The vehicle's clock was set; it is of this tick.
     ClockSet(u64),
 }
@@ -35,19 +43,37 @@ impl VehicleTime {
             self.last_ms = Some(ms);
             return Stamp::Tick(0);
         };
-        let ahead = (ms + DAY_MS - last) % DAY_MS;
-        let behind = (DAY_MS - ahead) % DAY_MS;
-        if behind <= JUMP_MS && self.late < LATE_MAX {
-            self.late += 1;
-            return Stamp::Late;
+        if !follows(last, ms) && !self.agreed(last, ms) {
+            return Stamp::Doubtful;
         }
-        self.late = 0;
+        self.doubt = None;
         self.last_ms = Some(ms);
-        let set = ahead > JUMP_MS;
+        let ahead = since(last, ms);
+        let set = ahead > PASSED_MS;
         self.passed_ms += if set { TICK_MS } else { u64::from(ahead) };
         let tick = (self.passed_ms + TICK_MS / 2) / TICK_MS;
         if set { Stamp::ClockSet(tick) } else { Stamp::Tick(tick) }
     }
+
+    /// Whether a stamp that does not follow the last is to be believed all the same.
+    fn agreed(&mut self, last: u32, ms: u32) -> bool {
+        let count = match self.doubt {
+            Some((doubted, count)) if follows(doubted, ms) => count + 1,
+            _ => 1,
+        };
+        self.doubt = Some((ms, count));
+        count >= if since(ms, last) <= LATE_MS { AGREE_LATE } else { AGREE }
+    }
+}
+
+/// The milliseconds from one stamp to another, over midnight too.
+fn since(from: u32, to: u32) -> u32 {
+    (to + DAY_MS - from) % DAY_MS
+}
+
+/// Whether a stamp is soon after another.
+fn follows(before: u32, ms: u32) -> bool {
+    (1..=FOLLOWS_MS).contains(&since(before, ms))
 }
 
 #[cfg(test)]
@@ -64,21 +90,36 @@ mod tests {
         use Stamp::Tick;
         let nine_hertz = [DAY_MS - 111, 0, 111, 222, 333];
         assert_eq!(heard(&nine_hertz), [Tick(0), Tick(1), Tick(2), Tick(3), Tick(4)]);
-        assert_eq!(heard(&[0, 30_000]), [Tick(0), Tick(300)], "a gap is time that has passed");
+        let gap = [0, 4_000, 4_100, 4_200, 4_300];
+        assert_eq!(heard(&gap)[3..], [Tick(42), Tick(43)], "a gap is time that has passed");
+    }
+
+    #[test]
+    fn a_single_stamp_that_leaps_is_not_believed() {
+        use Stamp::{Doubtful, Tick};
+        for wrong in [4_000, 40_000, 7_200_000, DAY_MS - 4_000, DAY_MS - 7_200_000] {
+            assert_eq!(heard(&[0, 100, wrong, 200, 300]), [Tick(0), Tick(1), Doubtful, Tick(2), Tick(3)], "{wrong}");
+            let twice = [0, wrong, 100, wrong + 100, 200, wrong + 200];
+            assert!(!heard(&twice).iter().any(|s| matches!(s, Stamp::ClockSet(_))), "{wrong}");
+        }
     }
 
     #[test]
     fn late_and_repeated_messages_are_no_time() {
-        use Stamp::{Late, Tick};
-        assert_eq!(heard(&[1000, 1200, 1100, 1200, 1300]), [Tick(0), Tick(2), Late, Late, Tick(3)]);
+        use Stamp::{Doubtful, Tick};
+        assert_eq!(heard(&[1000, 1200, 1100, 1200, 1300]), [Tick(0), Tick(2), Doubtful, Doubtful, Tick(3)]);
+        assert!(heard(&[1000; 50])[1..].iter().all(|s| *s == Doubtful), "a clock that stands still");
     }
 
     #[test]
     fn a_clock_that_is_set_costs_one_tick() {
-        use Stamp::{ClockSet, Tick};
-        assert_eq!(heard(&[0, 3_600_000, 3_600_100]), [Tick(0), ClockSet(1), Tick(2)]);
+        use Stamp::{ClockSet, Doubtful, Tick};
+        for set in [40_000, 3_600_000, DAY_MS - 3_600_000] {
+            let stamps = [0, set, set + 100, set + 200, set + 300];
+            assert_eq!(heard(&stamps), [Tick(0), Doubtful, Doubtful, ClockSet(1), Tick(2)], "{set}");
+        }
         let mut back = vec![50_000];
-        back.extend((0..12).map(|i| 20_000 + 100 * i));
-        assert_eq!(heard(&back)[11..], [ClockSet(1), Tick(2)]);
+        back.extend((0..11).map(|i| 20_000 + 100 * i));
+        assert_eq!(heard(&back)[9..], [Doubtful, ClockSet(1), Tick(2)]);
     }
 }

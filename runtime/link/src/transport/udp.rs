@@ -2,21 +2,25 @@
 
 use super::{LOOK_BYTES, Transport, wait_for};
 use crate::error::LinkError;
-use crate::recon::LINE_MAX;
+use crate::recon::{Deframer, LINE_MAX};
 use std::io::ErrorKind;
 use std::net::{SocketAddr, ToSocketAddrs, UdpSocket};
 use std::os::fd::AsRawFd;
 use std::time::Duration;
 
-/// The most that one look takes in, whoever they come from.
+/// The most that one look takes in.
 const LOOK_DATAGRAMS: usize = LOOK_BYTES / LINE_MAX;
+/// ... and throws away, because they come from someone else: who babbles cannot crowd out the peer.
+const LOOK_STRAY: usize = 64 * LOOK_DATAGRAMS;
 
 /// A socket, and who is at the other end.
 pub struct Udp {
     socket: UdpSocket,
     peer: Option<SocketAddr>,
-    /// A vehicle answers whoever spoke last; a controller knows its vehicle.
+    /// A vehicle answers whoever spoke last and made sense; a controller knows its vehicle.
     serves: bool,
+    /// The peer drives: nobody else is heard.
+    held: bool,
 }
 
 impl Udp {
@@ -24,26 +28,51 @@ impl Udp {
     pub fn call(host: &str, port: u16, local: u16) -> Result<Self, LinkError> {
         let peer = resolved(host, port)?;
         let any: SocketAddr = if peer.is_ipv4() { ([0, 0, 0, 0], local).into() } else { ([0_u16; 8], local).into() };
-        Ok(Udp { socket: bound(any)?, peer: Some(peer), serves: false })
+        Ok(Udp { socket: bound(any)?, peer: Some(peer), serves: false, held: false })
     }
 
     /// For controllers, at an address and port of ours; gives where they find us.
     pub fn serve(host: &str, port: u16) -> Result<(Self, SocketAddr), LinkError> {
         let socket = bound(resolved(host, port)?)?;
         let at = socket.local_addr().map_err(|error| unusable(&error.to_string()))?;
-        Ok((Udp { socket, peer: None, serves: true }, at))
+        Ok((Udp { socket, peer: None, serves: true, held: false }, at))
     }
+}
+
+impl Udp {
+    /// Whether a datagram is for us. In one look one peer is heard: what it asks for is done before another can speak.
+    fn is_heard(&mut self, datagram: &[u8], from: SocketAddr, first: bool) -> bool {
+        if !self.serves {
+            return self.peer.is_none_or(|peer| peer.ip() == from.ip());
+        }
+        let known = self.peer == Some(from);
+        let heard = known || !self.held && first && is_message(datagram);
+        if heard {
+            self.peer = Some(from);
+        }
+        heard
+    }
+}
+
+/// Whether a datagram has a frame in it.
+fn is_message(datagram: &[u8]) -> bool {
+    let mut found = false;
+    let mut deframer = Deframer::default();
+    deframer.push(datagram, |frame| found |= frame.is_ok());
+    deframer.push(b"\n", |frame| found |= frame.is_ok());
+    found
 }
 
 impl Transport for Udp {
     fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError> {
         wait_for(self.socket.as_raw_fd(), wait);
         let mut buffer = [0; LINE_MAX];
-        for _ in 0..LOOK_DATAGRAMS {
+        let (mut taken, mut stray) = (0, 0);
+        while taken < LOOK_DATAGRAMS && stray < LOOK_STRAY {
             match self.socket.recv_from(&mut buffer) {
-                Ok((_, from)) if !self.serves && self.peer.is_some_and(|peer| peer.ip() != from.ip()) => {}
-                Ok((count, from)) => {
-                    self.peer = if self.serves { Some(from) } else { self.peer };
+                Ok((count, from)) if !self.is_heard(&buffer[..count], from, into.is_empty()) => stray += 1,
+                Ok((count, _)) => {
+                    taken += 1;
                     into.extend_from_slice(&buffer[..count]);
                     // A datagram is a message: what it lacks the next one does not bring.
                     if !buffer[..count].ends_with(b"\n") {
@@ -51,7 +80,7 @@ impl Transport for Udp {
                     }
                 }
                 // Nobody listens yet at the other end: that is no more than silence.
-                Err(error) if error.kind() == ErrorKind::ConnectionRefused => {}
+                Err(error) if error.kind() == ErrorKind::ConnectionRefused => stray += 1,
                 Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => return Ok(()),
                 Err(error) => return Err(unusable(&error.to_string())),
             }
@@ -71,6 +100,10 @@ impl Transport for Udp {
             }
         }
         Ok(())
+    }
+
+    fn hold(&mut self, held: bool) {
+        self.held = held;
     }
 }
 
@@ -112,17 +145,51 @@ fn unusable(what: &str) -> LinkError {
 mod tests {
     use super::*;
 
+    fn heard(vehicle: &mut Udp) -> Vec<u8> {
+        let mut came = Vec::new();
+        vehicle.receive(&mut came, Duration::from_millis(100)).unwrap();
+        came
+    }
+
+    #[test]
+    fn who_drives_is_the_only_one_that_is_heard_whoever_speaks() {
+        let hello = crate::recon::seal("V,one");
+        let (mut vehicle, at) = Udp::serve("127.0.0.1", 0).unwrap();
+        let controller = || Udp::call("127.0.0.1", at.port(), 0).unwrap();
+        let (mut first, mut second) = (controller(), controller());
+        second.send(b"garbage\n").unwrap();
+        assert!(heard(&mut vehicle).is_empty(), "who makes no sense is no peer");
+        first.send(hello.as_bytes()).unwrap();
+        second.send(hello.as_bytes()).unwrap();
+        assert_eq!(heard(&mut vehicle), hello.as_bytes(), "one in a look");
+        vehicle.hold(true);
+        for _ in 0..200 {
+            second.send(hello.as_bytes()).unwrap();
+        }
+        first.send(b"mine\n").unwrap();
+        assert_eq!(heard(&mut vehicle), b"mine\n");
+        vehicle.send(b"yours\n").unwrap();
+        assert_eq!(heard(&mut first), b"yours\n");
+        assert!(heard(&mut second).is_empty());
+        vehicle.hold(false);
+        second.send(hello.as_bytes()).unwrap();
+        assert_eq!(heard(&mut vehicle), hello.as_bytes());
+        vehicle.send(b"yours\n").unwrap();
+        assert_eq!(heard(&mut second), b"yours\n");
+    }
+
     #[test]
     fn a_datagram_is_a_line() {
         let (mut vehicle, at) = Udp::serve("127.0.0.1", 0).unwrap();
         vehicle.send(b"to nobody\n").unwrap();
         let mut controller = Udp::call("127.0.0.1", at.port(), 0).unwrap();
-        controller.send(b"one\ntwo").unwrap();
+        let hello = crate::recon::seal("V,one");
+        controller.send(format!("{hello}two").as_bytes()).unwrap();
         let mut came = Vec::new();
-        while came.len() < 8 {
+        while came.len() < hello.len() + 4 {
             vehicle.receive(&mut came, Duration::from_millis(100)).unwrap();
         }
-        assert_eq!(came, b"one\ntwo\n");
+        assert_eq!(came, format!("{hello}two\n").as_bytes());
         vehicle.send(b"three\n").unwrap();
         let mut answer = Vec::new();
         while answer.is_empty() {
