@@ -157,6 +157,15 @@ fn goals_are_sent_one_a_tick_when_they_change_are_not_taken_up_and_twice_a_secon
     assert_eq!(commanded(&mut vehicle, &turned), seal("C,Heading,Goal,271.0"));
 }
 
+#[test]
+fn the_question_that_goes_before_the_first_goal_has_a_tick_of_its_own() {
+    let mut vehicle = Vehicle::new();
+    vehicle.says(0x01);
+    vehicle.controller.take_over();
+    vehicle.controller.take_output();
+    assert_eq!([0; 2].map(|_| commanded(&mut vehicle, &west())), ["", HEADING]);
+}
+
 /// Echoes all that is said to it.
 fn echoed(vehicle: &mut Vehicle, command: &Command) {
     let sent = commanded(vehicle, command);

@@ -453,6 +453,10 @@ impl Controller {
                 self.notice(ignored);
             }
         }
+        // Something else was said in this tick.
+        if self.spoke + 1 == now {
+            return;
+        }
         let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now)?, goal)));
         let Some((text, goal)) = due.min_by_key(|(_, goal)| goal.sent.as_ref().map(|(_, tick)| *tick)) else { return };
         goal.sent = Some((text.clone(), now));
