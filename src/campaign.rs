@@ -6,7 +6,8 @@ mod table;
 mod told;
 
 use crate::exit::Exit;
-use crate::{interruption, message, output, plan};
+use crate::plan::{Choice, refused};
+use crate::{interruption, message, output};
 use albacore_session::campaign::{Campaign as MissionCampaign, Tally};
 use albacore_session::{Plan, Run};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -30,18 +31,11 @@ pub struct Campaign {
     /// The script.
     #[arg(value_name = "MISSION.alb")]
     script: PathBuf,
-    /// The mission; else the one named like the file, else the only one.
-    #[arg(long)]
-    mission: Option<String>,
-    /// The scenario; else the one that the mission names.
-    #[arg(long = "in", value_name = "SCENARIO")]
-    scenario: Option<String>,
+    #[command(flatten)]
+    choice: Choice,
     /// The seeds: `1..100` with both ends, `1..<100` without the last, or one.
     #[arg(long, value_name = "A..B")]
     seeds: Seeds,
-    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    set: Vec<String>,
     /// The table. What it was made from is kept beside it, in `FILE.csv.origin`.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
@@ -62,14 +56,17 @@ pub struct Campaign {
 impl Campaign {
     /// Runs all seeds that the table does not have.
     pub fn run(&self) -> Exit {
-        let (mission, scenario) = (self.mission.as_deref(), self.scenario.as_deref());
-        let (script, plan) = match plan::plan(&self.script, mission, scenario, &self.set) {
+        let planned = self.choice.script(&self.script).and_then(|script| {
+            let plan = self.choice.plan(&script, &self.script)?;
+            Ok((script, plan))
+        });
+        let (script, plan) = match planned {
             Ok(planned) => planned,
             Err(exit) => return exit,
         };
         // What no seed can run is said before a file is begun.
         if let Err(error) = Run::new(&plan, self.seeds.first) {
-            return plan::refused(&error, &script);
+            return refused(&error, &script);
         }
         match self.carry_out(&plan) {
             Ok(exit) => exit,
@@ -79,7 +76,7 @@ impl Campaign {
 
     fn carry_out(&self, plan: &Plan) -> Result<Exit, Trouble> {
         let campaign = MissionCampaign::new(plan.clone(), self.reports);
-        let (columns, origin) = (campaign.columns(), Origin::new(plan, &self.set));
+        let (columns, origin) = (campaign.columns(), Origin::new(plan, &self.choice.set));
         let mut table = if self.resume {
             Table::resume(&self.out, columns, &origin, self.seeds)?
         } else {

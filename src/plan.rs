@@ -5,18 +5,13 @@ use crate::message;
 use albacore_session::{FileError, Plan, PlanError, Script};
 use std::path::Path;
 
-/// Loads a script, or says what is wrong and how the program ends.
-pub fn script(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script, Exit> {
-    sound(albacore_session::load(path, mission, set))
-}
-
-/// Loads a script, or a module of the standard library by its bare name.
+/// A script that the verb only looks at, or a module of the standard library by its bare name.
 pub fn script_or_module(path: &Path) -> Result<Script, Exit> {
     sound(albacore_session::load_or_module(path))
 }
 
 /// What was loaded, if it can be used; else what is wrong is said.
-fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
+pub fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
     let script = loaded.map_err(|error| {
         message::error(&error.message, error.help.as_deref());
         Exit::Usage
@@ -25,17 +20,31 @@ fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
     if script.is_sound() { Ok(script) } else { Err(Exit::Script) }
 }
 
-/// Loads a script and plans a mission of it, or says what is wrong and how the program ends.
-pub fn plan(
-    path: &Path,
-    mission: Option<&str>,
-    scenario: Option<&str>,
-    set: &[String],
-) -> Result<(Script, Plan), Exit> {
-    let script = script(path, mission, set)?;
-    match Plan::new(&script, &path.display().to_string(), mission, scenario) {
-        Ok(plan) => Ok((script, plan)),
-        Err(error) => Err(refused(&error, &script)),
+/// Which mission of a script, in which world, with what changed: what every verb that drives takes.
+#[derive(clap::Args)]
+pub struct Choice {
+    /// The mission; else the one named like the file, else the only one.
+    #[arg(long)]
+    pub mission: Option<String>,
+    /// The scenario, by its name or as `FILE.alb#NAME`; else the one that the mission names.
+    #[arg(long = "in", value_name = "SCENARIO")]
+    pub scenario: Option<String>,
+    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+}
+
+impl Choice {
+    /// Loads the script, or says what is wrong and how the program ends.
+    pub fn script(&self, path: &Path) -> Result<Script, Exit> {
+        sound(albacore_session::load(path, self.mission.as_deref(), &self.set))
+    }
+
+    /// Plans the mission in a simulated world, or says what stands in the way.
+    pub fn plan(&self, script: &Script, path: &Path) -> Result<Plan, Exit> {
+        let file = path.display().to_string();
+        let plan = Plan::new(script, &file, self.mission.as_deref(), self.scenario.as_deref());
+        plan.map_err(|error| refused(&error, script))
     }
 }
 

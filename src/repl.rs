@@ -4,6 +4,7 @@ use crate::exit::Exit;
 use crate::interruption;
 use crate::message;
 use crate::output;
+use crate::plan::Choice;
 use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
 use rustyline::error::ReadlineError;
 use rustyline::history::MemHistory;
@@ -19,24 +20,17 @@ const LINES_AT_ONCE_MAX: usize = 10_000;
 /// What to do about bytes that are no text.
 const NOT_UTF8: &str = "it is left out; type it again, or send it as UTF-8";
 
-/// Drive a simulated vehicle line by line.
+/// Drive a simulated vehicle line by line; without a script, in still water.
 #[derive(clap::Args)]
 pub struct Repl {
     /// A script whose names are known, and whose mission `start` begins.
     #[arg(value_name = "FILE.alb")]
     script: Option<PathBuf>,
-    /// The mission; else the one named like the file, else the only one.
-    #[arg(long)]
-    mission: Option<String>,
-    /// The scenario; else the one that the mission names, else still water.
-    #[arg(long = "in", value_name = "SCENARIO")]
-    scenario: Option<String>,
+    #[command(flatten)]
+    choice: Choice,
     /// The seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    set: Vec<String>,
 }
 
 impl Repl {
@@ -44,10 +38,10 @@ impl Repl {
     pub fn run(&self) -> Exit {
         let opening = Opening {
             script: self.script.as_deref(),
-            mission: self.mission.as_deref(),
-            scenario: self.scenario.as_deref(),
+            mission: self.choice.mission.as_deref(),
+            scenario: self.choice.scenario.as_deref(),
             seed: self.seed,
-            set: &self.set,
+            set: &self.choice.set,
         };
         let mut prompt = match Prompt::open(&opening) {
             Ok(prompt) => prompt,

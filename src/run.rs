@@ -3,8 +3,9 @@
 use crate::clock::{self, Pace, now};
 use crate::exit::Exit;
 use crate::kept::Kept;
+use crate::plan::{Choice, refused};
 use crate::vehicle::told;
-use crate::{interruption, message, output, plan};
+use crate::{interruption, message, output};
 use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Summary, Url};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -21,18 +22,11 @@ pub struct Run {
     /// The script.
     #[arg(value_name = "MISSION.alb")]
     script: PathBuf,
-    /// The mission; else the one named like the file, else the only one.
-    #[arg(long)]
-    mission: Option<String>,
-    /// The scenario; else the one that the mission names.
-    #[arg(long = "in", value_name = "SCENARIO")]
-    scenario: Option<String>,
+    #[command(flatten)]
+    choice: Choice,
     /// The seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    set: Vec<String>,
     /// Drive a vehicle at the end of a link instead of a simulated one: `serial:/dev/ttyUSB0?dialect=recon`,
     /// `udp:HOST:PORT?dialect=recon`.
     #[arg(long, value_name = "URL", conflicts_with = "scenario")]
@@ -54,7 +48,7 @@ pub struct Run {
 impl Run {
     /// Runs the mission to its end.
     pub fn run(&self) -> Exit {
-        let script = match plan::script(&self.script, self.mission.as_deref(), &self.set) {
+        let script = match self.choice.script(&self.script) {
             Ok(script) => script,
             Err(exit) => return exit,
         };
@@ -66,7 +60,7 @@ impl Run {
         let interrupted = interruption::flag();
         let mut kept = self.folder(&plan).map_or_else(Kept::nothing, Kept::begin);
         if let Some(journal) = kept.journal() {
-            run.with_journal(Box::new(journal), &self.set);
+            run.with_journal(Box::new(journal), &self.choice.set);
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(now().duration_since(started).as_secs_f64());
@@ -89,15 +83,14 @@ impl Run {
 
     /// The plan, and a run of it at its first tick: in a simulated world or on a link.
     fn prepare(&self, script: &Script) -> Result<(Plan, MissionRun), Exit> {
-        let file = self.script.display().to_string();
-        let (mission, scenario) = (self.mission.as_deref(), self.scenario.as_deref());
-        let refused = |error| plan::refused(&error, script);
+        let refused = |error| refused(&error, script);
         let Some(link) = &self.link else {
-            let plan = Plan::new(script, &file, mission, scenario).map_err(refused)?;
+            let plan = self.choice.plan(script, &self.script)?;
             let run = MissionRun::new(&plan, self.seed).map_err(refused)?;
             return Ok((plan, run));
         };
         let url = Url::parse(link).map_err(|error| told(&error, Exit::Usage))?;
+        let (file, mission) = (self.script.display().to_string(), self.choice.mission.as_deref());
         let plan = Plan::on_link(script, &file, mission, &url.to_string()).map_err(refused)?;
         let vehicle = albacore_session::call(&url, &plan, self.rate.unwrap_or(1.0), host_clock())
             .map_err(|error| told(&error, Exit::Failed))?;

@@ -2,7 +2,7 @@
 
 use crate::clock::{self, Pace};
 use crate::exit::Exit;
-use crate::plan::refused;
+use crate::plan::{refused, sound};
 use crate::{interruption, message};
 use albacore_session::{FarEnd, LinkError, Rows, Transport, Url, World};
 use std::path::Path;
@@ -69,16 +69,9 @@ impl Vehicle {
             None => (None, Some(self.scenario.as_str())),
         };
         let script = match file {
-            Some(file) => albacore_session::load(Path::new(file), None, &self.set).map_err(|error| {
-                message::error(&error.message, error.help.as_deref());
-                Exit::Usage
-            })?,
-            None => albacore_session::load_library(),
+            Some(file) => sound(albacore_session::load(Path::new(file), None, &self.set))?,
+            None => sound(Ok(albacore_session::load_library()))?,
         };
-        message::findings(&script.findings, &script.sources);
-        if !script.is_sound() {
-            return Err(Exit::Script);
-        }
         let world = World::new(&script, file.unwrap_or_default(), name);
         world.and_then(|world| world.far_end(self.seed, self.rows)).map_err(|error| refused(&error, &script))
     }

@@ -83,8 +83,10 @@ fn an_interruption_stops_the_vehicle_and_not_the_session() {
     let out = out("interrupted");
     let mut child = session(Some("missions/duck_single.alb"), &out).spawn().unwrap();
     let mut lines = child.stdin.take().unwrap();
-    lines.write_all(b"1 m + 1 m\nsteer 90 deg for 9 h\n").unwrap();
-    // Its answer to the first line shows that it listens; nine hours take long enough.
+    // Its answer to the first line shows that it listens. What comes then takes a quarter of an hour of ours: whenever the
+    // interruption comes, it comes in the middle, and all that would have followed on the line is left out too.
+    lines.write_all(b"1 m + 1 m\n").unwrap();
+    lines.write_all(format!("{}\n", ["steer 90 deg for 9 h"; 200].join("; ")).as_bytes()).unwrap();
     let mut said = String::new();
     while !said.contains("2 m") {
         std::thread::sleep(std::time::Duration::from_millis(10));

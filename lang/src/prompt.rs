@@ -4,18 +4,23 @@
 //! expression, become the body of a mission that is driven once: so whatever a script can say, a line can say, and means the
 //! same. The values that earlier lines have named, and those that the running mission knows, are put in place before it begins.
 
+mod value;
+
+pub use value::{Left, Named};
+
 use crate::check::{self, Module, Override};
 use crate::diagnostic::{self, Diagnostic, Severity};
-use crate::hir::{self, Hir, VarId};
+use crate::hir::{Hir, VarId};
 use crate::loader::Loader;
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax::{self, tree};
-use crate::types::{Type, TypeTable};
+use crate::types::TypeTable;
 use crate::{Library, Script, lower, rules};
 use albacore_geometry::Geodetic;
-use albacore_program::{Program, Shape, Slot};
+use albacore_program::{Program, Slot};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use value::slot_of;
 
 /// The mission that a line becomes. No script can declare a mission of this name.
 pub(crate) const MISSION: &str = "line at the prompt";
@@ -33,18 +38,6 @@ pub struct Prompt {
     /// The setpoints and overlays that `with` has put in force.
     with: Vec<tree::WithItem>,
     lines: usize,
-}
-
-/// A value with a name, which lines can use.
-#[derive(Clone, Debug)]
-pub struct Named {
-    /// The name.
-    pub name: String,
-    /// The words of the value.
-    pub words: Vec<f64>,
-    /// How they are read.
-    pub shape: Shape,
-    ty: Type,
 }
 
 /// What a line asks for.
@@ -71,54 +64,6 @@ pub struct Drive {
     pub reads: Vec<u32>,
     /// It never ends by itself.
     pub endless: bool,
-}
-
-/// A value that a line leaves.
-#[derive(Clone, Debug)]
-pub struct Left {
-    /// The name it is to have; none for the value of an expression.
-    pub name: Option<String>,
-    /// Where it is.
-    pub slot: Slot,
-    /// How its words are read.
-    pub shape: Shape,
-    ty: Type,
-}
-
-impl Left {
-    /// No value: what most statements leave.
-    pub fn nothing() -> Self {
-        Left { name: None, slot: 0, shape: Shape::Bool, ty: Type::Unknown }
-    }
-
-    /// Whether the value means the same when it is used again: texts are of the program that they stand in.
-    fn can_be_kept(&self, span: Span) -> Result<(), Vec<Diagnostic>> {
-        let finding =
-            |message: &str, help: &str| Err(vec![Diagnostic::error("prompt::value", span, message).help(help)]);
-        if self.name.is_some() && self.shape.has_text() {
-            return finding("a text cannot be given a name at the prompt", "write it where it is used");
-        }
-        match &self.ty {
-            Type::Unknown | Type::None => finding("the type of this cannot be told", "use it where a type is expected"),
-            Type::List(element, _) if **element == Type::Unknown => {
-                finding("of what is this a list?", "say it: `let list: [Point; 6] = []`")
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// The value, taken from the words of the run.
-    pub fn taken(&self, words: &[f64]) -> Named {
-        let at = self.slot as usize;
-        let words = words.get(at..at + self.shape.words() as usize).unwrap_or(&[]).to_vec();
-        let name = self.name.clone().unwrap_or_default();
-        Named { name, words, shape: self.shape.clone(), ty: self.ty.clone() }
-    }
-
-    /// Whether it is a time, as `run` takes one.
-    pub fn is_duration(&self) -> bool {
-        self.ty == Type::Quantity(crate::dimension::Dimension::TIME)
-    }
 }
 
 /// What came of a line: what it asks for, unless it cannot be understood; and what is to be said of it.
@@ -264,10 +209,8 @@ impl Prompt {
             Ok(checked) => checked,
             Err(findings) => return Read { line: None, findings },
         };
-        let endless = checked.endless;
         match self.drive(&checked, file, known, left, name, origin) {
-            Ok(mut drive) => {
-                drive.endless = endless;
+            Ok(drive) => {
                 // What only a whole mission shows is asked of statements; an expression commands nothing.
                 let line = if expression { Line::Value(drive) } else { Line::Statements(drive) };
                 Read { line: Some(line), findings: checked.findings }
@@ -399,7 +342,7 @@ impl Prompt {
             .filter(|(_, span)| span.file == file)
             .map(|(input, _)| input as u32)
             .collect();
-        Ok(Drive { known: (0..known.len()).map(slot).collect(), program, value, reads, endless: false })
+        Ok(Drive { known: (0..known.len()).map(slot).collect(), program, value, reads, endless: checked.endless })
     }
 }
 
@@ -410,45 +353,6 @@ struct Checked {
     mission: usize,
     findings: Vec<Diagnostic>,
     endless: bool,
-}
-
-impl Script {
-    /// What an activity of a lowered mission calls its parameters, signals, memories and area, with the places of their
-    /// values from the base of its frame. `words` are the words from that base on.
-    pub fn names_of(&self, program: &Program, activity: u32, words: &[f64]) -> Vec<Named> {
-        let Some(lowered) = program.activities.get(activity as usize) else { return Vec::new() };
-        let is_it = |a: &hir::Activity| a.name == lowered.name && self.sources.place(a.span) == lowered.place;
-        let Some(found) = self.hir.activities.iter().find(|a| is_it(a)) else { return Vec::new() };
-        // A nested behavior shares the frame of its strategy.
-        let vars = &self.hir.activities[found.owner.unwrap_or_else(|| self.index_of(found))].vars;
-        let declared = found.decls.iter().filter_map(|decl| match decl {
-            hir::Decl::Signal(id, _) | hir::Decl::Memory(id, _) | hir::Decl::Area(id, _) => Some(*id),
-            hir::Decl::With(_) => None,
-        });
-        let mut names = Vec::new();
-        for id in (0..found.params).chain(declared) {
-            let at = slot_of(&self.types, vars, id) as usize;
-            let shape = self.types.shape(&vars[id].ty);
-            if let Some(words) = words.get(at..at + shape.words() as usize) {
-                names.push(Named {
-                    name: vars[id].name.clone(),
-                    words: words.to_vec(),
-                    shape,
-                    ty: vars[id].ty.clone(),
-                });
-            }
-        }
-        names
-    }
-
-    fn index_of(&self, activity: &hir::Activity) -> usize {
-        self.hir.activities.iter().position(|a| std::ptr::eq(a, activity)).unwrap_or_default()
-    }
-}
-
-/// Where a variable is in the frame of its unit: they lie one after the other, in the order of their declaration.
-fn slot_of(types: &TypeTable, vars: &[hir::Var], id: VarId) -> Slot {
-    vars[..id].iter().map(|v| types.words(&v.ty)).sum()
 }
 
 /// A value that takes no time.

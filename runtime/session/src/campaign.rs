@@ -8,7 +8,8 @@ pub use columns::{Columns, Row};
 pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
 pub use tally::{Tally, Within};
 
-use crate::run::{Plan, PlanError, Run, Running};
+use crate::plan::{Plan, PlanError};
+use crate::run::{Run, Running};
 use crate::summary::Summary;
 use std::any::Any;
 use std::collections::BTreeMap;

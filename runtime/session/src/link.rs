@@ -1,6 +1,6 @@
 //! A vehicle at the end of a link, for a mission that lies on the globe.
 
-use crate::run::Plan;
+use crate::plan::Plan;
 use albacore_link::recon::{HostClock, ReconVehicle};
 use albacore_link::{Dialect, LinkError, Url, call as open};
 use albacore_vehicle::Vehicle;

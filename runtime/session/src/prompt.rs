@@ -7,7 +7,7 @@ mod command;
 mod moment;
 
 use crate::files::Files;
-use crate::run::{Plan, PlanError};
+use crate::plan::{Plan, PlanError};
 use crate::world;
 use crate::{FileError, Script};
 use albacore_lang::diagnostic::Diagnostic;

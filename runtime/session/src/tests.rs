@@ -1,6 +1,7 @@
 //! Running `test` blocks: a mission over its seeds, its expectations, and the traces that snapshots compare.
 
-use crate::run::{Plan, PlanError, Run, Running};
+use crate::plan::{Plan, PlanError};
+use crate::run::{Run, Running};
 use crate::summary::Summary;
 use albacore_geometry::Point;
 use albacore_lang::{ExpectProgram, Script, TestProgram};

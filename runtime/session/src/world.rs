@@ -1,6 +1,6 @@
 //! A simulated world with a vehicle in it that is served to others: the far end of a link.
 
-use crate::run::PlanError;
+use crate::plan::PlanError;
 use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
 use albacore_link::recon::{FrontSeat, Rows};

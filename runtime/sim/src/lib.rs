@@ -24,5 +24,5 @@ pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Pit, Plume, Scenario, Sounder, Source,
     UpperFlow,
 };
-pub use simulator::{CHANNELS, Simulator, Truth};
+pub use simulator::{Simulator, Truth};
 pub use validate::ScenarioError;

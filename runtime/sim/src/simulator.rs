@@ -6,32 +6,10 @@ use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
 use crate::validate::ScenarioError;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
+use albacore_vehicle::channels::{
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH,
+};
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
-
-/// What the simulator measures, in the order of its channel numbers: name, how many numbers, how often.
-pub const CHANNELS: [(&str, usize); 10] = [
-    ("position", 3),    // m north, m east, standard deviation in m an axis; every tick
-    ("course", 1),      // rad over ground; every tick
-    ("heading", 1),     // rad; every tick
-    ("speed", 1),       // m/s over ground; every tick
-    ("depth", 1),       // m; every tick
-    ("altitude", 1),    // m above the bottom; every tick
-    ("water_depth", 1), // m; every tick
-    ("flow", 2),        // m/s toward north and east, the mean of the last 200 s; every 2 s once there is one
-    ("chemical", 1),    // ratio of full scale; at the sensor's rate
-    ("battery", 1),     // ratio; every 10 s
-];
-
-const POSITION: u16 = 0;
-const COURSE: u16 = 1;
-const HEADING: u16 = 2;
-const SPEED: u16 = 3;
-const DEPTH: u16 = 4;
-const ALTITUDE: u16 = 5;
-const WATER_DEPTH: u16 = 6;
-const FLOW: u16 = 7;
-const CHEMICAL: u16 = 8;
-const BATTERY: u16 = 9;
 
 /// Ticks between battery readings.
 const BATTERY_TICKS: u64 = 100;
@@ -86,13 +64,12 @@ impl Simulator {
     /// The world of a scenario before its first tick.
     pub fn new(scenario: &Scenario, seed: u64) -> Result<Self, ScenarioError> {
         scenario.validate()?;
-        let channels = CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect();
         let world = World::new(scenario, seed);
         let vehicle = scenario.vehicle.placed(seed);
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
-            channels,
+            channels: channels::all(),
             vehicle: Kinematics::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),

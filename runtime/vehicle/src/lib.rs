@@ -3,6 +3,8 @@
 //! The simulator, a vehicle at the end of a serial line and the replay of a journal are all a [`Vehicle`]. The machine that
 //! executes a program sees nothing else of them.
 
+pub mod channels;
+
 use albacore_geometry::Heading;
 use serde::{Deserialize, Serialize};
 

@@ -9,33 +9,12 @@ use super::mode::{Mode, Phase};
 use super::vehicle_time::{Stamp, VehicleTime};
 use albacore_geometry::math::{atan2, radians};
 use albacore_geometry::{Heading, TangentFrame, Vector};
+use albacore_vehicle::channels::{
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH,
+};
 use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
 use std::collections::VecDeque;
 use std::mem::discriminant;
-
-/// What a vehicle of this dialect measures, and how many numbers each takes.
-const CHANNELS: [(&str, usize); 10] = [
-    ("position", 3),
-    ("course", 1),
-    ("heading", 1),
-    ("speed", 1),
-    ("depth", 1),
-    ("altitude", 1),
-    ("water_depth", 1),
-    ("flow", 2),
-    ("chemical", 1),
-    ("battery", 1),
-];
-const POSITION: u16 = 0;
-const COURSE: u16 = 1;
-const HEADING: u16 = 2;
-const SPEED: u16 = 3;
-const DEPTH: u16 = 4;
-const ALTITUDE: u16 = 5;
-const WATER_DEPTH: u16 = 6;
-const FLOW: u16 = 7;
-const CHEMICAL: u16 = 8;
-const BATTERY: u16 = 9;
 
 /// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
 /// 2 m comes to, m an axis.
@@ -191,7 +170,7 @@ impl Controller {
     /// Hears a vehicle, in the mission's frame; nothing is sent before [`Controller::take_over`].
     pub fn new(frame: TangentFrame) -> Self {
         Controller {
-            channels: CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect(),
+            channels: channels::all(),
             frame,
             deframer: Deframer::default(),
             time: VehicleTime::default(),

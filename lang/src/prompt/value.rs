@@ -1,0 +1,107 @@
+//! Values at the prompt: those that a line leaves, and those that lines can name.
+
+use crate::Script;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{self, VarId};
+use crate::source::Span;
+use crate::types::{Type, TypeTable};
+use albacore_program::{Program, Shape, Slot};
+
+/// A value with a name, which lines can use.
+#[derive(Clone, Debug)]
+pub struct Named {
+    /// The name.
+    pub name: String,
+    /// The words of the value.
+    pub words: Vec<f64>,
+    /// How they are read.
+    pub shape: Shape,
+    pub(super) ty: Type,
+}
+
+/// A value that a line leaves.
+#[derive(Clone, Debug)]
+pub struct Left {
+    /// The name it is to have; none for the value of an expression.
+    pub name: Option<String>,
+    /// Where it is.
+    pub slot: Slot,
+    /// How its words are read.
+    pub shape: Shape,
+    pub(super) ty: Type,
+}
+
+impl Left {
+    /// No value: what most statements leave.
+    pub fn nothing() -> Self {
+        Left { name: None, slot: 0, shape: Shape::Bool, ty: Type::Unknown }
+    }
+
+    /// Whether the value means the same when it is used again: texts are of the program that they stand in.
+    pub(super) fn can_be_kept(&self, span: Span) -> Result<(), Vec<Diagnostic>> {
+        let finding =
+            |message: &str, help: &str| Err(vec![Diagnostic::error("prompt::value", span, message).help(help)]);
+        if self.name.is_some() && self.shape.has_text() {
+            return finding("a text cannot be given a name at the prompt", "write it where it is used");
+        }
+        match &self.ty {
+            Type::Unknown | Type::None => finding("the type of this cannot be told", "use it where a type is expected"),
+            Type::List(element, _) if **element == Type::Unknown => {
+                finding("of what is this a list?", "say it: `let list: [Point; 6] = []`")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The value, taken from the words of the run.
+    pub fn taken(&self, words: &[f64]) -> Named {
+        let at = self.slot as usize;
+        let words = words.get(at..at + self.shape.words() as usize).unwrap_or(&[]).to_vec();
+        let name = self.name.clone().unwrap_or_default();
+        Named { name, words, shape: self.shape.clone(), ty: self.ty.clone() }
+    }
+
+    /// Whether it is a time, as `run` takes one.
+    pub fn is_duration(&self) -> bool {
+        self.ty == Type::Quantity(crate::dimension::Dimension::TIME)
+    }
+}
+
+impl Script {
+    /// What an activity of a lowered mission calls its parameters, signals, memories and area, with the places of their
+    /// values from the base of its frame. `words` are the words from that base on.
+    pub fn names_of(&self, program: &Program, activity: u32, words: &[f64]) -> Vec<Named> {
+        let Some(lowered) = program.activities.get(activity as usize) else { return Vec::new() };
+        let is_it = |a: &hir::Activity| a.name == lowered.name && self.sources.place(a.span) == lowered.place;
+        let Some(found) = self.hir.activities.iter().find(|a| is_it(a)) else { return Vec::new() };
+        // A nested behavior shares the frame of its strategy.
+        let vars = &self.hir.activities[found.owner.unwrap_or_else(|| self.index_of(found))].vars;
+        let declared = found.decls.iter().filter_map(|decl| match decl {
+            hir::Decl::Signal(id, _) | hir::Decl::Memory(id, _) | hir::Decl::Area(id, _) => Some(*id),
+            hir::Decl::With(_) => None,
+        });
+        let mut names = Vec::new();
+        for id in (0..found.params).chain(declared) {
+            let at = slot_of(&self.types, vars, id) as usize;
+            let shape = self.types.shape(&vars[id].ty);
+            if let Some(words) = words.get(at..at + shape.words() as usize) {
+                names.push(Named {
+                    name: vars[id].name.clone(),
+                    words: words.to_vec(),
+                    shape,
+                    ty: vars[id].ty.clone(),
+                });
+            }
+        }
+        names
+    }
+
+    fn index_of(&self, activity: &hir::Activity) -> usize {
+        self.hir.activities.iter().position(|a| std::ptr::eq(a, activity)).unwrap_or_default()
+    }
+}
+
+/// Where a variable is in the frame of its unit: they lie one after the other, in the order of their declaration.
+pub(super) fn slot_of(types: &TypeTable, vars: &[hir::Var], id: VarId) -> Slot {
+    vars[..id].iter().map(|v| types.words(&v.ty)).sum()
+}

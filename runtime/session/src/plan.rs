@@ -1,0 +1,139 @@
+//! What is to be run: a mission, chosen from a script, and the world that it runs in.
+
+use crate::world;
+use albacore_geometry::TangentFrame;
+use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::source::Source;
+use albacore_lang::{Script, suggestion};
+use albacore_program::Program;
+use albacore_sim::Scenario;
+use albacore_trace::Digest;
+use albacore_trace::journal::SourceDigest;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A mission and the world it runs in, ready to run with any seed.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The mission.
+    pub program: Arc<Program>,
+    /// The world.
+    pub scenario: Arc<Scenario>,
+    /// The world's name.
+    pub scenario_name: String,
+    /// What both were made from.
+    pub sources: Vec<SourceDigest>,
+}
+
+/// Why a script cannot be run as asked.
+#[derive(Debug)]
+pub enum PlanError {
+    /// The script has errors.
+    Script(Vec<Diagnostic>),
+    /// What was asked for does not exist or makes no sense: message and help.
+    Asked(String, Option<String>),
+}
+
+impl Plan {
+    /// Chooses the mission (by name, else the one named like the file, else the only one) and the scenario (by name, or as
+    /// `file.alb#name`, else the mission's own).
+    pub fn new(script: &Script, file: &str, mission: Option<&str>, scenario: Option<&str>) -> Result<Self, PlanError> {
+        let (name, program) = chosen(script, file, mission)?;
+        let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
+        let known: Vec<&str> = script.scenarios().collect();
+        let Some(wanted) = scenario.map(str::to_string).or(own) else {
+            let message = format!("in which world does the mission `{name}` run?");
+            let help =
+                format!("name one with `--in`, or write `mission {name} in SCENARIO`; there is {}", known.join(", "));
+            return Err(PlanError::Asked(message, Some(help)));
+        };
+        let program = Arc::new(program);
+        match wanted.split_once('#') {
+            None => Plan::with(script, program, &wanted),
+            Some((file, wanted)) => {
+                let other = other_script(file)?;
+                let plan = Plan::with(&other, program, wanted)?;
+                Ok(Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan })
+            }
+        }
+    }
+
+    /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.
+    pub fn on_link(script: &Script, file: &str, mission: Option<&str>, link: &str) -> Result<Self, PlanError> {
+        let (name, program) = chosen(script, file, mission)?;
+        if program.mission.origin.is_none() {
+            let message = format!("the mission `{name}` has no place on the globe, and a vehicle has no other");
+            let help =
+                "give a corner or the center of its area as latitude and longitude, such as `36°10.8'N 75°44.4'W`";
+            return Err(PlanError::Asked(message, Some(help.into())));
+        }
+        let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
+        Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script) })
+    }
+
+    /// The frame of the mission, if it lies on the globe.
+    pub fn frame(&self) -> Option<TangentFrame> {
+        self.program.mission.origin.map(|origin| TangentFrame { origin })
+    }
+
+    /// A mission that is lowered already, in a scenario of the script.
+    pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
+        let (lowered, world) = world::scenario(script, wanted, program.mission.origin)?;
+        let (scenario, scenario_name) = (Arc::new(world), lowered.name);
+        Ok(Plan { program, scenario, scenario_name, sources: sources(script) })
+    }
+}
+
+/// A script whose scenario alone is wanted.
+fn other_script(file: &str) -> Result<Script, PlanError> {
+    let script =
+        crate::load(Path::new(file), None, &[]).map_err(|error| PlanError::Asked(error.message, error.help))?;
+    if script.is_sound() {
+        return Ok(script);
+    }
+    let help = format!("`albacore check {file}` tells which");
+    Err(PlanError::Asked(format!("`{file}` has errors"), Some(help)))
+}
+
+/// The mission that is meant, by its name, and ready to run.
+fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String, Program), PlanError> {
+    let names: Vec<&str> = script.missions().map(|m| m.name.as_str()).collect();
+    let stem = Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = match mission {
+        Some(name) if names.contains(&name) => name.to_string(),
+        Some(name) => {
+            let message = format!("`{file}` has no mission `{name}`");
+            return Err(PlanError::Asked(message, suggestion(name, names.iter().copied())));
+        }
+        None if names.contains(&stem.as_str()) => stem,
+        None => match names.as_slice() {
+            [only] => (*only).to_string(),
+            [] => {
+                return Err(PlanError::Asked(
+                    format!("`{file}` has no mission"),
+                    Some("write `mission NAME { … }`".into()),
+                ));
+            }
+            several => {
+                let message = format!("`{file}` has several missions");
+                let help = format!("choose one with `--mission`: {}", several.join(", "));
+                return Err(PlanError::Asked(message, Some(help)));
+            }
+        },
+    };
+    match script.mission(&name) {
+        Some(Ok(program)) => Ok((name, program)),
+        Some(Err(findings)) => Err(PlanError::Script(findings)),
+        None => Err(PlanError::Asked(format!("`{file}` has no mission `{name}`"), None)),
+    }
+}
+
+/// What a script was made from.
+fn sources(script: &Script) -> Vec<SourceDigest> {
+    let digest = |source: &Source| {
+        let mut digest = Digest::new();
+        digest.text(&source.text);
+        SourceDigest { name: source.name.to_string(), digest: digest.value() }
+    };
+    script.sources.iter().map(digest).collect()
+}

@@ -1,0 +1,44 @@
+//! The channels of the vehicles that we know: simulated ones and those at the end of a link deliver the same, so that a mission
+//! runs on either.
+
+use crate::Channel;
+
+/// What is measured, in the order of the channel numbers: name, and how many numbers.
+const CHANNELS: [(&str, usize); 10] = [
+    ("position", 3),    // m north, m east, standard deviation in m an axis
+    ("course", 1),      // rad over ground
+    ("heading", 1),     // rad
+    ("speed", 1),       // m/s over ground
+    ("depth", 1),       // m
+    ("altitude", 1),    // m above the bottom
+    ("water_depth", 1), // m
+    ("flow", 2),        // m/s toward north and east
+    ("chemical", 1),    // ratio of full scale
+    ("battery", 1),     // ratio
+];
+
+/// Where the vehicle believes to be.
+pub const POSITION: u16 = 0;
+/// Its direction over ground.
+pub const COURSE: u16 = 1;
+/// Where its nose points.
+pub const HEADING: u16 = 2;
+/// Its speed over ground.
+pub const SPEED: u16 = 3;
+/// Its depth.
+pub const DEPTH: u16 = 4;
+/// Its height above the bottom.
+pub const ALTITUDE: u16 = 5;
+/// The depth of the water.
+pub const WATER_DEPTH: u16 = 6;
+/// The current.
+pub const FLOW: u16 = 7;
+/// The chemical sensor.
+pub const CHEMICAL: u16 = 8;
+/// What is left in the battery.
+pub const BATTERY: u16 = 9;
+
+/// All of them.
+pub fn all() -> Vec<Channel> {
+    CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect()
+}
