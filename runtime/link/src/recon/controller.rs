@@ -55,7 +55,11 @@ const VERTICAL_GOAL: usize = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Want {
     Listen,
-    Drive { since: u64 },
+    Drive {
+        since: u64,
+    },
+    /// To listen, once the vehicle says that it drives itself.
+    GiveBack,
     Leave,
 }
 
@@ -353,6 +357,7 @@ impl Controller {
         snapshot.control = self.control;
         match (self.want, self.control) {
             (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
+            (Want::GiveBack, _) => self.say(&ToVehicle::Override(false)),
             // The mission stands still, or has not begun: it commands nothing.
             (Want::Drive { .. }, Control::InControl | Control::Suspended) if tick - self.spoke >= KEEP_ALIVE_TICKS => {
                 self.hello();
@@ -369,7 +374,16 @@ impl Controller {
         let mode = self.mode;
         let active = mode.has(Mode::ACTIVE);
         let driven = matches!(self.control, Control::InControl | Control::Suspended);
-        let Want::Drive { since } = self.want else { return Control::Monitoring };
+        let since = match self.want {
+            Want::Drive { since } => since,
+            // In override although we have not asked: it hands over of its own accord, or to another.
+            Want::Listen if active && mode.phase() == Phase::InMission => return Control::Offered,
+            Want::GiveBack if !active && !mode.has(Mode::ENABLED) => {
+                self.want = Want::Listen;
+                return Control::Monitoring;
+            }
+            Want::Listen | Want::GiveBack | Want::Leave => return Control::Monitoring,
+        };
         let suspended = mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over;
         if driven && !suspended && !(active && mode.phase() == Phase::InMission) {
             self.left += 1;
@@ -409,9 +423,19 @@ impl Controller {
 
     /// Asks for control; the following ticks tell how that goes.
     pub fn take_over(&mut self) {
-        if self.want == Want::Listen {
+        if matches!(self.want, Want::Listen | Want::GiveBack) {
             self.want = Want::Drive { since: self.next_tick };
             self.say(&ToVehicle::Override(true));
+        }
+    }
+
+    /// Gives control back and listens on; the following ticks say so again until the vehicle drives itself.
+    pub fn give_back(&mut self) {
+        if let Want::Drive { .. } = self.want {
+            self.want = Want::GiveBack;
+            self.control = Control::Monitoring;
+            self.left = 0;
+            self.say(&ToVehicle::Override(false));
         }
     }
 
@@ -460,7 +484,7 @@ impl Controller {
         match self.want {
             Want::Listen => return true,
             // What was heard before we asked is no answer.
-            Want::Drive { .. } => self.want = Want::Leave,
+            Want::Drive { .. } | Want::GiveBack => self.want = Want::Leave,
             Want::Leave => {
                 if heard.is_some_and(|mode| !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)) {
                     self.control = Control::Released;
