@@ -10,7 +10,7 @@ use super::vehicle_time::{Stamp, VehicleTime};
 use albacore_geometry::math::{atan2, radians};
 use albacore_geometry::{Heading, TangentFrame, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH,
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
 use std::collections::VecDeque;
@@ -288,6 +288,7 @@ impl Controller {
             self.gather(ALTITUDE, &[altitude]);
             self.gather(WATER_DEPTH, &[state.depth + altitude]);
         }
+        self.gather(VEHICLE_MODE, &[f64::from(state.mode.0 & 0x03)]);
         let samples = std::mem::take(&mut self.gathered);
         if self.heard.len() == WAITING_MAX {
             self.heard.pop_front();
