@@ -38,7 +38,7 @@ fn table(mission: &str, cost: &Cost) -> String {
         (format!("{}{times}", held.name), held.bytes, held.place.clone())
     });
     let mut rows: Vec<(String, u64, String)> = held.chain([inputs]).collect();
-    rows.sort_by(|a, b| b.1.cmp(&a.1));
+    rows.sort_by_key(|row| std::cmp::Reverse(row.1));
     let rows = rows.into_iter().map(|(name, size, place)| (bytes(size), percent(size, cost.memory.bytes), name, place));
     section(&mut out, "memory", rows.collect());
     out
