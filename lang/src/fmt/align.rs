@@ -48,7 +48,9 @@ fn places(run: &[Line]) -> Vec<Vec<(usize, usize)>> {
             if places.len() == number {
                 places.push((false, Vec::new()));
             }
+            // Two words without a blank between them stay as close: `flow. toward` would not be a field.
             if index > 0
+                && word.blanks > 0
                 && column <= ALIGNED_MAX
                 && let Some((padded, members)) = places.get_mut(number)
             {

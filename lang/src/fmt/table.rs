@@ -38,7 +38,8 @@ fn cell(line: &Line, end: Option<usize>) -> (usize, usize) {
     let end = end.unwrap_or(line.words.len());
     let begin = line.words[..end].iter().rposition(|word| word.column.is_some()).unwrap_or(0);
     let cell: usize = line.words[begin..end].iter().map(width).sum();
-    (cell, line.indent + line.words[..end].iter().map(width).sum::<usize>())
+    let before = line.words.get(begin).map_or(0, |word| word.blanks);
+    (cell - before, line.indent + line.words[..end].iter().map(width).sum::<usize>())
 }
 
 /// Aligns a column. A row that sticks out, or goes on on another line, is left out of it and of those to its right.
