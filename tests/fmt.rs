@@ -3,7 +3,7 @@
 //! Some hundreds of broken, joined and spoilt scripts are formatted in every run; ten thousand by
 //! `cargo test --release --test fmt -- --ignored`.
 
-#![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose scripts cannot be read has failed")]
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_lang::fmt::format;
 use albacore_lang::source::FileId;
