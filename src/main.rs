@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod clock;
 mod exit;
+mod fmt;
 mod graph;
 mod interruption;
 mod kept;
@@ -33,6 +34,8 @@ enum Verb {
     Run(run::Run),
     /// Check scripts: every error and warning of all files.
     Check(check::Check),
+    /// Lay out scripts in the one style.
+    Fmt(fmt::Fmt),
     /// Run the tests of scripts.
     Test(test::Test),
     /// Drive a simulated vehicle line by line.
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
     let exit = match arguments.verb {
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
+        Verb::Fmt(fmt) => fmt.run(),
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
         Verb::Campaign(campaign) => campaign.run(),

@@ -9,6 +9,7 @@ pub mod diagnostic;
 pub mod diagram;
 mod dimension;
 mod echo;
+pub mod fmt;
 mod foreign;
 mod hir;
 mod loader;

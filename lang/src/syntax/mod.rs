@@ -14,7 +14,8 @@ pub use scan::{Comment, NESTING_MAX};
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
-use grammar::{Grammar, Rule};
+use grammar::Grammar;
+pub(crate) use grammar::Rule;
 use pest::Parser;
 
 /// What the grammar's file becomes.
@@ -102,6 +103,15 @@ pub fn statements(source: &str) -> Vec<&str> {
         escaped = in_text && byte == b'\\' && !escaped;
     }
     statements
+}
+
+/// What the grammar reads in a source without mistakes: every word, in the rules to which it belongs.
+pub(crate) fn concrete<T>(
+    file: FileId,
+    source: &str,
+    build: impl FnOnce(pest::iterators::Pairs<Rule>) -> T,
+) -> Option<T> {
+    Grammar::parse(Rule::file, &scan::scan(file, source).text).ok().map(build)
 }
 
 /// A stretch of a source with blanks for its comments.
