@@ -66,7 +66,10 @@ fn findings(name: &str, text: &str) -> Vec<(&'static str, String)> {
     found
         .into_iter()
         .map(|f| {
-            (f.code, format!("{}: {}", if f.severity == Severity::Error { "error" } else { "warning" }, f.message))
+            (
+                f.code.name(),
+                format!("{}: {}", if f.severity == Severity::Error { "error" } else { "warning" }, f.message),
+            )
         })
         .collect()
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 /// The codes of what is wrong with a mission when something is set.
 fn codes(set: &str) -> Vec<&'static str> {
     let script = load(Path::new("missions/duck_single.alb"), None, &[set.to_string()]).unwrap();
-    script.findings.iter().map(|f| f.code).collect()
+    script.findings.iter().map(|f| f.code.name()).collect()
 }
 
 #[test]

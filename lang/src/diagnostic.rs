@@ -1,5 +1,6 @@
 //! What is wrong with a script: data, rendered elsewhere.
 
+use crate::code::Code;
 use crate::source::Span;
 
 /// How bad it is.
@@ -17,7 +18,7 @@ pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
     /// A stable name, such as `units::mismatch`.
-    pub code: &'static str,
+    pub code: Code,
     /// What is wrong: lower case, no full stop, the user's words in backticks.
     pub message: String,
     /// Places with what to say of each; the first is the place of the finding.
@@ -28,7 +29,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error at a place.
-    pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn error(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             severity: Severity::Error,
             code,
@@ -39,7 +40,7 @@ impl Diagnostic {
     }
 
     /// A warning at a place.
-    pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn warning(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Warning, ..Self::error(code, span, message) }
     }
 

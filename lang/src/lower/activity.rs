@@ -2,6 +2,7 @@
 
 use super::watch::{Timer, positions};
 use super::{Lowering, WORDS_MAX};
+use crate::code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Block, Decl, Expr, Kind, Var};
 use crate::types::Type;
@@ -28,7 +29,7 @@ impl<'a> Lowering<'a> {
             let span = activity.span;
             self.findings.push(
                 Diagnostic::error(
-                    "limits::memory",
+                    code::Code::LimitsMemory,
                     span,
                     format!("the mission `{}` needs too much memory", activity.name),
                 )

@@ -17,6 +17,7 @@ pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 
 pub use scenario::{ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Hir};
 use crate::source::{Sources, Span};
@@ -240,7 +241,7 @@ impl<'a> Lowering<'a> {
             Some(origin) => TangentFrame { origin }.to_point(position),
             None => {
                 self.findings.push(
-                    Diagnostic::error("missions::origin", span, "where is this from the mission's area?")
+                    Diagnostic::error(Code::MissionsOrigin, span, "where is this from the mission's area?")
                         .here("a position on the globe")
                         .help("give the mission an `area` with a position on the globe, or write `point(north: …, east: …)`"),
                 );
