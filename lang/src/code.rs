@@ -1,4 +1,6 @@
 //! The codes of findings: all there are, so that none is misspelt and each can be explained.
+//!
+//! A new one is written here, has a page in `docs/explain`, and a bad script in `tests/diagnostics` that shows it.
 
 use std::fmt;
 
@@ -20,6 +22,14 @@ macro_rules! codes {
             pub const fn name(self) -> &'static str {
                 match self {
                     $($(Code::$variant => concat!(stringify!($group), "::", $name),)*)*
+                }
+            }
+
+            /// What it means, why the language insists, and how such a mistake is mended: Markdown, its title first.
+            pub const fn page(self) -> &'static str {
+                match self {
+                    $($(Code::$variant =>
+                        include_str!(concat!("../../docs/explain/", stringify!($group), "/", $name, ".md")),)*)*
                 }
             }
         }
@@ -81,7 +91,6 @@ codes! {
         MissionsOrigin = "origin",
         MissionsRecovery = "recovery",
         MissionsRequires = "requires",
-        MissionsResult = "result",
         MissionsTwice = "twice",
         MissionsUnrequired = "unrequired",
         MissionsWithin = "within",
@@ -177,7 +186,6 @@ codes! {
         TypesComparison = "comparison",
         TypesCondition = "condition",
         TypesDifference = "difference",
-        TypesEdges = "edges",
         TypesFor = "for",
         TypesHits = "hits",
         TypesIfLet = "if_let",
@@ -199,12 +207,12 @@ codes! {
         TypesQuotient = "quotient",
         TypesRecursive = "recursive",
         TypesResult = "result",
-        TypesRows = "rows",
         TypesSign = "sign",
         TypesStatement = "statement",
         TypesSum = "sum",
         TypesToward = "toward",
         TypesUnknown = "unknown",
+        TypesWalked = "walked",
     }
     units {
         UnitsDeclaration = "declaration",
@@ -213,6 +221,16 @@ codes! {
 }
 
 impl Code {
+    /// The code that is printed so.
+    pub fn named(name: &str) -> Option<Code> {
+        Code::ALL.iter().copied().find(|code| code.name() == name)
+    }
+
+    /// What it means, in one line.
+    pub fn title(self) -> &'static str {
+        self.page().lines().next().unwrap_or_default().trim_start_matches("# ")
+    }
+
     /// What stands before its `::`: the codes of a group are of one matter.
     pub fn group(self) -> &'static str {
         self.name().split_once("::").map_or("", |(group, _)| group)

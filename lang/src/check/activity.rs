@@ -65,7 +65,7 @@ impl<'t> Checker<'t> {
             || kind == Kind::Strategy;
         let body = match kind {
             Kind::AmendsCourse => self.amend(a, &statements),
-            _ if is_table => self.table(id, a, kind, result.as_ref(), &statements),
+            _ if is_table => self.table(id, a, result.as_ref(), &statements),
             _ => {
                 let block = tree::Block { clauses: statements.into_iter().cloned().collect(), span: a.body.span };
                 let block = self.in_block(|c| c.block(&block));

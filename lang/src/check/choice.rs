@@ -42,7 +42,7 @@ impl<'t> Checker<'t> {
             }
             Condition::Let { name, value } => {
                 let value = self.expr(value, None);
-                let present = self.truth(value.clone());
+                let present = self.make(ExprKind::IsPresent(Box::new(value.clone())), Type::Bool, value.span);
                 let then = self.in_block(|c| {
                     let bind = c.bind_present(name, &value);
                     let ty = c.scope.vars[bind].ty.clone();

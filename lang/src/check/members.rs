@@ -105,7 +105,7 @@ impl<'t> Checker<'t> {
             (Type::Area, "center") => self.operation(Builtin::Center, vec![value], Type::Point, span),
             (Type::Area, "edges") => {
                 self.report(
-                    Diagnostic::error(Code::TypesEdges, span, "`edges` can only be walked")
+                    Diagnostic::error(Code::TypesWalked, span, "`edges` can only be walked")
                         .help("write `for edge in area.edges { … }`"),
                 );
                 self.unknown(span)
@@ -308,7 +308,7 @@ impl<'t> Checker<'t> {
             }
             (Type::Area, "rows") => {
                 self.report(
-                    Diagnostic::error(Code::TypesRows, span, "`rows` can only be walked")
+                    Diagnostic::error(Code::TypesWalked, span, "`rows` can only be walked")
                         .help("write `for row in area.rows(step) { … }`"),
                 );
                 self.unknown(span)

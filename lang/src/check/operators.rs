@@ -293,20 +293,7 @@ impl<'t> Checker<'t> {
         let comparable = match (&a.ty, &b.ty) {
             (x, y) if x == y => match x {
                 Quantity(_) | Int | Depth | Altitude => true,
-                Heading => {
-                    if !equality {
-                        self.report(
-                            Diagnostic::error(
-                                Code::TypesOrder,
-                                op.span,
-                                "headings have no order: 350 deg is just left of 10 deg",
-                            )
-                            .help("compare the angle between them: `HEADING - HEADING > 0 deg`"),
-                        );
-                        return self.unknown(span);
-                    }
-                    true
-                }
+                Heading => equality,
                 // Texts are for people: two that read the same may be made of different parts.
                 Text => false,
                 _ => equality,
@@ -318,6 +305,14 @@ impl<'t> Checker<'t> {
             (Optional(_), None) | (None, Optional(_)) if equality => true,
             (x, y) => matches!((x.dimension(), y.dimension()), (Some(d), Some(e)) if d == e),
         };
+        let of_heading = |x: &Type, y: &Type| *x == Heading && (*y == Heading || *y == ANGLE);
+        if !equality && (of_heading(&a.ty, &b.ty) || of_heading(&b.ty, &a.ty)) {
+            self.report(
+                Diagnostic::error(Code::TypesOrder, op.span, "headings have no order: 350 deg is just left of 10 deg")
+                    .help("compare the angle between them: `HEADING - HEADING > 0 deg`"),
+            );
+            return self.unknown(span);
+        }
         if !comparable {
             return self.no_such(op, &a, &b, span);
         }

@@ -5,7 +5,7 @@ use super::facts;
 use super::{Checker, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
+use crate::hir::{self, Body, Builtin, Expr, ExprKind, InputPart, Rule, Target};
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
 
@@ -14,7 +14,6 @@ impl<'t> Checker<'t> {
         &mut self,
         id: usize,
         a: &'t tree::Activity,
-        kind: Kind,
         result: Option<&Type>,
         clauses: &[&'t Clause],
     ) -> Body {
@@ -49,9 +48,6 @@ impl<'t> Checker<'t> {
                     "move it into a behavior, and name that behavior in the table",
                 ),
             }
-        }
-        if kind == Kind::Mission && result.is_some() {
-            self.report(Diagnostic::error(Code::MissionsResult, a.name.span, "a mission finishes with no value"));
         }
         let mut rules = Vec::new();
         for rule in &written {
@@ -356,6 +352,8 @@ fn same_guard(a: &Expr, b: &Expr) -> bool {
     match (&a.kind, &b.kind) {
         (ExprKind::Done, ExprKind::Done) => true,
         (ExprKind::Var(x), ExprKind::Var(y)) => x == y,
+        // All rules of a tick see the same samples.
+        (ExprKind::Input(x, part), ExprKind::Input(y, other)) => x == y && same_part(part, other),
         (ExprKind::Number(x), ExprKind::Number(y)) => x == y,
         (ExprKind::IsPresent(x), ExprKind::IsPresent(y)) => same_guard(x, y),
         // `a or b` holds whenever `a` does.
@@ -365,6 +363,17 @@ fn same_guard(a: &Expr, b: &Expr) -> bool {
         (ExprKind::Do(op, xs), ExprKind::Do(other, ys)) => {
             op == other && xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| same_guard(x, y))
         }
+        _ => false,
+    }
+}
+
+fn same_part(a: &InputPart, b: &InputPart) -> bool {
+    match (a, b) {
+        (InputPart::Value, InputPart::Value)
+        | (InputPart::Age, InputPart::Age)
+        | (InputPart::Peak, InputPart::Peak) => true,
+        (InputPart::Field(x), InputPart::Field(y)) => x == y,
+        (InputPart::Hits(limit, of), InputPart::Hits(other, count)) => of == count && same_guard(limit, other),
         _ => false,
     }
 }
