@@ -99,7 +99,8 @@ impl<'a> Loader<'a> {
         }
         if self.modules.len() >= MODULES_MAX {
             let message = format!("more than {MODULES_MAX} modules are imported");
-            self.findings.push(Diagnostic::error(Code::ImportsMany, wanted.span, message));
+            let finding = Diagnostic::error(Code::ImportsMany, wanted.span, message);
+            self.findings.push(finding.help("declare in one module what several of them hold"));
             return None;
         }
         let name = parts.last().cloned().unwrap_or_default();

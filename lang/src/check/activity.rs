@@ -174,7 +174,8 @@ impl<'t> Checker<'t> {
                     let place = self.scope.vars[earlier].span;
                     self.report(
                         Diagnostic::error(Code::MissionsTwice, span, "a mission has one operating area")
-                            .label(place, "the first"),
+                            .label(place, "the first")
+                            .help("keep one of them"),
                     );
                 }
                 let id = self.declare(name, VarKind::Area, Type::Area);
@@ -209,7 +210,8 @@ impl<'t> Checker<'t> {
             }
             ClauseKind::Recovery { within, block } => {
                 if parts.mission.recovery.is_some() {
-                    self.report(Diagnostic::error(Code::MissionsTwice, span, "a mission has one recovery"));
+                    let finding = Diagnostic::error(Code::MissionsTwice, span, "a mission has one recovery");
+                    self.report(finding.help("keep one of them"));
                 }
                 let within = within.as_ref().map(|e| self.duration(e, "the time of the recovery"));
                 let finish = self.scope.finish.take();
@@ -272,8 +274,11 @@ impl<'t> Checker<'t> {
         };
         let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
         self.not_negative(&value, "the limit");
-        if mission.limits.iter().any(|(c, l, _)| *c == channel.0 && *l == least) {
-            self.report(Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice"));
+        if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel.0 && *l == least) {
+            let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
+                .label(first.span, "the first")
+                .help("keep one of them");
+            self.report(finding);
         }
         mission.limits.push((channel.0, least, value));
     }
@@ -307,11 +312,9 @@ impl<'t> Checker<'t> {
                 }
             };
             if mission.requires.iter().any(|r| r.input == input) {
-                self.report(Diagnostic::error(
-                    Code::MissionsTwice,
-                    name.span,
-                    format!("`{}` is required twice", name.node),
-                ));
+                let message = format!("`{}` is required twice", name.node);
+                let finding = Diagnostic::error(Code::MissionsTwice, name.span, message);
+                self.report(finding.help("keep one of them"));
             }
             let ty = self.hir.inputs[input].ty.clone();
             let at_first = require

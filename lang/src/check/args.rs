@@ -60,11 +60,13 @@ impl<'t> Checker<'t> {
             match (index, &arg.label) {
                 (Some(i), _) if given[i].is_some() => {
                     failed = true;
-                    self.report(Diagnostic::error(
-                        Code::ArgsTwice,
-                        arg.value.span,
-                        format!("`{}` of `{what}` is given twice", params[i].name),
-                    ));
+                    let message = format!("`{}` of `{what}` is given twice", params[i].name);
+                    let finding = Diagnostic::error(Code::ArgsTwice, arg.value.span, message);
+                    let finding = match given[i] {
+                        Some(first) => finding.label(first.span, "the first"),
+                        None => finding,
+                    };
+                    self.report(finding.help("leave one of them out"));
                 }
                 (Some(i), _) => given[i] = Some(&arg.value),
                 (None, Some(label)) => {

@@ -372,7 +372,7 @@ impl<'t> Checker<'t> {
             (None, _) => {
                 self.report(
                     Diagnostic::error(Code::FlowFinish, span, "nothing can be finished here")
-                        .help("`finish` ends a behavior or a strategy"),
+                        .help("leave it out: `finish` ends a behavior, a strategy or a mission"),
                 );
                 return None;
             }
@@ -455,11 +455,9 @@ impl<'t> Checker<'t> {
         let id = self.assignable(&name)?;
         let Type::List(inner, _) = self.scope.vars[id].ty.clone() else {
             let ty = self.type_name(&self.scope.vars[id].ty.clone());
-            self.report(Diagnostic::error(
-                Code::TypesList,
-                base.span,
-                format!("`{what}` changes a list, this is {}", article(&ty)),
-            ));
+            let message = format!("`{what}` changes a list, this is {}", article(&ty));
+            let finding = Diagnostic::error(Code::TypesList, base.span, message).here(format!("`{ty}`"));
+            self.report(finding.help(format!("another value is replaced as a whole: `{} = VALUE`", name.node)));
             return None;
         };
         self.scope.facts.forget(id);

@@ -177,11 +177,9 @@ impl<'t> Checker<'t> {
                     self.types.records[id].fields = fields;
                     if self.holds_itself(id, &mut Vec::new()) {
                         self.types.records[id].fields.clear();
-                        self.report(Diagnostic::error(
-                            Code::TypesRecursive,
-                            name.span,
-                            format!("the record `{}` would hold itself", name.node),
-                        ));
+                        let message = format!("the record `{}` would hold itself", name.node);
+                        let finding = Diagnostic::error(Code::TypesRecursive, name.span, message);
+                        self.report(finding.help("leave out the field that leads back to it"));
                     }
                 }
             }

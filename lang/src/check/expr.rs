@@ -180,11 +180,9 @@ impl<'t> Checker<'t> {
             Type::Unknown => self.unknown(span),
             other => {
                 let name = self.type_name(&other);
-                self.report(Diagnostic::error(
-                    Code::TypesIndex,
-                    base.span,
-                    format!("{} has no elements to index", article(&name)),
-                ));
+                let message = format!("{} has no elements to index", article(&name));
+                let finding = Diagnostic::error(Code::TypesIndex, base.span, message).here(format!("`{name}`"));
+                self.report(finding.help("only a list has elements; what else a value has stands after a dot"));
                 self.unknown(span)
             }
         }

@@ -258,7 +258,8 @@ impl<'t> Checker<'t> {
                     self.unknown(span)
                 }
                 _ => {
-                    self.report(Diagnostic::error(Code::NamesCall, callee.span, "this cannot be called"));
+                    let finding = Diagnostic::error(Code::NamesCall, callee.span, "this cannot be called");
+                    self.report(finding.help("leave out the brackets after it"));
                     self.unknown(span)
                 }
             },
@@ -370,6 +371,12 @@ impl<'t> Checker<'t> {
             (Type::Optional(_), _) => {
                 let finding = self.absent(&value);
                 self.report(finding);
+                self.unknown(span)
+            }
+            (ty, name) if member_names(self, &ty).iter().any(|known| known == name) => {
+                let message = format!("`{name}` of {} takes no arguments", article(&self.type_name(&ty)));
+                let finding = Diagnostic::error(Code::NamesCall, member.span, message);
+                self.report(finding.help(format!("write `.{name}`, without brackets")));
                 self.unknown(span)
             }
             _ => {

@@ -307,10 +307,13 @@ impl<'t> Checker<'t> {
         };
         let of_heading = |x: &Type, y: &Type| *x == Heading && (*y == Heading || *y == ANGLE);
         if !equality && (of_heading(&a.ty, &b.ty) || of_heading(&b.ty, &a.ty)) {
-            self.report(
-                Diagnostic::error(Code::TypesOrder, op.span, "headings have no order: 350 deg is just left of 10 deg")
-                    .help("compare the angle between them: `HEADING - HEADING > 0 deg`"),
-            );
+            let message = "headings have no order: 350 deg is just left of 10 deg";
+            let finding = Diagnostic::error(Code::TypesOrder, op.span, message)
+                .here(format!("`{}`", op.node.symbol()))
+                .label(a.span, format!("`{}`", self.type_name(&a.ty)))
+                .label(b.span, format!("`{}`", self.type_name(&b.ty)))
+                .help("compare the angle between two, `abs(heading - north) < 3 deg`");
+            self.report(finding);
             return self.unknown(span);
         }
         if !comparable {
@@ -398,6 +401,12 @@ impl<'t> Checker<'t> {
             (Binary::Add, Heading, Heading) => {
                 "a heading is turned by an angle: `HEADING + ANGLE`; the angle between two is `HEADING - HEADING`"
                     .into()
+            }
+            (Binary::Mul | Binary::Div, Heading, _) | (Binary::Mul, _, Heading) => {
+                "a heading is turned by an angle: `HEADING + ANGLE`".into()
+            }
+            (Binary::Mul | Binary::Div, Point, _) | (Binary::Mul, _, Point) => {
+                "the way between two points, `POINT - POINT`, is a vector, which can be multiplied and divided".into()
             }
             (Binary::Add | Binary::Sub, Point, Quantity(d)) if *d == Dimension::LENGTH => {
                 "say in which direction: `POINT + LENGTH toward HEADING`".into()

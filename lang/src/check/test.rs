@@ -122,7 +122,9 @@ impl<'t> Checker<'t> {
                     Diagnostic::error(Code::TestsMission, path.span, format!("there is no mission `{}`", path.text()));
                 let finding = match self.suggestion(&path.text(), known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
-                    None => finding,
+                    None => {
+                        finding.help("declare it in this file, or name the module that has it: `run MODULE.NAME(…)`")
+                    }
                 };
                 self.report(finding);
                 None

@@ -33,7 +33,8 @@ impl<'t> Checker<'t> {
         span: Span,
     ) -> Option<Stmt> {
         if let Some(repeated) = timed.repeated {
-            self.report(Diagnostic::error(Code::SyntaxModifier, repeated, "this modifier is written twice"));
+            let finding = Diagnostic::error(Code::SyntaxModifier, repeated, "this modifier is written twice");
+            self.report(finding.help("keep one of them"));
         }
         if let tree::Action::Expr(e) = &timed.action
             && self.called_activity(e).is_none()

@@ -241,9 +241,15 @@ impl<'a> Lowering<'a> {
             Some(origin) => TangentFrame { origin }.to_point(position),
             None => {
                 self.findings.push(
-                    Diagnostic::error(Code::MissionsOrigin, span, "where is this from the mission's area?")
-                        .here("a position on the globe")
-                        .help("give the mission an `area` with a position on the globe, or write `point(north: …, east: …)`"),
+                    Diagnostic::error(
+                        Code::MissionsOrigin,
+                        span,
+                        "this place on the globe lies nowhere in the mission's frame",
+                    )
+                    .here("a position on the globe")
+                    .help(
+                        "give the mission an `area` with a position on the globe, or write `point(north: …, east: …)`",
+                    ),
                 );
                 Point::ORIGIN
             }
