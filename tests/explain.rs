@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// A page is read between two waves.
-const PAGE_LINES_MAX: usize = 45;
+const PAGE_LINES_MAX: usize = 40;
 const PAGE_COLUMNS_MAX: usize = 80;
 
 /// What no single script can show: several files, the command line, the prompt, or a script longer than a page.
@@ -108,6 +108,21 @@ fn every_code_is_shown_in_a_snapshot() {
     let shown: BTreeSet<&str> = snapshots.iter().flat_map(|text| text.lines()).map(str::trim).collect();
     let missing: Vec<&str> = Code::ALL.iter().map(|code| code.name()).filter(|name| !shown.contains(name)).collect();
     assert!(missing.is_empty(), "write a script for each in tests/diagnostics: {missing:?}");
+}
+
+/// Between a code and the next there is a place in a file.
+#[test]
+fn every_message_has_a_place() {
+    for path in files(Path::new("tests/snapshots")).iter().filter(|path| path.contains("/diagnostics__")) {
+        let text = std::fs::read_to_string(path).unwrap();
+        let mut has_place = true;
+        for line in text.lines().skip(4) {
+            let is_code = Code::named(line.trim()).is_some();
+            assert!(!is_code || has_place, "{path}: the message before `{line}` has no place");
+            has_place = !is_code && (has_place || line.contains(".alb:"));
+        }
+        assert!(has_place, "{path}: the last message has no place");
+    }
 }
 
 /// What `albacore explain` says, and how it ends.

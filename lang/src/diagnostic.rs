@@ -14,6 +14,7 @@ pub enum Severity {
 
 /// One finding: a code, a message, at least one place, and where we know it the mend.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,

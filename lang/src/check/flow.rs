@@ -59,7 +59,7 @@ pub(super) fn never_goes_on(stmt: &Stmt) -> bool {
     }
 }
 
-/// Whether guidance or a setpoint never ends by itself, and nothing ends it. Calls are not asked.
+/// Whether guidance, a setpoint or an override never ends by itself, and nothing ends it. Calls are not asked.
 pub(super) fn endless(timed: &Timed) -> bool {
     if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() {
         return false;
@@ -68,6 +68,8 @@ pub(super) fn endless(timed: &Timed) -> bool {
         Action::Guide(Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait, _) => true,
         Action::Guide(guide, args) => loiters_for_ever(*guide, args),
         Action::Call(..) => false,
-        Action::Keep(..) => true,
+        Action::Keep(..) | Action::Watch => true,
+        // Whoever reads its end hears that control was taken back, and goes on.
+        Action::Override(o) => timed.result.is_none() && leaves(&o.block),
     }
 }

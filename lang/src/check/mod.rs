@@ -156,6 +156,15 @@ enum Temporal {
     Rule,
 }
 
+/// A block of a mission in which the vehicle is ours for certain.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Driving {
+    /// That of an `override`, which stands here.
+    Override(Span),
+    /// The recovery of a mission.
+    Recovery,
+}
+
 /// The names that code can see.
 struct Scope {
     module: usize,
@@ -166,6 +175,8 @@ struct Scope {
     facts: Facts,
     /// What `finish` must give: none where it cannot stand.
     finish: Option<Option<Type>>,
+    /// The block in which the vehicle is ours already: neither `watch` nor `override` can stand there.
+    driving: Option<Driving>,
 }
 
 impl Scope {
@@ -178,6 +189,7 @@ impl Scope {
             visible: Vec::new(),
             facts: Facts::default(),
             finish: None,
+            driving: None,
         }
     }
 }

@@ -5,6 +5,7 @@
 //! so that the place of every frame inside its caller's is known.
 
 mod activity;
+mod control;
 mod expr;
 mod prepare;
 mod scenario;
