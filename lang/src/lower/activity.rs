@@ -35,7 +35,11 @@ impl<'a> Lowering<'a> {
                     span,
                     format!("the mission `{}` needs too much memory", activity.name),
                 )
-                .here(format!("{} numbers, more than {WORDS_MAX}", self.program.words))
+                .here(format!(
+                    "{:.1} million numbers, more than {:.1} million",
+                    f64::from(self.program.words) / 1e6,
+                    f64::from(WORDS_MAX) / 1e6
+                ))
                 .help("make its lists shorter, or call fewer behaviors from one another"),
             );
         }
