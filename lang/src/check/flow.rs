@@ -6,7 +6,7 @@ use crate::source::Span;
 use albacore_program::Guide;
 
 /// Whether every path through a block takes time, or leaves it for good.
-pub(super) fn takes_time(block: &Block) -> bool {
+pub(crate) fn takes_time(block: &Block) -> bool {
     block.stmts.iter().any(|stmt| match &stmt.kind {
         StmtKind::Timed(_) | StmtKind::Loop(_) | StmtKind::Finish(_) | StmtKind::Abort(_) => true,
         StmtKind::If(_, a, b) => takes_time(a) && takes_time(b),

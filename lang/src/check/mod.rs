@@ -25,6 +25,7 @@ mod test;
 mod timed;
 mod written;
 
+pub(crate) use flow::takes_time;
 pub use params::Override;
 pub use table::never_ends;
 
