@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod clock;
 mod exit;
+mod explain;
 mod fmt;
 mod graph;
 mod interruption;
@@ -47,6 +48,8 @@ enum Verb {
     Campaign(campaign::Campaign),
     /// Draw the switching diagram of a strategy.
     Graph(graph::Graph),
+    /// Explain the code of an error or a warning.
+    Explain(explain::Explain),
     /// Serve a simulated vehicle at the far end of a link.
     Vehicle(vehicle::Vehicle),
 }
@@ -69,6 +72,7 @@ fn main() -> ExitCode {
         Verb::Repl(repl) => repl.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
+        Verb::Explain(explain) => explain.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
     };
     ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })

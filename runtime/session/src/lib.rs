@@ -16,11 +16,12 @@ mod tests;
 mod world;
 
 pub use albacore_diagram as diagram;
-pub use albacore_lang::Script;
+pub use albacore_lang::code::Code;
 pub use albacore_lang::cost::Cost;
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::fmt::format;
 pub use albacore_lang::source::{FileId, Source, Sources, Span};
+pub use albacore_lang::{Script, nearest};
 pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{LinkError, Transport, Url, serve};
 pub use albacore_machine::Outcome;
