@@ -13,6 +13,9 @@ pub struct Check {
     /// Change a parameter first: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Tell also what is worth knowing and nothing wrong: rules of one behavior that can hold in the same tick.
+    #[arg(long)]
+    notes: bool,
 }
 
 impl Check {
@@ -23,8 +26,9 @@ impl Check {
             match albacore_session::load(path, None, &self.set) {
                 Ok(script) => {
                     let mut findings = script.findings.clone();
-                    if script.is_sound() {
-                        findings.extend(albacore_session::findings(&script));
+                    findings.extend(albacore_session::findings(&script));
+                    if self.notes {
+                        findings.extend(script.notes());
                     }
                     albacore_session::settle(&mut findings);
                     message::findings(&findings, &script.sources);

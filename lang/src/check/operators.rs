@@ -43,7 +43,7 @@ impl<'t> Checker<'t> {
                     self.report(finding);
                     return self.unknown(span);
                 }
-                match op.node {
+                let value = match op.node {
                     Binary::Add => self.sum(op, a, b, span),
                     Binary::Sub => self.difference(op, a, b, span),
                     Binary::Mul => self.product(op, a, b, span),
@@ -51,7 +51,8 @@ impl<'t> Checker<'t> {
                     Binary::Pow => self.power(op, a, b, span),
                     Binary::Toward => self.toward(op, a, b, span),
                     _ => self.comparison(op, a, b, span),
-                }
+                };
+                self.sensible_result(value)
             }
         }
     }
@@ -319,6 +320,19 @@ impl<'t> Checker<'t> {
         };
         if !comparable {
             return self.no_such(op, &a, &b, span);
+        }
+        // `p != none` is `p` as a condition, and narrows as that does.
+        if let Some(optional) = match (&a.ty, &b.ty) {
+            (Optional(_), None) => Some(a.clone()),
+            (None, Optional(_)) => Some(b.clone()),
+            _ => Option::None,
+        } {
+            let present = self.truth(Expr { span, ..optional });
+            return if op.node == Binary::Eq {
+                self.operation(Builtin::Not, vec![present], Bool, span)
+            } else {
+                present
+            };
         }
         self.sensible_ratio(&a, &b);
         let (a, b) = match (a.ty.is_optional(), b.ty.is_optional()) {

@@ -3,8 +3,11 @@
 mod channels;
 mod inputs;
 mod limits;
+mod overlaps;
+mod places;
 mod unreached;
 
+pub use overlaps::check as overlaps;
 pub use unreached::check as unreached;
 
 pub use inputs::read as inputs_read;
@@ -16,5 +19,6 @@ use crate::hir::Hir;
 pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let mut findings = channels::check(hir, mission);
     findings.extend(inputs::check(hir, mission));
+    findings.extend(places::check(hir, mission));
     findings
 }

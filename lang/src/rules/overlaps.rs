@@ -1,0 +1,96 @@
+//! Rules of one behavior that can hold in the same tick: the order of the table decides, and its reader may want to know.
+
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Body, Builtin, Expr, ExprKind, Hir, Interval, Rule, Target, same_condition};
+
+/// The notes on a switching table, one for each two rules.
+pub fn check(hir: &Hir, activity: usize) -> Vec<Diagnostic> {
+    let Body::Table { behaviors, rules, .. } = &hir.activities[activity].body else { return Vec::new() };
+    let mut notes = Vec::new();
+    for (i, first) in rules.iter().enumerate() {
+        for second in &rules[i + 1..] {
+            let shared = first.sources.iter().find(|source| second.sources.contains(source));
+            if let Some(&source) = shared.filter(|_| !same_outcome(first, second) && !exclude(&first.on, &second.on)) {
+                notes.push(note(&hir.activities[behaviors[source]].name, first, second));
+            }
+        }
+    }
+    notes
+}
+
+fn note(name: &str, first: &Rule, second: &Rule) -> Diagnostic {
+    // What can hold only when the body is done is tried after it, and all else before it, wherever it stands.
+    let (before, after) = match (needs_done(&first.on), needs_done(&second.on)) {
+        (true, false) => (second, first),
+        _ => (first, second),
+    };
+    Diagnostic::note("rules::overlap", before.on_span, format!("two rules of `{name}` can hold in the same tick"))
+        .here("this one then decides")
+        .label(after.on_span, "and this one is not tried")
+        .help("nothing is wrong if that is meant; if not, put the other first or say `and not …` in it")
+}
+
+/// Whether a guard holds only when the body has come to its end.
+fn needs_done(guard: &Expr) -> bool {
+    match &guard.kind {
+        ExprKind::Done => true,
+        ExprKind::Do(Builtin::And, operands) => operands.iter().any(needs_done),
+        ExprKind::Do(Builtin::Or, operands) => operands.iter().all(needs_done),
+        _ => false,
+    }
+}
+
+/// Whether it makes no difference which of two rules fires.
+fn same_outcome(a: &Rule, b: &Rule) -> bool {
+    let same_target = match (&a.target, &b.target) {
+        (Target::Behavior(x), Target::Behavior(y)) => x == y,
+        (Target::Finish(None), Target::Finish(None)) => true,
+        (Target::Finish(Some(x)), Target::Finish(Some(y))) => same_condition(x, y),
+        _ => false,
+    };
+    same_target && a.back == b.back && a.effect.is_none() && b.effect.is_none()
+}
+
+/// Whether two guards surely never hold at once.
+fn exclude(a: &Expr, b: &Expr) -> bool {
+    let (parts, others) = (conjuncts(a), conjuncts(b));
+    parts.iter().any(|x| others.iter().any(|y| contrary(x, y) || contrary(y, x) || apart(x, y)))
+}
+
+/// The conditions all of which hold when a guard does.
+fn conjuncts(guard: &Expr) -> Vec<&Expr> {
+    match &guard.kind {
+        ExprKind::Do(Builtin::And, operands) => operands.iter().flat_map(conjuncts).collect(),
+        ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) => conjuncts(inner),
+        _ => vec![guard],
+    }
+}
+
+/// Whether one says that the other does not hold.
+fn contrary(a: &Expr, b: &Expr) -> bool {
+    match (&a.kind, &b.kind) {
+        (ExprKind::Do(Builtin::Not, inner), _) => inner.iter().any(|inner| same_condition(inner, b)),
+        // `x < y` beside `y < x` or `y <= x`.
+        (ExprKind::Do(Builtin::Lt, xs), ExprKind::Do(Builtin::Lt | Builtin::Le, ys)) => {
+            same_condition(&xs[0], &ys[1]) && same_condition(&xs[1], &ys[0])
+        }
+        _ => false,
+    }
+}
+
+/// Whether two comparisons of one thing with numbers leave it no number.
+fn apart(a: &Expr, b: &Expr) -> bool {
+    let (Some((x, p)), Some((y, q))) = (compared(a), compared(b)) else { return false };
+    same_condition(x, y) && (p.high < q.low || q.high < p.low)
+}
+
+/// What a comparison says of the side that is no constant.
+fn compared(e: &Expr) -> Option<(&Expr, Interval)> {
+    let ExprKind::Do(Builtin::Lt | Builtin::Le, operands) = &e.kind else { return None };
+    let (low, high) = (&operands[0], &operands[1]);
+    match (low.range.constant(), high.range.constant()) {
+        (None, Some(bound)) => Some((low, Interval { high: bound, ..Interval::ANY })),
+        (Some(bound), None) => Some((high, Interval { low: bound, ..Interval::ANY })),
+        _ => None,
+    }
+}
