@@ -22,6 +22,8 @@ fn values_from_outside_are_checked() {
         ("cage.band=3m", &[]),
         ("cage.band=300m", &["ranges::outside"]),
         ("cpt_2005.lambda=6s", &["set::unreached"]),
+        ("trace_plume.lambda=6s", &["set::given"]),
+        ("trace_plume.threshold=5%", &[]),
         ("nothing.lambda=6s", &["set::unknown"]),
     ] {
         assert_eq!(codes(set), expected, "{set}");

@@ -106,7 +106,9 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
         .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))
         .map(|(_, id)| *id)
         .collect();
-    findings.extend(rules::unreached(&checked.hir, &meant, &checked.overrides));
+    let unreached = rules::unreached(&checked.hir, &meant, &checked.overrides).into_iter();
+    // A value that is wrong has been told of: that it would change nothing is no second mistake.
+    findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
     Script { sources: sources.clone(), findings, hir: checked.hir, types: checked.types, missions, overrides, broken }
 }

@@ -137,9 +137,8 @@ impl Text {
 
     /// The types of the names that an item's words may stand for: its parameters, and what is declared in it with a type.
     fn types_at(&self, index: usize) -> BTreeMap<&str, &str> {
-        let at_margin = |w: &Word| w.start == 0 || self.text.as_bytes()[w.start - 1] == b'\n';
         let heads = ["behavior", "strategy", "overlay", "mission", "fn", "scenario", "test", "record", "enum", "use"];
-        let is_head = |i: usize| at_margin(&self.words[i]) && heads.contains(&self.word(i));
+        let is_head = |i: usize| self.is_at_margin(i) && heads.contains(&self.word(i));
         let from = (0..=index).rev().find(|&i| is_head(i)).unwrap_or(0);
         let to = (index + 1..self.words.len()).find(|&i| is_head(i)).unwrap_or(self.words.len());
         let mut types = BTreeMap::new();
@@ -153,6 +152,17 @@ impl Text {
             }
         }
         types
+    }
+
+    fn is_in_function(&self, index: usize) -> bool {
+        let mut heads =
+            (0..=index).rev().filter(|&i| self.is_at_margin(i) && self.word(i) != "}" && self.word(i) != ")");
+        heads.next().is_some_and(|i| self.word(i) == "fn")
+    }
+
+    fn is_at_margin(&self, index: usize) -> bool {
+        let start = self.words[index].start;
+        start == 0 || self.text.as_bytes()[start - 1] == b'\n'
     }
 
     /// All mix-ups of a kind.
@@ -211,7 +221,7 @@ impl Text {
         let after = self.word(i.wrapping_sub(1));
         let setpoint = matches!(after, "at" | "keep" | "with" | "," | "{")
             || self.words[i].line != self.words[i.saturating_sub(1)].line;
-        if is_place || matches!(after, "." | "memory" | "let" | "->" | "fn" | "behavior" | "area") {
+        if is_place || matches!(after, "." | "memory" | "let" | "->" | "fn" | "behavior" | "area" | "amends") {
             return;
         }
         let types = self.types_at(i);
@@ -226,7 +236,10 @@ impl Text {
         let input = inputs.iter().find(|(input, _)| *input == name && !setpoint).map(|(_, ty)| *ty);
         let Some(ty) = types.get(name).copied().or(input) else { return };
         let others = types.iter().filter(|(other, _)| **other != name).map(|(other, ty)| (*other, *ty));
-        let others: Vec<(&str, &str)> = others.chain(inputs.iter().copied()).collect();
+        // A function reads no inputs, and a line cannot speak of what it declares.
+        let inputs = inputs.iter().copied().filter(|_| !self.is_in_function(i));
+        let declared = self.word(self.words.partition_point(|w| w.line < self.words[i].line) + 1);
+        let others: Vec<(&str, &str)> = others.chain(inputs).filter(|(other, _)| *other != declared).collect();
         let told = |kind: Kind, other: &str| match kind {
             Kind::DepthForAltitude => matches!((ty, other), ("Depth", "Altitude") | ("Altitude", "Depth")),
             Kind::HeadingForAngle => matches!((ty, other), ("Heading", "Angle") | ("Angle", "Heading")),

@@ -1,6 +1,7 @@
 //! Names, types, dimensions and frames: from trees to the checked program, with every mistake of every file.
 
 mod activity;
+mod advice;
 mod args;
 mod body;
 mod choice;

@@ -88,7 +88,9 @@ impl Walk<'_> {
                     if let Kind::Sets(channel) = self.hir.activities[*id].kind {
                         self.own(&mut owners, channel, Owner::Overlay(*place), *place);
                     }
+                    self.path.push((self.hir.activities[*id].full_name.clone(), *place));
                     self.called(args, |walk| walk.overlay(*id));
+                    self.path.pop();
                 }
             }
         }

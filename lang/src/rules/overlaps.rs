@@ -3,31 +3,37 @@
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Body, Builtin, Expr, ExprKind, Hir, Interval, Rule, Target, same_condition};
 
-/// The notes on a switching table, one for each two rules.
+/// The notes on a switching table: one for each rule that comes before others.
 pub fn check(hir: &Hir, activity: usize) -> Vec<Diagnostic> {
     let Body::Table { behaviors, rules, .. } = &hir.activities[activity].body else { return Vec::new() };
-    let mut notes = Vec::new();
-    for (i, first) in rules.iter().enumerate() {
-        for second in &rules[i + 1..] {
-            let shared = first.sources.iter().find(|source| second.sources.contains(source));
-            if let Some(&source) = shared.filter(|_| !same_outcome(first, second) && !exclude(&first.on, &second.on)) {
-                notes.push(note(&hir.activities[behaviors[source]].name, first, second));
-            }
-        }
-    }
-    notes
+    let pairs: Vec<(&Rule, &Rule, usize)> = pairs(rules).collect();
+    let note = |rule: &Rule| {
+        let mut after = pairs.iter().filter(|(before, ..)| before.on_span == rule.on_span).peekable();
+        let &&(_, _, source) = after.peek()?;
+        let name = &hir.activities[behaviors[source]].name;
+        let note =
+            Diagnostic::note("rules::overlap", rule.on_span, format!("rules of `{name}` can hold in the same tick"))
+                .here("this one then decides")
+                .help("nothing is wrong if that is meant; if not, put the other first or say `and not …` in it");
+        Some(after.fold(note, |note, (_, after, _)| note.label(after.on_span, "this one is then not tried")))
+    };
+    rules.iter().filter_map(note).collect()
 }
 
-fn note(name: &str, first: &Rule, second: &Rule) -> Diagnostic {
-    // What can hold only when the body is done is tried after it, and all else before it, wherever it stands.
-    let (before, after) = match (needs_done(&first.on), needs_done(&second.on)) {
-        (true, false) => (second, first),
-        _ => (first, second),
-    };
-    Diagnostic::note("rules::overlap", before.on_span, format!("two rules of `{name}` can hold in the same tick"))
-        .here("this one then decides")
-        .label(after.on_span, "and this one is not tried")
-        .help("nothing is wrong if that is meant; if not, put the other first or say `and not …` in it")
+/// Each two rules of one behavior that can hold at once and differ: the one that is tried first, the other, the behavior.
+fn pairs(rules: &[Rule]) -> impl Iterator<Item = (&Rule, &Rule, usize)> {
+    let all = rules.iter().enumerate().flat_map(|(i, first)| rules[i + 1..].iter().map(move |second| (first, second)));
+    all.filter_map(|(first, second)| {
+        let source = *first.sources.iter().find(|source| second.sources.contains(source))?;
+        if same_outcome(first, second) || exclude(&first.on, &second.on) {
+            return None;
+        }
+        // What can hold only when the body is done is tried after it, and all else before it, wherever it stands.
+        Some(match (needs_done(&first.on), needs_done(&second.on)) {
+            (true, false) => (second, first, source),
+            _ => (first, second, source),
+        })
+    })
 }
 
 /// Whether a guard holds only when the body has come to its end.

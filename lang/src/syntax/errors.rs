@@ -64,10 +64,12 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             _ => Diagnostic::error("syntax::clause", span, format!("`{word}` begins no statement")),
         };
         if OPERATOR_WORDS.contains(&word.as_str()) {
+            let mend = match super::scan::goes_on_after(&word) {
+                true => format!("end that line with `{word}`, and it goes on here"),
+                false => "write this at its end".to_string(),
+            };
             return Diagnostic::error("syntax::clause", span, format!("`{word}` stands at the beginning of a line"))
-                .help(format!(
-                    "the line before ended its statement: end that line with `{word}`, and it goes on here"
-                ));
+                .help(format!("the line before has ended its statement: {mend}"));
         }
         if let Some(help) = foreign::help(&word) {
             return finding.help(help);
