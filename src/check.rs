@@ -1,5 +1,7 @@
 //! `albacore check`: every error and warning of all files.
 
+mod cost;
+
 use crate::exit::Exit;
 use crate::message;
 use std::path::PathBuf;
@@ -16,6 +18,9 @@ pub struct Check {
     /// Tell also what is worth knowing and nothing wrong: rules of one behavior that can hold in the same tick.
     #[arg(long)]
     notes: bool,
+    /// Tell what each mission costs: the most work of one tick and the memory, and where they come from.
+    #[arg(long)]
+    cost: bool,
 }
 
 impl Check {
@@ -34,6 +39,8 @@ impl Check {
                     message::findings(&findings, &script.sources);
                     if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
                         exit = Exit::Script;
+                    } else if self.cost {
+                        cost::tell(&script);
                     }
                 }
                 Err(error) => {

@@ -5,6 +5,7 @@
 
 mod broken;
 mod check;
+pub mod cost;
 pub mod diagnostic;
 pub mod diagram;
 mod dimension;
@@ -27,6 +28,7 @@ use albacore_geometry::Geodetic;
 use albacore_program::Program;
 use broken::Broken;
 use check::Override;
+use cost::Cost;
 use diagnostic::Diagnostic;
 use echo::Echoes;
 use loader::{Loader, module_name};
@@ -156,6 +158,12 @@ impl Script {
     pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
         Some(lower::mission(&self.hir, &self.types, &self.sources, *id))
+    }
+
+    /// What a mission costs.
+    pub fn cost(&self, name: &str) -> Option<Result<Cost, Vec<Diagnostic>>> {
+        let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
+        Some(cost::of(&self.hir, &self.types, &self.sources, *id))
     }
 
     /// The tests of the script's own file, ready to run.

@@ -9,6 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Inputs that the machine reads without being asked: to go over ground in moving water, and to hold a vertical limit.
 const BY_THE_MACHINE: [&str; 3] = ["flow", "depth", "water_depth"];
 
+/// Inputs that are never too old: they tell how things stand with the vehicle, and that of one not heard from as well.
+const OF_THE_LINK: [&str; 2] = ["control", "vehicle_mode"];
+
 struct Walk<'a> {
     hir: &'a Hir,
     seen: BTreeSet<usize>,
@@ -23,10 +26,10 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let mut findings = Vec::new();
     let read = read(hir, mission);
     for (&input, &span) in &read {
-        if parts.requires.iter().any(|r| r.input == input) {
+        let name = &hir.inputs[input].name;
+        if parts.requires.iter().any(|r| r.input == input) || OF_THE_LINK.contains(&name.as_str()) {
             continue;
         }
-        let name = &hir.inputs[input].name;
         findings.push(
             Diagnostic::warning(
                 "missions::unrequired",
@@ -114,7 +117,7 @@ impl Walk<'_> {
                     self.note("course", stmt.span);
                     self.note("heading", stmt.span);
                 }
-                Action::Guide(Guide::Wait, _) => {}
+                Action::Guide(Guide::Wait, _) | Action::Watch | Action::Override(_) => {}
                 _ => self.note("heading", stmt.span),
             },
             _ => {}

@@ -1,12 +1,15 @@
-//! What only a whole mission shows: every statement has its setpoints, every input that is read is required.
+//! What only a whole mission shows: every statement has its setpoints and stands where the vehicle is ours, every input that
+//! is read is required.
 
 mod channels;
+mod control;
 mod inputs;
 mod limits;
 mod overlaps;
 mod places;
 mod unreached;
 
+pub use control::first_watch;
 pub use overlaps::check as overlaps;
 pub use unreached::check as unreached;
 
@@ -18,6 +21,7 @@ use crate::hir::Hir;
 /// The findings of a mission with all that it calls.
 pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let mut findings = channels::check(hir, mission);
+    findings.extend(control::check(hir, mission));
     findings.extend(inputs::check(hir, mission));
     findings.extend(places::check(hir, mission));
     findings
