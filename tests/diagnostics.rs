@@ -1,5 +1,7 @@
 //! What a person reads when a script is wrong: one script for each kind of mistake, its messages the snapshot.
 
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
 use std::path::Path;
 use std::process::{Command, Stdio};
 

@@ -30,13 +30,16 @@ struct Owners {
     speed: Owner,
 }
 
+/// A way to an activity, as far as it makes a difference: who owns what there, and the bounds of what the call gives.
+type Way = (usize, Owners, Vec<(u64, u64)>);
+
 struct Walk<'a> {
     hir: &'a Hir,
     /// The mission's limits.
     limits: Vec<Limit>,
     /// The calls that lead here.
     path: Vec<(String, Span)>,
-    seen: BTreeSet<(usize, Owners, Vec<(u64, u64)>)>,
+    seen: BTreeSet<Way>,
     /// What is known of the parameters of the activity that is walked, from the call that leads to it.
     given: Vec<Interval>,
     findings: Vec<Diagnostic>,
