@@ -15,6 +15,9 @@ pub struct Check {
     /// Change a parameter first: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Tell also what is worth knowing and nothing wrong: rules of one behavior that can hold in the same tick.
+    #[arg(long)]
+    notes: bool,
     /// Tell what each mission costs: the most work of one tick and the memory, and where they come from.
     #[arg(long)]
     cost: bool,
@@ -29,8 +32,9 @@ impl Check {
             match albacore_session::load(path, None, &self.set) {
                 Ok(script) => {
                     let mut findings = script.findings.clone();
-                    if script.is_sound() {
-                        findings.extend(albacore_session::findings(&script));
+                    findings.extend(albacore_session::findings(&script));
+                    if self.notes {
+                        findings.extend(script.notes());
                     }
                     albacore_session::settle(&mut findings);
                     message::findings(&findings, &script.sources);

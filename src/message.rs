@@ -86,6 +86,7 @@ impl miette::Diagnostic for Shown<'_> {
             (true, _) => miette::Severity::Advice,
             (_, Severity::Error) => miette::Severity::Error,
             (_, Severity::Warning) => miette::Severity::Warning,
+            (_, Severity::Note) => miette::Severity::Advice,
         })
     }
 
@@ -147,13 +148,15 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
         text.push_str(&format!("and {} more\n\n", findings.len() - drawn.len()));
     }
     let count = |severity: Severity| findings.iter().filter(|f| f.severity == severity).count();
-    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
     let several = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    match (errors, warnings) {
-        (0, 0) => {}
-        (0, w) => text.push_str(&format!("{}\n", several(w, "warning"))),
-        (e, 0) => text.push_str(&format!("{}\n", several(e, "error"))),
-        (e, w) => text.push_str(&format!("{}, {}\n", several(e, "error"), several(w, "warning"))),
+    let counted: Vec<String> = [(Severity::Error, "error"), (Severity::Warning, "warning"), (Severity::Note, "note")]
+        .into_iter()
+        .map(|(severity, what)| (count(severity), what))
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, what)| several(n, what))
+        .collect();
+    if !counted.is_empty() {
+        text.push_str(&format!("{}\n", counted.join(", ")));
     }
     write(&text);
 }

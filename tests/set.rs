@@ -23,6 +23,8 @@ fn values_from_outside_are_checked() {
         ("cage.band=3m", &[]),
         ("cage.band=300m", &["ranges::outside"]),
         ("cpt_2005.lambda=6s", &["set::unreached"]),
+        ("trace_plume.lambda=6s", &["set::given"]),
+        ("trace_plume.threshold=5%", &[]),
         ("nothing.lambda=6s", &["set::unknown"]),
     ] {
         assert_eq!(codes(set), expected, "{set}");
@@ -32,7 +34,7 @@ fn values_from_outside_are_checked() {
 /// What a person reads when a value from outside is wrong.
 #[test]
 fn wrong_values_are_told() {
-    let told = ["lambda:6s", "lamda=6s", "cpt_2005.lambda=6s"].map(|set| {
+    let told = ["lambda:6s", "lamda=6s", "cpt_2005.lambda=6s", "trace_plume.lambda=6s"].map(|set| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
         command.args(["check", "missions/duck_single.alb", "--set", set]).env("NO_COLOR", "1").stdin(Stdio::null());
         String::from_utf8(command.output().unwrap().stderr).unwrap()

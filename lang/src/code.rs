@@ -82,6 +82,7 @@ codes! {
         LimitsCalls = "calls",
         LimitsConstants = "constants",
         LimitsMemory = "memory",
+        LimitsRange = "range",
         LimitsSetpoint = "setpoint",
     }
     missions {
@@ -92,6 +93,7 @@ codes! {
         MissionsRecovery = "recovery",
         MissionsRequires = "requires",
         MissionsTwice = "twice",
+        MissionsUnread = "unread",
         MissionsUnrequired = "unrequired",
         MissionsWithin = "within",
     }
@@ -105,6 +107,7 @@ codes! {
         NamesShadowed = "shadowed",
         NamesTwice = "twice",
         NamesUnknown = "unknown",
+        NamesUnused = "unused",
         NamesValue = "value",
     }
     prompt {
@@ -129,6 +132,7 @@ codes! {
         RulesDone = "done",
         RulesEnding = "ending",
         RulesForever = "forever",
+        RulesOverlap = "overlap",
         RulesParams = "params",
         RulesResult = "result",
         RulesShadowed = "shadowed",
@@ -138,12 +142,14 @@ codes! {
     }
     scenarios {
         ScenariosClause = "clause",
+        ScenariosOutside = "outside",
         ScenariosTwice = "twice",
         ScenariosUnknown = "unknown",
         ScenariosWorld = "world",
     }
     set {
         SetForm = "form",
+        SetGiven = "given",
         SetUnknown = "unknown",
         SetUnreached = "unreached",
     }

@@ -10,6 +10,8 @@ pub enum Severity {
     Error,
     /// The script can run, and is probably not what its author meant.
     Warning,
+    /// Nothing is wrong: something that its author may want to know, when he asks.
+    Note,
 }
 
 /// One finding: a code, a message, at least one place, and where we know it the mend.
@@ -43,6 +45,11 @@ impl Diagnostic {
     /// A warning at a place.
     pub fn warning(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Warning, ..Self::error(code, span, message) }
+    }
+
+    /// A note at a place.
+    pub fn note(code: Code, span: Span, message: impl Into<String>) -> Self {
+        Diagnostic { severity: Severity::Note, ..Self::error(code, span, message) }
     }
 
     /// Says something of the finding's own place.

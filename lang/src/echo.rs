@@ -64,17 +64,13 @@ impl<'a> Echoes<'a> {
     /// Whether a finding may only miss what could not be read.
     pub fn holds_back(&self, finding: &Diagnostic, sources: &Sources) -> bool {
         let span = finding.span();
-        let mut items = self.inside.iter().filter(|(item, _)| holds(**item, span));
+        let mut items = self.inside.iter().filter(|(item, _)| item.holds(span));
         if NAMES.contains(&finding.code) {
             let known: Vec<_> = items.map(|(_, names)| names).chain([&self.anywhere]).collect();
             return words(sources.text(span)).any(|name| known.iter().any(|names| names.contains(name)));
         }
         PARTS.contains(&finding.code) && items.next().is_some()
     }
-}
-
-fn holds(outer: Span, inner: Span) -> bool {
-    outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
 }
 
 /// The names that a part of a declaration may declare: a word before them says so, or a type after them.

@@ -3,6 +3,7 @@
 //! [`load`] reads a file and all it imports (`syntax`), checks them (`check`: names, types, dimensions, rules), and gives a
 //! [`Script`], from which missions and scenarios are lowered (`lower`) to what the machine executes.
 
+mod broken;
 mod check;
 pub mod code;
 pub mod cost;
@@ -28,6 +29,7 @@ pub use suggest::{help as suggestion, nearest};
 use crate::code::Code;
 use albacore_geometry::Geodetic;
 use albacore_program::Program;
+use broken::Broken;
 use check::Override;
 use cost::Cost;
 use diagnostic::Diagnostic;
@@ -63,6 +65,7 @@ pub struct Script {
     types: types::TypeTable,
     missions: Vec<(MissionInfo, usize)>,
     overrides: Vec<Override>,
+    broken: Broken,
 }
 
 /// Reads and checks a script. `set` changes parameters: `lambda=6s` of the mission or its scenario, `cpt_2005.beta=30deg`
@@ -95,26 +98,48 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
             missions.extend(id.map(|id| (info, id)));
         }
     }
-    // A whole mission is looked at when its parts are sound: half-understood parts would be found wanting twice.
-    if findings.iter().all(|f| f.severity != diagnostic::Severity::Error) {
-        for (_, id) in &missions {
-            findings.extend(rules::check(&checked.hir, *id));
-        }
+    let is_error = |f: &&Diagnostic| f.severity == diagnostic::Severity::Error;
+    let errors: Vec<Span> = findings.iter().filter(is_error).map(Diagnostic::span).collect();
+    findings.extend(checked.unused.into_iter().filter(|f| !errors.iter().any(|e| e.file == f.span().file)));
+    // A mission is looked at as a whole when its parts are sound: half-understood parts would be found wanting twice.
+    let broken = Broken::of(modules, &errors, &checked.hir);
+    for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(&checked.hir, *id)) {
+        findings.extend(rules::check(&checked.hir, *id));
     }
     let meant: Vec<usize> = missions
         .iter()
         .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))
         .map(|(_, id)| *id)
         .collect();
-    findings.extend(rules::unreached(&checked.hir, &meant, &checked.overrides));
+    let unreached = rules::unreached(&checked.hir, &meant, &checked.overrides).into_iter();
+    // A value that is wrong has been told of: that it would change nothing is no second mistake.
+    findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
-    Script { sources: sources.clone(), findings, hir: checked.hir, types: checked.types, missions, overrides }
+    Script { sources: sources.clone(), findings, hir: checked.hir, types: checked.types, missions, overrides, broken }
 }
 
 impl Script {
     /// Whether it can run.
     pub fn is_sound(&self) -> bool {
         self.findings.iter().all(|f| f.severity != diagnostic::Severity::Error)
+    }
+
+    /// What is worth knowing and nothing wrong: rules of the script's own file that can hold in the same tick.
+    pub fn notes(&self) -> Vec<Diagnostic> {
+        let own = |id: &usize| self.hir.activities[*id].span.file == ENTRY && !self.broken.reaches(&self.hir, *id);
+        (0..self.hir.activities.len()).filter(own).flat_map(|id| rules::overlaps(&self.hir, id)).collect()
+    }
+
+    /// Whether a mission has no error, nor anything that it calls: it can be looked at although others have some.
+    pub fn mission_is_sound(&self, name: &str) -> bool {
+        let found = self.missions.iter().find(|(info, _)| info.name == name);
+        found.is_some_and(|(_, id)| !self.broken.reaches(&self.hir, *id))
+    }
+
+    /// Whether a scenario has no error.
+    pub fn scenario_is_sound(&self, name: &str) -> bool {
+        let found = self.hir.scenarios.iter().find(|s| s.name == name);
+        found.is_some_and(|s| !self.broken.holds(s.span))
     }
 
     /// The missions of the script's own file.

@@ -16,6 +16,9 @@ mission example in calm within 1 h {
     with depth 3 m, speed 1 m/s
 ";
 
+/// What is no fault of an example: it shows one thing, and reads little of what it declares and of what stands around it.
+pub const OF_A_FRAGMENT: [&str; 2] = ["names::unused", "missions::unread"];
+
 /// An example: the words after its fence, where it stands, and its text.
 pub struct Example {
     pub marks: Vec<String>,
@@ -28,7 +31,8 @@ impl Example {
     pub fn findings(&self) -> Vec<(&'static str, String)> {
         let in_body = self.marks.get(1).is_some_and(|mark| mark == "statements");
         let text = if in_body { format!("{BEFORE}{}}}\n", self.text) } else { self.text.clone() };
-        findings(&self.place.replace(|c: char| !c.is_alphanumeric(), "_"), &text)
+        let notes = self.marks.iter().any(|mark| mark == "notes");
+        findings(&self.place.replace(|c: char| !c.is_alphanumeric(), "_"), &text, notes)
     }
 }
 
@@ -55,8 +59,9 @@ pub fn examples(page: &str) -> Vec<Example> {
     examples
 }
 
-/// Loads a script that stands in no file, with all that `check` says of it: code and message of each finding.
-pub fn findings(name: &str, text: &str) -> Vec<(&'static str, String)> {
+/// Loads a script that stands in no file, with all that `check` says of it, or `check --notes`: code and message of each
+/// finding.
+pub fn findings(name: &str, text: &str, notes: bool) -> Vec<(&'static str, String)> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples");
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join(format!("{name}.alb"));
@@ -67,13 +72,9 @@ pub fn findings(name: &str, text: &str) -> Vec<(&'static str, String)> {
         found.extend(albacore_session::findings(&script));
         found.extend(script.tests().into_iter().filter_map(Result::err).flatten());
     }
-    found
-        .into_iter()
-        .map(|f| {
-            (
-                f.code.name(),
-                format!("{}: {}", if f.severity == Severity::Error { "error" } else { "warning" }, f.message),
-            )
-        })
-        .collect()
+    if notes {
+        found.extend(script.notes());
+    }
+    let kind = |severity| if severity == Severity::Error { "error" } else { "warning" };
+    found.into_iter().map(|f| (f.code.name(), format!("{}: {}", kind(f.severity), f.message))).collect()
 }

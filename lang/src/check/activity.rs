@@ -324,7 +324,7 @@ impl<'t> Checker<'t> {
                 .as_ref()
                 .map(|e| self.instant(Temporal::No, |c| c.expr_as(e, &ty, "the value at first")));
             let (fresh, hold_for) = (fresh.clone(), hold_for.clone());
-            mission.requires.push(Require { input, fresh, at_first, hold_for });
+            mission.requires.push(Require { input, span: name.span, fresh, at_first, hold_for });
         }
     }
 
@@ -441,6 +441,8 @@ impl<'t> Checker<'t> {
         };
         let (asked, block) = self.in_block(|c| {
             let asked = c.declare(&asked_name, VarKind::Let, Type::Heading);
+            // An overlay may lead elsewhere whatever is asked.
+            c.names_used.read(asked_name.span);
             let block = c.with_setting(Setting::Instant, |c| {
                 let mut block = c.value_block(block, Some(&Type::Heading));
                 match block.value.take() {

@@ -1,6 +1,7 @@
 //! From the type that a value has to the one that is asked for: the few conversions there are, and what to say of others.
 
 use super::Checker;
+use super::advice::{scaling_help, unit_help};
 use super::expr::article;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -70,6 +71,7 @@ impl<'t> Checker<'t> {
 
     fn mismatch(&mut self, value: &Expr, wanted: &Type, what: &str) {
         let (has, wants) = (self.type_name(&value.ty), self.type_name(wanted));
+        let constant = value.range.constant();
         let finding = Diagnostic::error(
             Code::TypesMismatch,
             value.span,
@@ -96,7 +98,7 @@ impl<'t> Checker<'t> {
                 finding.help("an altitude is counted from the bottom: write `altitude + LENGTH`, or a constant")
             }
             (Type::Int | Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::NONE) => {
-                match value.range.constant() {
+                match constant {
                     Some(x) => finding.help(format!("give it a unit: `{x} deg`")),
                     None => finding.help("give it a unit: `north + 1 deg * x`"),
                 }
@@ -104,7 +106,7 @@ impl<'t> Checker<'t> {
             (Type::Int | Type::Quantity(_), Type::Depth | Type::Altitude)
                 if value.ty.dimension() == Some(Dimension::NONE) =>
             {
-                finding.help("give it a unit, such as `m`")
+                finding.help(unit_help(constant, "m"))
             }
             (Type::Point, Type::Heading) => {
                 finding.help("to go to a point write `goto POINT`; the direction to it is `(POINT - position).toward`")
@@ -121,10 +123,17 @@ impl<'t> Checker<'t> {
                 finding.help(format!("it holds {m} at most: leave elements out, or declare it longer"))
             }
             (Type::Int | Type::Quantity(_), Type::Quantity(d)) if value.ty.dimension() == Some(Dimension::NONE) => {
-                finding.help(format!("give it a unit, such as `{}`", d.display().unit))
+                finding.help(unit_help(constant, &d.display().unit))
             }
-            (Type::Quantity(has), Type::Quantity(wants)) => finding.help(scaling_help(*has, *wants)),
-            (Type::Vector(has), Type::Vector(wants)) => finding.help(scaling_help(*has, *wants)),
+            (Type::Quantity(has), Type::Quantity(wants)) => {
+                finding.help(scaling_help(*has, *wants, "it", constant.is_some()))
+            }
+            (Type::Vector(has), Type::Vector(wants)) => finding.help(scaling_help(*has, *wants, "it", false)),
+            (Type::Quantity(_), Type::Heading) if constant.is_some() => finding.help("write it in `deg`"),
+            (Type::Quantity(_), Type::Depth | Type::Altitude) if constant.is_some() => finding.help("write it in `m`"),
+            (Type::Depth | Type::Altitude, Type::Quantity(d)) if *d == Dimension::LENGTH => {
+                finding.help("how far one is from another is a Length: write `depth - top`, the difference of two")
+            }
             (Type::Vector(d), Type::Point) if *d == Dimension::LENGTH => {
                 finding.help("a vector leads from one point to another: write `POINT + VECTOR`")
             }
@@ -134,7 +143,10 @@ impl<'t> Checker<'t> {
             (Type::Depth, Type::Altitude) | (Type::Altitude, Type::Depth) => finding
                 .help("depth is counted from the surface and altitude from the bottom; `water_depth` is both together"),
             (Type::Text, _) => finding.help("a text cannot be calculated with: leave the quotes out"),
-            _ => finding,
+            _ => match self.example(wanted) {
+                Some(example) => finding.help(example),
+                None => finding,
+            },
         };
         self.report(finding);
     }
@@ -160,32 +172,5 @@ impl<'t> Checker<'t> {
                 self.unknown(span)
             }
         }
-    }
-}
-
-/// By what a quantity must be multiplied or divided to become another.
-fn scaling_help(has: Dimension, wants: Dimension) -> String {
-    match scaling(has, wants) {
-        Some(Scaling { verb, by }) => format!("{verb} it by {by}"),
-        None => format!("a value in `{}` is asked for", wants.display().unit),
-    }
-}
-
-/// How a quantity becomes one of another dimension.
-pub(super) struct Scaling {
-    /// `multiply` or `divide`.
-    pub verb: &'static str,
-    /// By what.
-    pub by: String,
-}
-
-/// By what a quantity must be multiplied or divided, when that has a name. A time is said as a time, not as its inverse.
-pub(super) fn scaling(has: Dimension, wants: Dimension) -> Option<Scaling> {
-    let named = |d: Dimension| d.type_name().filter(|name| *name != "Frequency").map(article);
-    let (factor, divisor) = (named(wants / has), named(has / wants));
-    match (divisor, factor) {
-        (Some(by), _) => Some(Scaling { verb: "divide", by }),
-        (None, Some(by)) => Some(Scaling { verb: "multiply", by }),
-        (None, None) => None,
     }
 }

@@ -36,7 +36,8 @@ impl<'t> Checker<'t> {
             // Written so that a bound that is no number counts as none.
             let exact = first.range.low.abs().max(end.abs()) < super::sense::INT_MAX;
             let bounded = exact && end - first.range.low <= ROUNDS_MAX;
-            if !bounded {
+            // A bound that is wrong has been told of.
+            if !bounded && first.ty != Type::Unknown && last.ty != Type::Unknown {
                 self.bounded_or_takes_time(&body, range.last.span);
             }
             let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };

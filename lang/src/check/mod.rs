@@ -1,6 +1,7 @@
 //! Names, types, dimensions and frames: from trees to the checked program, with every mistake of every file.
 
 mod activity;
+mod advice;
 mod args;
 mod body;
 mod choice;
@@ -23,6 +24,7 @@ mod sense;
 mod table;
 mod test;
 mod timed;
+mod unused;
 mod written;
 
 pub(crate) use flow::takes_time;
@@ -215,6 +217,8 @@ pub struct Checker<'t> {
     /// The test that is being checked, while its expectations are.
     test: Option<test::TestScope>,
     findings: Vec<Diagnostic>,
+    /// What was declared, and what of it was read.
+    names_used: unused::NamesUsed,
 }
 
 /// What checking gives.
@@ -227,6 +231,8 @@ pub struct Checked {
     pub overrides: Vec<Override>,
     /// What is wrong with it.
     pub findings: Vec<Diagnostic>,
+    /// Names that nobody uses. In a file with an error nobody can tell: what uses them may be what could not be understood.
+    pub unused: Vec<Diagnostic>,
 }
 
 /// Checks all modules.
@@ -248,9 +254,11 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
         scope: Scope::new(0, Setting::Constant),
         test: None,
         findings: Vec::new(),
+        names_used: unused::NamesUsed::default(),
     };
     checker.run();
-    Checked { hir: checker.hir, types: checker.types, overrides: checker.overrides, findings: checker.findings }
+    let unused = checker.unused_names();
+    Checked { hir: checker.hir, types: checker.types, overrides: checker.overrides, findings: checker.findings, unused }
 }
 
 impl<'t> Checker<'t> {

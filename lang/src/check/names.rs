@@ -32,13 +32,19 @@ impl<'t> Checker<'t> {
 
     /// What a module of its imports defines under a name.
     fn imported(&self, module: usize, from: &str, name: &str) -> Option<&Def> {
-        self.modules[module].imports.get(from).and_then(|&i| self.names[i].get(name))
+        let imported = *self.modules[module].imports.get(from)?;
+        self.names_used.import(module, from);
+        self.names_used.mention(imported, name);
+        self.names[imported].get(name)
     }
 
     /// What `name` or `module.name` stands for where a path is written.
     pub(super) fn resolve(&self, module: usize, path: &tree::Path) -> Option<&Def> {
         match path.parts.as_slice() {
-            [name] => self.lookup(module, &name.node),
+            [name] => {
+                self.names_used.mention(module, &name.node);
+                self.lookup(module, &name.node)
+            }
             [from, name] => self.imported(module, &from.node, &name.node),
             _ => None,
         }
@@ -67,6 +73,7 @@ impl<'t> Checker<'t> {
                 self.report(finding);
             }
         }
+        self.names_used.declare(name, kind);
         self.declare_hidden(name.node.clone(), kind, ty, name.span)
     }
 
@@ -87,13 +94,17 @@ impl<'t> Checker<'t> {
 
     pub(super) fn name(&mut self, name: &str, span: Span) -> Expr {
         if let Some(id) = self.local(name) {
+            self.names_used.read(self.scope.vars[id].span);
             return self.variable(id, span);
         }
         // What can only be called is no value: a behavior `flow` leaves the input `flow` what it is.
         let value = self.lookup_if(self.scope.module, name, |def| !def.can_be_called());
         let found = value.or_else(|| self.lookup(self.scope.module, name)).cloned();
         match found {
-            Some(def) => self.def_value(&def, name, span),
+            Some(def) => {
+                self.names_used.mention(self.scope.module, name);
+                self.def_value(&def, name, span)
+            }
             // What was refused has no name, and has been told.
             None if name.is_empty() => self.unknown(span),
             None => {
@@ -221,6 +232,7 @@ impl<'t> Checker<'t> {
         use tree::ExprKind as K;
         match &e.kind {
             K::Name(name) => {
+                self.names_used.mention(self.scope.module, name);
                 let callable = self.lookup_if(self.scope.module, name, Def::can_be_called);
                 callable.cloned().map_or(Found::Nothing, Found::Def)
             }
@@ -239,7 +251,8 @@ impl<'t> Checker<'t> {
     pub(super) fn module_named(&self, e: &tree::Expr) -> Option<usize> {
         match &e.kind {
             tree::ExprKind::Name(name) if self.local(name).is_none() => {
-                self.modules[self.scope.module].imports.get(name).copied()
+                let imported = self.modules[self.scope.module].imports.get(name).copied();
+                imported.inspect(|_| self.names_used.import(self.scope.module, name))
             }
             _ => None,
         }

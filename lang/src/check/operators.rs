@@ -1,7 +1,7 @@
 //! Operators between two operands: the whole table of what can be calculated with what.
 
 use super::Checker;
-use super::convert::{Scaling, scaling};
+use super::advice::{partner, sides_help};
 use super::expr::article;
 use super::facts;
 use crate::code::Code;
@@ -44,7 +44,7 @@ impl<'t> Checker<'t> {
                     self.report(finding);
                     return self.unknown(span);
                 }
-                match op.node {
+                let value = match op.node {
                     Binary::Add => self.sum(op, a, b, span),
                     Binary::Sub => self.difference(op, a, b, span),
                     Binary::Mul => self.product(op, a, b, span),
@@ -52,7 +52,8 @@ impl<'t> Checker<'t> {
                     Binary::Pow => self.power(op, a, b, span),
                     Binary::Toward => self.toward(op, a, b, span),
                     _ => self.comparison(op, a, b, span),
-                }
+                };
+                self.sensible_result(value)
             }
         }
     }
@@ -319,6 +320,19 @@ impl<'t> Checker<'t> {
         if !comparable {
             return self.no_such(op, &a, &b, span);
         }
+        // `p != none` is `p` as a condition, and narrows as that does.
+        if let Some(optional) = match (&a.ty, &b.ty) {
+            (Optional(_), None) => Some(a.clone()),
+            (None, Optional(_)) => Some(b.clone()),
+            _ => Option::None,
+        } {
+            let present = self.truth(Expr { span, ..optional });
+            return if op.node == Binary::Eq {
+                self.operation(Builtin::Not, vec![present], Bool, span)
+            } else {
+                present
+            };
+        }
         self.sensible_ratio(&a, &b);
         let (a, b) = match (a.ty.is_optional(), b.ty.is_optional()) {
             (true, false) => {
@@ -395,6 +409,7 @@ impl<'t> Checker<'t> {
             {
                 "give the number a unit: `deg`".into()
             }
+            (_, None, _) | (_, _, None) if op.compares() => "it is never absent: leave the test out".into(),
             (_, Heading, _) | (_, _, Heading) if op.compares() => {
                 "a heading is a direction: compare the angle between two, `abs(heading - north) < 3 deg`".into()
             }
@@ -411,9 +426,17 @@ impl<'t> Checker<'t> {
             (Binary::Add | Binary::Sub, Point, Quantity(d)) if *d == Dimension::LENGTH => {
                 "say in which direction: `POINT + LENGTH toward HEADING`".into()
             }
+            (Binary::Add | Binary::Sub, Point | Vector(_), Vector(d))
+            | (Binary::Add | Binary::Sub, Vector(d), Point | Vector(_))
+                if d.is_none() =>
+            {
+                "a direction alone has no length: give the number before `toward` a unit, such as `8 m toward north`"
+                    .into()
+            }
             (Binary::Add | Binary::Sub, Point | Vector(_), t) if *t == ANGLE => {
                 "`toward` holds tighter than `+` and `-`: write `LENGTH toward (HEADING + ANGLE)`".into()
             }
+            (Binary::Sub, Vector(_), Point) => "the vector from one point to another is `POINT - POINT`".into(),
             (Binary::Add, Point, Point) => {
                 "a point is moved by a vector: `POINT + VECTOR`; `POINT - POINT` is a vector".into()
             }
@@ -430,17 +453,18 @@ impl<'t> Checker<'t> {
             }
             (Binary::Add | Binary::Sub, x, y)
             | (Binary::Lt | Binary::Le | Binary::Gt | Binary::Ge | Binary::Eq | Binary::Ne, x, y) => {
-                let (d, e) = (x.dimension()?, y.dimension()?);
+                let (Some(d), Some(e)) = (x.dimension(), y.dimension()) else {
+                    return partner(op, x, y).map(str::to_string);
+                };
                 if d.is_none() {
                     return Some(format!("give the number on the left a unit, such as `{}`", e.display().unit));
                 }
                 if e.is_none() {
                     return Some(format!("give the number on the right a unit, such as `{}`", d.display().unit));
                 }
-                let Scaling { verb, by } = scaling(e, d)?;
-                format!("{verb} the right-hand side by {by}")
+                sides_help(a, d, b, e)
             }
-            _ => return Option::None,
+            (op, x, y) => return partner(op, x, y).map(str::to_string),
         })
     }
 }

@@ -134,6 +134,8 @@ impl<'t> Checker<'t> {
         }
         let without_last = if range.inclusive { 0.0 } else { 1.0 };
         match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
+            // What is of another type has been told of.
+            _ if first.ty == Type::Unknown || last.ty == Type::Unknown => None,
             (Some(low), Some(high)) if low <= high => Some(Interval::new(low, high)),
             (Some(_), Some(_)) => {
                 self.report(
@@ -155,7 +157,13 @@ impl<'t> Checker<'t> {
         if value.ty == Type::Unknown || (value.range.low >= range.low && value.range.high <= range.high) {
             return;
         }
-        let show = |x: f64| self.shown_number(x, &value.ty);
+        // Where a range ends at 1 or before, it is of shares: `4 %`.
+        let is_share = value.ty.dimension() == Some(Dimension::NONE) && range.high <= 1.0 && range.high.fract() != 0.0;
+        let show = |x: f64| match is_share {
+            true => format!("{} %", significant(x * 100.0)),
+            false => self.shown_number(x, &value.ty),
+        };
+        let percent = value.range.constant().map(|x| x * 0.01).filter(|x| *x >= range.low && *x <= range.high);
         let (bounds, among) = match (range.low.is_finite(), range.high.is_finite()) {
             (true, false) => (format!("{} or more", show(range.low)), "of"),
             (false, true) => (format!("{} or less", show(range.high)), "of"),
@@ -167,7 +175,13 @@ impl<'t> Checker<'t> {
                 value.span,
                 format!("{} is outside the range of `{param}`", show(x)),
             )
-            .help(format!("choose a value {among} {bounds}")),
+            .help(match (percent.filter(|_| is_share), &value.ty) {
+                (Some(meant), _) => format!("choose a value {among} {bounds}: `{}`, perhaps?", show(meant)),
+                (None, Type::Quantity(Dimension::ANGLE)) => {
+                    format!("choose a value {among} {bounds}; a radian is 57.2958 deg")
+                }
+                _ => format!("choose a value {among} {bounds}"),
+            }),
             None => Diagnostic::error(
                 Code::RangesUnproved,
                 value.span,
@@ -187,8 +201,11 @@ impl<'t> Checker<'t> {
             Type::Depth | Type::Altitude => Dimension::LENGTH.display(),
             _ => return format!("{x}"),
         };
-        // As a person writes it: rounded where radians come back as degrees.
-        let value = (x / display.scale * 1e6).round() / 1e6;
-        format!("{value} {}", display.unit)
+        format!("{} {}", significant(x / display.scale), display.unit)
     }
+}
+
+/// As a person writes it: six digits, so that radians come back as the degrees that they were.
+fn significant(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
 }

@@ -73,6 +73,7 @@ impl<'t> Checker<'t> {
     pub(super) fn check_scenario(&mut self, m: usize, id: usize, body: &'t tree::Block) {
         let mut scope = Scope::new(m, Setting::Constant);
         for var in self.hir.scenarios[id].vars.clone() {
+            self.names_used.declare(&tree::Name { node: var.name.clone(), span: var.span }, var.kind);
             scope.visible.push((var.name.clone(), scope.vars.len()));
             scope.vars.push(var);
         }

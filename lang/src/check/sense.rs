@@ -85,6 +85,24 @@ impl<'t> Checker<'t> {
         self.not_negative(&value, what);
     }
 
+    /// A constant that was calculated: one too large to be written is too large to be calculated with.
+    pub(super) fn sensible_result(&mut self, value: Expr) -> Expr {
+        let Some(x) = value.range.constant() else { return value };
+        let (largest, shown) = match value.ty {
+            Type::Int => (INT_MAX, format!("whole numbers go to {INT_MAX}")),
+            // What is computed from quantities may be far from what any is: only what is no number any more is refused.
+            _ => (f64::MAX, format!("numbers go to {:e}", f64::MAX)),
+        };
+        if x.abs() <= largest {
+            return value;
+        }
+        self.report(
+            Diagnostic::error(Code::TypesNumber, value.span, "this comes to a number too large to be calculated with")
+                .help(format!("{shown}: look for a factor that is too much")),
+        );
+        self.unknown(value.span)
+    }
+
     /// Whether a number with its unit, in SI, is one to calculate with.
     pub(super) fn sensible_quantity(&mut self, value: f64, span: Span) -> bool {
         // Written so that what is no number is refused too.

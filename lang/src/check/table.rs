@@ -5,7 +5,7 @@ use super::facts;
 use super::{Checker, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Body, Builtin, Expr, ExprKind, InputPart, Rule, Target};
+use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
 
@@ -274,7 +274,7 @@ impl<'t> Checker<'t> {
         for (k, later) in leaving.iter().enumerate() {
             let shadow = leaving[..k]
                 .iter()
-                .find(|earlier| earlier.sources.len() >= later.sources.len() && same_guard(&earlier.on, &later.on));
+                .find(|earlier| earlier.sources.len() >= later.sources.len() && same_condition(&earlier.on, &later.on));
             if let Some(earlier) = shadow {
                 self.report(
                     Diagnostic::error(
@@ -337,45 +337,5 @@ fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
             }
             _ => false,
         },
-    }
-}
-
-pub(super) fn mentions_done(e: &Expr) -> bool {
-    match &e.kind {
-        ExprKind::Done => true,
-        ExprKind::Do(_, operands) => operands.iter().any(mentions_done),
-        ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) => mentions_done(inner),
-        _ => false,
-    }
-}
-
-/// Whether two guards are the same condition. Conservative: `false` when in doubt.
-fn same_guard(a: &Expr, b: &Expr) -> bool {
-    match (&a.kind, &b.kind) {
-        (ExprKind::Done, ExprKind::Done) => true,
-        (ExprKind::Var(x), ExprKind::Var(y)) => x == y,
-        // All rules of a tick see the same samples.
-        (ExprKind::Input(x, part), ExprKind::Input(y, other)) => x == y && same_part(part, other),
-        (ExprKind::Number(x), ExprKind::Number(y)) => x == y,
-        (ExprKind::IsPresent(x), ExprKind::IsPresent(y)) => same_guard(x, y),
-        // `a or b` holds whenever `a` does.
-        (ExprKind::Do(Builtin::Or, ors), _) if ors.iter().any(|o| same_guard(o, b)) => true,
-        // `a and b` holds only when `a` does.
-        (_, ExprKind::Do(Builtin::And, ands)) if ands.iter().any(|o| same_guard(a, o)) => true,
-        (ExprKind::Do(op, xs), ExprKind::Do(other, ys)) => {
-            op == other && xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| same_guard(x, y))
-        }
-        _ => false,
-    }
-}
-
-fn same_part(a: &InputPart, b: &InputPart) -> bool {
-    match (a, b) {
-        (InputPart::Value, InputPart::Value)
-        | (InputPart::Age, InputPart::Age)
-        | (InputPart::Peak, InputPart::Peak) => true,
-        (InputPart::Field(x), InputPart::Field(y)) => x == y,
-        (InputPart::Hits(limit, of), InputPart::Hits(other, count)) => of == count && same_guard(limit, other),
-        _ => false,
     }
 }

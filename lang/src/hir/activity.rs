@@ -118,6 +118,8 @@ pub struct Mission {
 pub struct Require {
     /// Which.
     pub input: InputId,
+    /// Where it is named.
+    pub span: Span,
     /// The age beyond which it is stale.
     pub fresh: Expr,
     /// What holds before the first sample.

@@ -2,11 +2,13 @@
 
 mod activity;
 mod interval;
+mod same;
 mod simulated;
 mod walk;
 
 pub use activity::*;
 pub use interval::Interval;
+pub use same::{mentions_done, same_condition};
 pub use simulated::*;
 pub use walk::{activity_children, block_children, calls_in, children};
 

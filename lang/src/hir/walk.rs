@@ -23,11 +23,24 @@ impl Hir {
 impl Activity {
     /// The activities that it names itself.
     pub fn calls(&self) -> Vec<ActivityId> {
+        let mut calls: Vec<ActivityId> = self.calls_with_args().into_iter().map(|(id, _)| id).collect();
+        if let Body::Table { behaviors, .. } = &self.body {
+            calls.extend(behaviors);
+        }
+        calls
+    }
+
+    /// The arguments that it gives to an activity, call by call.
+    pub fn calls_of(&self, called: ActivityId) -> Vec<&[Expr]> {
+        self.calls_with_args().into_iter().filter(|(id, _)| *id == called).map(|(_, args)| args).collect()
+    }
+
+    /// Its calls, and the overlays that it puts on, each with its arguments.
+    fn calls_with_args(&self) -> Vec<(ActivityId, &[Expr])> {
         let mut calls = Vec::new();
         let mut blocks: Vec<&Block> = Vec::new();
-        match &self.body {
-            Body::Sequence(block) | Body::Amend { block, .. } => blocks.push(block),
-            Body::Table { behaviors, .. } => calls.extend(behaviors),
+        if let Body::Sequence(block) | Body::Amend { block, .. } = &self.body {
+            blocks.push(block);
         }
         blocks.extend(self.mission.iter().filter_map(|m| m.recovery.as_ref()).map(|(_, block)| block));
         for decl in &self.decls {
@@ -39,8 +52,8 @@ impl Activity {
             block.each(&mut |stmt| match &stmt.kind {
                 StmtKind::With(items, _) => calls.extend(overlays(items)),
                 StmtKind::Timed(timed) => {
-                    if let Action::Call(id, _) = timed.action {
-                        calls.push(id);
+                    if let Action::Call(id, args) = &timed.action {
+                        calls.push((*id, args.as_slice()));
                     }
                 }
                 _ => {}
@@ -64,8 +77,11 @@ pub fn calls_in(block: &Block) -> Vec<FnId> {
 }
 
 /// The overlays among what `with` puts in force.
-fn overlays(items: &[With]) -> impl Iterator<Item = ActivityId> {
-    items.iter().filter_map(|item| if let With::Overlay(id, ..) = item { Some(*id) } else { None })
+fn overlays(items: &[With]) -> impl Iterator<Item = (ActivityId, &[Expr])> {
+    items.iter().filter_map(|item| match item {
+        With::Overlay(id, args, _) => Some((*id, args.as_slice())),
+        With::Setpoint(..) => None,
+    })
 }
 
 impl Stmt {

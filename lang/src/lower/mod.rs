@@ -27,6 +27,13 @@ use albacore_geometry::{Geodetic, Point, TangentFrame};
 use albacore_program::{Addr, Input, Op, Program, Shape, Slot};
 use std::collections::BTreeMap;
 
+/// Where the frame about an area touches the globe: in the middle of the positions that it is made of.
+pub fn origin_of(area: &hir::Expr) -> Option<Geodetic> {
+    let mut found = Vec::new();
+    watch::positions(area, &mut found);
+    activity::middle(&found)
+}
+
 /// A run's words at most: a program that needs more is refused.
 const WORDS_MAX: u32 = 4_000_000;
 

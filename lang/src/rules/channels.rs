@@ -3,13 +3,16 @@
 use super::limits::{self, Limit};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, Block, Body, Decl, Expr, Hir, Kind, StmtKind, Timed, With};
+use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, Interval, Kind, StmtKind, Timed, With};
 use crate::source::Span;
 use albacore_program::{Channel, Guide};
 use std::collections::BTreeSet;
 
 /// A finding names this many places at most.
 const PLACES_MAX: usize = 4;
+
+/// So many ways to activities are told apart by what the calls on them give.
+const WAYS_MAX: usize = 10_000;
 
 /// Who owns a channel here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,27 +31,38 @@ struct Owners {
     speed: Owner,
 }
 
+/// A way to an activity, as far as it makes a difference: who owns what there, and the bounds of what the call gives.
+type Way = (usize, Owners, Vec<(u64, u64)>);
+
 struct Walk<'a> {
     hir: &'a Hir,
     /// The mission's limits.
     limits: Vec<Limit>,
     /// The calls that lead here.
     path: Vec<(String, Span)>,
-    seen: BTreeSet<(usize, Owners)>,
+    seen: BTreeSet<Way>,
+    /// What is known of the parameters of the activity that is walked, from the call that leads to it.
+    given: Vec<Interval>,
     findings: Vec<Diagnostic>,
 }
 
 /// Walks all ways from a mission to its statements.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let limits = limits::of(hir, mission);
-    let mut walk = Walk { hir, limits, path: Vec::new(), seen: BTreeSet::new(), findings: Vec::new() };
+    let (path, seen, given, findings) = (Vec::new(), BTreeSet::new(), Vec::new(), Vec::new());
+    let mut walk = Walk { hir, limits, path, seen, given, findings };
     walk.activity(mission, Owners { vertical: Owner::Nobody, speed: Owner::Nobody });
     walk.findings
 }
 
 impl Walk<'_> {
     pub(super) fn activity(&mut self, id: usize, mut owners: Owners) {
-        if !self.seen.insert((id, owners)) {
+        // Past so many ways nothing new is to be learnt of what is given.
+        if self.seen.len() > WAYS_MAX {
+            self.given.clear();
+        }
+        let given = self.given.iter().map(|range| (range.low.to_bits(), range.high.to_bits())).collect();
+        if !self.seen.insert((id, owners, given)) {
             return;
         }
         let activity = &self.hir.activities[id];
@@ -74,11 +88,13 @@ impl Walk<'_> {
                     self.limited(*channel, e);
                     self.own(&mut owners, *channel, Owner::Setpoint, e.span);
                 }
-                With::Overlay(id, _, place) => {
+                With::Overlay(id, args, place) => {
                     if let Kind::Sets(channel) = self.hir.activities[*id].kind {
                         self.own(&mut owners, channel, Owner::Overlay(*place), *place);
                     }
-                    self.overlay(*id);
+                    self.path.push((self.hir.activities[*id].full_name.clone(), *place));
+                    self.called(args, |walk| walk.overlay(*id));
+                    self.path.pop();
                 }
             }
         }
@@ -107,9 +123,27 @@ impl Walk<'_> {
 
     /// A setpoint that no limit lets through.
     fn limited(&mut self, channel: Channel, setpoint: &Expr) {
-        if let Some(finding) = limits::beyond(&self.limits, channel, setpoint) {
+        let range = self.range(setpoint);
+        if let Some(finding) = limits::beyond(&self.limits, channel, setpoint, range) {
             self.tell(finding);
         }
+    }
+
+    /// What is known of a value here: more than where it is written, when it is a parameter that the call gives.
+    fn range(&self, e: &Expr) -> Interval {
+        let given = match e.kind {
+            ExprKind::Var(id) => self.given.get(id).copied().unwrap_or(Interval::ANY),
+            _ => Interval::ANY,
+        };
+        Interval { low: given.low.max(e.range.low), high: given.high.min(e.range.high), ..e.range }
+    }
+
+    /// Walks what is called with some arguments.
+    fn called(&mut self, args: &[Expr], walk: impl FnOnce(&mut Self)) {
+        let given = args.iter().map(|arg| self.range(arg)).collect();
+        let outer = std::mem::replace(&mut self.given, given);
+        walk(self);
+        self.given = outer;
     }
 
     /// What an overlay keeps is limited too; that nothing else is set in it is right.
@@ -161,9 +195,9 @@ impl Walk<'_> {
             self.own(&mut owners, *channel, Owner::Setpoint, e.span);
         }
         let (vertical, speed) = match &timed.action {
-            Action::Call(id, _) => {
+            Action::Call(id, args) => {
                 self.path.push((self.hir.activities[*id].full_name.clone(), span));
-                self.activity(*id, owners);
+                self.called(args, |walk| walk.activity(*id, owners));
                 self.path.pop();
                 return;
             }

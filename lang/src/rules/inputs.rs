@@ -7,6 +7,9 @@ use crate::source::Span;
 use albacore_program::Guide;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Inputs that the machine reads without being asked: to go over ground in moving water, and to hold a vertical limit.
+const BY_THE_MACHINE: [&str; 3] = ["flow", "depth", "water_depth"];
+
 /// Inputs that are never too old: they tell how things stand with the vehicle, and that of one not heard from as well.
 const OF_THE_LINK: [&str; 2] = ["control", "vehicle_mode"];
 
@@ -22,7 +25,8 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = Vec::new();
-    for (input, span) in read(hir, mission) {
+    let read = read(hir, mission);
+    for (&input, &span) in &read {
         let name = &hir.inputs[input].name;
         if parts.requires.iter().any(|r| r.input == input) || OF_THE_LINK.contains(&name.as_str()) {
             continue;
@@ -35,6 +39,18 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
             )
             .label(span, "read here")
             .help(format!("add `{name} fresh 5 s, else abort` to its `requires {{ … }}`")),
+        );
+    }
+    for require in parts.requires.iter().filter(|require| !read.contains_key(&require.input)) {
+        let name = &hir.inputs[require.input].name;
+        if BY_THE_MACHINE.contains(&name.as_str()) {
+            continue;
+        }
+        let message = format!("the mission `{}` requires `{name}`, and nothing in it reads it", activity.name);
+        findings.push(
+            Diagnostic::warning(Code::MissionsUnread, require.span, message)
+                .here("required here")
+                .help("leave it out: a sensor that nobody needs would abort the mission when it falls silent"),
         );
     }
     findings

@@ -2,7 +2,7 @@
 
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Expr, Hir};
+use crate::hir::{Expr, Hir, Interval};
 use crate::source::Span;
 use albacore_program::Channel;
 
@@ -26,26 +26,41 @@ pub(super) fn of(hir: &Hir, mission: usize) -> Vec<Limit> {
         .collect()
 }
 
-/// The finding for a setpoint all of whose values lie beyond a limit.
-pub(super) fn beyond(limits: &[Limit], channel: Channel, setpoint: &Expr) -> Option<Diagnostic> {
-    let range = setpoint.range;
-    let limit = limits.iter().find(|limit| {
-        let outside = if limit.least { range.high < limit.value } else { range.low > limit.value };
-        limit.channel == channel && outside
-    })?;
+/// The finding for a setpoint that lies beyond a limit: an error when all its values do, a warning when some of a range do
+/// that somebody has written. `range` is what is known of the setpoint here.
+pub(super) fn beyond(limits: &[Limit], channel: Channel, setpoint: &Expr, range: Interval) -> Option<Diagnostic> {
+    let of_channel = || limits.iter().filter(|limit| limit.channel == channel);
+    let wholly = |l: &&Limit| if l.least { range.high < l.value } else { range.low > l.value };
+    let partly = |l: &&Limit| {
+        let end = if l.least { range.low } else { range.high };
+        end.is_finite() && if l.least { end < l.value } else { end > l.value }
+    };
     let (name, unit) = match channel {
         Channel::Depth => ("depth", "m"),
         Channel::Altitude => ("altitude", "m"),
         Channel::Speed => ("speed", "m/s"),
     };
-    let (than, bound) = if limit.least { ("less", "least") } else { ("more", "greatest") };
-    Some(
-        Diagnostic::error(
-            Code::LimitsSetpoint,
-            setpoint.span,
-            format!("this {name} is {than} than the mission's limit of {} {unit}", limit.value),
-        )
-        .label(limit.span, format!("the {bound} {name}"))
-        .help("the vehicle would be held at the limit: choose a setpoint within it, or change the limit"),
-    )
+    let told = |finding: Diagnostic, limit: &Limit| {
+        let bound = if limit.least { "least" } else { "greatest" };
+        finding.label(limit.span, format!("the {bound} {name}"))
+    };
+    if let Some(limit) = of_channel().find(wholly) {
+        let than = if limit.least { "less" } else { "more" };
+        let message = format!("this {name} is {than} than the mission's limit of {} {unit}", limit.value);
+        let finding = Diagnostic::error(Code::LimitsSetpoint, setpoint.span, message);
+        let help = "the vehicle would be held at the limit: choose a setpoint within it, or change the limit";
+        return Some(told(finding, limit).help(help));
+    }
+    let limit = of_channel().find(partly)?;
+    let (end, bound) = if limit.least { (range.low, "least") } else { (range.high, "most") };
+    let (end, value) = (round(end), limit.value);
+    let message = format!("this {name} may be {end} {unit}, and the mission's limit is {value} {unit} at {bound}");
+    let side = if limit.least { "begins at" } else { "ends at" };
+    let help = format!("give what it is made of a range that {side} {value} {unit}, or change the limit");
+    Some(told(Diagnostic::warning(Code::LimitsRange, setpoint.span, message), limit).help(help))
+}
+
+/// As a person writes it.
+fn round(x: f64) -> f64 {
+    (x * 1e3).round() / 1e3
 }

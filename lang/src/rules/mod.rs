@@ -5,9 +5,12 @@ mod channels;
 mod control;
 mod inputs;
 mod limits;
+mod overlaps;
+mod places;
 mod unreached;
 
 pub use control::first_watch;
+pub use overlaps::check as overlaps;
 pub use unreached::check as unreached;
 
 pub use inputs::read as inputs_read;
@@ -20,5 +23,6 @@ pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let mut findings = channels::check(hir, mission);
     findings.extend(control::check(hir, mission));
     findings.extend(inputs::check(hir, mission));
+    findings.extend(places::check(hir, mission));
     findings
 }

@@ -29,6 +29,9 @@ pub(super) const CLAUSE_WORDS: [&str; 32] = [
     "steer", "keep", "hold", "loiter", "wait", "watch", "override",
 ];
 
+/// Words that stand between two operands, and between a statement and its modifiers.
+const OPERATOR_WORDS: [&str; 10] = ["and", "or", "toward", "on", "do", "then", "until", "within", "at", "in"];
+
 /// Words that may begin a clause of a test.
 const TEST_WORDS: [&str; 3] = ["run", "expect", "snapshot"];
 
@@ -61,6 +64,14 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             }
             _ => Diagnostic::error(Code::SyntaxClause, span, format!("`{word}` begins no statement")),
         };
+        if OPERATOR_WORDS.contains(&word.as_str()) {
+            let mend = match super::scan::goes_on_after(&word) {
+                true => format!("end that line with `{word}`, and it goes on here"),
+                false => "write this at its end".to_string(),
+            };
+            return Diagnostic::error(Code::SyntaxClause, span, format!("`{word}` stands at the beginning of a line"))
+                .help(format!("the line before has ended its statement: {mend}"));
+        }
         if let Some(help) = foreign::help(&word) {
             return finding.help(help);
         }

@@ -3,6 +3,7 @@
 mod build;
 mod build_block;
 mod build_expr;
+mod deceptive;
 mod errors;
 mod habits;
 mod scan;

@@ -3,6 +3,7 @@
 //! The text that comes out has the same length as the one that went in, so that every span stays true. A comment and a
 //! newline that ends nothing become blanks; the grammar then needs one rule for blanks and one for the end of a statement.
 
+use super::deceptive::{self, deceives};
 use super::errors::begins_item;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -19,6 +20,11 @@ const ITEM_WORDS: [&str; 13] = [
 
 /// Words after which a line goes on.
 const OPEN_WORDS: [&str; 9] = ["and", "or", "not", "toward", "else", "on", "do", "becomes", "no"];
+
+/// Whether a line that ends in a word goes on in the next.
+pub fn goes_on_after(word: &str) -> bool {
+    OPEN_WORDS.contains(&word)
+}
 
 /// A comment of the source.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,6 +137,7 @@ impl<'a> Scanner<'a> {
                         self.chained = 0;
                     }
                     self.at += c.len_utf8();
+                    self.look_alike(start, self.at);
                     self.last = Last::Ends;
                 }
             }
@@ -295,6 +302,7 @@ impl<'a> Scanner<'a> {
     fn word(&mut self) {
         let length: usize =
             self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').map(char::len_utf8).sum();
+        self.look_alike(self.at, self.at + length);
         let word = &self.source[self.at..self.at + length];
         // After a dot any word is a field's name: `flow.toward`.
         let is_field = self.source[..self.at].ends_with('.');
@@ -376,21 +384,18 @@ impl<'a> Scanner<'a> {
 
     fn deceptive(&mut self, c: char, at: usize) {
         let span = self.span(at, at + c.len_utf8());
-        self.findings.push(
-            Diagnostic::error(
-                Code::SyntaxDeceptive,
-                span,
-                format!("the invisible character U+{:04X} stands here", c as u32),
-            )
-            .help("delete it: it makes the script read differently from what runs"),
-        );
+        self.findings.push(deceptive::invisible(c, span));
     }
-}
 
-/// Characters that change how a script looks and not what it means: bidirectional controls, zero-width, control codes.
-fn deceives(c: char) -> bool {
-    matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
-        || (c.is_control() && !matches!(c, '\n' | '\r' | '\t'))
+    /// A letter, digit, sign or blank in code that looks like another: what is seen is not what is read.
+    fn look_alike(&mut self, start: usize, end: usize) {
+        let chars = self.source.get(start..end).unwrap_or("").char_indices();
+        let found = chars.filter_map(|(offset, c)| Some((start + offset, c, deceptive::meant(c)?))).next();
+        if let Some((at, c, meant)) = found {
+            let span = self.span(at, at + c.len_utf8());
+            self.findings.push(deceptive::look_alike(c, meant, span));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -5,10 +5,19 @@ use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioProgram, Script};
 
-/// All that is wrong with a sound script's missions and its own scenarios.
+/// All that is wrong with a script's sound missions and with its own sound scenarios.
 pub fn findings(script: &Script) -> Vec<Diagnostic> {
-    let missions = script.missions().filter_map(|m| script.mission(&m.name)?.err()).flatten();
-    missions.chain(script.own_scenarios().flat_map(|name| scenario(script, name))).collect()
+    let missions = script.missions().filter(|m| script.mission_is_sound(&m.name));
+    let missions = missions.filter_map(|m| script.mission(&m.name)?.err()).flatten();
+    let scenarios =
+        script.own_scenarios().filter(|name| script.scenario_is_sound(name) && runs_are_sound(script, name));
+    missions.chain(scenarios.flat_map(|name| scenario(script, name))).collect()
+}
+
+/// Whether the mission in whose frame a scenario lies is sound, if there is one.
+fn runs_are_sound(script: &Script, scenario: &str) -> bool {
+    let mut runs = script.missions().filter(|m| m.scenario.as_deref() == Some(scenario));
+    runs.all(|m| script.mission_is_sound(&m.name))
 }
 
 /// What cannot be in a scenario, in the frame of the missions that run in it.

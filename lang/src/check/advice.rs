@@ -1,0 +1,132 @@
+//! How to make of what was written what is asked for: by what to multiply it, in which unit to write it, what one looks like.
+
+use super::Checker;
+use super::expr::article;
+use crate::dimension::Dimension;
+use crate::hir::Expr;
+use crate::suggest;
+use crate::syntax::tree::Binary;
+use crate::types::Type;
+
+/// A number that has no unit, and needs one.
+pub(super) fn unit_help(constant: Option<f64>, unit: &str) -> String {
+    match constant {
+        Some(x) => format!("give it a unit, such as `{x} {unit}`"),
+        None => format!("give it a unit: multiply it by `1 {unit}`"),
+    }
+}
+
+/// By what a quantity must be multiplied or divided to become another; a constant may as well be written in another unit.
+pub(super) fn scaling_help(has: Dimension, wants: Dimension, what: &str, is_constant: bool) -> String {
+    let unit = wants.display().unit;
+    match (scaling(has, wants), is_constant) {
+        (Some(scaling), true) => format!("write {what} in `{unit}`, or {} it by {}", scaling.verb, scaling.by),
+        (Some(scaling), false) => format!("{} {what} by {}", scaling.verb, scaling.by),
+        (None, _) => format!("write {what} in `{unit}`"),
+    }
+}
+
+/// How a quantity becomes one of another dimension.
+struct Scaling {
+    /// `multiply` or `divide`.
+    verb: &'static str,
+    /// By what.
+    by: String,
+}
+
+/// By what a quantity must be multiplied or divided, when that has a name. A time is said as a time, not as its inverse.
+fn scaling(has: Dimension, wants: Dimension) -> Option<Scaling> {
+    let named = |d: Dimension| {
+        let name = d.type_name().filter(|name| *name != "Frequency")?;
+        Some(format!("{} `{name}`", article(name).split(' ').next().unwrap_or_default()))
+    };
+    let (factor, divisor) = (named(wants / has), named(has / wants));
+    match (divisor, factor) {
+        (Some(by), _) => Some(Scaling { verb: "divide", by }),
+        (None, Some(by)) => Some(Scaling { verb: "multiply", by }),
+        (None, None) => None,
+    }
+}
+
+/// Two quantities that should be of one dimension: which side to change, and how. What is written as a number is changed
+/// more easily than what is computed.
+pub(super) fn sides_help(a: &Expr, d: Dimension, b: &Expr, e: Dimension) -> String {
+    let (left, right) = (a.range.constant().is_some(), b.range.constant().is_some());
+    if left && !right {
+        scaling_help(d, e, "the left-hand side", true)
+    } else if right || scaling(e, d).is_some() {
+        scaling_help(e, d, "the right-hand side", right)
+    } else {
+        format!(
+            "only quantities of one kind go together: {} is in `{}`, {} in `{}`",
+            "the left-hand side",
+            d.display().unit,
+            "the right-hand side",
+            e.display().unit
+        )
+    }
+}
+
+/// What goes with a type in an operation, when nothing closer can be said.
+pub(super) fn partner(op: Binary, a: &Type, b: &Type) -> Option<&'static str> {
+    let of = |ty: &Type| {
+        Some(match ty {
+            Type::Depth => "a depth is changed by a length: `depth + 2 m`",
+            Type::Altitude => "an altitude is changed by a length: `altitude + 2 m`",
+            Type::Heading => "a heading is turned by an angle: `heading + 20 deg`",
+            Type::Point => "a point is moved by a vector, `POINT + VECTOR`; from one to another leads `POINT - POINT`",
+            Type::Vector(_) => "vectors are added to points, and to vectors of their own kind",
+            _ => return None,
+        })
+    };
+    match op {
+        Binary::Add | Binary::Sub => of(a).or_else(|| of(b)),
+        Binary::Mul | Binary::Div => Some("numbers and quantities are multiplied and divided, and vectors by them"),
+        Binary::Toward => Some("a length and a heading make a vector: `10 m toward north`"),
+        Binary::Pow => Some("a quantity is raised to a number: `x^2`"),
+        _ if op.compares() => Some("only what is of one kind can be compared: two lengths, two points"),
+        _ => None,
+    }
+}
+
+impl Checker<'_> {
+    /// What a value of a type looks like.
+    pub(super) fn example(&self, ty: &Type) -> Option<String> {
+        let example = match ty {
+            Type::Bool => "a condition is asked for, such as `x > 3 m`, or `true`",
+            Type::Int => "a whole number is asked for, such as `3`; `round(x)` makes one of another number",
+            Type::Sign => "write `+1` or `-1`",
+            Type::Text => "a text stands between quotes, with values in `{` and `}`",
+            Type::Heading => "a direction is asked for, such as `90 deg`, `north` or `flow.toward`",
+            Type::Depth => "a depth is asked for, such as `3 m` or `depth + 1 m`",
+            Type::Altitude => "an altitude is asked for, such as `3 m` or `altitude + 1 m`",
+            Type::Point => "a place is asked for, such as `position`, `op.center` or `point(north: 4 m, east: 2 m)`",
+            Type::Vector(_) => "a vector is asked for, such as `10 m toward north` or `POINT - POINT`",
+            Type::Area => "an area is asked for: the mission's own, by its name, or `rectangle(…)`",
+            Type::Line => "a line is asked for: `line(start, end)`",
+            Type::Edge => "an edge is asked for: one of `area.edges`, or `area.nearest_edge(point)`",
+            Type::Quantity(d) => return Some(quantity(*d)),
+            Type::Record(id) => return Some(format!("make one: `{}(…)`", self.types.records[*id].name)),
+            Type::Enum(id) => {
+                let variants: Vec<&str> = self.types.enums[*id].variants.iter().map(String::as_str).collect();
+                return Some(format!("there is {}", suggest::listed(&variants)));
+            }
+            Type::Optional(inner) => return self.example(inner),
+            Type::List(..) => "a list is asked for, such as `[a, b]`",
+            Type::None | Type::Unknown => return None,
+        };
+        Some(example.to_string())
+    }
+}
+
+fn quantity(d: Dimension) -> String {
+    let example = match d.type_name() {
+        Some("Ratio") => "a number is asked for, such as `0.5` or `5 %`",
+        Some("Length") => "a length is asked for, such as `10 m`",
+        Some("Duration") => "a time is asked for, such as `30 s`",
+        Some("Angle") => "an angle is asked for, such as `15 deg`",
+        Some("Speed") => "a speed is asked for, such as `1.5 m/s`",
+        _ => return format!("a quantity in `{}` is asked for", d.display().unit),
+    };
+    example.to_string()
+}

@@ -1,0 +1,103 @@
+//! Rules of one behavior that can hold in the same tick: the order of the table decides, and its reader may want to know.
+
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Body, Builtin, Expr, ExprKind, Hir, Interval, Rule, Target, same_condition};
+
+/// The notes on a switching table: one for each rule that comes before others.
+pub fn check(hir: &Hir, activity: usize) -> Vec<Diagnostic> {
+    let Body::Table { behaviors, rules, .. } = &hir.activities[activity].body else { return Vec::new() };
+    let pairs: Vec<(&Rule, &Rule, usize)> = pairs(rules).collect();
+    let note = |rule: &Rule| {
+        let mut after = pairs.iter().filter(|(before, ..)| before.on_span == rule.on_span).peekable();
+        let &&(_, _, source) = after.peek()?;
+        let name = &hir.activities[behaviors[source]].name;
+        let note =
+            Diagnostic::note(Code::RulesOverlap, rule.on_span, format!("rules of `{name}` can hold in the same tick"))
+                .here("this one then decides")
+                .help("nothing is wrong if that is meant; if not, put the other first or say `and not …` in it");
+        Some(after.fold(note, |note, (_, after, _)| note.label(after.on_span, "this one is then not tried")))
+    };
+    rules.iter().filter_map(note).collect()
+}
+
+/// Each two rules of one behavior that can hold at once and differ: the one that is tried first, the other, the behavior.
+fn pairs(rules: &[Rule]) -> impl Iterator<Item = (&Rule, &Rule, usize)> {
+    let all = rules.iter().enumerate().flat_map(|(i, first)| rules[i + 1..].iter().map(move |second| (first, second)));
+    all.filter_map(|(first, second)| {
+        let source = *first.sources.iter().find(|source| second.sources.contains(source))?;
+        if same_outcome(first, second) || exclude(&first.on, &second.on) {
+            return None;
+        }
+        // What can hold only when the body is done is tried after it, and all else before it, wherever it stands.
+        Some(match (needs_done(&first.on), needs_done(&second.on)) {
+            (true, false) => (second, first, source),
+            _ => (first, second, source),
+        })
+    })
+}
+
+/// Whether a guard holds only when the body has come to its end.
+fn needs_done(guard: &Expr) -> bool {
+    match &guard.kind {
+        ExprKind::Done => true,
+        ExprKind::Do(Builtin::And, operands) => operands.iter().any(needs_done),
+        ExprKind::Do(Builtin::Or, operands) => operands.iter().all(needs_done),
+        _ => false,
+    }
+}
+
+/// Whether it makes no difference which of two rules fires.
+fn same_outcome(a: &Rule, b: &Rule) -> bool {
+    let same_target = match (&a.target, &b.target) {
+        (Target::Behavior(x), Target::Behavior(y)) => x == y,
+        (Target::Finish(None), Target::Finish(None)) => true,
+        (Target::Finish(Some(x)), Target::Finish(Some(y))) => same_condition(x, y),
+        _ => false,
+    };
+    same_target && a.back == b.back && a.effect.is_none() && b.effect.is_none()
+}
+
+/// Whether two guards surely never hold at once.
+fn exclude(a: &Expr, b: &Expr) -> bool {
+    let (parts, others) = (conjuncts(a), conjuncts(b));
+    parts.iter().any(|x| others.iter().any(|y| contrary(x, y) || contrary(y, x) || apart(x, y)))
+}
+
+/// The conditions all of which hold when a guard does.
+fn conjuncts(guard: &Expr) -> Vec<&Expr> {
+    match &guard.kind {
+        ExprKind::Do(Builtin::And, operands) => operands.iter().flat_map(conjuncts).collect(),
+        ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) => conjuncts(inner),
+        _ => vec![guard],
+    }
+}
+
+/// Whether one says that the other does not hold.
+fn contrary(a: &Expr, b: &Expr) -> bool {
+    match (&a.kind, &b.kind) {
+        (ExprKind::Do(Builtin::Not, inner), _) => inner.iter().any(|inner| same_condition(inner, b)),
+        // `x < y` beside `y < x` or `y <= x`.
+        (ExprKind::Do(Builtin::Lt, xs), ExprKind::Do(Builtin::Lt | Builtin::Le, ys)) => {
+            same_condition(&xs[0], &ys[1]) && same_condition(&xs[1], &ys[0])
+        }
+        _ => false,
+    }
+}
+
+/// Whether two comparisons of one thing with numbers leave it no number.
+fn apart(a: &Expr, b: &Expr) -> bool {
+    let (Some((x, p)), Some((y, q))) = (compared(a), compared(b)) else { return false };
+    same_condition(x, y) && (p.high < q.low || q.high < p.low)
+}
+
+/// What a comparison says of the side that is no constant.
+fn compared(e: &Expr) -> Option<(&Expr, Interval)> {
+    let ExprKind::Do(Builtin::Lt | Builtin::Le, operands) = &e.kind else { return None };
+    let (low, high) = (&operands[0], &operands[1]);
+    match (low.range.constant(), high.range.constant()) {
+        (None, Some(bound)) => Some((low, Interval { high: bound, ..Interval::ANY })),
+        (Some(bound), None) => Some((high, Interval { low: bound, ..Interval::ANY })),
+        _ => None,
+    }
+}

@@ -1,0 +1,79 @@
+//! Where things are: a scenario that begins outside the area of its mission, or has a source there, is seldom meant.
+
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir};
+use crate::source::Span;
+use albacore_geometry::{Area, Geodetic, Heading, Point, TangentFrame};
+
+/// The findings for the scenario that a mission names, as far as its places and the area are constants.
+pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
+    let activity = &hir.activities[mission];
+    let Some(parts) = &activity.mission else { return Vec::new() };
+    let Some(path) = &parts.scenario else { return Vec::new() };
+    let name = path.rsplit('.').next().unwrap_or(path);
+    let Some(scenario) = hir.scenarios.iter().find(|s| s.name == name) else { return Vec::new() };
+    let written = activity.decls.iter().find_map(|decl| match decl {
+        crate::hir::Decl::Area(_, e) => Some(e),
+        _ => None,
+    });
+    let Some(written) = written else { return Vec::new() };
+    let frame = crate::lower::origin_of(written).map(|origin| TangentFrame { origin });
+    let Some(area) = area(written, frame) else { return Vec::new() };
+    let outside = |clause: &ClauseUse| {
+        let (what, param) = match clause.name.as_str() {
+            "vehicle" => ("the vehicle starts", "start"),
+            "source" => ("this source is", "at"),
+            _ => return None,
+        };
+        let place = clause.args.iter().find(|(name, _)| name == param)?;
+        let ClauseArg::Value(e) = &place.1 else { return None };
+        let out = -area.gap(point(e, frame)?);
+        (out > 0.0).then(|| finding(&activity.name, written.span, e.span, what, out))
+    };
+    scenario.clauses.iter().filter_map(outside).collect()
+}
+
+fn finding(mission: &str, area: Span, place: Span, what: &str, out_m: f64) -> Diagnostic {
+    let message =
+        format!("{what} {out_m:.0} m outside the area of the mission `{mission}`, which runs in this scenario");
+    Diagnostic::warning(Code::ScenariosOutside, place, message)
+        .label(area, "the area")
+        .help("move it into the area, or the area to it: look for minutes exchanged, and for north and east")
+}
+
+/// An area of constants.
+fn area(e: &Expr, frame: Option<TangentFrame>) -> Option<Area> {
+    match &e.kind {
+        ExprKind::Do(Builtin::Rectangle, operands) => {
+            let [center, along, length, width] = operands.as_slice() else { return None };
+            let [along, length, width] = [along, length, width].map(|e| e.range.constant());
+            Area::rectangle(point(center, frame)?, Heading::from_radians(along?), length?, width?).ok()
+        }
+        ExprKind::Do(Builtin::Polygon, operands) => match operands.as_slice() {
+            [Expr { kind: ExprKind::List(corners), .. }] => {
+                let corners: Option<Vec<Point>> = corners.iter().map(|corner| point(corner, frame)).collect();
+                Area::polygon(&corners?).ok()
+            }
+            _ => None,
+        },
+        // `polygon(…) else rectangle(…)`
+        ExprKind::Else(first, second) => area(first, frame).or_else(|| area(second, frame)),
+        _ => None,
+    }
+}
+
+/// A point of constants.
+fn point(e: &Expr, frame: Option<TangentFrame>) -> Option<Point> {
+    match &e.kind {
+        ExprKind::Geodetic { latitude_deg, longitude_deg } => {
+            Some(frame?.to_point(Geodetic::from_degrees(*latitude_deg, *longitude_deg)))
+        }
+        ExprKind::Do(Builtin::Pair, operands) => match operands.as_slice() {
+            [north, east] => Some(Point::new(north.range.constant()?, east.range.constant()?)),
+            _ => None,
+        },
+        ExprKind::Present(inner) => point(inner, frame),
+        _ => None,
+    }
+}

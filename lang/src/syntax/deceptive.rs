@@ -1,0 +1,71 @@
+//! Characters that make a script look like another: what nobody sees, and what looks like a letter and is none.
+
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+
+/// Cyrillic and Greek letters, and signs, beside those that they look like.
+const LOOK_ALIKES: [(&str, &str); 3] = [
+    ("аеорсухіјѕһԁԛԝАВЕКМНОРСТХУІЈЅ", "aeopcyxijshdqwABEKMHOPCTXYIJS"),
+    ("ανορτυχκιΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "avoptuxkiABEZHIKMNOPTYX"),
+    ("‐‑∕⁄", "--//"),
+];
+
+/// What changes how a script looks and not what it means, in comments and texts too: controls of the direction of writing,
+/// marks without width, letters without a shape, control codes.
+pub(super) fn deceives(c: char) -> bool {
+    let unseen = matches!(c,
+        '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{180e}' | '\u{200b}'..='\u{200f}'
+        | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{3164}' | '\u{feff}' | '\u{ffa0}'
+        | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}');
+    unseen || (c.is_control() && !matches!(c, '\n' | '\r' | '\t'))
+}
+
+/// What a character in code was meant to be, when it looks like another: a blank, a digit, a letter, a sign.
+pub(super) fn meant(c: char) -> Option<char> {
+    if c.is_ascii() {
+        return None;
+    }
+    if c.is_whitespace() {
+        return Some(' ');
+    }
+    // The wide forms stand in the order of the narrow ones.
+    if let '\u{ff01}'..='\u{ff5e}' = c {
+        return char::from_u32(c as u32 - 0xff01 + 0x21);
+    }
+    LOOK_ALIKES
+        .iter()
+        .find_map(|(these, those)| these.chars().zip(those.chars()).find(|(this, _)| *this == c))
+        .map(|(_, as_that)| as_that)
+}
+
+pub(super) fn invisible(c: char, span: Span) -> Diagnostic {
+    let message = format!("the invisible character U+{:04X} stands here", c as u32);
+    Diagnostic::error(Code::SyntaxDeceptive, span, message)
+        .help("delete it: it makes the script read differently from what runs")
+}
+
+pub(super) fn look_alike(c: char, meant: char, span: Span) -> Diagnostic {
+    let (what, named) = match meant {
+        ' ' => ("this is no plain blank".to_string(), "a plain blank".to_string()),
+        meant => (format!("this looks like `{meant}`"), format!("`{meant}` from the keyboard")),
+    };
+    Diagnostic::error(Code::SyntaxDeceptive, span, format!("{what}, and is the character U+{:04X}", c as u32))
+        .help(format!("write {named}: what only looks alike is another name"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_look_alike_has_what_it_looks_like() {
+        for (these, those) in LOOK_ALIKES {
+            assert_eq!(these.chars().count(), those.chars().count());
+        }
+        assert_eq!(meant('а'), Some('a'));
+        assert_eq!(meant('３'), Some('3'));
+        assert_eq!(meant('\u{a0}'), Some(' '));
+        assert_eq!((meant('°'), meant('µ'), meant('é')), (None, None, None));
+    }
+}
