@@ -11,13 +11,81 @@
 mod compare;
 mod evaluator;
 mod events;
+mod generate;
+mod random;
+mod vehicle;
 
-use albacore_session::{Plan, load};
+use albacore_lang::Library;
+use albacore_session::{Plan, Severity, Source, load};
 use albacore_sim::Simulator;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use vehicle::Chance;
 
 /// No rule needs more ticks than this to be shown.
 const TICKS_MAX: u64 = 1_000;
+
+/// Ticks that a generated mission may take: its own limits are below that.
+const GENERATED_TICKS_MAX: u64 = 400;
+/// Generated scripts of an ordinary `cargo test`.
+const FEW: u64 = 100;
+
+/// What every script knows of a vehicle; a generated one imports nothing.
+struct Inputs;
+
+impl Library for Inputs {
+    fn prelude(&self) -> Vec<Source> {
+        let text = include_str!("../../stdlib/inputs.alb");
+        vec![Source { name: "stdlib/inputs.alb".into(), text: text.into() }]
+    }
+
+    fn module(&self, _: &Source, _: &[String]) -> Result<Source, String> {
+        Err("a generated script imports nothing".to_string())
+    }
+}
+
+/// Generates a script, runs it on both sides, and counts what it had in it.
+fn trial(seed: u64, had: &mut BTreeMap<String, usize>) -> Result<(), String> {
+    let (text, features) = generate::script(seed);
+    let script = albacore_lang::load(Source { name: "trial.alb".into(), text: text.as_str().into() }, &Inputs, None, &[]);
+    if !script.is_sound() {
+        let errors = script.findings.iter().filter(|finding| finding.severity == Severity::Error);
+        let errors: Vec<String> = errors.map(|e| format!("{} {:?} {}", e.code, script.sources.line_column(e.span()), e.message)).collect();
+        return Err(format!("seed {seed} is not sound:\n{}\n{text}", errors.join("\n")));
+    }
+    let run = compare::compare(&script, "trial", &mut Chance::new(seed), GENERATED_TICKS_MAX);
+    for (feature, count) in features {
+        *had.entry(feature.to_string()).or_default() += count;
+    }
+    for event in &run.events {
+        let words: Vec<&str> = event.split(' ').collect();
+        let kind = match words[0] {
+            kind @ ("leave" | "end") => format!("event: {kind} {}", words[words.len() - 1]),
+            kind => format!("event: {kind}"),
+        };
+        *had.entry(kind).or_default() += 1;
+    }
+    *had.entry("ticks".to_string()).or_default() += run.ticks as usize;
+    run.difference.map_or(Ok(()), |difference| Err(format!("seed {seed}: {difference}\n\n{text}")))
+}
+
+#[test]
+fn generated() {
+    let (first, count) = (from_environment("NAIVE_SEED", 1), from_environment("NAIVE_COUNT", FEW));
+    let mut had = BTreeMap::new();
+    let mut failures: Vec<String> = Vec::new();
+    for seed in first..first + count {
+        failures.extend(trial(seed, &mut had).err());
+    }
+    println!("{had:#?}");
+    failures.sort_by_key(String::len);
+    if std::env::var("NAIVE_ALL").is_ok() { for f in &failures { println!("=====FAIL {f}"); } }
+    assert!(failures.is_empty(), "{} of {count} differ; the shortest:\n{}", failures.len(), failures[0]);
+}
+
+fn from_environment(name: &str, otherwise: u64) -> u64 {
+    std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(otherwise)
+}
 
 /// The scripts that show the rules of time: both sides say the same of each, in the simulated world.
 #[test]

@@ -2,9 +2,9 @@
 
 use crate::Event;
 use crate::execute::Flow;
-use crate::state::Run;
+use crate::state::{Declared, Phase, Run};
 use albacore_program::{
-    Activity, ActivityId, Addr, Body, Cause, Entry, Exit, Program, Slot, Table, Target, header, setpoints,
+    Activity, ActivityId, ActivityKind, Addr, Body, Cause, Entry, Exit, Program, Slot, Table, Target, header, setpoints,
 };
 
 /// What became of an activity in a tick.
@@ -43,7 +43,11 @@ impl Run {
             }
         }
         self.events.push(Event::Entered(id));
-        if self.execute(p, activity.entry, base) == Flow::Abort {
+        let declared = self.execute(p, activity.entry, base);
+        if activity.kind == ActivityKind::Mission {
+            self.remember_declared(p, activity, base);
+        }
+        if declared == Flow::Abort {
             return;
         }
         self.execute(p, activity.reactions, base);
@@ -103,6 +107,10 @@ impl Run {
     }
 
     fn aborts(&mut self, p: &Program, activity: &Activity, base: Slot) -> bool {
+        // Rule 17: the recovery runs without them.
+        if matches!(self.state.phase, Phase::Recovering(..)) {
+            return false;
+        }
         for abort in &activity.aborts {
             self.execute(p, abort.condition.entry, base);
             if self.get(base + abort.condition.value) != 0.0 {
@@ -246,7 +254,7 @@ impl Run {
             let waiting = self.head(&p.activities[id as usize], base, header::BACK_TO);
             self.set_head(&p.activities[id as usize], base, header::BACK_TO, 0.0);
             self.leave(p, id, base, cause);
-            next = (waiting > 0.0).then(|| (waiting as u32 - 1, Cause::Preempted));
+            next = (waiting > 0.0).then(|| (waiting as u32 - 1, outer_cause(cause)));
         }
     }
 
@@ -289,26 +297,60 @@ impl Run {
         if self.head(activity, base, header::STATE) == header::IDLE {
             return;
         }
-        let child = self.head(activity, base, header::CHILD);
-        if child > 0.0 {
-            let child = child as u32 - 1;
-            // What is inside did not choose to end.
-            let inner = if cause == Cause::Done { Cause::Preempted } else { outer_cause(cause) };
-            match &activity.body {
-                Body::Table(table) => self.leave_with_waiting(p, table, base, child, inner),
-                _ => {
-                    let site = &p.calls[child as usize];
-                    self.leave(p, site.activity, base + site.base, inner);
-                }
-            }
-        }
-        for &overlay in activity.overlays.iter().rev() {
+        // What is inside did not choose to end.
+        self.leave_inside(p, activity, base, outer_cause(cause));
+        for &overlay in &activity.overlays {
             self.take_off(p, overlay, base, outer_cause(cause));
         }
         self.set_head(activity, base, header::STATE, header::IDLE);
         self.set_head(activity, base, header::CHILD, 0.0);
         self.set_head(activity, base, header::PC, header::ENDED);
         self.events.push(Event::Left(id, cause));
+    }
+
+    /// Leaves what a body has called, or the behaviors of a table.
+    fn leave_inside(&mut self, p: &Program, activity: &Activity, base: Slot, cause: Cause) {
+        let child = self.head(activity, base, header::CHILD);
+        if child > 0.0 {
+            let child = child as u32 - 1;
+            match &activity.body {
+                Body::Table(table) => self.leave_with_waiting(p, table, base, child, cause),
+                _ => {
+                    let site = &p.calls[child as usize];
+                    self.leave(p, site.activity, base + site.base, cause);
+                }
+            }
+        }
+    }
+
+    /// Leaves all that the mission's body has entered and put in force; the mission itself stays for the recovery, and what
+    /// its declarations have put in force (rule 17).
+    pub fn leave_body(&mut self, p: &Program, cause: Cause) {
+        let (activity, base) = (&p.activities[p.mission.activity as usize], p.mission.base);
+        if self.head(activity, base, header::STATE) != header::ACTIVE {
+            return;
+        }
+        self.leave_inside(p, activity, base, outer_cause(cause));
+        self.set_head(activity, base, header::CHILD, 0.0);
+        self.set_head(activity, base, header::PC, header::ENDED);
+        let Declared { setpoints, overlays } = self.state.declared;
+        for &overlay in &activity.overlays[..activity.overlays.len() - overlays] {
+            self.take_off(p, overlay, base, outer_cause(cause));
+        }
+        let at = (base + activity.header + header::SETPOINTS) as usize;
+        self.state.words[at..at + setpoints.len()].copy_from_slice(&setpoints);
+    }
+
+    fn remember_declared(&mut self, p: &Program, activity: &Activity, base: Slot) {
+        let mut setpoints = [0.0; setpoints::WORDS as usize];
+        setpoints.copy_from_slice(self.slice(base + activity.header + header::SETPOINTS, setpoints::WORDS));
+        let is_worn = |overlay: &&u32| {
+            let site = &p.overlays[**overlay as usize];
+            let state = base + site.base + p.activities[site.activity as usize].header + header::STATE;
+            self.get(state) == header::ACTIVE
+        };
+        let overlays = activity.overlays.iter().filter(is_worn).count();
+        self.state.declared = Declared { setpoints, overlays };
     }
 
     pub fn enter_call(&mut self, p: &Program, call: u32, base: Slot) {
@@ -362,6 +404,10 @@ impl Run {
                 let outer = std::mem::replace(&mut self.in_overlay, true);
                 self.step(p, site.activity, at);
                 self.in_overlay = outer;
+                // What is later in the order of the tick is not reached any more.
+                if self.abort.is_some() {
+                    return;
+                }
             }
         }
     }

@@ -14,13 +14,12 @@ const AMENDMENT_TOLD_RAD: f64 = 0.02;
 impl Run {
     /// The command of this tick.
     pub fn give_command(&mut self, p: &Program) -> Command {
-        let mut asked = self.state.asked;
-        if let Some(vertical) = self.state.overridden.vertical {
-            asked.vertical = vertical;
-        }
-        if let Some(speed) = self.state.overridden.speed {
-            asked.speed = speed;
-        }
+        // What an overlay keeps goes on like all that was commanded: through its own `wait`, through a hold, and after it.
+        let overridden = self.state.overridden;
+        let asked = &mut self.state.asked;
+        asked.vertical = overridden.vertical.unwrap_or(asked.vertical);
+        asked.speed = overridden.speed.unwrap_or(asked.speed);
+        let asked = *asked;
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
