@@ -47,10 +47,12 @@ impl Library for Inputs {
 /// Generates a script, runs it on both sides, and counts what it had in it.
 fn trial(seed: u64, had: &mut BTreeMap<String, usize>) -> Result<(), String> {
     let (text, features) = generate::script(seed);
-    let script = albacore_lang::load(Source { name: "trial.alb".into(), text: text.as_str().into() }, &Inputs, None, &[]);
+    let script =
+        albacore_lang::load(Source { name: "trial.alb".into(), text: text.as_str().into() }, &Inputs, None, &[]);
     if !script.is_sound() {
         let errors = script.findings.iter().filter(|finding| finding.severity == Severity::Error);
-        let errors: Vec<String> = errors.map(|e| format!("{} {:?} {}", e.code, script.sources.line_column(e.span()), e.message)).collect();
+        let errors: Vec<String> =
+            errors.map(|e| format!("{} {:?} {}", e.code, script.sources.line_column(e.span()), e.message)).collect();
         return Err(format!("seed {seed} is not sound:\n{}\n{text}", errors.join("\n")));
     }
     let run = compare::compare(&script, "trial", &mut Chance::new(seed), GENERATED_TICKS_MAX);
@@ -79,7 +81,11 @@ fn generated() {
     }
     println!("{had:#?}");
     failures.sort_by_key(String::len);
-    if std::env::var("NAIVE_ALL").is_ok() { for f in &failures { println!("=====FAIL {f}"); } }
+    if std::env::var("NAIVE_ALL").is_ok() {
+        for f in &failures {
+            println!("=====FAIL {f}");
+        }
+    }
     assert!(failures.is_empty(), "{} of {count} differ; the shortest:\n{}", failures.len(), failures[0]);
 }
 

@@ -39,7 +39,7 @@ impl Run {
             None => {
                 self.set(at + header::SETPOINTS + setpoints::VERTICAL, setpoints::UNSET);
                 self.set(at + header::SETPOINTS + setpoints::METRES, 0.0);
-                self.set(at + header::SETPOINTS + setpoints::SPEED, -1.0);
+                self.set(at + header::SETPOINTS + setpoints::SPEED, setpoints::NO_SPEED);
             }
         }
         self.events.push(Event::Entered(id));

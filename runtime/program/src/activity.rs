@@ -39,11 +39,13 @@ pub mod setpoints {
     pub const VERTICAL: u32 = 0;
     /// Metres.
     pub const METRES: u32 = 1;
-    /// Metres per second; negative when unset.
+    /// Metres per second, or [`NO_SPEED`].
     pub const SPEED: u32 = 2;
     /// How many words that is.
     pub const WORDS: u32 = 3;
 
+    /// No speed setpoint: below whatever a script can compute.
+    pub const NO_SPEED: f64 = f64::NEG_INFINITY;
     /// No vertical setpoint.
     pub const UNSET: f64 = 0.0;
     /// The metres are a depth.

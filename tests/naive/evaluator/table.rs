@@ -5,9 +5,7 @@ use super::body::at_once;
 use super::expr::{Frame, Scope, exactly, holds, text, value};
 use super::watch::Watch;
 use super::world::World;
-use albacore_lang::hir::{
-    ActivityId, Body, Decl, Expr, ExprKind, InputPart, Rule, Target, VarKind, children,
-};
+use albacore_lang::hir::{ActivityId, Body, Decl, Expr, ExprKind, InputPart, Rule, Target, VarKind, children};
 use albacore_lang::types::Type;
 use albacore_program::Cause;
 

@@ -113,9 +113,9 @@ impl Value {
                 std::iter::once(self.list().len() as f64).chain(elements).collect()
             }
             (Value::Area(edges), _) => std::iter::once(edges.len() as f64)
-                .chain(edges.iter().flat_map(|e| {
-                    [e.line.start.north, e.line.start.east, e.normal.north, e.normal.east]
-                }))
+                .chain(
+                    edges.iter().flat_map(|e| [e.line.start.north, e.line.start.east, e.normal.north, e.normal.east]),
+                )
                 .collect(),
             _ => Vec::new(),
         };

@@ -56,9 +56,19 @@ impl<'p> World<'p> {
             let fields: usize = input.fields.iter().map(|(_, ty)| width(ty)).sum();
             Sensed { latest: vec![0.0; width(&input.ty) + fields], ..Sensed::default() }
         });
-        let asked =
-            Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) };
-        World { inputs: inputs.collect(), hir, types, sources, frame, tick: 0, asked, kept: Setpoints::default(), is_recovering: false, events: Vec::new() }
+        let asked = Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) };
+        World {
+            inputs: inputs.collect(),
+            hir,
+            types,
+            sources,
+            frame,
+            tick: 0,
+            asked,
+            kept: Setpoints::default(),
+            is_recovering: false,
+            events: Vec::new(),
+        }
     }
 
     pub fn say(&mut self, line: String) {

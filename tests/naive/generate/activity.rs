@@ -408,7 +408,9 @@ impl Generator {
         let limit = 2 + self.random.below(14);
         let (params, ..) = if self.random.percent(50) { self.mission_params() } else { Default::default() };
         self.braces(&format!("mission trial{params} within {limit} s"), |g| {
-            g.line("area op = rectangle(center: point(north: 0 m, east: 0 m), along: 20 deg, length: 90 m, width: 60 m)");
+            g.line(
+                "area op = rectangle(center: point(north: 0 m, east: 0 m), along: 20 deg, length: 90 m, width: 60 m)",
+            );
             g.has_area = true;
             if g.random.percent(50) {
                 g.count("limits");

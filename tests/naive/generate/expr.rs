@@ -10,10 +10,7 @@ impl Generator {
         {
             return name.text;
         }
-        if deep > 0
-            && !matches!(ty, Ty::Ints | Ty::Points)
-            && self.random.percent(8)
-        {
+        if deep > 0 && !matches!(ty, Ty::Ints | Ty::Points) && self.random.percent(8) {
             self.count("if value");
             let (condition, then, otherwise) =
                 (self.expr(Ty::Bool, deep - 1), self.expr(ty, deep - 1), self.expr(ty, deep - 1));
@@ -117,37 +114,101 @@ impl Generator {
         let senses = !self.is_pure;
         match ty {
             Ty::Bool => r.of(&[
-                "($L < $L)", "($L >= $L)", "($R > $R)", "($I == $I)", "($I != $I)", "(not $B)", "($B and $B)",
-                "($B or $B)", "($H == $H)", "($M == $M)", "($p != none)", "($D > $D)", "($S <= $S)", "($P == $P)",
-                "($A < $A)", "($F == $F)", "($i == $i)", "($l == $l)", "($q != $q)", "($i.count > 1)",
+                "($L < $L)",
+                "($L >= $L)",
+                "($R > $R)",
+                "($I == $I)",
+                "($I != $I)",
+                "(not $B)",
+                "($B and $B)",
+                "($B or $B)",
+                "($H == $H)",
+                "($M == $M)",
+                "($p != none)",
+                "($D > $D)",
+                "($S <= $S)",
+                "($P == $P)",
+                "($A < $A)",
+                "($F == $F)",
+                "($i == $i)",
+                "($l == $l)",
+                "($q != $q)",
+                "($i.count > 1)",
             ]),
             Ty::Int if senses && r.percent(30) => "chemical.hits($R, of: 4)",
             Ty::Int => r.of(&[
-                "($I + $I)", "($I - $I)", "($I * 2)", "$i.count", "min($I, $I)", "floor($R)", "round($R * 3)",
-                "($i.first else $I)", "($i[$I] else $I)", "$q.count", "$i.top($I).count", "many($I, $M)",
+                "($I + $I)",
+                "($I - $I)",
+                "($I * 2)",
+                "$i.count",
+                "min($I, $I)",
+                "floor($R)",
+                "round($R * 3)",
+                "($i.first else $I)",
+                "($i[$I] else $I)",
+                "$q.count",
+                "$i.top($I).count",
+                "many($I, $M)",
             ]),
             Ty::Length => r.of(&[
-                "($L + $L)", "($L - $L)", "($R * $L)", "abs($L)", "distance($P, $P)", "$P.north", "($V).length",
-                "$P.along($H)", "max($L, $L)", "clamp($L, 1 m, 30 m)", "($l else $L)", "($D - $D)", "$F.size",
-                "$q.spread($H)", "line($P, $P).length", "sqrt(abs($L) * 4 m)", "twice($L, $I)",
+                "($L + $L)",
+                "($L - $L)",
+                "($R * $L)",
+                "abs($L)",
+                "distance($P, $P)",
+                "$P.north",
+                "($V).length",
+                "$P.along($H)",
+                "max($L, $L)",
+                "clamp($L, 1 m, 30 m)",
+                "($l else $L)",
+                "($D - $D)",
+                "$F.size",
+                "$q.spread($H)",
+                "line($P, $P).length",
+                "sqrt(abs($L) * 4 m)",
+                "twice($L, $I)",
             ]),
             Ty::Ratio if senses && r.percent(20) => "(chemical.age / 3 s)",
             Ty::Ratio => r.of(&[
-                "($R + $R)", "($R - $R)", "($R * $R)", "($L / 7 m)", "share($L, $L)", "sin($A)", "cos($A)",
-                "($I / 3)", "max($R, $R)", "(-$R)", "(abs($R) ^ 0.5)",
+                "($R + $R)",
+                "($R - $R)",
+                "($R * $R)",
+                "($L / 7 m)",
+                "share($L, $L)",
+                "sin($A)",
+                "cos($A)",
+                "($I / 3)",
+                "max($R, $R)",
+                "(-$R)",
+                "(abs($R) ^ 0.5)",
             ]),
-            Ty::Angle => r.of(&["($A + $A)", "($A - $A)", "($H - $H)", "($R * $A)", "(-$A)", "clamp($A, -30 deg, 40 deg)"]),
+            Ty::Angle => {
+                r.of(&["($A + $A)", "($A - $A)", "($H - $H)", "($R * $A)", "(-$A)", "clamp($A, -30 deg, 40 deg)"])
+            }
             Ty::Heading => r.of(&["($H + $A)", "($H - $A)", "($V).toward", "($P - $P).toward", "turned($H, $M)"]),
             Ty::Point if self.has_area && senses && r.percent(30) => {
                 r.of(&["op.corner(toward: $H)", "op.exit($P, toward: $H)", "op.nearest_edge($P).line.end"])
             }
             Ty::Point => r.of(&[
-                "($P + $V)", "($P - $V)", "point(north: $L, east: $L)", "($p else $P)", "($q.first else $P)", "$F.at",
+                "($P + $V)",
+                "($P - $V)",
+                "point(north: $L, east: $L)",
+                "($p else $P)",
+                "($q.first else $P)",
+                "$F.at",
                 "($q[$I] else $P)",
             ]),
             Ty::Vector if senses && r.percent(20) => "(flow * 20 s)",
-            Ty::Vector => r.of(&["($L toward $H)", "($V + $V)", "($P - $P)", "($R * $V)", "vector(north: $L, east: $L)"]),
-            Ty::Speed => r.of(&["clamp($S, 0.4 m/s, 2.2 m/s)", "max($S, 0.3 m/s)", "min($S + 0.2 m/s, 1.7 m/s)", "clamp(abs($L / 9 s), 0.1 m/s, 1.7 m/s)"]),
+            Ty::Vector => {
+                r.of(&["($L toward $H)", "($V + $V)", "($P - $P)", "($R * $V)", "vector(north: $L, east: $L)"])
+            }
+            Ty::Speed => r.of(&[
+                "clamp($S, 0.4 m/s, 2.2 m/s)",
+                "max($S, 0.3 m/s)",
+                "min($S + 0.2 m/s, 1.7 m/s)",
+                "clamp(abs($L / 9 s), 0.1 m/s, 1.7 m/s)",
+            ]),
             Ty::Depth => r.of(&["max($D, 2 m)", "min($D, 15 m)", "clamp($D, 1 m, 12 m)", "($D + position.sigma)"]),
             Ty::Mode => "mode_of($I)",
             Ty::Found => "Found(at: $P, size: $L, mode: $M)",

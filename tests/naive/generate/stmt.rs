@@ -121,7 +121,12 @@ impl Generator {
 
     fn setpoint(&mut self) -> String {
         self.filled(
-            self.random.clone().of(&[" at depth max($D, 1 m)", " at speed 1.5 m/s", " at altitude 4 m, speed 1 m/s", " at depth 7 m"]),
+            self.random.clone().of(&[
+                " at depth max($D, 1 m)",
+                " at speed 1.5 m/s",
+                " at altitude 4 m, speed 1 m/s",
+                " at depth 7 m",
+            ]),
             1,
         )
     }
@@ -364,7 +369,8 @@ impl Generator {
         self.count("with");
         let mut items = Vec::new();
         if self.random.percent(50) {
-            let setpoints = ["speed 0.2 m/s - flow.length", "speed max($S, 0.2 m/s)", "altitude 5 m", "depth max($D, 1 m)"];
+            let setpoints =
+                ["speed 0.2 m/s - flow.length", "speed max($S, 0.2 m/s)", "altitude 5 m", "depth max($D, 1 m)"];
             let setpoint = setpoints[self.random.below(if self.vertical_is_taken { 2 } else { 4 })];
             items.push(self.filled(setpoint, 1));
         }
