@@ -34,6 +34,7 @@ impl Run {
         self.set(at + header::STATE, header::ACTIVE);
         self.set(at + header::CHILD, 0.0);
         self.set(at + header::BACK_TO, 0.0);
+        self.set(at + header::AMENDING, 0.0);
         match inherited {
             Some(from) => self.copy(at + header::SETPOINTS, from, setpoints::WORDS),
             None => {
@@ -216,8 +217,9 @@ impl Run {
             _ => None,
         };
         if rule.back && to != Some(from) {
-            self.set_head(&p.activities[entry.activity as usize], base, header::STATE, header::SUSPENDED);
             self.events.push(Event::Suspended(entry.activity));
+            self.hush(p, entry.activity, base);
+            self.set_head(&p.activities[entry.activity as usize], base, header::STATE, header::SUSPENDED);
         } else {
             self.leave_with_waiting(p, table, base, from, if done { Cause::Done } else { Cause::Rule });
         }
@@ -389,9 +391,7 @@ impl Run {
 
     pub fn take_off(&mut self, p: &Program, overlay: u32, base: Slot, cause: Cause) {
         let site = &p.overlays[overlay as usize];
-        if std::mem::take(&mut self.state.amending[overlay as usize]) {
-            self.events.push(Event::AmendingEnded(site.activity));
-        }
+        self.end_amending(p, overlay, base);
         self.leave(p, site.activity, base + site.base, cause);
     }
 

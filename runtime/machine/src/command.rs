@@ -49,21 +49,27 @@ impl Run {
                 course = self.amend(p, overlay, base, course);
             }
         }
-        self.end_amending_of_suspended(p, &chain);
         course
     }
 
-    /// An overlay whose wearer is suspended amends nothing until that goes on.
-    fn end_amending_of_suspended(&mut self, p: &Program, chain: &[(u32, Slot)]) {
-        if !self.state.amending.contains(&true) {
-            return;
-        }
-        let worn = |overlay: u32| chain.iter().any(|(id, _)| p.activities[*id as usize].overlays.contains(&overlay));
-        for (overlay, site) in p.overlays.iter().enumerate() {
-            if self.state.amending[overlay] && !worn(overlay as u32) {
-                self.state.amending[overlay] = false;
-                self.events.push(Event::AmendingEnded(site.activity));
+    /// The overlays in an activity that is about to wait amend nothing until that goes on; from inner to outer.
+    pub fn hush(&mut self, p: &Program, id: u32, base: Slot) {
+        let mut chain = Vec::new();
+        self.chain_from(p, id, base, &mut |id, base| chain.push((id, base)));
+        for (id, base) in chain.into_iter().rev() {
+            for &overlay in &p.activities[id as usize].overlays {
+                self.end_amending(p, overlay, base);
             }
+        }
+    }
+
+    /// An overlay leaves the course alone; told when the trace has heard that it does not.
+    pub fn end_amending(&mut self, p: &Program, overlay: u32, base: Slot) {
+        let site = &p.overlays[overlay as usize];
+        let told = base + site.base + p.activities[site.activity as usize].header + header::AMENDING;
+        if self.get(told) != 0.0 {
+            self.set(told, 0.0);
+            self.events.push(Event::AmendingEnded(site.activity));
         }
     }
 
@@ -83,13 +89,12 @@ impl Run {
         }
         let given = Heading::from_radians(self.get(at + amended.value));
         let change = (given - asked).abs();
-        let told = self.state.amending[overlay as usize];
-        if !told && change > AMENDMENT_TOLD_RAD {
-            self.state.amending[overlay as usize] = true;
+        let told = at + activity.header + header::AMENDING;
+        if self.get(told) == 0.0 && change > AMENDMENT_TOLD_RAD {
+            self.set(told, 1.0);
             self.events.push(Event::Amending(site.activity, asked.radians(), given.radians()));
-        } else if told && change < AMENDMENT_TOLD_RAD / 2.0 {
-            self.state.amending[overlay as usize] = false;
-            self.events.push(Event::AmendingEnded(site.activity));
+        } else if change < AMENDMENT_TOLD_RAD / 2.0 {
+            self.end_amending(p, overlay, base);
         }
         given
     }

@@ -34,7 +34,6 @@ impl Run {
             control: Control::Disconnected,
             limits: Limits::NONE,
             declared: Declared::default(),
-            amending: vec![false; p.overlays.len()],
             limited: [false; 3],
             requires: Vec::new(),
             within: None,

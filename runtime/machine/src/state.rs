@@ -25,8 +25,7 @@ pub struct State {
     pub(crate) control: Control,
     /// The mission's limits, once it runs.
     pub(crate) limits: Limits,
-    /// For each overlay site whether it is changing the course; for each channel whether a limit holds it back.
-    pub(crate) amending: Vec<bool>,
+    /// For each channel whether a limit holds it back.
     pub(crate) limited: [bool; 3],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
     pub(crate) requires: Vec<Requirement>,

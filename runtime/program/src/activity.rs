@@ -20,8 +20,10 @@ pub mod header {
     pub const BACK_TO: u32 = 4;
     /// The setpoints in force in it: see [`crate::setpoints`].
     pub const SETPOINTS: u32 = 5;
+    /// In an overlay: 1 while the trace has been told that it changes the course.
+    pub const AMENDING: u32 = SETPOINTS + crate::setpoints::WORDS;
     /// How many words that is.
-    pub const WORDS: u32 = SETPOINTS + crate::setpoints::WORDS;
+    pub const WORDS: u32 = AMENDING + 1;
 
     /// Not entered, or left.
     pub const IDLE: f64 = 0.0;

@@ -336,17 +336,7 @@ impl<'p> Activation<'p> {
 
     /// Rule 2: the course after all overlays of the active chain, from inner to outer.
     pub fn amended(&mut self, w: &mut World<'p>, asked: Heading) -> Heading {
-        let mut course = match &mut self.inside {
-            Inside::Sequence(todo) => match todo.last_mut() {
-                Some(Todo::Timed(underway)) => match &mut underway.doing {
-                    Doing::Call(called) => called.amended(w, asked),
-                    _ => asked,
-                },
-                _ => asked,
-            },
-            Inside::Table(table) => table.active().map_or(asked, |active| active.amended(w, asked)),
-            Inside::Amend => asked,
-        };
+        let mut course = self.called().map_or(asked, |called| called.amended(w, asked));
         for overlay in self.overlays() {
             course = overlay.amend(w, course);
         }
@@ -372,23 +362,28 @@ impl<'p> Activation<'p> {
         given
     }
 
-    /// An overlay whose wearer waits amends nothing until that goes on.
-    pub fn hush_waiting(&mut self, w: &mut World<'p>, waits: bool) {
-        if waits {
-            for overlay in self.overlays() {
-                overlay.end_amending(w);
-            }
+    /// Rule 12: the overlays of what is about to wait amend nothing until that goes on; from inner to outer.
+    pub fn hush(&mut self, w: &mut World<'p>) {
+        if let Some(called) = self.called() {
+            called.hush(w);
         }
+        for overlay in self.overlays() {
+            overlay.end_amending(w);
+        }
+    }
+
+    /// What its body has called, or the active behavior of its table.
+    fn called(&mut self) -> Option<&mut Activation<'p>> {
         match &mut self.inside {
-            Inside::Sequence(todo) => {
-                if let Some(Todo::Timed(underway)) = todo.last_mut()
-                    && let Doing::Call(called) = &mut underway.doing
-                {
-                    called.hush_waiting(w, waits);
-                }
-            }
-            Inside::Table(table) => table.hush_waiting(w, waits),
-            Inside::Amend => {}
+            Inside::Sequence(todo) => match todo.last_mut() {
+                Some(Todo::Timed(underway)) => match &mut underway.doing {
+                    Doing::Call(called) => Some(called),
+                    _ => None,
+                },
+                _ => None,
+            },
+            Inside::Table(table) => table.active(),
+            Inside::Amend => None,
         }
     }
 }

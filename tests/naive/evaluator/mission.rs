@@ -319,8 +319,6 @@ impl<'p> Evaluator<'p> {
         let asked = self.w.asked;
         let amended = self.recovery.amended(&mut self.w, asked.course);
         let amended = self.mission.amended(&mut self.w, amended);
-        self.mission.hush_waiting(&mut self.w, false);
-        self.recovery.hush_waiting(&mut self.w, false);
         let speed = self.limit(Channel::Speed, asked.speed);
         let water = self.w.water_depth();
         let vertical = match asked.vertical {

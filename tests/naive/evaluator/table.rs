@@ -89,6 +89,9 @@ impl<'p> Table<'p> {
         let back = rule.back && to != Some(from);
         if back {
             w.say(format!("suspend {name}"));
+            if let Some(active) = self.active() {
+                active.hush(w);
+            }
         } else {
             self.leave(w, if done { Cause::Done } else { Cause::Rule });
         }
@@ -139,13 +142,6 @@ impl<'p> Table<'p> {
         while let Some(mut seat) = self.row.pop() {
             seat.activation.leave(w, cause);
             cause = inner_cause(cause);
-        }
-    }
-
-    pub fn hush_waiting(&mut self, w: &mut World<'p>, waits: bool) {
-        let waiting = self.row.len().saturating_sub(1);
-        for (i, seat) in self.row.iter_mut().enumerate() {
-            seat.activation.hush_waiting(w, waits || i < waiting);
         }
     }
 }

@@ -83,7 +83,7 @@ impl Generator {
         let number = |g: &mut Self, low: usize, high: usize| low + g.random.below(high - low);
         match ty {
             Ty::Bool => self.random.of(&["true", "false", "$I == $I", "$L < $L"]).to_string(),
-            Ty::Int => number(self, 0, 5).to_string(),
+            Ty::Int => self.random.of(&["0", "2", "3", "4", "5"]).to_string(),
             Ty::Length if senses && self.random.percent(30) => "position.sigma".to_string(),
             Ty::Length => format!("{} m", number(self, 1, 40)),
             Ty::Ratio if senses => self.random.of(&["chemical", "battery", "4 %", "0.5", "chemical.peak"]).to_string(),
