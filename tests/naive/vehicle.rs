@@ -127,6 +127,10 @@ impl Vehicle for Chance {
         Ok(())
     }
 
+    fn give_back(&mut self) -> Result<(), VehicleError> {
+        Ok(())
+    }
+
     fn release(&mut self) -> Result<(), VehicleError> {
         Ok(())
     }

@@ -218,7 +218,9 @@ impl Run {
         };
         if rule.back && to != Some(from) {
             self.events.push(Event::Suspended(entry.activity));
-            self.hush(p, entry.activity, base);
+            let mut waiting = Vec::new();
+            self.chain_from(p, entry.activity, base, &mut |id, base| waiting.push((id, base)));
+            self.hush(p, &waiting);
             self.set_head(&p.activities[entry.activity as usize], base, header::STATE, header::SUSPENDED);
         } else {
             self.leave_with_waiting(p, table, base, from, if done { Cause::Done } else { Cause::Rule });
@@ -308,6 +310,10 @@ impl Run {
         self.set_head(activity, base, header::CHILD, 0.0);
         self.set_head(activity, base, header::PC, header::ENDED);
         self.events.push(Event::Left(id, cause));
+        // However it ends (rule 18).
+        if activity.kind == ActivityKind::Override {
+            self.give_back(p);
+        }
     }
 
     /// Leaves what a body has called, or the behaviors of a table.

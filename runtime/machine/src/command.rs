@@ -52,13 +52,11 @@ impl Run {
         course
     }
 
-    /// The overlays in an activity that is about to wait amend nothing until that goes on; from inner to outer.
-    pub fn hush(&mut self, p: &Program, id: u32, base: Slot) {
-        let mut chain = Vec::new();
-        self.chain_from(p, id, base, &mut |id, base| chain.push((id, base)));
-        for (id, base) in chain.into_iter().rev() {
-            for &overlay in &p.activities[id as usize].overlays {
-                self.end_amending(p, overlay, base);
+    /// The overlays of some activities, given from outside in, amend nothing until they go on; from inner to outer.
+    pub fn hush(&mut self, p: &Program, chain: &[(u32, Slot)]) {
+        for (id, base) in chain.iter().rev() {
+            for &overlay in &p.activities[*id as usize].overlays {
+                self.end_amending(p, overlay, *base);
             }
         }
     }
@@ -109,7 +107,7 @@ impl Run {
         }
     }
 
-    fn chain_from(&self, p: &Program, id: u32, base: Slot, visit: &mut impl FnMut(u32, Slot)) {
+    pub fn chain_from(&self, p: &Program, id: u32, base: Slot, visit: &mut impl FnMut(u32, Slot)) {
         let mut next = Some((id, base));
         while let Some((id, base)) = next {
             let activity = &p.activities[id as usize];

@@ -2,7 +2,7 @@
 
 use crate::activity::Status;
 use crate::inputs::{MissingInput, senses, wiring};
-use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State};
+use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State, Wish};
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
@@ -29,6 +29,7 @@ impl Run {
             tick: 0,
             phase: Phase::Waiting,
             asked: Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) },
+            wish: if p.mission.guest { Wish::Listen } else { Wish::Drive },
             command: None,
             filtered: Heading::NORTH,
             control: Control::Disconnected,
@@ -40,7 +41,7 @@ impl Run {
             began: 0,
             overridden: Overridden::default(),
         };
-        Run { state, events: Vec::new(), in_overlay: false, abort: None, senses: senses(p) }
+        Run { state, events: Vec::new(), in_overlay: false, abort: None, deserted: None, senses: senses(p) }
     }
 
     fn number(&mut self, p: &Program, code: &Code) -> f64 {
@@ -72,6 +73,12 @@ impl Machine {
         self.run.state = state;
         self.run.events.clear();
         self.run.abort = None;
+        self.run.deserted = None;
+    }
+
+    /// What the mission wants of its vehicle from here on.
+    pub fn wish(&self) -> Wish {
+        self.run.state.wish
     }
 
     /// Lets a mission that has not begun begin at a later tick, in control, and know what was sensed before: ticks and their
@@ -154,18 +161,20 @@ impl Machine {
 }
 
 impl Run {
-    fn hear_control(&mut self, control: Control) {
-        if control != self.state.control {
-            self.state.control = control;
-            self.events.push(Event::Control(control));
-        }
-    }
-
     /// One tick of whatever phase the mission is in.
     fn live(&mut self, p: &Program) -> Option<Command> {
         let began = self.state.phase != Phase::Waiting;
+        let guest = p.mission.guest && !matches!(self.state.phase, Phase::Recovering(..));
         match self.state.control {
             Control::InControl => {}
+            // Whoever drives, a guest lives on: its overrides hear of it.
+            Control::Monitoring
+            | Control::Offered
+            | Control::Requesting
+            | Control::Released
+            | Control::Refused
+            | Control::Suspended
+                if guest => {}
             // The vehicle does not listen for a while: the mission stands still.
             Control::Suspended => return None,
             Control::Refused => return self.over(p, Outcome::Refused),
@@ -229,6 +238,9 @@ impl Run {
             self.events.push(Event::TimedOut);
             return self.over(p, Outcome::TimedOut);
         }
+        if p.mission.guest {
+            return None;
+        }
         // Rule 6: at the very start the present heading and depth, speed 0, as far as they are known.
         let knows = |at: Option<Slot>| at.is_some_and(|at| self.get(at + Input::STAMP) >= 0.0);
         (knows(self.senses.heading) && knows(self.senses.depth)).then(|| Command {
@@ -258,10 +270,7 @@ impl Run {
     fn start(&mut self, p: &Program) {
         let base = p.mission.base;
         self.state.phase = Phase::Running;
-        self.state.filtered = self.heading();
-        // Rule 6: at the very start the present heading and depth, speed 0.
-        self.state.asked =
-            Asked { course: self.heading(), over_ground: false, speed: 0.0, vertical: Vertical::Depth(self.depth()) };
+        self.stand();
         for require in &p.mission.requires {
             let input = &p.inputs[require.input as usize];
             if let Some(at_first) = &require.at_first
@@ -326,36 +335,45 @@ impl Run {
         }
         let before = self.state.asked;
         self.state.asked.speed = 0.0;
-        let command = self.give_command(p);
+        let command = self.command_if_ours(p);
         self.state.asked = before;
-        Some(Some(command))
+        Some(command)
     }
 
     fn after_step(&mut self, p: &Program, status: Status) -> Option<Command> {
         if let Some(why) = self.abort.take() {
             self.events.push(Event::Aborted(why));
-            return self.recover(p, Outcome::Aborted);
+            return match self.deserted.take() {
+                Some(outcome) => self.over(p, outcome),
+                None => self.recover(p, Outcome::Aborted),
+            };
         }
         if status == Status::Ended {
             return self.over(p, Outcome::Completed);
         }
-        Some(self.give_command(p))
+        self.command_if_ours(p)
     }
 
-    /// Leaves all that is inside the mission and begins the recovery; without one the mission is over.
+    /// Leaves all that is inside the mission and begins the recovery; without one the mission is over, and so is that of a
+    /// guest while its vehicle runs its own plan.
     fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         self.abort = None;
+        let wish = self.state.wish;
         let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
         let (id, base) = (p.mission.activity, p.mission.base);
         let at = base + p.activities[id as usize].header;
         self.leave_body(p, cause);
-        let Some(recovery) = p.mission.recovery else { return self.over(p, outcome) };
+        let Some(recovery) = p.mission.recovery.filter(|_| wish == Wish::Drive) else { return self.over(p, outcome) };
+        self.state.wish = wish;
         // Frozen now, as every time limit is (rule 4).
         self.state.began = self.state.tick;
         self.state.within = recovery.within.as_ref().map(|code| self.number(p, code));
         self.state.phase = Phase::Recovering(outcome, self.state.tick);
         self.enter(p, recovery.activity, base, Some(at + header::SETPOINTS));
-        Some(self.give_command(p))
+        if self.abort.take().is_some() {
+            return self.end_recovery(p, recovery.activity, outcome, Cause::Aborted);
+        }
+        self.command_if_ours(p)
     }
 
     fn step_recovery(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
@@ -368,14 +386,21 @@ impl Run {
         self.abort = None;
         let time_is_up = self.time_is_up();
         let status = self.step(p, recovery.activity, base);
-        self.abort = None;
-        if time_is_up || status == Status::Ended {
-            // Its own end on the very tick of the cut counts as such (rule 5).
-            let cause = if status == Status::Ended { Cause::Done } else { Cause::TimedOut };
-            self.leave(p, recovery.activity, base, cause);
-            return self.over(p, outcome);
+        // Its own end on the very tick of the cut counts as such (rule 5). What it calls may say `abort`: that ends it too.
+        let ended = match (self.abort.take(), status) {
+            (Some(_), _) => Some(Cause::Aborted),
+            (None, Status::Ended) => Some(Cause::Done),
+            (None, Status::Running) => time_is_up.then_some(Cause::TimedOut),
+        };
+        if let Some(cause) = ended {
+            return self.end_recovery(p, recovery.activity, outcome, cause);
         }
         Some(self.give_command(p))
+    }
+
+    fn end_recovery(&mut self, p: &Program, recovery: u32, outcome: Outcome, cause: Cause) -> Option<Command> {
+        self.leave(p, recovery, p.mission.base, cause);
+        self.over(p, outcome)
     }
 
     /// The end: everything is left, nothing more is commanded.

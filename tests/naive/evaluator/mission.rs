@@ -284,21 +284,28 @@ impl<'p> Evaluator<'p> {
         self.phase = Phase::Recovering(self.w.tick, outcome);
         self.w.is_recovering = true;
         self.recovery.setpoints = self.mission.setpoints;
-        // The checker has shown that a recovery does not abort; an overlay may, and there is nothing left to abort.
-        let _ = self.recovery.begin(&mut self.w);
-        Some(self.command())
+        match self.recovery.begin(&mut self.w) {
+            Ok(()) => Some(self.command()),
+            Err(_) => self.end_recovery(outcome, Cause::Aborted),
+        }
     }
 
     fn recover(&mut self, since: u64, outcome: &'static str) -> Option<Command> {
         self.mission.refresh(&mut self.w);
         let _ = self.mission.step_overlays(&mut self.w);
         let time_is_up = self.recovery_within.is_some_and(|within| self.w.tick - since >= within);
-        let ended = matches!(self.recovery.step(&mut self.w), Ok(true));
-        if ended || time_is_up {
-            self.recovery.leave(&mut self.w, if ended { Cause::Done } else { Cause::TimedOut });
-            return self.over(outcome, outcome_cause(outcome));
+        match self.recovery.step(&mut self.w) {
+            // There is nothing left to abort but the recovery itself.
+            Err(_) => self.end_recovery(outcome, Cause::Aborted),
+            Ok(true) => self.end_recovery(outcome, Cause::Done),
+            Ok(false) if time_is_up => self.end_recovery(outcome, Cause::TimedOut),
+            Ok(false) => Some(self.command()),
         }
-        Some(self.command())
+    }
+
+    fn end_recovery(&mut self, outcome: &'static str, cause: Cause) -> Option<Command> {
+        self.recovery.leave(&mut self.w, cause);
+        self.over(outcome, outcome_cause(outcome))
     }
 
     fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {

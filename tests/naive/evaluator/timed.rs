@@ -82,6 +82,7 @@ impl<'p> Underway<'p> {
                 Doing::Guide(*guide, args, law)
             }
             Action::Keep(channel, e) => Doing::Keep(*channel, e),
+            Action::Watch | Action::Override(_) => panic!("rule 18 is not covered"),
             Action::Call(id, args) => {
                 let activity = &w.hir.activities[*id];
                 let args = values(w, s, args);
