@@ -3,6 +3,7 @@
 #![allow(
     clippy::expect_used,
     clippy::panic,
+    clippy::print_stdout,
     clippy::unwrap_used,
     missing_docs,
     reason = "a test whose scripts cannot be run has failed"
@@ -71,22 +72,45 @@ fn trial(seed: u64, had: &mut BTreeMap<String, usize>) -> Result<(), String> {
     run.difference.map_or(Ok(()), |difference| Err(format!("seed {seed}: {difference}\n\n{text}")))
 }
 
+/// Generated scripts from a seed on: whether any of them differs, and what all of them had.
+fn trials(first: u64, count: u64) -> BTreeMap<String, usize> {
+    let mut had = BTreeMap::new();
+    let mut failures: Vec<String> = (first..first + count).filter_map(|seed| trial(seed, &mut had).err()).collect();
+    failures.sort_by_key(String::len);
+    assert!(failures.is_empty(), "{} of {count} differ; the shortest:\n{}", failures.len(), failures[0]);
+    had
+}
+
+/// What the scripts of an ordinary test must have had between them: each statement, form of rule and condition over time, and
+/// each cause of leaving.
 #[test]
 fn generated() {
-    let (first, count) = (from_environment("NAIVE_SEED", 1), from_environment("NAIVE_COUNT", FEW));
-    let mut had = BTreeMap::new();
-    let mut failures: Vec<String> = Vec::new();
-    for seed in first..first + count {
-        failures.extend(trial(seed, &mut had).err());
-    }
+    let had = trials(1, FEW);
+    let wanted = [
+        "steer, steer heading, goto, follow, dubins, loiter, keep, hold, wait, call, call for, call until, call within",
+        "call with a result, for T, until, within, at, with, overlay on course, overlay on vertical",
+        "overlay on vertical in a block, let, assignment, var, insert, remove, clear, list, ordered list, memory, signal",
+        "if, if let, if value, narrowing, match, match value, for range, for list, for written list, for edges, for rows",
+        "while, while let, loop, finish, abort, report, log, default, limits, requires, recovery, abort on",
+        "reaction of a mission, reaction of a strategy, reaction of a behavior, reaction of a table's behavior",
+        "reaction of an overlay, optional as a condition, body that takes no time, sequence, table, rule, several sources",
+        "any ->, then back, do, done, done and, done or, after T, -> finish, -> abort, becomes, for, no, no for, after",
+        "becomes after, false and, or over time, for of becomes",
+        "event: suspend, event: resume, event: stale, event: fresh, event: wait, event: amend, event: limit",
+        "event: leave Done, event: leave Rule, event: leave Until, event: leave TimedOut, event: leave Preempted",
+        "event: leave Aborted, event: end completed, event: end aborted, event: end timed_out",
+    ];
+    let missing: Vec<&str> =
+        wanted.iter().flat_map(|line| line.split(", ")).filter(|x| !had.contains_key(*x)).collect();
+    assert!(missing.is_empty(), "no generated script had: {missing:?}");
+}
+
+/// Very many: `NAIVE_SEED=1 NAIVE_COUNT=10000 cargo test --release --test naive -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes minutes"]
+fn generated_by_the_thousand() {
+    let had = trials(from_environment("NAIVE_SEED", 1), from_environment("NAIVE_COUNT", 10_000));
     println!("{had:#?}");
-    failures.sort_by_key(String::len);
-    if std::env::var("NAIVE_ALL").is_ok() {
-        for f in &failures {
-            println!("=====FAIL {f}");
-        }
-    }
-    assert!(failures.is_empty(), "{} of {count} differ; the shortest:\n{}", failures.len(), failures[0]);
 }
 
 fn from_environment(name: &str, otherwise: u64) -> u64 {
