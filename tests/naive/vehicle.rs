@@ -51,7 +51,7 @@ impl Chance {
 
     fn live(&mut self) {
         let way = HASTE * self.command.speed * TICK_S;
-        self.position = self.position + way * self.command.heading.unit();
+        self.position += way * self.command.heading.unit();
         let goal = match self.command.vertical {
             Vertical::Depth(metres) => metres,
             Vertical::Altitude(metres) => BOTTOM_M - metres,
@@ -61,11 +61,11 @@ impl Chance {
             self.chemical = 0.1 * self.random.uniform();
         }
         for silent in &mut self.silent {
-            if self.random.bits() % 300 == 0 {
+            if self.random.bits().is_multiple_of(300) {
                 *silent = self.tick + self.random.bits() % 25;
             }
         }
-        if self.random.bits() % 250 == 0 {
+        if self.random.bits().is_multiple_of(250) {
             self.suspended = self.tick + self.random.bits() % 10;
         }
     }
