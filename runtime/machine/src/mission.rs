@@ -89,7 +89,8 @@ impl Machine {
             self.run.take_in(&self.program, &self.wiring, samples);
         }
         self.run.state.tick = tick;
-        self.run.state.control = Control::InControl;
+        self.run.hear_control(Control::InControl);
+        self.run.events.clear();
     }
 
     /// Puts a value in place.
