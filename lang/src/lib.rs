@@ -9,11 +9,11 @@ pub mod code;
 pub mod cost;
 pub mod diagnostic;
 pub mod diagram;
-mod dimension;
+pub mod dimension;
 mod echo;
 pub mod fmt;
 mod foreign;
-mod hir;
+pub mod hir;
 mod loader;
 mod lower;
 pub mod prompt;
@@ -21,7 +21,7 @@ mod rules;
 pub mod source;
 mod suggest;
 pub mod syntax;
-mod types;
+pub mod types;
 
 pub use lower::{ExpectProgram, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots};
 pub use suggest::{help as suggestion, nearest};
@@ -155,6 +155,12 @@ impl Script {
     /// The scenarios of the script's own file.
     pub fn own_scenarios(&self) -> impl Iterator<Item = &str> {
         self.hir.scenarios.iter().filter(|s| s.span.file == ENTRY).map(|s| s.name.as_str())
+    }
+
+    /// The checked program, its types, and where a mission stands in it.
+    pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
+        let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
+        Some((&self.hir, &self.types, *id))
     }
 
     /// A mission, ready for the machine.

@@ -334,7 +334,8 @@ impl<'t> Checker<'t> {
             };
         }
         self.sensible_ratio(&a, &b);
-        let (a, b) = match (a.ty.is_optional(), b.ty.is_optional()) {
+        // `x == none`: both sides are of one size, or what lies beside `none` would be compared.
+        let (a, b) = match (a.ty.is_optional() && a.ty != None, b.ty.is_optional() && b.ty != None) {
             (true, false) => {
                 let ty = a.ty.clone();
                 let b = self.coerce(b, &ty, "the other side");

@@ -229,6 +229,11 @@ impl<'a> Lowering<'a> {
             Type::List(inner, _) => l.words(inner),
             _ => 1,
         };
+        if op == B::Top {
+            // Lists are compared word by word, what is beyond their count too.
+            let words = self.words(&operands[0].ty);
+            self.emit(Op::Clear { to, words });
+        }
         let op = match op {
             // `number(angle)` has one operand: it is the angle.
             B::Add if operands.len() == 1 => Op::Copy { to, from: a },

@@ -48,8 +48,9 @@ impl<'a> Lowering<'a> {
                 self.emit(Op::Remove { list, item, words });
             }
             StmtKind::Clear(var) => {
-                let to = self.frame.vars[*var];
-                self.emit(Op::Clear { to, words: 1 });
+                // All of it: lists are compared word by word, what is beyond their count too.
+                let (to, words) = (self.frame.vars[*var], self.words(&self.frame_vars()[*var].ty));
+                self.emit(Op::Clear { to, words });
             }
             StmtKind::If(condition, then, otherwise) => {
                 let unless = self.scratch(|l| {
@@ -293,7 +294,7 @@ impl<'a> Lowering<'a> {
         self.body(body);
         // What is put on inside has been noted already: inner blocks amend first, whatever their order on the page.
         self.frame.overlays.extend(&worn);
-        for overlay in worn.into_iter().rev() {
+        for overlay in worn {
             self.emit(Op::TakeOff { overlay });
         }
         self.copy(at, saved, setpoints::WORDS);

@@ -2,7 +2,7 @@
 
 use crate::Event;
 use crate::execute::Flow;
-use crate::state::Run;
+use crate::state::{Declared, Phase, Run};
 use albacore_program::{
     Activity, ActivityId, ActivityKind, Addr, Body, Cause, Entry, Exit, Program, Slot, Table, Target, header, setpoints,
 };
@@ -34,16 +34,21 @@ impl Run {
         self.set(at + header::STATE, header::ACTIVE);
         self.set(at + header::CHILD, 0.0);
         self.set(at + header::BACK_TO, 0.0);
+        self.set(at + header::AMENDING, 0.0);
         match inherited {
             Some(from) => self.copy(at + header::SETPOINTS, from, setpoints::WORDS),
             None => {
                 self.set(at + header::SETPOINTS + setpoints::VERTICAL, setpoints::UNSET);
                 self.set(at + header::SETPOINTS + setpoints::METRES, 0.0);
-                self.set(at + header::SETPOINTS + setpoints::SPEED, -1.0);
+                self.set(at + header::SETPOINTS + setpoints::SPEED, setpoints::NO_SPEED);
             }
         }
         self.events.push(Event::Entered(id));
-        if self.execute(p, activity.entry, base) == Flow::Abort {
+        let declared = self.execute(p, activity.entry, base);
+        if activity.kind == ActivityKind::Mission {
+            self.remember_declared(p, activity, base);
+        }
+        if declared == Flow::Abort {
             return;
         }
         self.execute(p, activity.reactions, base);
@@ -103,6 +108,10 @@ impl Run {
     }
 
     fn aborts(&mut self, p: &Program, activity: &Activity, base: Slot) -> bool {
+        // Rule 17: the recovery runs without them.
+        if matches!(self.state.phase, Phase::Recovering(..)) {
+            return false;
+        }
         for abort in &activity.aborts {
             self.execute(p, abort.condition.entry, base);
             if self.get(base + abort.condition.value) != 0.0 {
@@ -208,8 +217,11 @@ impl Run {
             _ => None,
         };
         if rule.back && to != Some(from) {
-            self.set_head(&p.activities[entry.activity as usize], base, header::STATE, header::SUSPENDED);
             self.events.push(Event::Suspended(entry.activity));
+            let mut waiting = Vec::new();
+            self.chain_from(p, entry.activity, base, &mut |id, base| waiting.push((id, base)));
+            self.hush(p, &waiting);
+            self.set_head(&p.activities[entry.activity as usize], base, header::STATE, header::SUSPENDED);
         } else {
             self.leave_with_waiting(p, table, base, from, if done { Cause::Done } else { Cause::Rule });
         }
@@ -246,7 +258,7 @@ impl Run {
             let waiting = self.head(&p.activities[id as usize], base, header::BACK_TO);
             self.set_head(&p.activities[id as usize], base, header::BACK_TO, 0.0);
             self.leave(p, id, base, cause);
-            next = (waiting > 0.0).then(|| (waiting as u32 - 1, Cause::Preempted));
+            next = (waiting > 0.0).then(|| (waiting as u32 - 1, outer_cause(cause)));
         }
     }
 
@@ -289,20 +301,9 @@ impl Run {
         if self.head(activity, base, header::STATE) == header::IDLE {
             return;
         }
-        let child = self.head(activity, base, header::CHILD);
-        if child > 0.0 {
-            let child = child as u32 - 1;
-            // What is inside did not choose to end.
-            let inner = if cause == Cause::Done { Cause::Preempted } else { outer_cause(cause) };
-            match &activity.body {
-                Body::Table(table) => self.leave_with_waiting(p, table, base, child, inner),
-                _ => {
-                    let site = &p.calls[child as usize];
-                    self.leave(p, site.activity, base + site.base, inner);
-                }
-            }
-        }
-        for &overlay in activity.overlays.iter().rev() {
+        // What is inside did not choose to end.
+        self.leave_inside(p, activity, base, outer_cause(cause));
+        for &overlay in &activity.overlays {
             self.take_off(p, overlay, base, outer_cause(cause));
         }
         self.set_head(activity, base, header::STATE, header::IDLE);
@@ -313,6 +314,51 @@ impl Run {
         if activity.kind == ActivityKind::Override {
             self.give_back(p);
         }
+    }
+
+    /// Leaves what a body has called, or the behaviors of a table.
+    fn leave_inside(&mut self, p: &Program, activity: &Activity, base: Slot, cause: Cause) {
+        let child = self.head(activity, base, header::CHILD);
+        if child > 0.0 {
+            let child = child as u32 - 1;
+            match &activity.body {
+                Body::Table(table) => self.leave_with_waiting(p, table, base, child, cause),
+                _ => {
+                    let site = &p.calls[child as usize];
+                    self.leave(p, site.activity, base + site.base, cause);
+                }
+            }
+        }
+    }
+
+    /// Leaves all that the mission's body has entered and put in force; the mission itself stays for the recovery, and what
+    /// its declarations have put in force (rule 17).
+    pub fn leave_body(&mut self, p: &Program, cause: Cause) {
+        let (activity, base) = (&p.activities[p.mission.activity as usize], p.mission.base);
+        if self.head(activity, base, header::STATE) != header::ACTIVE {
+            return;
+        }
+        self.leave_inside(p, activity, base, outer_cause(cause));
+        self.set_head(activity, base, header::CHILD, 0.0);
+        self.set_head(activity, base, header::PC, header::ENDED);
+        let Declared { setpoints, overlays } = self.state.declared;
+        for &overlay in &activity.overlays[..activity.overlays.len() - overlays] {
+            self.take_off(p, overlay, base, outer_cause(cause));
+        }
+        let at = (base + activity.header + header::SETPOINTS) as usize;
+        self.state.words[at..at + setpoints.len()].copy_from_slice(&setpoints);
+    }
+
+    fn remember_declared(&mut self, p: &Program, activity: &Activity, base: Slot) {
+        let mut setpoints = [0.0; setpoints::WORDS as usize];
+        setpoints.copy_from_slice(self.slice(base + activity.header + header::SETPOINTS, setpoints::WORDS));
+        let is_worn = |overlay: &&u32| {
+            let site = &p.overlays[**overlay as usize];
+            let state = base + site.base + p.activities[site.activity as usize].header + header::STATE;
+            self.get(state) == header::ACTIVE
+        };
+        let overlays = activity.overlays.iter().filter(is_worn).count();
+        self.state.declared = Declared { setpoints, overlays };
     }
 
     pub fn enter_call(&mut self, p: &Program, call: u32, base: Slot) {
@@ -351,9 +397,7 @@ impl Run {
 
     pub fn take_off(&mut self, p: &Program, overlay: u32, base: Slot, cause: Cause) {
         let site = &p.overlays[overlay as usize];
-        if std::mem::take(&mut self.state.amending[overlay as usize]) {
-            self.events.push(Event::AmendingEnded(site.activity));
-        }
+        self.end_amending(p, overlay, base);
         self.leave(p, site.activity, base + site.base, cause);
     }
 
@@ -366,6 +410,10 @@ impl Run {
                 let outer = std::mem::replace(&mut self.in_overlay, true);
                 self.step(p, site.activity, at);
                 self.in_overlay = outer;
+                // What is later in the order of the tick is not reached any more.
+                if self.abort.is_some() {
+                    return;
+                }
             }
         }
     }

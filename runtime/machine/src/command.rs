@@ -14,13 +14,12 @@ const AMENDMENT_TOLD_RAD: f64 = 0.02;
 impl Run {
     /// The command of this tick.
     pub fn give_command(&mut self, p: &Program) -> Command {
-        let mut asked = self.state.asked;
-        if let Some(vertical) = self.state.overridden.vertical {
-            asked.vertical = vertical;
-        }
-        if let Some(speed) = self.state.overridden.speed {
-            asked.speed = speed;
-        }
+        // What an overlay keeps goes on like all that was commanded: through its own `wait`, through a hold, and after it.
+        let overridden = self.state.overridden;
+        let asked = &mut self.state.asked;
+        asked.vertical = overridden.vertical.unwrap_or(asked.vertical);
+        asked.speed = overridden.speed.unwrap_or(asked.speed);
+        let asked = *asked;
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
@@ -50,21 +49,25 @@ impl Run {
                 course = self.amend(p, overlay, base, course);
             }
         }
-        self.end_amending_of_suspended(p, &chain);
         course
     }
 
-    /// An overlay whose wearer is suspended amends nothing until that goes on.
-    fn end_amending_of_suspended(&mut self, p: &Program, chain: &[(u32, Slot)]) {
-        if !self.state.amending.contains(&true) {
-            return;
-        }
-        let worn = |overlay: u32| chain.iter().any(|(id, _)| p.activities[*id as usize].overlays.contains(&overlay));
-        for (overlay, site) in p.overlays.iter().enumerate() {
-            if self.state.amending[overlay] && !worn(overlay as u32) {
-                self.state.amending[overlay] = false;
-                self.events.push(Event::AmendingEnded(site.activity));
+    /// The overlays of some activities, given from outside in, amend nothing until they go on; from inner to outer.
+    pub fn hush(&mut self, p: &Program, chain: &[(u32, Slot)]) {
+        for (id, base) in chain.iter().rev() {
+            for &overlay in &p.activities[*id as usize].overlays {
+                self.end_amending(p, overlay, *base);
             }
+        }
+    }
+
+    /// An overlay leaves the course alone; told when the trace has heard that it does not.
+    pub fn end_amending(&mut self, p: &Program, overlay: u32, base: Slot) {
+        let site = &p.overlays[overlay as usize];
+        let told = base + site.base + p.activities[site.activity as usize].header + header::AMENDING;
+        if self.get(told) != 0.0 {
+            self.set(told, 0.0);
+            self.events.push(Event::AmendingEnded(site.activity));
         }
     }
 
@@ -84,13 +87,12 @@ impl Run {
         }
         let given = Heading::from_radians(self.get(at + amended.value));
         let change = (given - asked).abs();
-        let told = self.state.amending[overlay as usize];
-        if !told && change > AMENDMENT_TOLD_RAD {
-            self.state.amending[overlay as usize] = true;
+        let told = at + activity.header + header::AMENDING;
+        if self.get(told) == 0.0 && change > AMENDMENT_TOLD_RAD {
+            self.set(told, 1.0);
             self.events.push(Event::Amending(site.activity, asked.radians(), given.radians()));
-        } else if told && change < AMENDMENT_TOLD_RAD / 2.0 {
-            self.state.amending[overlay as usize] = false;
-            self.events.push(Event::AmendingEnded(site.activity));
+        } else if change < AMENDMENT_TOLD_RAD / 2.0 {
+            self.end_amending(p, overlay, base);
         }
         given
     }
@@ -105,7 +107,7 @@ impl Run {
         }
     }
 
-    fn chain_from(&self, p: &Program, id: u32, base: Slot, visit: &mut impl FnMut(u32, Slot)) {
+    pub fn chain_from(&self, p: &Program, id: u32, base: Slot, visit: &mut impl FnMut(u32, Slot)) {
         let mut next = Some((id, base));
         while let Some((id, base)) = next {
             let activity = &p.activities[id as usize];

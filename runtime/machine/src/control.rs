@@ -70,11 +70,9 @@ impl Run {
     /// An override is left: control is given back, and nothing is amended or limited any more.
     pub fn give_back(&mut self, p: &Program) {
         self.state.wish = Wish::Listen;
-        for (overlay, site) in p.overlays.iter().enumerate() {
-            if std::mem::replace(&mut self.state.amending[overlay], false) {
-                self.events.push(Event::AmendingEnded(site.activity));
-            }
-        }
+        let mut chain = Vec::new();
+        self.chain(p, &mut |id, base| chain.push((id, base)));
+        self.hush(p, &chain);
         let limited = std::mem::take(&mut self.state.limited);
         for (channel, limited) in [Channel::Depth, Channel::Altitude, Channel::Speed].into_iter().zip(limited) {
             if limited {

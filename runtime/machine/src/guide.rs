@@ -17,7 +17,7 @@ pub(crate) type Filter = CommandFilter;
 impl Run {
     fn planned_speed(&self, setpoints: Slot) -> f64 {
         let speed = self.get(setpoints + setpoints::SPEED);
-        (if speed >= 0.0 { speed } else { self.state.asked.speed }).max(PLANNING_SPEED_MIN)
+        (if speed == setpoints::NO_SPEED { self.state.asked.speed } else { speed }).max(PLANNING_SPEED_MIN)
     }
 
     /// The radius that was asked for, or the one that speed, flow and the command filter allow.
@@ -131,7 +131,7 @@ impl Run {
         asked.over_ground = over_ground;
         let words = &self.state.words;
         let word = |offset: u32| words[(at + offset) as usize];
-        if word(setpoints::SPEED) >= 0.0 {
+        if word(setpoints::SPEED) != setpoints::NO_SPEED {
             asked.speed = word(setpoints::SPEED);
         }
         match word(setpoints::VERTICAL) {

@@ -110,6 +110,9 @@ impl Run {
         if let Some(i) = found {
             self.copy(list + 1 + i * words, list + 1 + (i + 1) * words, (count - i - 1) * words);
             self.set(list, f64::from(count - 1));
+            // Lists are compared word by word: what is beyond their count is always zero.
+            let end = (list + 1 + count * words) as usize;
+            self.state.words[end - words as usize..end].fill(0.0);
         }
     }
 

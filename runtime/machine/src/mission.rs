@@ -2,7 +2,7 @@
 
 use crate::activity::Status;
 use crate::inputs::{MissingInput, senses, wiring};
-use crate::state::{Asked, Limits, Overridden, Phase, Requirement, Run, State, Wish};
+use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State, Wish};
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
@@ -34,7 +34,7 @@ impl Run {
             filtered: Heading::NORTH,
             control: Control::Disconnected,
             limits: Limits::NONE,
-            amending: vec![false; p.overlays.len()],
+            declared: Declared::default(),
             limited: [false; 3],
             requires: Vec::new(),
             within: None,
@@ -207,7 +207,7 @@ impl Run {
                 }
                 self.after_step(p, status)
             }
-            Phase::Recovering(outcome, since) => self.step_recovery(p, outcome, since),
+            Phase::Recovering(outcome, _) => self.step_recovery(p, outcome),
         }
     }
 
@@ -262,7 +262,7 @@ impl Run {
         for require in &p.mission.requires {
             let fresh = self.number(p, &require.fresh);
             let patience = require.hold_for.as_ref().map(|code| self.number(p, code));
-            requires.push(Requirement { fresh, patience, stale: false });
+            requires.push(Requirement { fresh, patience, stale: false, since: 0 });
         }
         self.state.requires = requires;
         self.state.within = p.mission.within.as_ref().map(|code| self.number(p, code));
@@ -297,34 +297,36 @@ impl Run {
     /// Required inputs that are too old suspend the mission; too long, and they abort it. Gives the command of a mission that
     /// is held.
     fn hold_while_stale(&mut self, p: &Program, time_is_up: bool) -> Option<Option<Command>> {
-        let mut patience: Option<f64> = None;
-        let mut stale_name = None;
+        let tick = self.state.tick;
+        let (mut any_stale, mut lost) = (false, None);
         for (i, require) in p.mission.requires.iter().enumerate() {
             let input = &p.inputs[require.input as usize];
             // Before its first sample the `at first` value holds.
             let stale = self.has_sample(input) && self.age_ticks(input) > self.state.requires[i].fresh;
             if stale != self.state.requires[i].stale {
                 self.state.requires[i].stale = stale;
+                self.state.requires[i].since = tick;
                 self.events.push(if stale { Event::Stale(require.input) } else { Event::Fresh(require.input) });
             }
-            if stale {
-                let held = self.state.requires[i].patience.unwrap_or(0.0);
-                patience = Some(patience.map_or(held, |p| p.min(held)));
-                stale_name = Some(&input.name);
+            // Each has a patience of its own, which counts from when it became stale.
+            let Requirement { patience, since, .. } = self.state.requires[i];
+            if stale && (tick - since) as f64 >= patience.unwrap_or(0.0) {
+                lost = lost.or(Some(&input.name));
             }
+            any_stale |= stale;
         }
-        let (Some(patience), Some(name)) = (patience, stale_name) else {
+        if !any_stale {
             if matches!(self.state.phase, Phase::Holding(_)) {
                 self.state.phase = Phase::Running;
             }
             return None;
-        };
+        }
         let since = match self.state.phase {
             Phase::Holding(since) => since,
             _ => self.state.tick,
         };
         self.state.phase = Phase::Holding(since);
-        if (self.state.tick - since) as f64 >= patience {
+        if let Some(name) = lost {
             let why = format!("no fresh `{name}`");
             self.events.push(Event::Aborted(why));
             return Some(self.recover(p, Outcome::Aborted));
@@ -361,38 +363,21 @@ impl Run {
         let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
         let (id, base) = (p.mission.activity, p.mission.base);
         let at = base + p.activities[id as usize].header;
-        if self.get(at + header::STATE) == header::ACTIVE {
-            self.leave_inside(p, cause);
-        }
+        self.leave_body(p, cause);
         let Some(recovery) = p.mission.recovery.filter(|_| wish == Wish::Drive) else { return self.over(p, outcome) };
         self.state.wish = wish;
+        // Frozen now, as every time limit is (rule 4).
+        self.state.began = self.state.tick;
+        self.state.within = recovery.within.as_ref().map(|code| self.number(p, code));
         self.state.phase = Phase::Recovering(outcome, self.state.tick);
         self.enter(p, recovery.activity, base, Some(at + header::SETPOINTS));
+        if self.abort.take().is_some() {
+            return self.end_recovery(p, recovery.activity, outcome, Cause::Aborted);
+        }
         self.command_if_ours(p)
     }
 
-    /// Leaves what the mission's body has entered; the mission itself and its overlays stay for the recovery.
-    fn leave_inside(&mut self, p: &Program, cause: Cause) {
-        let (id, base) = (p.mission.activity, p.mission.base);
-        let activity = &p.activities[id as usize];
-        let child = self.get(base + activity.header + header::CHILD);
-        if child > 0.0 {
-            let cause = if cause == Cause::TimedOut { Cause::Preempted } else { cause };
-            match &activity.body {
-                albacore_program::Body::Table(table) => {
-                    self.leave(p, table.behaviors[child as usize - 1].activity, base, cause);
-                }
-                _ => {
-                    let site = &p.calls[child as usize - 1];
-                    self.leave(p, site.activity, base + site.base, cause);
-                }
-            }
-        }
-        self.set(base + activity.header + header::CHILD, 0.0);
-        self.set(base + activity.header + header::PC, header::ENDED);
-    }
-
-    fn step_recovery(&mut self, p: &Program, outcome: Outcome, since: u64) -> Option<Command> {
+    fn step_recovery(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         let Some(recovery) = p.mission.recovery else { return self.over(p, outcome) };
         let base = p.mission.base;
         let mission = &p.activities[p.mission.activity as usize];
@@ -400,19 +385,23 @@ impl Run {
         self.execute(p, mission.refresh, base);
         self.step_overlays(p, mission, base);
         self.abort = None;
-        let time_is_up = match &recovery.within {
-            Some(code) => (self.state.tick - since) as f64 >= self.number(p, code),
-            None => false,
-        };
+        let time_is_up = self.time_is_up();
         let status = self.step(p, recovery.activity, base);
-        self.abort = None;
-        if time_is_up || status == Status::Ended {
-            // Its own end on the very tick of the cut counts as such (rule 5).
-            let cause = if status == Status::Ended { Cause::Done } else { Cause::TimedOut };
-            self.leave(p, recovery.activity, base, cause);
-            return self.over(p, outcome);
+        // Its own end on the very tick of the cut counts as such (rule 5). What it calls may say `abort`: that ends it too.
+        let ended = match (self.abort.take(), status) {
+            (Some(_), _) => Some(Cause::Aborted),
+            (None, Status::Ended) => Some(Cause::Done),
+            (None, Status::Running) => time_is_up.then_some(Cause::TimedOut),
+        };
+        if let Some(cause) = ended {
+            return self.end_recovery(p, recovery.activity, outcome, cause);
         }
         Some(self.give_command(p))
+    }
+
+    fn end_recovery(&mut self, p: &Program, recovery: u32, outcome: Outcome, cause: Cause) -> Option<Command> {
+        self.leave(p, recovery, p.mission.base, cause);
+        self.over(p, outcome)
     }
 
     /// The end: everything is left, nothing more is commanded.

@@ -2,7 +2,7 @@
 
 use crate::Outcome;
 use albacore_geometry::Heading;
-use albacore_program::Slot;
+use albacore_program::{Slot, setpoints};
 use albacore_vehicle::{Command, Control, Vertical};
 use serde::{Deserialize, Serialize};
 
@@ -27,12 +27,14 @@ pub struct State {
     pub(crate) control: Control,
     /// The mission's limits, once it runs.
     pub(crate) limits: Limits,
-    /// For each overlay site whether it is changing the course; for each channel whether a limit holds it back.
-    pub(crate) amending: Vec<bool>,
+    /// For each channel whether a limit holds it back.
     pub(crate) limited: [bool; 3],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
     pub(crate) requires: Vec<Requirement>,
-    /// The mission's time limit in ticks, and the tick from which it counts: the first on which we drive.
+    /// What the mission's own declarations have put in force: that stays for the recovery.
+    pub(crate) declared: Declared,
+    /// The time limit in ticks of the mission, and later of its recovery, and the tick from which it counts: the first on
+    /// which we drive.
     pub(crate) within: Option<f64>,
     pub(crate) began: u64,
     /// Channels that overlays set in this tick.
@@ -95,6 +97,16 @@ pub(crate) struct Requirement {
     pub fresh: f64,
     pub patience: Option<f64>,
     pub stale: bool,
+    /// The tick on which it was found stale.
+    pub since: u64,
+}
+
+/// What the declarations of a mission put in force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Declared {
+    pub setpoints: [f64; setpoints::WORDS as usize],
+    /// How many of the mission's overlays they are; the last ones in its list.
+    pub overlays: usize,
 }
 
 /// Channels that overlays set.

@@ -20,8 +20,10 @@ pub mod header {
     pub const BACK_TO: u32 = 4;
     /// The setpoints in force in it: see [`crate::setpoints`].
     pub const SETPOINTS: u32 = 5;
+    /// In an overlay: 1 while the trace has been told that it changes the course.
+    pub const AMENDING: u32 = SETPOINTS + crate::setpoints::WORDS;
     /// How many words that is.
-    pub const WORDS: u32 = SETPOINTS + crate::setpoints::WORDS;
+    pub const WORDS: u32 = AMENDING + 1;
 
     /// Not entered, or left.
     pub const IDLE: f64 = 0.0;
@@ -39,11 +41,13 @@ pub mod setpoints {
     pub const VERTICAL: u32 = 0;
     /// Metres.
     pub const METRES: u32 = 1;
-    /// Metres per second; negative when unset.
+    /// Metres per second, or [`NO_SPEED`].
     pub const SPEED: u32 = 2;
     /// How many words that is.
     pub const WORDS: u32 = 3;
 
+    /// No speed setpoint: below whatever a script can compute.
+    pub const NO_SPEED: f64 = f64::NEG_INFINITY;
     /// No vertical setpoint.
     pub const UNSET: f64 = 0.0;
     /// The metres are a depth.

@@ -1,0 +1,68 @@
+//! One script on both: the machine drives, the evaluator sees the same samples, and every tick is compared to the bit.
+
+use crate::evaluator::{Evaluator, recovery};
+use crate::events::lines;
+use albacore_machine::Machine;
+use albacore_session::Script;
+use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
+use std::sync::Arc;
+
+/// What both sides said of a run, or where they first differed.
+pub struct Run {
+    pub ticks: u64,
+    pub events: Vec<String>,
+    pub difference: Option<String>,
+}
+
+pub fn compare(script: &Script, mission: &str, vehicle: &mut dyn Vehicle, ticks_max: u64) -> Run {
+    let program = script.mission(mission).expect("the mission").expect("a program");
+    let checked = script.checked(mission).expect("the mission");
+    let recovery = recovery(checked.0, checked.2);
+    let sensors = vehicle.channels().to_vec();
+    let mut machine = Machine::new(Arc::new(program), &sensors).expect("a vehicle that delivers");
+    let mut evaluator = Evaluator::new(checked, &script.sources, &recovery, &sensors).expect("a mission");
+    let mut run = Run { ticks: 0, events: Vec::new(), difference: None };
+    let mut snapshot = Snapshot::default();
+    let mut asked = false;
+    while run.ticks < ticks_max && machine.outcome().is_none() {
+        vehicle.sense(&mut snapshot).expect("samples");
+        if !std::mem::replace(&mut asked, true) {
+            vehicle.take_over().expect("control");
+        }
+        let command = machine.step(&snapshot);
+        let events = lines(machine.program(), machine.events());
+        let naive = evaluator.step(&snapshot);
+        if words(command) != words(naive) || events != evaluator.w.events {
+            let side = |command: Option<Command>, events: &[String]| format!("{command:?}\n  {}", events.join("\n  "));
+            run.difference = Some(format!(
+                "tick {}\nmachine: {}\nevaluator: {}\nbefore:\n  {}",
+                run.ticks,
+                side(command, &events),
+                side(naive, &evaluator.w.events),
+                run.events[run.events.len().saturating_sub(12)..].join("\n  ")
+            ));
+            return run;
+        }
+        run.events.extend(events);
+        if let Some(command) = command {
+            vehicle.command(&command).expect("a command taken");
+        }
+        run.ticks += 1;
+    }
+    if machine.outcome().is_some() != evaluator.is_over() {
+        run.difference = Some("one is over, the other is not".to_string());
+    }
+    run
+}
+
+/// A command to the bit; one zero is as good as the other.
+fn words(command: Option<Command>) -> Option<[u64; 4]> {
+    command.map(|command| {
+        let (kind, metres) = match command.vertical {
+            Vertical::Depth(metres) => (0, metres),
+            Vertical::Altitude(metres) => (1, metres),
+        };
+        let bits = |x: f64| (x + 0.0).to_bits();
+        [bits(command.heading.radians()), bits(command.speed), kind, bits(metres)]
+    })
+}

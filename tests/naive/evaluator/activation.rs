@@ -1,0 +1,394 @@
+//! An activation: a behavior, strategy, overlay, mission or recovery that is active, with all that is inside it.
+
+use super::body::{Stop, Todo, advance, at_once};
+use super::expr::{Frame, Scope, block, holds, text, value};
+use super::table::Table;
+use super::timed::{Doing, End, Setpoints, Underway};
+use super::value::Value;
+use super::watch::Watch;
+use super::world::World;
+use albacore_geometry::Heading;
+use albacore_lang::hir::{Activity, Block, Body, Decl, Kind, With};
+use albacore_lang::types::Type;
+use albacore_program::Cause;
+
+/// Why the mission is aborted.
+pub struct Aborted(pub String);
+
+pub struct Activation<'p> {
+    pub activity: &'p Activity,
+    pub frame: Frame<'p>,
+    /// Ticks lived: none on the tick of entry. Stands still while it waits, and with it every timer (rule 12).
+    pub age: u64,
+    pub setpoints: Setpoints,
+    pub is_overlay: bool,
+    /// What it finished with.
+    pub result: Option<Value>,
+    /// Conditions over time: of each declaration, and of aborts and reactions.
+    signals: Vec<Watch<'p>>,
+    conditions: Watch<'p>,
+    /// Overlays by the `with` that put them on, inner ones last; those of the declarations are the first. With each the
+    /// setpoints that come back into force when it ends.
+    worn: Vec<(Vec<Activation<'p>>, Setpoints)>,
+    pub inside: Inside<'p>,
+    /// It began and has not been left.
+    is_active: bool,
+    /// An overlay: the trace has been told that it changes the course.
+    is_amending: bool,
+}
+
+pub enum Inside<'p> {
+    Sequence(Vec<Todo<'p>>),
+    Table(Table<'p>),
+    Amend,
+}
+
+impl<'p> Activation<'p> {
+    pub fn new(activity: &'p Activity, frame: Frame<'p>, setpoints: Setpoints, is_overlay: bool) -> Self {
+        let inside = match &activity.body {
+            Body::Sequence(_) => Inside::Sequence(Vec::new()),
+            Body::Table { .. } => Inside::Table(Table::default()),
+            Body::Amend { .. } => Inside::Amend,
+        };
+        Activation {
+            activity,
+            frame,
+            age: 0,
+            setpoints,
+            is_overlay,
+            result: None,
+            signals: Vec::new(),
+            conditions: Watch::default(),
+            worn: Vec::new(),
+            inside,
+            is_active: false,
+            is_amending: false,
+        }
+    }
+
+    fn title(&self) -> String {
+        self.activity.name.clone()
+    }
+
+    /// Rule 9: declarations in the order of the text, reactions, body. Aborts and rules are first tried on the next tick.
+    pub fn begin(&mut self, w: &mut World<'p>) -> Result<(), Aborted> {
+        let activity = self.activity;
+        w.say(format!("enter {}", self.title()));
+        self.is_active = true;
+        self.worn.push((Vec::new(), self.setpoints));
+        let frame = self.frame.clone();
+        for decl in &activity.decls {
+            let condition = if let Decl::Signal(_, e) = decl { vec![e] } else { Vec::new() };
+            let watch = Watch::begin(w, &frame, &condition, self.age);
+            let s = Scope { frame: &frame, watch: Some(&watch), done: false };
+            match decl {
+                Decl::With(items) => self.put_on(w, items)?,
+                Decl::Signal(var, e) | Decl::Area(var, e) | Decl::Memory(var, Some(e)) => {
+                    let value = value(w, s, e);
+                    frame.set(*var, value);
+                }
+                Decl::Memory(var, None) => {
+                    let nothing = Value::nothing(&w.shape(&frame.declared[*var].ty));
+                    frame.set(*var, nothing);
+                }
+            }
+            self.signals.push(watch);
+        }
+        let aborts = activity.aborts.iter().map(|(_, condition)| condition);
+        let conditions: Vec<_> = aborts.chain(activity.reactions.iter().map(|(condition, _)| condition)).collect();
+        self.conditions = Watch::begin(w, &frame, &conditions, self.age);
+        self.react(w);
+        match &activity.body {
+            // Rule 6: a body that ends without having taken time ends on the next tick.
+            Body::Sequence(block) => self.begin_body(w, block),
+            Body::Table { start, .. } => self.in_table(|owner, table| table.enter(w, owner, *start)),
+            Body::Amend { .. } => Ok(()),
+        }
+    }
+
+    pub fn begin_body(&mut self, w: &mut World<'p>, block: &'p Block) -> Result<(), Aborted> {
+        self.inside = Inside::Sequence(vec![Todo::Stmts(&block.stmts)]);
+        self.go_on(w).map(|_| ())
+    }
+
+    /// Rule 2: signals and timers; aborts; (overlays;) rules; reactions; body. Tells whether it came to its own end.
+    pub fn step(&mut self, w: &mut World<'p>) -> Result<bool, Aborted> {
+        self.age += 1;
+        self.refresh(w);
+        self.test_aborts(w)?;
+        self.step_overlays(w)?;
+        let fired = match self.inside {
+            Inside::Table(_) => self.in_table(|owner, table| table.try_rules(w, owner, false))?,
+            _ => None,
+        };
+        if fired.is_some_and(|fired| fired.finishes) {
+            return Ok(true);
+        }
+        self.react(w);
+        match self.inside {
+            // A rule of the behavior that was just entered is first tried on the next tick, and its body has begun (rule 9).
+            Inside::Table(_) if fired.is_some() => Ok(false),
+            Inside::Table(_) => self.in_table(|owner, table| table.step(w, owner)),
+            Inside::Sequence(_) => self.go_on(w),
+            Inside::Amend => Ok(false),
+        }
+    }
+
+    /// Signals in the order of the text; lists that are kept in order are so as of this tick.
+    pub fn refresh(&mut self, w: &mut World<'p>) {
+        let frame = &self.frame;
+        for (decl, watch) in self.activity.decls.iter().zip(&mut self.signals) {
+            match decl {
+                Decl::Signal(var, e) => {
+                    watch.update(w, frame, self.age);
+                    let value = value(w, Scope { frame, watch: Some(watch), done: false }, e);
+                    frame.set(*var, value);
+                }
+                Decl::Memory(var, _) if matches!(frame.declared[*var].ty, Type::List(..)) => {
+                    let list = frame.get(*var).list().to_vec();
+                    let list = super::expr::sorted(w, frame, *var, list);
+                    frame.set(*var, Value::List(list));
+                }
+                _ => {}
+            }
+        }
+        self.conditions.update(w, frame, self.age);
+    }
+
+    fn scope(&self) -> Scope<'_, 'p> {
+        Scope { frame: &self.frame, watch: Some(&self.conditions), done: false }
+    }
+
+    fn test_aborts(&mut self, w: &mut World<'p>) -> Result<(), Aborted> {
+        for (why, condition) in &self.activity.aborts {
+            if !w.is_recovering && holds(w, self.scope(), condition) {
+                return Err(Aborted(text(w, self.scope(), why)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Rule 10: on every tick on which the condition holds.
+    fn react(&mut self, w: &mut World<'p>) {
+        for (condition, block) in &self.activity.reactions {
+            if holds(w, self.scope(), condition) {
+                at_once(w, &self.frame, block);
+            }
+        }
+    }
+
+    pub fn in_table<T>(&mut self, work: impl FnOnce(&mut Self, &mut Table<'p>) -> T) -> T {
+        let Inside::Table(table) = &mut self.inside else { panic!("`{}` has no table", self.activity.name) };
+        let mut table = std::mem::take(table);
+        let result = work(self, &mut table);
+        self.inside = Inside::Table(table);
+        result
+    }
+
+    /// The body goes on until it gives the tick away; tells whether it came to its end.
+    fn go_on(&mut self, w: &mut World<'p>) -> Result<bool, Aborted> {
+        let Inside::Sequence(todo) = &mut self.inside else { return Ok(false) };
+        let mut todo = std::mem::take(todo);
+        let result = self.run(w, &mut todo);
+        self.inside = Inside::Sequence(todo);
+        result
+    }
+
+    fn run(&mut self, w: &mut World<'p>, todo: &mut Vec<Todo<'p>>) -> Result<bool, Aborted> {
+        let frame = self.frame.clone();
+        loop {
+            match advance(w, &frame, todo) {
+                Stop::End => return Ok(true),
+                Stop::Timed(timed) => {
+                    let mut underway = Underway::new(w, self, timed);
+                    let begun = underway.first(w, &frame, self.is_overlay);
+                    todo.push(Todo::Timed(Box::new(underway)));
+                    return begun.map(|()| false);
+                }
+                Stop::Underway(mut underway) => match underway.step(w, &frame, self.age, self.is_overlay) {
+                    Ok(Some(end)) => self.end_statement(w, *underway, &end),
+                    unfinished => {
+                        todo.push(Todo::Timed(underway));
+                        return unfinished.map(|_| false);
+                    }
+                },
+                Stop::With(items, body) => {
+                    todo.push(Todo::EndWith);
+                    todo.push(Todo::Stmts(&body.stmts));
+                    self.worn.push((Vec::new(), self.setpoints));
+                    self.put_on(w, items)?;
+                }
+                Stop::EndWith => self.end_with(w, Cause::Done),
+                Stop::Finish(e) => {
+                    self.result = e.map(|e| value(w, Scope::of(&frame), e));
+                    todo.clear();
+                    return Ok(true);
+                }
+                Stop::Abort(why) => return Err(Aborted(text(w, Scope::of(&frame), why))),
+            }
+        }
+    }
+
+    fn end_statement(&mut self, w: &mut World<'p>, mut underway: Underway<'p>, end: &End) {
+        let outcome = underway.outcome(w, end);
+        if let Doing::Call(called) = &mut underway.doing {
+            called.leave(w, if let End::Cut(cause) = end { *cause } else { Cause::Done });
+        }
+        if let Some(var) = underway.timed.result {
+            self.frame.set(var, outcome);
+        }
+    }
+
+    /// Setpoints and overlays in force, to the end of the innermost `with`.
+    fn put_on(&mut self, w: &mut World<'p>, items: &'p [With]) -> Result<(), Aborted> {
+        for item in items {
+            match item {
+                With::Setpoint(channel, e) => {
+                    let value = super::expr::number(w, Scope::of(&self.frame), e);
+                    self.setpoints.set(*channel, value);
+                }
+                With::Overlay(id, args, _) => {
+                    let activity = &w.hir.activities[*id];
+                    let args = super::expr::values(w, Scope::of(&self.frame), args);
+                    let frame = Frame::new(w, &activity.vars, args);
+                    let overlay = Activation::new(activity, frame, Setpoints::default(), true);
+                    let Some((worn, _)) = self.worn.last_mut() else { continue };
+                    worn.push(overlay);
+                    if let Some(overlay) = worn.last_mut() {
+                        overlay.begin(w)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn end_with(&mut self, w: &mut World<'p>, cause: Cause) {
+        if let Some((worn, setpoints)) = self.worn.pop() {
+            self.setpoints = setpoints;
+            for mut overlay in worn {
+                overlay.take_off(w, cause);
+            }
+        }
+    }
+
+    /// Overlays from inner to outer; of several in one `with` the later is the outer one.
+    fn overlays(&mut self) -> impl Iterator<Item = &mut Activation<'p>> {
+        self.worn.iter_mut().rev().flat_map(|(worn, _)| worn)
+    }
+
+    pub fn step_overlays(&mut self, w: &mut World<'p>) -> Result<(), Aborted> {
+        for overlay in self.overlays() {
+            overlay.step(w)?;
+        }
+        Ok(())
+    }
+
+    fn take_off(&mut self, w: &mut World<'p>, cause: Cause) {
+        self.end_amending(w);
+        self.leave(w, cause);
+    }
+
+    fn end_amending(&mut self, w: &mut World<'p>) {
+        if std::mem::take(&mut self.is_amending) {
+            w.say(format!("amend {} no more", self.activity.name));
+        }
+    }
+
+    /// Rules 9 and 13: innermost first, each with its one cause. What is inside did not choose to end.
+    pub fn leave(&mut self, w: &mut World<'p>, cause: Cause) {
+        if !self.is_active {
+            return;
+        }
+        let inner = inner_cause(cause);
+        self.leave_inside(w, inner);
+        for overlay in self.overlays() {
+            overlay.take_off(w, inner);
+        }
+        self.worn.clear();
+        self.is_active = false;
+        w.say(format!("leave {} {cause:?}", self.title()));
+    }
+
+    /// Leaves what the body has entered.
+    pub fn leave_inside(&mut self, w: &mut World<'p>, cause: Cause) {
+        match &mut self.inside {
+            Inside::Sequence(todo) => {
+                for todo in std::mem::take(todo) {
+                    if let Todo::Timed(mut underway) = todo
+                        && let Doing::Call(called) = &mut underway.doing
+                    {
+                        called.leave(w, cause);
+                    }
+                }
+            }
+            Inside::Table(table) => table.leave(w, cause),
+            Inside::Amend => {}
+        }
+    }
+
+    /// Ends each `with` of the body: what the mission's declarations put in force stays for the recovery (rule 17).
+    pub fn end_withs(&mut self, w: &mut World<'p>, cause: Cause) {
+        while self.worn.len() > 1 {
+            self.end_with(w, cause);
+        }
+    }
+
+    /// Rule 2: the course after all overlays of the active chain, from inner to outer.
+    pub fn amended(&mut self, w: &mut World<'p>, asked: Heading) -> Heading {
+        let mut course = self.called().map_or(asked, |called| called.amended(w, asked));
+        for overlay in self.overlays() {
+            course = overlay.amend(w, course);
+        }
+        course
+    }
+
+    fn amend(&mut self, w: &mut World<'p>, asked: Heading) -> Heading {
+        let (Kind::AmendsCourse, Body::Amend { asked: var, block: amend }) = (self.activity.kind, &self.activity.body)
+        else {
+            return asked;
+        };
+        self.frame.set(*var, Value::Number(asked.radians()));
+        let given = block(w, Scope::of(&self.frame), amend).heading();
+        // An amendment smaller than this is not worth a line of trace; it ends below half of it.
+        const TOLD_RAD: f64 = 0.02;
+        let change = (given - asked).abs();
+        if !self.is_amending && change > TOLD_RAD {
+            self.is_amending = true;
+            w.say(format!("amend {} {:?} {:?}", self.activity.name, asked.radians(), given.radians()));
+        } else if change < TOLD_RAD / 2.0 {
+            self.end_amending(w);
+        }
+        given
+    }
+
+    /// Rule 12: the overlays of what is about to wait amend nothing until that goes on; from inner to outer.
+    pub fn hush(&mut self, w: &mut World<'p>) {
+        if let Some(called) = self.called() {
+            called.hush(w);
+        }
+        for overlay in self.overlays() {
+            overlay.end_amending(w);
+        }
+    }
+
+    /// What its body has called, or the active behavior of its table.
+    fn called(&mut self) -> Option<&mut Activation<'p>> {
+        match &mut self.inside {
+            Inside::Sequence(todo) => match todo.last_mut() {
+                Some(Todo::Timed(underway)) => match &mut underway.doing {
+                    Doing::Call(called) => Some(called),
+                    _ => None,
+                },
+                _ => None,
+            },
+            Inside::Table(table) => table.active(),
+            Inside::Amend => None,
+        }
+    }
+}
+
+/// Why what is inside is left when something outside is left.
+pub fn inner_cause(cause: Cause) -> Cause {
+    if cause == Cause::Aborted { Cause::Aborted } else { Cause::Preempted }
+}

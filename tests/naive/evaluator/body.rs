@@ -1,0 +1,164 @@
+//! Statements one after the other: what is still to be done is a stack, so that a body can stop where time goes by.
+
+use super::expr::{Frame, Scope, exactly, holds, insert, number, sorted, text, value};
+use super::timed::Underway;
+use super::value::Value;
+use super::world::World;
+use albacore_geometry::row;
+use albacore_lang::hir::{Block, Expr, Stmt, StmtKind, TextPart, Timed, With};
+
+/// What a body has still to do, the next last.
+pub enum Todo<'p> {
+    Stmts(&'p [Stmt]),
+    /// A `while` or `loop` once more.
+    Again(&'p Stmt),
+    /// The rounds of a `for` that are left, the next last: rule 16, a copy made at its start.
+    Rounds(usize, Vec<Value>, &'p Block),
+    /// The end of a `with`.
+    EndWith,
+    /// A statement that takes time, under way.
+    Timed(Box<Underway<'p>>),
+}
+
+/// Where a body stops for its activation to do something.
+pub enum Stop<'p> {
+    End,
+    Timed(&'p Timed),
+    Underway(Box<Underway<'p>>),
+    With(&'p [With], &'p Block),
+    EndWith,
+    Finish(Option<&'p Expr>),
+    Abort(&'p [TextPart]),
+}
+
+/// Instantaneous code: it stops nowhere but at its end.
+pub fn at_once(w: &mut World<'_>, frame: &Frame<'_>, block: &Block) {
+    let mut todo = vec![Todo::Stmts(&block.stmts)];
+    assert!(matches!(advance(w, frame, &mut todo), Stop::End), "instantaneous code took time");
+}
+
+/// Goes on to the next stop.
+pub fn advance<'b>(w: &mut World<'_>, frame: &Frame<'_>, todo: &mut Vec<Todo<'b>>) -> Stop<'b> {
+    while let Some(next) = todo.pop() {
+        let stmt = match next {
+            Todo::Stmts([]) => continue,
+            Todo::Stmts([stmt, rest @ ..]) => {
+                todo.push(Todo::Stmts(rest));
+                stmt
+            }
+            Todo::Again(stmt) => stmt,
+            Todo::Rounds(var, mut left, body) => {
+                if let Some(round) = left.pop() {
+                    frame.set(var, round);
+                    todo.push(Todo::Rounds(var, left, body));
+                    todo.push(Todo::Stmts(&body.stmts));
+                }
+                continue;
+            }
+            Todo::EndWith => return Stop::EndWith,
+            Todo::Timed(underway) => return Stop::Underway(underway),
+        };
+        let s = Scope::of(frame);
+        match &stmt.kind {
+            StmtKind::If(condition, then, otherwise) => {
+                let chosen = if holds(w, s, condition) { then } else { otherwise };
+                todo.push(Todo::Stmts(&chosen.stmts));
+            }
+            StmtKind::Match(on, arms, otherwise) => {
+                let variant = number(w, s, on) as usize;
+                let arm = arms.iter().find(|(variants, _)| variants.contains(&variant)).map(|(_, block)| block);
+                todo.extend(arm.or(otherwise.as_ref()).map(|block| Todo::Stmts(&block.stmts)));
+            }
+            StmtKind::While { condition, bind, body } => {
+                let found = value(w, s, condition);
+                if found.holds() {
+                    if let (Some(var), Value::Maybe(Some(value))) = (bind, found) {
+                        frame.set(*var, *value);
+                    }
+                    todo.push(Todo::Again(stmt));
+                    todo.push(Todo::Stmts(&body.stmts));
+                }
+            }
+            StmtKind::Loop(body) => {
+                todo.push(Todo::Again(stmt));
+                todo.push(Todo::Stmts(&body.stmts));
+            }
+            StmtKind::With(items, body) => return Stop::With(items, body),
+            StmtKind::Timed(timed) => return Stop::Timed(timed),
+            StmtKind::Finish(result) => return Stop::Finish(result.as_ref()),
+            StmtKind::Abort(why) => return Stop::Abort(why),
+            _ => match rounds(w, s, stmt) {
+                Some((var, mut rounds, body)) => {
+                    rounds.reverse();
+                    todo.push(Todo::Rounds(var, rounds, body));
+                }
+                None => perform(w, s, stmt),
+            },
+        }
+    }
+    Stop::End
+}
+
+/// What a `for` walks.
+fn rounds<'b>(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &'b Stmt) -> Option<(usize, Vec<Value>, &'b Block)> {
+    Some(match &stmt.kind {
+        StmtKind::ForRange { var, first, last, inclusive, body } => {
+            let (mut next, last) = (number(w, s, first), number(w, s, last));
+            let mut rounds = Vec::new();
+            while next < last || (*inclusive && next == last) {
+                rounds.push(Value::Number(next));
+                next += 1.0;
+            }
+            (*var, rounds, body)
+        }
+        StmtKind::ForList { var, list, body } => (*var, value(w, s, list).list().to_vec(), body),
+        StmtKind::ForEdges { var, area, body } => {
+            (*var, value(w, s, area).edges().iter().map(|edge| Value::of_edge(*edge)).collect(), body)
+        }
+        StmtKind::ForRows { var, area, step, body } => {
+            let (area, step) = (value(w, s, area), number(w, s, step));
+            let rows = (0..).map_while(|i| row(area.edges().iter().copied(), step, i));
+            (*var, rows.map(Value::of_line).collect(), body)
+        }
+        _ => return None,
+    })
+}
+
+/// The statements that only do something.
+fn perform(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &Stmt) {
+    match &stmt.kind {
+        StmtKind::Set(var, e) => {
+            let value = match value(w, s, e) {
+                Value::List(list) => Value::List(sorted(w, s.frame, *var, list)),
+                value => value,
+            };
+            s.frame.set(*var, value);
+        }
+        StmtKind::Insert(var, e) => {
+            let element = value(w, s, e);
+            insert(w, s.frame, *var, element);
+        }
+        StmtKind::Remove(var, e) => {
+            let element = value(w, s, e);
+            let mut list = s.frame.get(*var).list().to_vec();
+            if let Some(at) = list.iter().position(|other| *other == element) {
+                list.remove(at);
+            }
+            s.frame.set(*var, Value::List(list));
+        }
+        StmtKind::Clear(var) => s.frame.set(*var, Value::List(Vec::new())),
+        StmtKind::Report { name, fields } => {
+            let mut said = Vec::new();
+            for (label, e) in fields {
+                let words = value(w, s, e).words(&w.shape(&e.ty));
+                said.push(exactly(label, &w.shape(&e.ty), &words));
+            }
+            w.say(format!("report {name}: {}", said.join(", ")));
+        }
+        StmtKind::Log(parts) => {
+            let line = text(w, s, parts);
+            w.say(format!("log {line}"));
+        }
+        _ => {}
+    }
+}

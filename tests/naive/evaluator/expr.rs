@@ -1,0 +1,297 @@
+//! Expressions, read off the checked tree. Nothing here takes time, and no arithmetic fails.
+
+use super::body;
+use super::value::Value;
+use super::watch::Watch;
+use super::world::World;
+use albacore_geometry::{Area, Edge, Heading, Point, Vector, math, wrap_angle};
+use albacore_lang::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart, Var};
+use albacore_lang::types::Type;
+use albacore_program::{Shape, number};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// The variables of a function or activity; behaviors of a table share those of their strategy.
+#[derive(Clone)]
+pub struct Frame<'p> {
+    pub declared: &'p [Var],
+    pub vars: Rc<RefCell<Vec<Value>>>,
+}
+
+impl<'p> Frame<'p> {
+    pub fn new(w: &World<'p>, declared: &'p [Var], params: Vec<Value>) -> Self {
+        let mut vars: Vec<Value> = declared.iter().map(|var| Value::nothing(&w.shape(&var.ty))).collect();
+        for (var, param) in vars.iter_mut().zip(params) {
+            *var = param;
+        }
+        Frame { declared, vars: Rc::new(RefCell::new(vars)) }
+    }
+
+    pub fn get(&self, id: usize) -> Value {
+        self.vars.borrow()[id].clone()
+    }
+
+    pub fn set(&self, id: usize, value: Value) {
+        self.vars.borrow_mut()[id] = value;
+    }
+}
+
+/// Where an expression is read: its names, the conditions over time that it may hold, and whether a body is done (rule 8).
+#[derive(Clone, Copy)]
+pub struct Scope<'a, 'p> {
+    pub frame: &'a Frame<'p>,
+    pub watch: Option<&'a Watch<'p>>,
+    pub done: bool,
+}
+
+impl<'a, 'p> Scope<'a, 'p> {
+    pub fn of(frame: &'a Frame<'p>) -> Self {
+        Scope { frame, watch: None, done: false }
+    }
+}
+
+pub fn number(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> f64 {
+    value(w, s, e).number()
+}
+
+pub fn holds(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> bool {
+    value(w, s, e).holds()
+}
+
+pub fn values(w: &mut World<'_>, s: Scope<'_, '_>, list: &[Expr]) -> Vec<Value> {
+    list.iter().map(|e| value(w, s, e)).collect()
+}
+
+pub fn value(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
+    match &e.kind {
+        ExprKind::Number(x) => Value::Number(*x),
+        ExprKind::Geodetic { latitude_deg, longitude_deg } => {
+            let position = albacore_geometry::Geodetic::from_degrees(*latitude_deg, *longitude_deg);
+            Value::of_point(w.frame.map_or(Point::ORIGIN, |frame| frame.to_point(position)))
+        }
+        ExprKind::Text(parts) => Value::Text(format!("\"{}\"", text(w, s, parts))),
+        ExprKind::None => Value::nothing(&w.shape(&e.ty)),
+        ExprKind::Done => Value::truth(s.done),
+        ExprKind::Var(id) => s.frame.get(*id),
+        ExprKind::Input(id, part) => {
+            let limit = if let InputPart::Hits(limit, _) = part { number(w, s, limit) } else { 0.0 };
+            w.input(*id, part, limit, &e.ty)
+        }
+        ExprKind::Present(inner) => value(w, s, inner).present(),
+        ExprKind::Unwrap(inner) => match value(w, s, inner) {
+            Value::Maybe(Some(value)) => *value,
+            // The checker has shown that it is present, unless its operand is read only where it is.
+            Value::Maybe(None) => Value::nothing(&w.shape(&e.ty)),
+            other => other,
+        },
+        ExprKind::IsPresent(inner) => Value::truth(value(w, s, inner).holds()),
+        ExprKind::Else(a, b) => match value(w, s, a) {
+            Value::Maybe(Some(value)) if e.ty.is_optional() => value.present(),
+            Value::Maybe(Some(value)) => *value,
+            _ => value(w, s, b),
+        },
+        ExprKind::Do(op, operands) => {
+            let operands = values(w, s, operands);
+            builtin(*op, &operands)
+        }
+        ExprKind::Call(id, args) => {
+            let function = &w.hir.fns[*id];
+            let args = values(w, s, args);
+            let frame = Frame::new(w, &function.vars, args);
+            block(w, Scope::of(&frame), &function.body)
+        }
+        ExprKind::Record(fields) => Value::Parts(values(w, s, fields)),
+        ExprKind::List(elements) => Value::List(values(w, s, elements)),
+        ExprKind::Part(inner, at) => match value(w, s, inner) {
+            Value::List(elements) => Value::Number(elements.len() as f64),
+            whole => {
+                let words = whole.words(&w.shape(&inner.ty));
+                Value::read(&w.shape(&e.ty), &words[*at as usize..])
+            }
+        },
+        ExprKind::If(condition, then, otherwise) => {
+            let chosen = if holds(w, s, condition) { then } else { otherwise };
+            block(w, s, chosen)
+        }
+        ExprKind::Match(on, arms, otherwise) => {
+            let variant = number(w, s, on) as usize;
+            let arm = arms.iter().find(|(variants, _)| variants.contains(&variant)).map(|(_, block)| block);
+            match arm.or(otherwise.as_ref()) {
+                Some(chosen) => block(w, s, chosen),
+                None => Value::nothing(&w.shape(&e.ty)),
+            }
+        }
+        // Rule 14: updated on every tick by whoever watches, and only looked at here.
+        ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) => {
+            Value::truth(s.watch.is_some_and(|watch| watch.says(e)))
+        }
+    }
+}
+
+/// Instantaneous statements, and the value after them.
+pub fn block(w: &mut World<'_>, s: Scope<'_, '_>, block: &Block) -> Value {
+    body::at_once(w, s.frame, block);
+    block.value.as_ref().map_or(Value::Number(0.0), |e| value(w, s, e))
+}
+
+/// A text with its holes filled.
+pub fn text(w: &mut World<'_>, s: Scope<'_, '_>, parts: &[TextPart]) -> String {
+    let part = |part: &TextPart| match part {
+        TextPart::Literal(literal) => literal.clone(),
+        TextPart::Hole(e) => match value(w, s, e) {
+            Value::Text(text) => text,
+            value => {
+                let shape = w.shape(&e.ty);
+                number::value(&shape, &value.words(&shape))
+            }
+        },
+    };
+    parts.iter().map(part).collect()
+}
+
+/// Puts a list that is kept in order in the order of its key as of now; of equals the older comes first.
+pub fn sorted(w: &mut World<'_>, frame: &Frame<'_>, id: usize, list: Vec<Value>) -> Vec<Value> {
+    let Some(order) = &frame.declared[id].order else { return list };
+    let keyed = list.into_iter().map(|element| {
+        frame.set(order.it, element.clone());
+        (number(w, Scope::of(frame), &order.key), element)
+    });
+    let mut keyed: Vec<(f64, Value)> = keyed.collect();
+    let compare = |a: f64, b: f64| a.partial_cmp(&b).unwrap_or(std::cmp::Ordering::Equal);
+    keyed.sort_by(|(a, _), (b, _)| if order.most { compare(*b, *a) } else { compare(*a, *b) });
+    keyed.into_iter().map(|(_, element)| element).collect()
+}
+
+/// Adds to a list; when it is full the oldest goes, or the last in order.
+pub fn insert(w: &mut World<'_>, frame: &Frame<'_>, id: usize, element: Value) {
+    let Type::List(_, capacity) = &frame.declared[id].ty else { return };
+    let capacity = *capacity as usize;
+    let mut list = frame.get(id).list().to_vec();
+    list.push(element);
+    let ordered = frame.declared[id].order.is_some();
+    let mut list = sorted(w, frame, id, list);
+    if list.len() > capacity {
+        list.remove(if ordered { capacity } else { 0 });
+    }
+    frame.set(id, Value::List(list));
+}
+
+/// What would be too large for a number is the largest that is kept.
+fn fits(x: f64) -> f64 {
+    const LARGEST: f64 = 1e150;
+    if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) }
+}
+
+fn fitting(v: Vector) -> Value {
+    Value::pair(fits(v.north), fits(v.east))
+}
+
+fn builtin(op: Builtin, operands: &[Value]) -> Value {
+    use Builtin as B;
+    let n = |i: usize| operands[i].number();
+    let at = |i: usize| &operands[i];
+    let number = match op {
+        B::Add if operands.len() == 1 => n(0),
+        B::Add => fits(n(0) + n(1)),
+        B::Sub => fits(n(0) - n(1)),
+        B::Mul => fits(n(0) * n(1)),
+        B::Div if n(1) == 0.0 => 0.0,
+        B::Div => fits(n(0) / n(1)),
+        B::Pow => fits(math::pow(n(0), n(1))),
+        B::Neg => math::canonical_zero(-n(0)),
+        B::Abs => n(0).abs(),
+        B::Min => n(0).min(n(1)),
+        B::Max => n(0).max(n(1)),
+        B::Sqrt => n(0).max(0.0).sqrt(),
+        B::Floor => n(0).floor(),
+        B::Ceil => n(0).ceil(),
+        B::Round => n(0).round(),
+        B::Sin => math::sin(n(0)),
+        B::Cos => math::cos(n(0)),
+        B::Heading => Heading::from_radians(n(0)).radians(),
+        B::Angle => wrap_angle(n(0)),
+        B::Lt => return Value::truth(n(0) < n(1)),
+        B::Le => return Value::truth(n(0) <= n(1)),
+        B::Eq => return Value::truth(operands[0] == operands[1]),
+        B::Not => return Value::truth(!at(0).holds()),
+        B::And => return Value::truth(at(0).holds() && at(1).holds()),
+        B::Or => return Value::truth(at(0).holds() || at(1).holds()),
+        B::AddVector => return fitting(at(0).vector() + at(1).vector()),
+        B::SubVector => return fitting(at(0).vector() - at(1).vector()),
+        B::Scale => return fitting(n(1) * at(0).vector()),
+        B::Toward => return fitting(n(0) * at(1).heading().unit()),
+        B::Direction => at(0).vector().toward().radians(),
+        B::Length => fits(at(0).vector().length()),
+        B::Dot => fits(at(0).vector().dot(at(1).vector())),
+        B::Along => at(0).vector().along(at(1).heading()),
+        B::Pair | B::Line => return Value::Parts(operands.to_vec()),
+        B::Rectangle => {
+            let area = Area::rectangle(at(0).point(), at(1).heading(), n(2), n(3));
+            return Value::Area(area.map(|area| area.edges().collect()).unwrap_or_default());
+        }
+        B::Polygon => {
+            let corners: Vec<Point> = at(0).list().iter().map(Value::point).collect();
+            let area = Area::polygon(&corners).ok();
+            return Value::Maybe(area.map(|area| Box::new(Value::Area(area.edges().collect()))));
+        }
+        B::Center => return Value::of_point(center(at(0).edges())),
+        B::Gap => gap(at(0).edges(), at(1).point()),
+        B::Corner => return Value::of_point(corner(at(0).edges(), at(1).heading(), at(2).point())),
+        B::NearestEdge => return Value::of_edge(nearest_edge(at(0).edges(), at(1).point())),
+        B::EdgeGap => at(0).edge().gap(at(1).point()),
+        B::EdgeTangent => at(0).edge().tangent(at(1).heading()).radians(),
+        B::Exit => return Value::of_point(exit(at(0).edges(), at(1).point(), at(2).heading())),
+        B::Top => {
+            let list = at(0).list();
+            return Value::List(list[..n(1).clamp(0.0, list.len() as f64) as usize].to_vec());
+        }
+        B::At => {
+            let element = if n(1) >= 0.0 { at(0).list().get(n(1) as usize) } else { None };
+            return Value::Maybe(element.cloned().map(Box::new));
+        }
+        B::Spread => {
+            let along: Vec<f64> = at(0).list().iter().map(|p| p.point().along(at(1).heading())).collect();
+            let (low, high) = along.iter().fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
+            if along.is_empty() { 0.0 } else { high - low }
+        }
+    };
+    Value::Number(number)
+}
+
+fn center(edges: &[Edge]) -> Point {
+    let sum = edges.iter().fold(Vector::ZERO, |sum, edge| sum + (edge.line.start - Point::ORIGIN));
+    Point::ORIGIN + (1.0 / edges.len().max(1) as f64) * sum
+}
+
+fn gap(edges: &[Edge], p: Point) -> f64 {
+    edges.iter().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min)
+}
+
+fn nearest_edge(edges: &[Edge], p: Point) -> Edge {
+    let nearer = |best: Edge, edge: &Edge| if edge.gap(p) < best.gap(p) { *edge } else { best };
+    edges[1..].iter().fold(edges[0], nearer)
+}
+
+/// The corner farthest along a heading; of those equally far, to 1 m, the one nearest to a point.
+fn corner(edges: &[Edge], heading: Heading, near: Point) -> Point {
+    let corners = edges.iter().map(|edge| edge.line.start);
+    let far = corners.clone().map(|c| c.along(heading)).fold(f64::NEG_INFINITY, f64::max);
+    let mut farthest = corners.filter(|c| c.along(heading) > far - 1.0);
+    let first = farthest.next().unwrap_or(near);
+    farthest.fold(first, |best, c| if c.distance(near) < best.distance(near) { c } else { best })
+}
+
+/// Where a ray leaves an area; the point itself when it is outside.
+fn exit(edges: &[Edge], from: Point, heading: Heading) -> Point {
+    if edges.iter().any(|edge| edge.gap(from) < 0.0) {
+        return from;
+    }
+    let runs = edges.iter().filter(|edge| heading.unit().dot(edge.normal) > 0.0);
+    let run = runs.map(|edge| edge.gap(from) / heading.unit().dot(edge.normal)).fold(f64::INFINITY, f64::min);
+    if run.is_finite() { from + run * heading.unit() } else { from }
+}
+
+/// Named values as the trace has them, exactly.
+pub fn exactly(name: &str, shape: &Shape, words: &[f64]) -> String {
+    format!("{name} = {:?}", Value::read(shape, words))
+}

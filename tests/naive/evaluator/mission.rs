@@ -1,0 +1,388 @@
+//! A mission's life: rules 2, 6 and 17, and what section 8 of the reference says of `requires`, `limits` and the recovery.
+
+use super::activation::{Aborted, Activation};
+use super::expr::{Frame, Scope, number, value};
+use super::timed::Setpoints;
+use super::world::{Asked, World, ticks};
+use albacore_geometry::TangentFrame;
+use albacore_guidance::{CommandFilter, through_water};
+use albacore_lang::hir::{Activity, ActivityId, Body, Decl, Expr, ExprKind, Hir, Mission, children};
+use albacore_lang::source::Sources;
+use albacore_lang::types::TypeTable;
+use albacore_program::{Cause, Channel};
+use albacore_vehicle::{Channel as Sensor, Command, Control, Snapshot, TICK_S, Vertical};
+
+/// Where a mission is in its life.
+#[derive(Clone, Copy, PartialEq)]
+enum Phase {
+    Waiting,
+    /// It drives, and required inputs have not come yet.
+    Awaiting,
+    Running,
+    /// Since a tick, and with the outcome that there will be.
+    Recovering(u64, &'static str),
+    Over,
+}
+
+/// An input that the mission cannot do without.
+struct Required {
+    input: usize,
+    fresh: u64,
+    /// How long it may be stale; none: not at all.
+    patience: u64,
+    has_at_first: bool,
+    awaited: bool,
+    stale_since: Option<u64>,
+}
+
+/// The naive evaluator of one mission.
+pub struct Evaluator<'p> {
+    pub w: World<'p>,
+    sensors: &'p [Sensor],
+    declared: &'p Mission,
+    mission: Activation<'p>,
+    recovery: Activation<'p>,
+    phase: Phase,
+    /// The first tick on which it drives, and how long it may last.
+    began: u64,
+    within: Option<u64>,
+    recovery_within: Option<u64>,
+    required: Vec<Required>,
+    /// Least and greatest, by channel.
+    limits: [(f64, f64); 3],
+    limited: [bool; 3],
+    filter: CommandFilter,
+    control: Control,
+}
+
+/// What a mission does after a time-out or an abort, as an activity of its own.
+pub fn recovery(hir: &Hir, mission: ActivityId) -> Activity {
+    let activity = &hir.activities[mission];
+    let block = activity.mission.as_ref().and_then(|m| m.recovery.as_ref()).map(|(_, block)| block.clone());
+    Activity { body: Body::Sequence(block.unwrap_or_default()), ..Activity::empty("recovery", activity.span) }
+}
+
+impl<'p> Evaluator<'p> {
+    pub fn new(
+        (hir, types, id): (&'p Hir, &'p TypeTable, ActivityId),
+        sources: &'p Sources,
+        recovery: &'p Activity,
+        sensors: &'p [Sensor],
+    ) -> Option<Self> {
+        let activity = &hir.activities[id];
+        let declared = activity.mission.as_ref()?;
+        let w = World::new(hir, types, sources, origin(activity));
+        let frame = Frame::new(&w, &activity.vars, Vec::new());
+        Some(Evaluator {
+            sensors,
+            declared,
+            mission: Activation::new(activity, frame.clone(), Setpoints::default(), false),
+            recovery: Activation::new(recovery, frame, Setpoints::default(), false),
+            phase: Phase::Waiting,
+            began: 0,
+            within: None,
+            recovery_within: None,
+            required: Vec::new(),
+            limits: [(0.0, f64::MAX); 3],
+            limited: [false; 3],
+            filter: CommandFilter::new(w.heading()),
+            control: Control::Disconnected,
+            w,
+        })
+    }
+
+    pub fn is_over(&self) -> bool {
+        self.phase == Phase::Over
+    }
+
+    /// One tick.
+    pub fn step(&mut self, snapshot: &Snapshot) -> Option<Command> {
+        self.w.events.clear();
+        self.w.kept = Setpoints::default();
+        self.w.sense(self.sensors, &snapshot.samples);
+        if snapshot.control != self.control {
+            self.control = snapshot.control;
+            self.w.say(format!("control {:?}", self.control));
+        }
+        let command = self.live();
+        self.w.tick += 1;
+        command
+    }
+
+    fn live(&mut self) -> Option<Command> {
+        let began = self.phase != Phase::Waiting;
+        match self.control {
+            Control::InControl => {}
+            Control::Refused => return self.over("refused", Cause::Aborted),
+            Control::Released if began => return self.over("released_by_vehicle", Cause::Aborted),
+            Control::TimedOut => return self.over("link_lost", Cause::Aborted),
+            Control::Disconnected if began => return self.over("link_lost", Cause::Aborted),
+            // Rule 18: while the vehicle does not listen the mission stands still.
+            _ => return None,
+        }
+        if self.phase == Phase::Waiting {
+            self.phase = Phase::Awaiting;
+            self.take_parameters();
+        }
+        match self.phase {
+            Phase::Waiting | Phase::Over => None,
+            Phase::Awaiting => self.await_inputs(),
+            Phase::Running => self.run(),
+            Phase::Recovering(since, outcome) => self.recover(since, outcome),
+        }
+    }
+
+    fn number(&mut self, e: &Expr) -> f64 {
+        number(&mut self.w, Scope::of(&self.mission.frame), e)
+    }
+
+    /// Nobody calls a mission: its parameters have their defaults.
+    fn take_parameters(&mut self) {
+        self.began = self.w.tick;
+        for (param, default) in self.mission.activity.defaults.iter().enumerate() {
+            if let Some(e) = default {
+                let value = value(&mut self.w, Scope::of(&self.mission.frame), e);
+                self.mission.frame.set(param, value);
+            }
+        }
+        let declared = self.declared;
+        for require in &declared.requires {
+            let fresh = ticks(self.number(&require.fresh));
+            let patience = require.hold_for.as_ref().map_or(0, |e| ticks(self.number(e)));
+            let has_at_first = require.at_first.is_some();
+            let (input, awaited, stale_since) = (require.input, false, None);
+            self.required.push(Required { input, fresh, patience, has_at_first, awaited, stale_since });
+        }
+        self.within = declared.within.as_ref().map(|e| ticks(self.number(e)));
+    }
+
+    /// Rule 17: the time limit counts also while the mission waits for a first sample or is held.
+    fn time_is_up(&self) -> bool {
+        self.within.is_some_and(|within| self.w.tick - self.began >= within)
+    }
+
+    /// It begins with the first sample of each required input that has no `at first`; one that has never come is as old as
+    /// the mission.
+    fn await_inputs(&mut self) -> Option<Command> {
+        let lived = self.w.tick - self.began;
+        let mut waits = false;
+        for required in &mut self.required {
+            if required.has_at_first || self.w.inputs[required.input].stamp.is_some() {
+                continue;
+            }
+            waits = true;
+            let name = &self.w.hir.inputs[required.input].name;
+            if !std::mem::replace(&mut required.awaited, true) {
+                self.w.say(format!("wait {name}"));
+            }
+            if lived > required.fresh + required.patience {
+                self.w.say(format!("abort `{name}` has never come"));
+                return self.over("aborted", Cause::Aborted);
+            }
+        }
+        if !waits {
+            self.phase = Phase::Running;
+            return match self.start() {
+                Ok(()) => Some(self.command()),
+                Err(aborted) => self.abort(aborted),
+            };
+        }
+        if self.time_is_up() {
+            self.w.say("timeout".into());
+            return self.over("timed_out", Cause::TimedOut);
+        }
+        let depth = self.w.depth().filter(|_| self.w.knows_heading())?;
+        Some(Command { heading: self.w.heading(), speed: 0.0, vertical: Vertical::Depth(depth) })
+    }
+
+    fn start(&mut self) -> Result<(), Aborted> {
+        // Rule 6: at the very start the present heading and depth, at speed 0.
+        let (heading, depth) = (self.w.heading(), self.w.depth().unwrap_or(0.0));
+        self.filter = CommandFilter::new(heading);
+        self.w.asked = Asked { course: heading, over_ground: false, speed: 0.0, vertical: Vertical::Depth(depth) };
+        for require in &self.declared.requires {
+            if let (Some(e), None) = (&require.at_first, self.w.inputs[require.input].stamp) {
+                let shape = self.w.shape(&e.ty);
+                let words = value(&mut self.w, Scope::of(&self.mission.frame), e).words(&shape);
+                let sensed = &mut self.w.inputs[require.input];
+                sensed.latest[..words.len()].copy_from_slice(&words);
+                sensed.peak = words[0];
+            }
+        }
+        let begun = self.mission.begin(&mut self.w);
+        for (channel, least, e) in &self.declared.limits {
+            let value = number(&mut self.w, Scope::of(&self.mission.frame), e);
+            let (low, high) = &mut self.limits[*channel as usize];
+            *(if *least { low } else { high }) = value;
+        }
+        begun
+    }
+
+    fn run(&mut self) -> Option<Command> {
+        let time_is_up = self.time_is_up();
+        if self.is_stale() {
+            return self.hold(time_is_up);
+        }
+        match self.mission.step(&mut self.w) {
+            Err(aborted) => self.abort(aborted),
+            Ok(true) => self.over("completed", Cause::Done),
+            // Rule 17: its own end on the very tick of the limit comes first.
+            Ok(false) if time_is_up => self.time_out(),
+            Ok(false) => Some(self.command()),
+        }
+    }
+
+    /// Whether an input is too old, which suspends the mission.
+    fn is_stale(&mut self) -> bool {
+        for required in &mut self.required {
+            let name = &self.w.hir.inputs[required.input].name;
+            let age = self.w.inputs[required.input].stamp.map(|stamp| self.w.tick - stamp);
+            let stale = age.is_some_and(|age| age > required.fresh);
+            if stale != required.stale_since.is_some() {
+                self.w.events.push(format!("{} {name}", if stale { "stale" } else { "fresh" }));
+                required.stale_since = stale.then_some(self.w.tick);
+            }
+        }
+        self.required.iter().any(|required| required.stale_since.is_some())
+    }
+
+    /// It keeps its course at speed 0, and its timers stand still; after the time of `hold for` of any of its stale inputs it
+    /// aborts.
+    fn hold(&mut self, time_is_up: bool) -> Option<Command> {
+        let tick = self.w.tick;
+        let lost = |required: &&Required| required.stale_since.is_some_and(|since| tick - since >= required.patience);
+        if let Some(required) = self.required.iter().find(lost) {
+            return self.abort(Aborted(format!("no fresh `{}`", self.w.hir.inputs[required.input].name)));
+        }
+        if time_is_up {
+            return self.time_out();
+        }
+        let speed = std::mem::replace(&mut self.w.asked.speed, 0.0);
+        let command = self.command();
+        self.w.asked.speed = speed;
+        Some(command)
+    }
+
+    fn time_out(&mut self) -> Option<Command> {
+        self.w.say("timeout".into());
+        self.begin_recovery("timed_out", Cause::Preempted)
+    }
+
+    fn abort(&mut self, Aborted(why): Aborted) -> Option<Command> {
+        self.w.say(format!("abort {why}"));
+        self.begin_recovery("aborted", Cause::Aborted)
+    }
+
+    /// Rule 17: what is inside the mission is left; the recovery runs once, under what the mission's declarations put in force.
+    fn begin_recovery(&mut self, outcome: &'static str, inner: Cause) -> Option<Command> {
+        self.mission.leave_inside(&mut self.w, inner);
+        self.mission.end_withs(&mut self.w, inner);
+        let Some((within, _)) = &self.declared.recovery else {
+            return self.over(outcome, outcome_cause(outcome));
+        };
+        self.recovery_within = within.as_ref().map(|e| ticks(self.number(e)));
+        self.phase = Phase::Recovering(self.w.tick, outcome);
+        self.w.is_recovering = true;
+        self.recovery.setpoints = self.mission.setpoints;
+        match self.recovery.begin(&mut self.w) {
+            Ok(()) => Some(self.command()),
+            Err(_) => self.end_recovery(outcome, Cause::Aborted),
+        }
+    }
+
+    fn recover(&mut self, since: u64, outcome: &'static str) -> Option<Command> {
+        self.mission.refresh(&mut self.w);
+        let _ = self.mission.step_overlays(&mut self.w);
+        let time_is_up = self.recovery_within.is_some_and(|within| self.w.tick - since >= within);
+        match self.recovery.step(&mut self.w) {
+            // There is nothing left to abort but the recovery itself.
+            Err(_) => self.end_recovery(outcome, Cause::Aborted),
+            Ok(true) => self.end_recovery(outcome, Cause::Done),
+            Ok(false) if time_is_up => self.end_recovery(outcome, Cause::TimedOut),
+            Ok(false) => Some(self.command()),
+        }
+    }
+
+    fn end_recovery(&mut self, outcome: &'static str, cause: Cause) -> Option<Command> {
+        self.recovery.leave(&mut self.w, cause);
+        self.over(outcome, outcome_cause(outcome))
+    }
+
+    fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {
+        if self.phase != Phase::Over {
+            self.recovery.leave(&mut self.w, Cause::Preempted);
+            self.mission.leave(&mut self.w, cause);
+            self.phase = Phase::Over;
+            self.w.say(format!("end {outcome}"));
+        }
+        None
+    }
+
+    /// Rule 2, once a tick: what the innermost statement asks for; overlays; limits; then the command filter and the flow.
+    fn command(&mut self) -> Command {
+        let kept = self.w.kept;
+        self.w.asked.vertical = kept.vertical.unwrap_or(self.w.asked.vertical);
+        self.w.asked.speed = kept.speed.unwrap_or(self.w.asked.speed);
+        let asked = self.w.asked;
+        let amended = self.recovery.amended(&mut self.w, asked.course);
+        let amended = self.mission.amended(&mut self.w, amended);
+        let speed = self.limit(Channel::Speed, asked.speed);
+        let water = self.w.water_depth();
+        let vertical = match asked.vertical {
+            // Where the water depth is known, the limits of depth and altitude both hold.
+            Vertical::Altitude(asked) => {
+                let given = self.limit(Channel::Altitude, asked);
+                let deepest = self.limits[Channel::Depth as usize].1;
+                Vertical::Altitude(water.map_or(given, |water| given.max(water - deepest)).max(0.0))
+            }
+            Vertical::Depth(asked) => {
+                let given = self.limit(Channel::Depth, asked);
+                let lowest = self.limits[Channel::Altitude as usize].0;
+                Vertical::Depth(water.map_or(given, |water| given.min((water - lowest).max(0.0))))
+            }
+        };
+        let course = self.filter.step(amended, TICK_S);
+        if (asked.over_ground || amended != asked.course) && speed > 0.0 {
+            let fastest = self.limits[Channel::Speed as usize].1;
+            let water = through_water(course, speed, self.w.flow(), fastest);
+            return Command { heading: water.heading, speed: water.speed, vertical };
+        }
+        Command { heading: course, speed: speed.max(0.0), vertical }
+    }
+
+    fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
+        let (low, high) = self.limits[channel as usize];
+        // Speed 0 is always allowed.
+        let given = if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.max(low).min(high.max(low)) };
+        let held = given != asked;
+        if held != std::mem::replace(&mut self.limited[channel as usize], held) {
+            let how = if held { format!("{asked:?} {given:?}") } else { "no more".into() };
+            self.w.say(format!("limit {channel:?} {how}"));
+        }
+        given
+    }
+}
+
+fn outcome_cause(outcome: &str) -> Cause {
+    if outcome == "timed_out" { Cause::TimedOut } else { Cause::Aborted }
+}
+
+/// The local frame lies about the mean of the positions that the mission's area is made of.
+fn origin(mission: &Activity) -> Option<TangentFrame> {
+    fn positions(e: &Expr, found: &mut Vec<(f64, f64)>) {
+        if let ExprKind::Geodetic { latitude_deg, longitude_deg } = e.kind {
+            found.push((latitude_deg, longitude_deg));
+        }
+        children(e, &mut |child| positions(child, found));
+    }
+    let mut found = Vec::new();
+    for decl in &mission.decls {
+        if let Decl::Area(_, e) = decl {
+            positions(e, &mut found);
+        }
+    }
+    let n = found.len() as f64;
+    let (latitude, longitude) = found.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + lon));
+    let origin = albacore_geometry::Geodetic::from_degrees(latitude / n, longitude / n);
+    (!found.is_empty()).then_some(TangentFrame { origin })
+}

@@ -1,0 +1,220 @@
+//! Rules 3 to 5: a statement that takes time, from its beginning to its end.
+
+use super::activation::{Aborted, Activation};
+use super::expr::{Frame, Scope, holds, number, values};
+use super::value::Value;
+use super::watch::Watch;
+use super::world::{World, ticks};
+use albacore_geometry::Heading;
+use albacore_guidance::dubins::{Pose, Words};
+use albacore_guidance::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
+use albacore_guidance::{Circling, FollowLine, Goto, GotoPose, Guidance, Loiter, turning_radius_in_flow};
+use albacore_lang::hir::{Action, Expr, Timed};
+use albacore_program::{Cause, Channel, Guide};
+use albacore_vehicle::Vertical;
+
+/// The vertical and the speed in force; none where nobody has set them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Setpoints {
+    pub vertical: Option<Vertical>,
+    pub speed: Option<f64>,
+}
+
+impl Setpoints {
+    pub fn set(&mut self, channel: Channel, value: f64) {
+        match channel {
+            Channel::Depth => self.vertical = Some(Vertical::Depth(value)),
+            Channel::Altitude => self.vertical = Some(Vertical::Altitude(value)),
+            Channel::Speed => self.speed = Some(value),
+        }
+    }
+}
+
+pub struct Underway<'p> {
+    pub timed: &'p Timed,
+    /// Rule 4: frozen when it begins, in ticks of its activation.
+    began: u64,
+    duration: Option<u64>,
+    within: Option<u64>,
+    setpoints: Setpoints,
+    until: Watch<'p>,
+    pub doing: Doing<'p>,
+}
+
+pub enum Doing<'p> {
+    Guide(Guide, Vec<Value>, Law),
+    Keep(Channel, &'p Expr),
+    Call(Box<Activation<'p>>),
+}
+
+/// A guidance law that has begun.
+pub enum Law {
+    Goto(Goto),
+    Follow(FollowLine),
+    Dubins(GotoPose),
+    Loiter(Loiter),
+    /// `steer`, `hold`, `wait`: nothing to remember.
+    None,
+}
+
+/// How a statement ended.
+pub enum End {
+    ByItself,
+    Cut(Cause),
+}
+
+impl<'p> Underway<'p> {
+    /// All is frozen, in the order of the text; what is called is entered afterwards, by [`Underway::first`].
+    pub fn new(w: &mut World<'p>, wearer: &Activation<'p>, timed: &'p Timed) -> Self {
+        let (frame, age) = (&wearer.frame, wearer.age);
+        let s = Scope::of(frame);
+        let mut setpoints = wearer.setpoints;
+        for (channel, e) in &timed.at {
+            setpoints.set(*channel, number(w, s, e));
+        }
+        let mut frozen = |e: &Option<Expr>| e.as_ref().map(|e| ticks(number(w, s, e)));
+        let (duration, within) = (frozen(&timed.duration), frozen(&timed.within));
+        let until = Watch::begin(w, frame, &timed.until.iter().collect::<Vec<_>>(), age);
+        let doing = match &timed.action {
+            Action::Guide(guide, args) => {
+                let args = values(w, s, args);
+                let law = law(w, *guide, &args, setpoints);
+                Doing::Guide(*guide, args, law)
+            }
+            Action::Keep(channel, e) => Doing::Keep(*channel, e),
+            Action::Watch | Action::Override(_) => panic!("rule 18 is not covered"),
+            Action::Call(id, args) => {
+                let activity = &w.hir.activities[*id];
+                let args = values(w, s, args);
+                let frame = Frame::new(w, &activity.vars, args);
+                Doing::Call(Box::new(Activation::new(activity, frame, setpoints, wearer.is_overlay)))
+            }
+        };
+        Underway { timed, began: age, duration, within, setpoints, until, doing }
+    }
+
+    /// The tick on which it begins: rule 3, its end is not tested.
+    pub fn first(&mut self, w: &mut World<'p>, frame: &Frame<'p>, in_overlay: bool) -> Result<(), Aborted> {
+        match &mut self.doing {
+            Doing::Call(called) => called.begin(w),
+            _ => self.act(w, frame, in_overlay).map(|_| ()),
+        }
+    }
+
+    /// Every later tick: its own end first, so that an end on the very tick of the cut is its own; then `for` and `until`,
+    /// then `within` (rule 5).
+    pub fn step(
+        &mut self,
+        w: &mut World<'p>,
+        frame: &Frame<'p>,
+        age: u64,
+        in_overlay: bool,
+    ) -> Result<Option<End>, Aborted> {
+        self.until.update(w, frame, age);
+        // Rule 4: `steer` reads its course at every tick.
+        if let (Doing::Guide(Guide::Steer | Guide::SteerHeading, args, _), Action::Guide(_, written)) =
+            (&mut self.doing, &self.timed.action)
+        {
+            *args = values(w, Scope::of(frame), written);
+        }
+        if self.act(w, frame, in_overlay)? {
+            return Ok(Some(End::ByItself));
+        }
+        let gone = |limit: Option<u64>| limit.is_some_and(|limit| age - self.began >= limit);
+        let scope = Scope { frame, watch: Some(&self.until), done: false };
+        if self.timed.until.as_ref().is_some_and(|until| holds(w, scope, until)) || gone(self.duration) {
+            return Ok(Some(End::Cut(Cause::Until)));
+        }
+        Ok(gone(self.within).then_some(End::Cut(Cause::TimedOut)))
+    }
+
+    /// One tick of what it does; tells whether that came to its own end.
+    fn act(&mut self, w: &mut World<'p>, frame: &Frame<'p>, in_overlay: bool) -> Result<bool, Aborted> {
+        let (position, course) = (w.position(), w.course());
+        let guidance: Guidance = match &mut self.doing {
+            Doing::Call(called) => return called.step(w),
+            Doing::Keep(channel, e) => {
+                let kept = number(w, Scope::of(frame), e);
+                if in_overlay {
+                    w.kept.set(*channel, kept);
+                } else {
+                    let mut setpoints = self.setpoints;
+                    setpoints.set(*channel, kept);
+                    ask(w, w.asked.course, w.asked.over_ground, setpoints);
+                }
+                return Ok(false);
+            }
+            // What an overlay does not `keep` it leaves as it is.
+            Doing::Guide(..) if in_overlay => return Ok(false),
+            Doing::Guide(guide, args, law) => match law {
+                Law::Goto(law) => law.step(position, course),
+                Law::Follow(law) => law.step(position, course),
+                Law::Dubins(law) => law.step(position, course),
+                Law::Loiter(law) => law.step(position, course),
+                Law::None => {
+                    match guide {
+                        Guide::Steer => ask(w, args[0].heading(), true, self.setpoints),
+                        Guide::SteerHeading => ask(w, args[0].heading(), false, self.setpoints),
+                        Guide::Hold => {
+                            ask(w, w.asked.course, w.asked.over_ground, self.setpoints);
+                            w.asked.speed = 0.0;
+                        }
+                        _ => {}
+                    }
+                    return Ok(false);
+                }
+            },
+        };
+        ask(w, guidance.course, true, self.setpoints);
+        Ok(guidance.arrived)
+    }
+
+    /// What `let x = …` gets: of a call with a result that result, or none when it was cut; else whether `within` did not
+    /// cut it off (rule 5).
+    pub fn outcome(&self, w: &World<'p>, end: &End) -> Value {
+        let Doing::Call(called) = &self.doing else { return Value::truth(!matches!(end, End::Cut(Cause::TimedOut))) };
+        let Some(ty) = &called.activity.result else {
+            return Value::truth(!matches!(end, End::Cut(Cause::TimedOut)));
+        };
+        let can_be_cut = self.duration.is_some() || self.within.is_some() || self.timed.until.is_some();
+        let result = called.result.clone().unwrap_or_else(|| Value::nothing(&w.shape(ty)));
+        match end {
+            End::Cut(_) => Value::Maybe(None),
+            End::ByItself if can_be_cut && !ty.is_optional() => result.present(),
+            End::ByItself => result,
+        }
+    }
+}
+
+fn ask(w: &mut World<'_>, course: Heading, over_ground: bool, setpoints: Setpoints) {
+    w.asked.course = course;
+    w.asked.over_ground = over_ground;
+    w.asked.speed = setpoints.speed.unwrap_or(w.asked.speed);
+    w.asked.vertical = setpoints.vertical.unwrap_or(w.asked.vertical);
+}
+
+/// A guidance law from its frozen arguments.
+fn law(w: &World<'_>, guide: Guide, args: &[Value], setpoints: Setpoints) -> Law {
+    // Speeds below 0.1 m/s turn in no circle worth planning with.
+    let speed = setpoints.speed.unwrap_or(w.asked.speed).max(0.1);
+    let lead = speed * TURN_LEAD_TIME;
+    let allowed = turning_radius_in_flow(speed, w.flow().length(), TURN_RATE_MAX);
+    let radius = |asked: f64| if asked > 0.0 { asked } else { allowed };
+    let n = |i: usize| args[i].number();
+    match guide {
+        Guide::Goto => Law::Goto(Goto::new(args[0].point(), n(1), allowed)),
+        Guide::Follow => Law::Follow(FollowLine::new(args[0].line(), radius(n(1)), lead)),
+        Guide::Dubins => {
+            let start = Pose { point: w.position(), heading: w.course() };
+            let goal = Pose { point: args[0].point(), heading: args[1].heading() };
+            let words = if args[3].holds() { Words::Full } else { Words::Csc };
+            Law::Dubins(GotoPose::new(start, goal, radius(n(2)), words, lead))
+        }
+        Guide::Loiter => {
+            let turns = if n(2) > 0.0 { n(2) } else { f64::INFINITY };
+            let circling = if args[3].holds() { Circling::Clockwise } else { Circling::Anticlockwise };
+            Law::Loiter(Loiter::new(args[0].point(), n(1), circling, turns, lead))
+        }
+        Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => Law::None,
+    }
+}

@@ -1,0 +1,154 @@
+//! What all activations of a run share: the clock, what is sensed, what is asked for, what has happened.
+
+use super::timed::Setpoints;
+use super::value::Value;
+use albacore_geometry::{Heading, Point, TangentFrame, Vector};
+use albacore_lang::hir::{Expr, Hir, InputPart};
+use albacore_lang::source::Sources;
+use albacore_lang::types::{Type, TypeTable};
+use albacore_program::Shape;
+use albacore_vehicle::{Channel, Sample, TICK_S, Vertical};
+
+/// What a statement asks for.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    pub course: Heading,
+    pub over_ground: bool,
+    pub speed: f64,
+    pub vertical: Vertical,
+}
+
+/// What has been sensed of an input.
+#[derive(Clone, Debug, Default)]
+pub struct Sensed {
+    pub stamp: Option<u64>,
+    pub latest: Vec<f64>,
+    pub peak: f64,
+    /// The first number of every sample there was.
+    pub all: Vec<f64>,
+}
+
+pub struct World<'p> {
+    pub hir: &'p Hir,
+    pub types: &'p TypeTable,
+    pub sources: &'p Sources,
+    pub frame: Option<TangentFrame>,
+    pub inputs: Vec<Sensed>,
+    pub tick: u64,
+    pub asked: Asked,
+    /// What overlays that own a channel keep in this tick.
+    pub kept: Setpoints,
+    /// Rule 17: the recovery runs without aborts.
+    pub is_recovering: bool,
+    /// What happened in this tick, one line each.
+    pub events: Vec<String>,
+}
+
+/// Rule 1: whole ticks, rounded up, at least one; a hair above a whole number is rounding.
+pub fn ticks(seconds: f64) -> u64 {
+    (seconds / TICK_S - 1e-6).ceil().max(1.0) as u64
+}
+
+impl<'p> World<'p> {
+    pub fn new(hir: &'p Hir, types: &'p TypeTable, sources: &'p Sources, frame: Option<TangentFrame>) -> Self {
+        let width = |ty: &Type| types.words(ty) as usize;
+        let inputs = hir.inputs.iter().map(|input| {
+            let fields: usize = input.fields.iter().map(|(_, ty)| width(ty)).sum();
+            Sensed { latest: vec![0.0; width(&input.ty) + fields], ..Sensed::default() }
+        });
+        let asked = Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) };
+        World {
+            inputs: inputs.collect(),
+            hir,
+            types,
+            sources,
+            frame,
+            tick: 0,
+            asked,
+            kept: Setpoints::default(),
+            is_recovering: false,
+            events: Vec::new(),
+        }
+    }
+
+    pub fn say(&mut self, line: String) {
+        self.events.push(line);
+    }
+
+    pub fn shape(&self, ty: &Type) -> Shape {
+        self.types.shape(ty)
+    }
+
+    /// Rule 2: every input is sampled once a tick. A sample with something in it that is no number counts as none.
+    pub fn sense(&mut self, channels: &[Channel], samples: &[Sample]) {
+        for (input, sensed) in self.hir.inputs.iter().zip(&mut self.inputs) {
+            let own = |sample: &&Sample| channels[sample.channel as usize].name == input.name;
+            let width = sensed.latest.len().min(4);
+            let valid = samples.iter().filter(own).map(|sample| &sample.reading[..width]);
+            let valid: Vec<&[f64]> = valid.filter(|numbers| numbers.iter().all(|x| x.is_finite())).collect();
+            sensed.peak = sensed.latest[0];
+            let Some(latest) = valid.last() else { continue };
+            sensed.peak = valid.iter().map(|numbers| numbers[0]).fold(f64::NEG_INFINITY, f64::max);
+            sensed.all.extend(valid.iter().map(|numbers| numbers[0]));
+            sensed.latest[..width].copy_from_slice(latest);
+            sensed.stamp = Some(self.tick);
+        }
+    }
+
+    /// What is read of an input; `limit` is that of `hits`.
+    pub fn input(&self, id: usize, part: &InputPart, limit: f64, ty: &Type) -> Value {
+        let sensed = &self.inputs[id];
+        match part {
+            InputPart::Value => Value::read(&self.shape(ty), &sensed.latest),
+            InputPart::Field(at) => Value::read(&self.shape(ty), &sensed.latest[*at as usize..]),
+            InputPart::Peak => Value::Number(sensed.peak),
+            InputPart::Age => {
+                Value::Number(sensed.stamp.map_or(1e9, |stamp| (self.tick as f64 - stamp as f64) * TICK_S))
+            }
+            InputPart::Hits(_, of) => {
+                let last = sensed.all.iter().rev().take(*of as usize);
+                Value::Number(last.filter(|&&x| x >= limit).count() as f64)
+            }
+        }
+    }
+
+    /// The latest sample of an input that guidance reads.
+    fn sample(&self, name: &str) -> Option<&[f64]> {
+        let id = self.hir.inputs.iter().position(|input| input.name == name)?;
+        self.inputs[id].stamp.map(|_| self.inputs[id].latest.as_slice())
+    }
+
+    pub fn position(&self) -> Point {
+        self.sample("position").map_or(Point::ORIGIN, |words| Point::new(words[0], words[1]))
+    }
+
+    pub fn heading(&self) -> Heading {
+        self.sample("heading").map_or(Heading::NORTH, |words| Heading::from_radians(words[0]))
+    }
+
+    pub fn course(&self) -> Heading {
+        self.sample("course").map_or_else(|| self.heading(), |words| Heading::from_radians(words[0]))
+    }
+
+    pub fn depth(&self) -> Option<f64> {
+        self.sample("depth").map(|words| words[0])
+    }
+
+    pub fn knows_heading(&self) -> bool {
+        self.sample("heading").is_some()
+    }
+
+    pub fn water_depth(&self) -> Option<f64> {
+        self.sample("water_depth").map(|words| words[0])
+    }
+
+    /// Also what `at first` says.
+    pub fn flow(&self) -> Vector {
+        let id = self.hir.inputs.iter().position(|input| input.name == "flow");
+        id.map_or(Vector::ZERO, |id| Vector::new(self.inputs[id].latest[0], self.inputs[id].latest[1]))
+    }
+
+    pub fn written(&self, e: &Expr) -> String {
+        self.sources.text(e.span).to_string()
+    }
+}

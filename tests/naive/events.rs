@@ -1,0 +1,64 @@
+//! What the machine says of a tick, in the words of the evaluator: names for numbers, and values to the last bit.
+
+use crate::evaluator::exactly;
+use albacore_machine::Event;
+use albacore_program::{Body, Program, Shape};
+
+/// One line an event.
+pub fn lines(program: &Program, events: &[Event]) -> Vec<String> {
+    events.iter().map(|event| line(program, event)).collect()
+}
+
+fn line(p: &Program, event: &Event) -> String {
+    let name = |id: u32| p.activities[id as usize].name.as_str();
+    let input = |id: u32| p.inputs[id as usize].name.as_str();
+    match event {
+        Event::Control(control) => format!("control {control:?}"),
+        Event::Entered(id) => format!("enter {}", name(*id)),
+        Event::Left(id, cause) => format!("leave {} {cause:?}", name(*id)),
+        Event::Suspended(id) => format!("suspend {}", name(*id)),
+        Event::Resumed(id) => format!("resume {}", name(*id)),
+        Event::Switched { rule, from, exit, values } => {
+            let entries = p.activities.iter().filter_map(|activity| match &activity.body {
+                Body::Table(table) => Some(&table.behaviors),
+                _ => None,
+            });
+            let watched = entries
+                .flatten()
+                .find(|entry| entry.activity == *from)
+                .map_or(&[][..], |entry| &entry.exits[*exit as usize].watched);
+            let watched = named(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values);
+            format!("switch {} {} [{watched}]", name(*from), p.rules[*rule as usize].place)
+        }
+        Event::Remembered(memory, words) => {
+            let memory = &p.memories[*memory as usize];
+            format!("memory {}", exactly(&memory.name, &memory.value.shape, words))
+        }
+        Event::Reported(site, words) => {
+            let site = &p.reports[*site as usize];
+            let fields = site.fields.iter().map(|(label, field)| (label.as_str(), &field.shape));
+            format!("report {}: {}", site.name, named(fields, words))
+        }
+        Event::Logged(text) => format!("log {text}"),
+        Event::Amending(id, asked, given) => format!("amend {} {asked:?} {given:?}", name(*id)),
+        Event::AmendingEnded(id) => format!("amend {} no more", name(*id)),
+        Event::Limited(channel, asked, given) => format!("limit {channel:?} {asked:?} {given:?}"),
+        Event::LimitedEnded(channel) => format!("limit {channel:?} no more"),
+        Event::Awaited(id) => format!("wait {}", input(*id)),
+        Event::Stale(id) => format!("stale {}", input(*id)),
+        Event::Fresh(id) => format!("fresh {}", input(*id)),
+        Event::Aborted(why) => format!("abort {why}"),
+        Event::TimedOut => "timeout".to_string(),
+        Event::Ended(outcome) => format!("end {}", outcome.name()),
+    }
+}
+
+fn named<'a>(fields: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
+    let mut at = 0;
+    let said = fields.map(|(name, shape)| {
+        let words = &words[at..];
+        at += shape.words() as usize;
+        exactly(name, shape, words)
+    });
+    said.collect::<Vec<_>>().join(", ")
+}

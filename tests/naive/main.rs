@@ -1,0 +1,139 @@
+//! A second opinion on the rules of time: a naive evaluator of the checked program, held against the machine.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    missing_docs,
+    reason = "a test whose scripts cannot be run has failed"
+)]
+
+mod compare;
+mod evaluator;
+mod events;
+mod generate;
+mod random;
+mod vehicle;
+
+use albacore_lang::Library;
+use albacore_session::{Plan, Severity, Source, load};
+use albacore_sim::Simulator;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use vehicle::Chance;
+
+/// No rule needs more ticks than this to be shown.
+const TICKS_MAX: u64 = 1_000;
+
+/// Ticks that a generated mission may take: its own limits are below that.
+const GENERATED_TICKS_MAX: u64 = 400;
+/// Generated scripts of an ordinary `cargo test`.
+const FEW: u64 = 100;
+
+/// What every script knows of a vehicle; a generated one imports nothing.
+struct Inputs;
+
+impl Library for Inputs {
+    fn prelude(&self) -> Vec<Source> {
+        let text = include_str!("../../stdlib/inputs.alb");
+        vec![Source { name: "stdlib/inputs.alb".into(), text: text.into() }]
+    }
+
+    fn module(&self, _: &Source, _: &[String]) -> Result<Source, String> {
+        Err("a generated script imports nothing".to_string())
+    }
+}
+
+/// Generates a script, runs it on both sides, and counts what it had in it.
+fn trial(seed: u64, had: &mut BTreeMap<String, usize>) -> Result<(), String> {
+    let (text, features) = generate::script(seed);
+    let script =
+        albacore_lang::load(Source { name: "trial.alb".into(), text: text.as_str().into() }, &Inputs, None, &[]);
+    if !script.is_sound() {
+        let errors = script.findings.iter().filter(|finding| finding.severity == Severity::Error);
+        let errors: Vec<String> =
+            errors.map(|e| format!("{} {:?} {}", e.code, script.sources.line_column(e.span()), e.message)).collect();
+        return Err(format!("seed {seed} is not sound:\n{}\n{text}", errors.join("\n")));
+    }
+    let run = compare::compare(&script, "trial", &mut Chance::new(seed), GENERATED_TICKS_MAX);
+    for (feature, count) in features {
+        *had.entry(feature.to_string()).or_default() += count;
+    }
+    for event in &run.events {
+        let words: Vec<&str> = event.split(' ').collect();
+        let kind = match words[0] {
+            kind @ ("leave" | "end") => format!("event: {kind} {}", words[words.len() - 1]),
+            kind => format!("event: {kind}"),
+        };
+        *had.entry(kind).or_default() += 1;
+    }
+    *had.entry("ticks".to_string()).or_default() += run.ticks as usize;
+    run.difference.map_or(Ok(()), |difference| Err(format!("seed {seed}: {difference}\n\n{text}")))
+}
+
+/// Generated scripts from a seed on: whether any of them differs, and what all of them had.
+fn trials(first: u64, count: u64) -> BTreeMap<String, usize> {
+    let mut had = BTreeMap::new();
+    let mut failures: Vec<String> = (first..first + count).filter_map(|seed| trial(seed, &mut had).err()).collect();
+    failures.sort_by_key(String::len);
+    assert!(failures.is_empty(), "{} of {count} differ; the shortest:\n{}", failures.len(), failures[0]);
+    had
+}
+
+/// What the scripts of an ordinary test must have had between them: each statement, form of rule and condition over time, and
+/// each cause of leaving.
+#[test]
+fn generated() {
+    let had = trials(1, FEW);
+    let wanted = [
+        "steer, steer heading, goto, follow, dubins, loiter, keep, hold, wait, call, call for, call until, call within",
+        "call with a result, for T, until, within, at, with, overlay on course, overlay on vertical",
+        "overlay on vertical in a block, let, assignment, var, insert, remove, clear, list, ordered list, memory, signal",
+        "if, if let, if value, narrowing, match, match value, for range, for list, for written list, for edges, for rows",
+        "while, while let, loop, finish, abort, report, log, default, limits, requires, recovery, abort on",
+        "reaction of a mission, reaction of a strategy, reaction of a behavior, reaction of a table's behavior",
+        "reaction of an overlay, optional as a condition, body that takes no time, sequence, table, rule, several sources",
+        "any ->, then back, do, done, done and, done or, after T, -> finish, -> abort, becomes, for, no, no for, after",
+        "becomes after, false and, or over time, for of becomes",
+        "event: suspend, event: resume, event: stale, event: fresh, event: wait, event: amend, event: limit",
+        "event: leave Done, event: leave Rule, event: leave Until, event: leave TimedOut, event: leave Preempted",
+        "event: leave Aborted, event: end completed, event: end aborted, event: end timed_out",
+    ];
+    let missing: Vec<&str> =
+        wanted.iter().flat_map(|line| line.split(", ")).filter(|x| !had.contains_key(*x)).collect();
+    assert!(missing.is_empty(), "no generated script had: {missing:?}");
+}
+
+/// Very many: `NAIVE_SEED=1 NAIVE_COUNT=10000 cargo test --release --test naive -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes minutes"]
+fn generated_by_the_thousand() {
+    let had = trials(from_environment("NAIVE_SEED", 1), from_environment("NAIVE_COUNT", 10_000));
+    println!("{had:#?}");
+}
+
+fn from_environment(name: &str, otherwise: u64) -> u64 {
+    std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(otherwise)
+}
+
+/// The scripts that show the rules of time: both sides say the same of each, in the simulated world.
+#[test]
+fn rules() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/rules");
+    let mut scripts: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    // Rule 18 is not covered.
+    let covered = |name: &str| name.ends_with(".alb") && !name.starts_with("18_");
+    scripts.retain(|path| path.file_name().and_then(|name| name.to_str()).is_some_and(covered));
+    scripts.sort();
+    let mut differences = Vec::new();
+    for path in &scripts {
+        let script = load(path, None, &[]).unwrap();
+        let name = script.missions().next().unwrap().name.clone();
+        let plan = Plan::new(&script, &path.display().to_string(), Some(&name), None).unwrap();
+        let mut vehicle = Simulator::new(&plan.scenario, 1).unwrap();
+        let run = compare::compare(&script, &name, &mut vehicle, TICKS_MAX);
+        differences.extend(run.difference.map(|difference| format!("{}: {difference}", path.display())));
+    }
+    assert!(differences.is_empty(), "{} of {} differ\n{}", differences.len(), scripts.len(), differences.join("\n\n"));
+}

@@ -1,0 +1,137 @@
+//! A vehicle that goes where it is told, ten times as fast as it should, and whose sensors and link are as bad as chance has it.
+
+use crate::random::Random;
+use albacore_geometry::{Heading, Point};
+use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical, channels};
+
+/// So much faster than life: what takes minutes at sea takes some dozens of ticks.
+const HASTE: f64 = 10.0;
+const BOTTOM_M: f64 = 20.0;
+
+pub struct Chance {
+    channels: Vec<Channel>,
+    random: Random,
+    tick: u64,
+    position: Point,
+    command: Command,
+    depth: f64,
+    chemical: f64,
+    /// Until which tick each channel is silent, and the link suspended.
+    silent: Vec<u64>,
+    suspended: u64,
+    /// How it ends, if by the vehicle, and when.
+    end: Option<(u64, Control)>,
+    first_driven: u64,
+}
+
+impl Chance {
+    pub fn new(seed: u64) -> Self {
+        let mut random = Random::new(seed, 2);
+        let channels = channels::all();
+        let ends = [Control::Released, Control::TimedOut, Control::Disconnected, Control::Refused];
+        let end = random.percent(8).then(|| (1 + random.bits() % 150, ends[random.below(ends.len())]));
+        Chance {
+            silent: (0..channels.len()).map(|_| if random.percent(15) { random.bits() % 12 } else { 0 }).collect(),
+            channels,
+            tick: 0,
+            position: Point::new(40.0 * random.uniform() - 20.0, 40.0 * random.uniform() - 20.0),
+            command: Command {
+                heading: Heading::from_degrees(360.0 * random.uniform()),
+                speed: 0.0,
+                vertical: Vertical::Depth(3.0),
+            },
+            depth: 3.0,
+            chemical: 0.0,
+            suspended: 0,
+            end,
+            first_driven: 1 + random.bits() % 3,
+            random,
+        }
+    }
+
+    fn live(&mut self) {
+        let way = HASTE * self.command.speed * TICK_S;
+        self.position += way * self.command.heading.unit();
+        let goal = match self.command.vertical {
+            Vertical::Depth(metres) => metres,
+            Vertical::Altitude(metres) => BOTTOM_M - metres,
+        };
+        self.depth += (goal - self.depth).clamp(-0.5, 0.5);
+        if self.random.percent(20) {
+            self.chemical = 0.1 * self.random.uniform();
+        }
+        for silent in &mut self.silent {
+            if self.random.bits().is_multiple_of(300) {
+                *silent = self.tick + self.random.bits() % 25;
+            }
+        }
+        if self.random.bits().is_multiple_of(250) {
+            self.suspended = self.tick + self.random.bits() % 10;
+        }
+    }
+}
+
+impl Vehicle for Chance {
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
+        snapshot.samples.clear();
+        self.live();
+        let mut say = |vehicle: &mut Self, channel: u16, numbers: &[f64]| {
+            if vehicle.tick >= vehicle.silent[usize::from(channel)] {
+                snapshot.push(channel, numbers);
+            }
+        };
+        let heading = self.command.heading.radians();
+        let sigma = 5.0 * self.random.uniform();
+        say(self, channels::POSITION, &[self.position.north, self.position.east, sigma]);
+        say(self, channels::COURSE, &[heading]);
+        say(self, channels::HEADING, &[heading]);
+        say(self, channels::SPEED, &[self.command.speed]);
+        say(self, channels::DEPTH, &[self.depth]);
+        say(self, channels::ALTITUDE, &[BOTTOM_M - self.depth]);
+        if self.random.percent(60) {
+            say(self, channels::WATER_DEPTH, &[BOTTOM_M]);
+        }
+        if self.tick.is_multiple_of(5) {
+            let flow = [0.4 * self.random.uniform() - 0.2, 0.4 * self.random.uniform() - 0.2];
+            say(self, channels::FLOW, &flow);
+        }
+        for _ in 0..self.random.below(4) {
+            let noise = if self.random.percent(3) { f64::NAN } else { 0.02 * self.random.uniform() };
+            let chemical = self.chemical + noise;
+            say(self, channels::CHEMICAL, &[chemical]);
+        }
+        if self.tick.is_multiple_of(7) {
+            let battery = 1.0 - self.tick as f64 / 400.0;
+            say(self, channels::BATTERY, &[battery]);
+        }
+        snapshot.control = match self.end {
+            Some((tick, control)) if self.tick >= tick => control,
+            _ if self.tick < self.first_driven => Control::Monitoring,
+            _ if self.tick < self.suspended => Control::Suspended,
+            _ => Control::InControl,
+        };
+        self.tick += 1;
+        Ok(())
+    }
+
+    fn take_over(&mut self) -> Result<(), VehicleError> {
+        Ok(())
+    }
+
+    fn command(&mut self, command: &Command) -> Result<(), VehicleError> {
+        self.command = *command;
+        Ok(())
+    }
+
+    fn give_back(&mut self) -> Result<(), VehicleError> {
+        Ok(())
+    }
+
+    fn release(&mut self) -> Result<(), VehicleError> {
+        Ok(())
+    }
+}
