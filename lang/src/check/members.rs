@@ -258,7 +258,10 @@ impl<'t> Checker<'t> {
                     self.unknown(span)
                 }
                 _ => {
-                    self.report(Diagnostic::error("names::call", callee.span, "this cannot be called"));
+                    self.report(
+                        Diagnostic::error("names::call", callee.span, "this cannot be called")
+                            .help("an operator is missing before the `(`, if this is no call"),
+                    );
                     self.unknown(span)
                 }
             },

@@ -72,7 +72,7 @@ impl<'t> Checker<'t> {
     pub(super) fn check_scenario(&mut self, m: usize, id: usize, body: &'t tree::Block) {
         let mut scope = Scope::new(m, Setting::Constant);
         for var in self.hir.scenarios[id].vars.clone() {
-            scope.visible.push((var.name.clone(), scope.vars.len()));
+            scope.visible.push(var.name.clone(), scope.vars.len());
             scope.vars.push(var);
         }
         let (clauses, scope) = self.within(scope, |c| {

@@ -5,6 +5,7 @@ use super::facts;
 use super::{Checker, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
+use crate::source::Span;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
 
@@ -20,6 +21,7 @@ impl<'t> Checker<'t> {
         let mut names: Vec<&tree::Name> = Vec::new();
         let mut behaviors = Vec::new();
         let mut start = None;
+        let mut unstarted = None;
         let mut written = Vec::new();
         for clause in clauses {
             match &clause.kind {
@@ -42,12 +44,20 @@ impl<'t> Checker<'t> {
                     }
                 }
                 ClauseKind::Rule(rule) => written.push(rule),
+                _ if alone(clause).is_some() && unstarted.is_none() => unstarted = alone(clause),
                 _ => self.misplaced(
                     clause.span,
                     "a switching table has no statements",
                     "move it into a behavior, and name that behavior in the table",
                 ),
             }
+        }
+        if let Some((name, span)) = unstarted {
+            if start.is_none() {
+                start = names.iter().find(|n| n.node == name).copied();
+            }
+            let help = format!("write `start {name}`, if it begins with that behavior");
+            self.misplaced(span, "a switching table has no statements", &help);
         }
         if kind == Kind::Mission && result.is_some() {
             self.report(Diagnostic::error("missions::result", a.name.span, "a mission finishes with no value"));
@@ -365,5 +375,16 @@ fn same_guard(a: &Expr, b: &Expr) -> bool {
             op == other && xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| same_guard(x, y))
         }
         _ => false,
+    }
+}
+
+/// A name that stands alone, as after a `start` that was left out.
+fn alone(clause: &Clause) -> Option<(&str, Span)> {
+    match &clause.kind {
+        ClauseKind::Timed(timed) if !timed.is_modified() => match &timed.action {
+            tree::Action::Expr(tree::Expr { kind: tree::ExprKind::Name(name), .. }) => Some((name, clause.span)),
+            _ => None,
+        },
+        _ => None,
     }
 }
