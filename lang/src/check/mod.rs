@@ -26,6 +26,7 @@ mod timed;
 mod visible;
 mod written;
 
+pub(crate) use flow::takes_time;
 pub use params::Override;
 pub use table::never_ends;
 
@@ -158,6 +159,15 @@ enum Temporal {
     Rule,
 }
 
+/// A block of a mission in which the vehicle is ours for certain.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Driving {
+    /// That of an `override`, which stands here.
+    Override(Span),
+    /// The recovery of a mission.
+    Recovery,
+}
+
 /// The names that code can see.
 struct Scope {
     module: usize,
@@ -168,6 +178,8 @@ struct Scope {
     facts: Facts,
     /// What `finish` must give: none where it cannot stand.
     finish: Option<Option<Type>>,
+    /// The block in which the vehicle is ours already: neither `watch` nor `override` can stand there.
+    driving: Option<Driving>,
 }
 
 impl Scope {
@@ -180,6 +192,7 @@ impl Scope {
             visible: Visible::default(),
             facts: Facts::default(),
             finish: None,
+            driving: None,
         }
     }
 }

@@ -4,6 +4,7 @@ use super::watch::{Timer, positions};
 use super::{Lowering, WORDS_MAX};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Block, Decl, Expr, Kind, Var};
+use crate::rules;
 use crate::types::Type;
 use albacore_geometry::Geodetic;
 use albacore_program::{
@@ -22,6 +23,7 @@ impl<'a> Lowering<'a> {
         mission.name = activity.name.clone();
         mission.activity = unit.activity;
         mission.base = base;
+        mission.guest = rules::first_watch(self.hir, id).is_some();
         mission.origin = self.origin;
         self.program.words = base.saturating_add(unit.words);
         if self.program.words > WORDS_MAX {

@@ -5,6 +5,7 @@
 //! so that the place of every frame inside its caller's is known.
 
 mod activity;
+mod control;
 mod expr;
 mod prepare;
 mod scenario;
@@ -90,6 +91,21 @@ struct Frame {
 /// Lowers a mission. The findings are errors that only the whole program shows.
 pub fn mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) -> Result<Program, Vec<Diagnostic>> {
     mission_with(hir, types, sources, mission, None)
+}
+
+/// Lowers a mission, and tells the words of each activity's frame, with those of what it calls.
+pub fn mission_units(
+    hir: &Hir,
+    types: &TypeTable,
+    sources: &Sources,
+    mission: usize,
+) -> Result<(Program, BTreeMap<usize, u32>), Vec<Diagnostic>> {
+    let mut lowering = Lowering::new(hir, types, sources);
+    lowering.mission(mission);
+    if !lowering.findings.is_empty() {
+        return Err(lowering.findings);
+    }
+    Ok((lowering.program, lowering.units.into_iter().map(|(id, unit)| (id, unit.words)).collect()))
 }
 
 /// Lowers the mission that is a line of the prompt, in the frame of the vehicle that it drives.

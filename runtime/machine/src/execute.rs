@@ -3,7 +3,7 @@
 use crate::Event;
 use crate::state::Run;
 use albacore_geometry::{Area, Heading, Point, math, wrap_angle};
-use albacore_program::{Addr, Channel, Op, Program, Slot, Text, TextPart, header, number};
+use albacore_program::{Addr, Channel, Op, OverrideEnd, Program, Slot, Text, TextPart, header, number};
 use albacore_vehicle::{TICK_S, Vertical};
 
 /// The largest number that arithmetic gives: its square is a number still.
@@ -231,6 +231,23 @@ impl Run {
                     self.set(b(ended), truth(over));
                 }
                 Op::Cut { call, cause } => self.cut_call(p, call, base, cause),
+                Op::Ask { offered } => self.ask_for_control(offered),
+                Op::Answer { ours, refused, offered } => {
+                    let (is_ours, is_refused) = self.answer(offered);
+                    self.set(b(ours), truth(is_ours));
+                    self.set(b(refused), truth(is_refused));
+                }
+                Op::Take => self.take(),
+                Op::Driven { suspended, lost } => {
+                    let (is_suspended, is_lost) = self.driven();
+                    self.set(b(suspended), truth(is_suspended));
+                    self.set(b(lost), truth(is_lost));
+                }
+                Op::Desert { end } => {
+                    if self.desert(OverrideEnd::from_number(self.get(b(end)))) {
+                        return Flow::Abort;
+                    }
+                }
                 Op::PutOn { overlay } => {
                     self.put_on(p, overlay, base);
                     if self.abort.is_some() {

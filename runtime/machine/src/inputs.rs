@@ -34,7 +34,8 @@ impl std::error::Error for MissingInput {}
 pub(crate) fn wiring(program: &Program, channels: &[Channel]) -> Result<Vec<Option<u32>>, MissingInput> {
     for require in &program.mission.requires {
         let name = &program.inputs[require.input as usize].name;
-        if !channels.iter().any(|c| c.name == *name) {
+        // Who drives is told with every snapshot, and by no channel.
+        if *name != "control" && !channels.iter().any(|c| c.name == *name) {
             let delivered = channels.iter().map(|c| c.name.clone()).collect();
             return Err(MissingInput { name: name.clone(), delivered });
         }
@@ -53,6 +54,7 @@ pub(crate) fn senses(program: &Program) -> Senses {
         flow: at("flow"),
         depth: at("depth"),
         water_depth: at("water_depth"),
+        control: at("control"),
     }
 }
 
