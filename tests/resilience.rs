@@ -12,7 +12,11 @@
 //! - It is told *usefully* when that finding also is an error which says more than that something is wrong: it has a help,
 //!   or says what was expected, what is missing or what is open; and when no more than three errors come of the one edit.
 
-#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test whose scripts cannot be read has failed; figures are printed"
+)]
 
 use albacore_session::{Diagnostic, FileId, Files, Script, Severity, Source};
 use std::collections::{BTreeMap, BTreeSet};
