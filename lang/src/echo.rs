@@ -20,13 +20,14 @@ const NAMES: [Code; 9] = [
 ];
 
 /// Findings that a declaration lacks something: what could not be read of it may be just that.
-const PARTS: [Code; 14] = [
+const PARTS: [Code; 15] = [
     Code::TypesResult,
     Code::TypesIfValue,
     Code::TypesMatch,
     Code::RulesStart,
     Code::RulesUnreachable,
     Code::RulesEnding,
+    Code::RulesForever,
     Code::FlowResult,
     Code::ChannelsAmend,
     Code::ChannelsEnds,
@@ -40,22 +41,47 @@ const PARTS: [Code; 14] = [
 /// Words after which a name is declared, inside a declaration.
 const DECLARING: [&str; 8] = ["let", "var", "memory", "signal", "behavior", "area", "for", "clause"];
 
+/// Words after which anything is declared, at the margin too.
+const NAMING: [&str; 17] = [
+    "let", "var", "memory", "signal", "behavior", "area", "clause", "const", "enum", "record", "unit", "input", "fn",
+    "strategy", "overlay", "mission", "scenario",
+];
+
 /// The names that unreadable text may have declared.
 pub struct Echoes<'a> {
     /// Those of whole declarations, known everywhere.
-    anywhere: BTreeSet<&'a str>,
+    anywhere: Names<'a>,
     /// Those of parts of a declaration, known in it.
-    inside: BTreeMap<Span, BTreeSet<&'a str>>,
+    inside: BTreeMap<Span, Names<'a>>,
+}
+
+/// Names that may have been declared.
+#[derive(Default)]
+struct Names<'a> {
+    known: BTreeSet<&'a str>,
+    /// Something is declared and its name is what is missing: it may be any.
+    any: bool,
+}
+
+impl Names<'_> {
+    fn may_hold(&self, name: &str) -> bool {
+        self.any || self.known.contains(name)
+    }
 }
 
 impl<'a> Echoes<'a> {
     pub fn of(unread: &[Unread], sources: &'a Sources) -> Self {
-        let mut echoes = Echoes { anywhere: BTreeSet::new(), inside: BTreeMap::new() };
+        let mut echoes = Echoes { anywhere: Names::default(), inside: BTreeMap::new() };
         for u in unread {
             let text = sources.text(u.span);
+            let names = match u.item {
+                None => &mut echoes.anywhere,
+                Some(item) => echoes.inside.entry(item).or_default(),
+            };
+            names.any |= lacks_name(text);
             match u.item {
-                None => echoes.anywhere.extend(words(text)),
-                Some(item) => echoes.inside.entry(item).or_default().extend(declared(text)),
+                None => names.known.extend(words(text)),
+                Some(_) => names.known.extend(declared(text)),
             }
         }
         echoes
@@ -67,7 +93,7 @@ impl<'a> Echoes<'a> {
         let mut items = self.inside.iter().filter(|(item, _)| item.holds(span));
         if NAMES.contains(&finding.code) {
             let known: Vec<_> = items.map(|(_, names)| names).chain([&self.anywhere]).collect();
-            return words(sources.text(span)).any(|name| known.iter().any(|names| names.contains(name)));
+            return words(sources.text(span)).any(|name| known.iter().any(|names| names.may_hold(name)));
         }
         PARTS.contains(&finding.code) && items.next().is_some()
     }
@@ -76,6 +102,10 @@ impl<'a> Echoes<'a> {
 /// The names that a part of a declaration may declare: a word before them says so, or a type after them.
 fn declared(text: &str) -> Vec<&str> {
     let mut names = Vec::new();
+    // A name before a block: a behavior without its first word.
+    let first =
+        words(text).next().filter(|first| text.strip_prefix(first).is_some_and(|t| t.trim_start().starts_with('{')));
+    names.extend(first);
     let mut before = "";
     let mut rest = text;
     while let Some(word) = words(rest).next() {
@@ -87,6 +117,21 @@ fn declared(text: &str) -> Vec<&str> {
         before = word;
     }
     names
+}
+
+/// Whether a name is missing where one is declared: before a `:`, or after a word that declares.
+fn lacks_name(text: &str) -> bool {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let without = |before: &str| before.trim_end().chars().next_back().is_none_or(|c| "({,".contains(c));
+    let mut unnamed = text.match_indices(':').filter(|(at, _)| without(&text[..*at]));
+    let mut rest = text;
+    while let Some(word) = words(rest).next() {
+        rest = &rest[rest.find(word).unwrap_or(0) + word.len()..];
+        if NAMING.contains(&word) && !rest.trim_start().starts_with(is_word) {
+            return true;
+        }
+    }
+    unnamed.next().is_some()
 }
 
 fn words(text: &str) -> impl Iterator<Item = &str> {

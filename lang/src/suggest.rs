@@ -8,22 +8,50 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         6..=9 => 2,
         _ => 3,
     };
+    let letters = Letters::of(&name);
     candidates
         .into_iter()
+        .filter(|candidate| letters.may_be(&Letters::of(candidate), allowed))
         .map(|candidate| (distance(&name, &candidate.to_lowercase()), candidate))
         .filter(|&((distance, _), candidate)| distance <= allowed && distance < candidate.chars().count())
         .min()
         .map(|(_, candidate)| candidate)
 }
 
+/// How long a word is and which letters it has: tells most words apart without comparing them.
+struct Letters {
+    length: usize,
+    set: u128,
+}
+
+impl Letters {
+    fn of(word: &str) -> Self {
+        let letter = |c: char| 1 << (c.to_ascii_lowercase() as u32 % 128);
+        // Lower case may be longer, for letters outside ASCII: they are let through.
+        let set = if word.is_ascii() { word.chars().fold(0, |set, c| set | letter(c)) } else { 0 };
+        Letters { length: word.chars().count(), set }
+    }
+
+    /// A slip of the fingers changes one letter for another at most.
+    fn may_be(&self, other: &Letters, slips: usize) -> bool {
+        let plain = self.set != 0 && other.set != 0;
+        !plain
+            || (self.length.abs_diff(other.length) <= slips
+                && (self.set ^ other.set).count_ones() as usize <= 2 * slips)
+    }
+}
+
 /// How many slips of the fingers lie between two words; the same letters in another order are one, and come first.
 fn distance(a: &str, b: &str) -> (usize, bool) {
+    if a == b {
+        return (0, true);
+    }
     let sorted = |word: &str| {
         let mut letters: Vec<char> = word.chars().collect();
         letters.sort_unstable();
         letters
     };
-    if a != b && sorted(a) == sorted(b) { (1, false) } else { (strsim::osa_distance(a, b), true) }
+    if sorted(a) == sorted(b) { (1, false) } else { (strsim::osa_distance(a, b), true) }
 }
 
 /// "did you mean `x`?", or else what there is.

@@ -258,8 +258,10 @@ impl<'t> Checker<'t> {
                     self.unknown(span)
                 }
                 _ => {
-                    let finding = Diagnostic::error(Code::NamesCall, callee.span, "this cannot be called");
-                    self.report(finding.help("leave out the brackets after it"));
+                    self.report(
+                        Diagnostic::error(Code::NamesCall, callee.span, "this cannot be called")
+                            .help("an operator is missing before the `(`, or leave the brackets out"),
+                    );
                     self.unknown(span)
                 }
             },

@@ -25,6 +25,7 @@ mod table;
 mod test;
 mod timed;
 mod unused;
+mod visible;
 mod written;
 
 pub(crate) use flow::takes_time;
@@ -33,13 +34,14 @@ pub use table::never_ends;
 
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
-use crate::hir::{self, Hir, Interval, VarId};
+use crate::hir::{self, Hir, Interval};
 use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
+use visible::Visible;
 
 /// Beyond this many findings no name is searched for what it may have meant: each search looks at all names, and nobody
 /// reads so far.
@@ -174,7 +176,7 @@ struct Scope {
     setting: Setting,
     temporal: Temporal,
     vars: Vec<hir::Var>,
-    visible: Vec<(String, VarId)>,
+    visible: Visible,
     facts: Facts,
     /// What `finish` must give: none where it cannot stand.
     finish: Option<Option<Type>>,
@@ -189,7 +191,7 @@ impl Scope {
             setting,
             temporal: Temporal::No,
             vars: Vec::new(),
-            visible: Vec::new(),
+            visible: Visible::default(),
             facts: Facts::default(),
             finish: None,
             driving: None,

@@ -4,6 +4,7 @@ use super::facts::Place;
 use super::{Checker, Def, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
+use crate::dimension;
 use crate::foreign;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
 use crate::source::Span;
@@ -51,7 +52,7 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn local(&self, name: &str) -> Option<VarId> {
-        self.scope.visible.iter().rev().find(|(n, _)| n == name).map(|&(_, id)| id)
+        self.scope.visible.get(name)
     }
 
     /// Makes a variable known from here on.
@@ -88,7 +89,7 @@ impl<'t> Checker<'t> {
             walks_constants: false,
             order: None,
         });
-        self.scope.visible.push((name, id));
+        self.scope.visible.push(name, id);
         id
     }
 
@@ -194,13 +195,25 @@ impl<'t> Checker<'t> {
                 .help(format!("write `{name}.NAME`"))
         } else if let Some(help) = foreign::help(name) {
             finding.help(help)
+        } else if dimension::unit(name, &|_| None).is_some() {
+            finding.help(format!("`{name}` is a unit: a number stands before it, such as `10 {name}`"))
         } else if let Some(near) = self.nearest(name, self.known_names()) {
             finding.help(format!("did you mean `{near}`?"))
+        } else if let Some((known, rest)) = self.run_together(name) {
+            finding.help(format!("a sign is missing between `{known}` and `{rest}`, if these are two"))
         } else if let Some(module) = self.module_that_has(name) {
             finding.help(format!("the module `{module}` has one: write `{module}.{name}`"))
         } else {
             finding
         }
+    }
+
+    /// Two words between which something was left out: the longest known name with which a name begins, and the rest.
+    fn run_together<'n>(&self, name: &'n str) -> Option<(&'n str, &'n str)> {
+        let ends = name.char_indices().map(|(at, _)| at).skip(2).collect::<Vec<_>>();
+        let known =
+            |at: &usize| self.local(&name[..*at]).is_some() || self.lookup(self.scope.module, &name[..*at]).is_some();
+        ends.into_iter().rev().find(known).map(|at| name.split_at(at)).filter(|(_, rest)| !rest.starts_with('_'))
     }
 
     fn module_that_has(&self, name: &str) -> Option<&str> {
@@ -214,7 +227,7 @@ impl<'t> Checker<'t> {
         let values = modules.flat_map(|m| {
             self.names[m].iter().filter(|(_, d)| !matches!(d, Def::Scenario(_) | Def::Clause(_) | Def::Unit(_)))
         });
-        self.scope.visible.iter().map(|(n, _)| n.as_str()).chain(values.map(|(n, _)| n.as_str()))
+        self.scope.visible.names().chain(values.map(|(n, _)| n.as_str()))
     }
 
     /// What can be called without a module's name before it.
@@ -270,7 +283,11 @@ impl<'t> Checker<'t> {
                         format!("`{}` is {what} and cannot be assigned", name.node),
                     ));
                 }
-                None => self.undeclared(name),
+                None => {
+                    self.undeclared(name);
+                    // From here on it is known: what reads it is no second mistake.
+                    self.declare_hidden(name.node.clone(), VarKind::Var, Type::Unknown, name.span);
+                }
             }
             return None;
         };

@@ -74,7 +74,7 @@ impl<'t> Checker<'t> {
         let mut scope = Scope::new(m, Setting::Constant);
         for var in self.hir.scenarios[id].vars.clone() {
             self.names_used.declare(&tree::Name { node: var.name.clone(), span: var.span }, var.kind);
-            scope.visible.push((var.name.clone(), scope.vars.len()));
+            scope.visible.push(var.name.clone(), scope.vars.len());
             scope.vars.push(var);
         }
         let (clauses, scope) = self.within(scope, |c| {

@@ -6,6 +6,7 @@ use super::{Checker, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
+use crate::source::Span;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
 
@@ -20,6 +21,7 @@ impl<'t> Checker<'t> {
         let mut names: Vec<&tree::Name> = Vec::new();
         let mut behaviors = Vec::new();
         let mut start = None;
+        let mut unstarted = None;
         let mut written = Vec::new();
         for clause in clauses {
             match &clause.kind {
@@ -42,12 +44,20 @@ impl<'t> Checker<'t> {
                     }
                 }
                 ClauseKind::Rule(rule) => written.push(rule),
+                _ if alone(clause).is_some() && unstarted.is_none() => unstarted = alone(clause),
                 _ => self.misplaced(
                     clause.span,
                     "a switching table has no statements",
                     "move it into a behavior, and name that behavior in the table",
                 ),
             }
+        }
+        if let Some((name, span)) = unstarted {
+            if start.is_none() {
+                start = names.iter().find(|n| n.node == name).copied();
+            }
+            let help = format!("write `start {name}`, if it begins with that behavior");
+            self.misplaced(span, "a switching table has no statements", &help);
         }
         let mut rules = Vec::new();
         for rule in &written {
@@ -337,5 +347,16 @@ fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
             }
             _ => false,
         },
+    }
+}
+
+/// A name that stands alone, as after a `start` that was left out.
+fn alone(clause: &Clause) -> Option<(&str, Span)> {
+    match &clause.kind {
+        ClauseKind::Timed(timed) if !timed.is_modified() => match &timed.action {
+            tree::Action::Expr(tree::Expr { kind: tree::ExprKind::Name(name), .. }) => Some((name, clause.span)),
+            _ => None,
+        },
+        _ => None,
     }
 }

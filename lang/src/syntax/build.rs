@@ -13,6 +13,8 @@ use pest::iterators::{Pair, Pairs};
 /// What building needs to know: which file, and where unreadable clauses are gathered.
 pub(super) struct Builder {
     pub file: FileId,
+    /// Where in the file the text begins that is being read.
+    pub base: usize,
     pub bad: Vec<Bad>,
     /// What is read and still refused.
     pub refused: Vec<Diagnostic>,
@@ -42,15 +44,15 @@ pub(super) type P<'a> = Pair<'a, Rule>;
 
 impl Builder {
     pub fn new(file: FileId) -> Self {
-        Builder { file, bad: Vec::new(), refused: Vec::new(), height: 0 }
+        Builder { file, base: 0, bad: Vec::new(), refused: Vec::new(), height: 0 }
     }
 
     pub fn span(&self, pair: &P) -> Span {
         let span = pair.as_span();
         Span {
             file: self.file,
-            start: span.start() as u32,
-            end: (span.start() + span.as_str().trim_end().len()) as u32,
+            start: (self.base + span.start()) as u32,
+            end: (self.base + span.start() + span.as_str().trim_end().len()) as u32,
         }
     }
 

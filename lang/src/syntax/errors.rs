@@ -174,7 +174,7 @@ fn kind(rule: Rule) -> String {
         name | label | path => "a name",
         quantity | number | expr | operand | cond | condition | geodetic | paren | list | if_expr | match_expr
         | neg | pos | not | no | becomes | after | kw_not | kw_no | kw_becomes | kw_after | kw_true | kw_false
-        | kw_none | kw_done | hole_expr => "a value",
+        | kw_none | kw_done | hole_expr | arg => "a value",
         unit => "a unit",
         text | text_part | hole => "a text",
         op_else | op_or | op_and | op_eq | op_ne | op_le | op_ge | op_lt | op_gt | op_add | op_sub | op_toward
@@ -184,6 +184,9 @@ fn kind(rule: Rule) -> String {
         arrow => "`->`",
         range | range_op => "`..`",
         ty | name_ty | list_ty => "a type",
+        param | clause_param => "a parameter, `NAME: TYPE`",
+        field => "a field, `NAME: TYPE`",
+        labelled => "a field, `NAME: VALUE`",
         dim_op | maybe | order | dim_factor => "",
         default => "`=`",
         setpoint | w_channel => "`depth`, `altitude` or `speed`",

@@ -1,5 +1,6 @@
 //! Text to tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
 
+mod braces;
 mod build;
 mod build_block;
 mod build_expr;
@@ -19,6 +20,8 @@ use crate::source::{FileId, Span};
 use grammar::Grammar;
 pub(crate) use grammar::Rule;
 use pest::Parser;
+use scan::Scanned;
+use std::ops::Range;
 
 /// What the grammar's file becomes.
 mod grammar {
@@ -54,27 +57,37 @@ pub struct Unread {
 /// Reads a source file.
 pub fn parse(file: FileId, source: &str) -> Parsed {
     let mut unread = Vec::new();
-    let (tree, findings, comments) = read(file, source, Rule::file, |b, pairs| {
+    let (trees, findings, comments) = read(file, source, Rule::file, declarations, |b, pairs| {
+        let before = b.bad.len();
         let tree = build::file(b, pairs);
-        unread.extend(b.bad.iter().map(|bad| Unread { span: bad.span, item: bad.item }));
+        let bad = &b.bad[before..];
+        unread.extend(bad.iter().map(|bad| Unread { span: bad.span, item: bad.item }));
         // A declaration whose head is unreadable is known by no name.
         unread.extend(
-            b.bad.iter().filter(|bad| bad.place == build::Place::Head).map(|bad| Unread { span: bad.span, item: None }),
+            bad.iter().filter(|bad| bad.place == build::Place::Head).map(|bad| Unread { span: bad.span, item: None }),
         );
         tree
     });
-    if tree.is_none() {
+    if trees.is_empty() {
         unread.push(Unread { span: Span { file, start: 0, end: source.len() as u32 }, item: None });
     }
-    Parsed { file: tree.unwrap_or_default(), findings, unread, comments }
+    let items = trees.into_iter().flat_map(|tree| tree.items).collect();
+    Parsed { file: tree::File { items }, findings, unread, comments }
+}
+
+/// Where each declaration stands.
+fn declarations(scanned: &Scanned) -> Vec<Range<usize>> {
+    let ends = scanned.starts.iter().skip(1).copied().chain([scanned.text.len()]);
+    scanned.starts.iter().copied().zip(ends).map(|(start, end)| start..end).collect()
 }
 
 /// Reads statements that stand in no block: the lines of a prompt.
 pub fn parse_lines(file: FileId, source: &str) -> (tree::Block, Vec<Diagnostic>) {
+    let whole = |scanned: &Scanned| std::iter::once(0..scanned.text.len()).collect();
     let (block, findings, _) =
-        read(file, source, Rule::lines, |b, mut pairs| pairs.next().map(|pair| build_block::block(b, pair)));
+        read(file, source, Rule::lines, whole, |b, mut pairs| pairs.next().map(|pair| build_block::block(b, pair)));
     let nothing = tree::Block { clauses: Vec::new(), span: Span { file, start: 0, end: source.len() as u32 } };
-    (block.flatten().unwrap_or(nothing), findings)
+    (block.into_iter().flatten().next().unwrap_or(nothing), findings)
 }
 
 /// Whether a text wants another line: a bracket is open, or its last line says that it goes on.
@@ -121,35 +134,36 @@ pub(crate) fn uncommented(file: FileId, stretch: &str) -> String {
     scan::scan(file, stretch).text
 }
 
-/// Reads a source by a rule of the grammar: what was built of it, the findings, the comments.
+/// Reads a source by a rule of the grammar, a part at a time: what was built of each, the findings, the comments. What the
+/// grammar makes of a text is far larger than the text: of a part it is small, and soon gone.
 fn read<T>(
     file: FileId,
     source: &str,
     rule: Rule,
-    build: impl FnOnce(&mut build::Builder, pest::iterators::Pairs<Rule>) -> T,
-) -> (Option<T>, Vec<Diagnostic>, Vec<Comment>) {
-    let scanned = scan::scan(file, source);
-    let mut findings = scanned.findings;
+    parts: impl FnOnce(&Scanned) -> Vec<Range<usize>>,
+    mut build: impl FnMut(&mut build::Builder, pest::iterators::Pairs<Rule>) -> T,
+) -> (Vec<T>, Vec<Diagnostic>, Vec<Comment>) {
+    let mut scanned = scan::scan_mended(file, source);
+    let mut findings = std::mem::take(&mut scanned.findings);
     // Too deep: the grammar itself would be at the mercy of the thread's stack.
     if findings.iter().any(|f| f.code == Code::SyntaxNesting) {
-        return (None, findings, scanned.comments);
+        return (Vec::new(), findings, scanned.comments);
     }
     let mut builder = build::Builder::new(file);
-    let built = match Grammar::parse(rule, &scanned.text) {
-        Ok(pairs) => Some(build(&mut builder, pairs)),
-        Err(error) => {
-            findings.push(errors::finding(file, &scanned.text, 0, &error));
-            None
-        }
-    };
-    findings.append(&mut builder.refused);
-    for bad in builder.bad {
-        // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
-        let known = findings.iter().any(|f| f.code.group() == "syntax" && touches(f.span(), bad.span));
-        if !known {
-            findings.push(errors::of_bad_stretch(file, &scanned.text, &bad));
+    let mut built = Vec::new();
+    for part in parts(&scanned) {
+        builder.base = part.start;
+        let text = &scanned.text[part];
+        match Grammar::parse(rule, text) {
+            Ok(pairs) => built.push(build(&mut builder, pairs)),
+            Err(error) => findings.push(errors::finding(file, text, builder.base, &error)),
         }
     }
+    findings.append(&mut builder.refused);
+    // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
+    let told = Told::of(&findings, source);
+    let unread = builder.bad.iter().filter(|bad| !told.touches(bad.span));
+    findings.extend(unread.map(|bad| errors::of_bad_stretch(file, &scanned.text, bad)));
     (built, findings, scanned.comments)
 }
 
@@ -173,8 +187,27 @@ pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagno
     }
 }
 
-fn touches(a: Span, b: Span) -> bool {
-    a.start < b.end.max(b.start + 1) && b.start < a.end.max(a.start + 1)
+/// The lines of which something has been said, in order: from the first byte of the first to the last of the last.
+struct Told(Vec<(u32, u32)>);
+
+impl Told {
+    fn of(findings: &[Diagnostic], source: &str) -> Self {
+        let lines = findings.iter().filter(|f| f.code.group() == "syntax").map(|finding| {
+            let Span { start, end, .. } = finding.span();
+            let before = source.get(..start as usize).and_then(|text| text.rfind('\n')).map_or(0, |at| at as u32 + 1);
+            let after = source.get(end as usize..).and_then(|text| text.find('\n'));
+            (before, after.map_or(source.len() as u32, |at| end + at as u32))
+        });
+        let mut lines: Vec<(u32, u32)> = lines.collect();
+        lines.sort_unstable();
+        Told(lines)
+    }
+
+    /// Stretches of which something has been said overlap nowhere, but for those of one line.
+    fn touches(&self, span: Span) -> bool {
+        let next = self.0.partition_point(|&(start, _)| start <= span.end);
+        self.0[..next].last().is_some_and(|&(_, end)| span.start <= end)
+    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! The text that comes out has the same length as the one that went in, so that every span stays true. A comment and a
 //! newline that ends nothing become blanks; the grammar then needs one rule for blanks and one for the end of a statement.
 
+use super::braces;
 use super::deceptive::{self, deceives};
 use super::errors::begins_item;
 use crate::code::Code;
@@ -25,6 +26,11 @@ const OPEN_WORDS: [&str; 9] = ["and", "or", "not", "toward", "else", "on", "do",
 pub fn goes_on_after(word: &str) -> bool {
     OPEN_WORDS.contains(&word)
 }
+/// Words that begin a statement and never go on with one.
+const BEGINNING_WORDS: [&str; 18] = [
+    "use", "const", "behavior", "strategy", "mission", "scenario", "overlay", "with", "signal", "memory", "let", "var",
+    "start", "report", "log", "while", "loop", "test",
+];
 
 /// A comment of the source.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +48,8 @@ pub struct Scanned {
     pub comments: Vec<Comment>,
     /// Brackets that do not fit, characters that deceive.
     pub findings: Vec<Diagnostic>,
+    /// Where declarations begin, in which nothing outside them is open; the first is the beginning of the text.
+    pub starts: Vec<usize>,
     /// The text ends where more must follow: in an open bracket, or after an operator.
     pub goes_on: bool,
 }
@@ -60,12 +68,41 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         last: Last::Nothing,
         comments: Vec::new(),
         findings: Vec::new(),
+        starts: vec![0],
+        next_at: 0,
+        no_comment_ends: false,
     };
     scanner.run();
     let goes_on = !scanner.open.is_empty() || scanner.last == Last::Goes;
     scanner.all_unclosed(0);
     let text = String::from_utf8(scanner.out).unwrap_or_default();
-    Scanned { text, comments: scanner.comments, findings: scanner.findings, goes_on }
+    Scanned { text, comments: scanner.comments, findings: scanner.findings, starts: scanner.starts, goes_on }
+}
+
+/// The same for a source whose brackets may not fit: those that the margins show to be missing are put in.
+pub(super) fn scan_mended(file: FileId, source: &str) -> Scanned {
+    let scanned = scan(file, source);
+    let found = |code: Code| scanned.findings.iter().any(|f| f.code == code);
+    if !found(Code::SyntaxBracket) || found(Code::SyntaxNesting) {
+        return scanned;
+    }
+    let mut bare = source.as_bytes().to_vec();
+    for comment in &scanned.comments {
+        bare[comment.span.start as usize..comment.span.end as usize].fill(b' ');
+    }
+    let mended = braces::mend(file, &String::from_utf8(bare).unwrap_or_default());
+    if mended.findings.is_empty() {
+        return scanned;
+    }
+    let again = scan(file, &mended.text);
+    // A bracket is told where it is missing, and of the rest what was first seen.
+    let others = scanned.findings.into_iter().filter(|f| f.code != Code::SyntaxBracket);
+    Scanned {
+        text: again.text,
+        starts: again.starts,
+        findings: mended.findings.into_iter().chain(others).collect(),
+        ..scanned
+    }
 }
 
 /// What stood last on the line: decides whether a newline ends the statement.
@@ -98,6 +135,11 @@ struct Scanner<'a> {
     last: Last,
     comments: Vec<Comment>,
     findings: Vec<Diagnostic>,
+    starts: Vec<usize>,
+    /// What comes next begins here, when that has been looked for.
+    next_at: usize,
+    /// No `*/` follows.
+    no_comment_ends: bool,
 }
 
 impl<'a> Scanner<'a> {
@@ -158,7 +200,10 @@ impl<'a> Scanner<'a> {
 
     fn newline(&mut self) {
         let in_brackets = matches!(self.open.last(), Some(Open { bracket: '(' | '[', .. }));
-        let goes_on = in_brackets || self.last == Last::Goes || self.next_word_is("else") || self.block_on_next_line();
+        let goes_on = in_brackets
+            || (self.last == Last::Goes && !self.next_begins())
+            || self.next_word_is("else")
+            || self.block_on_next_line();
         if goes_on {
             self.blank(self.at, self.at + 1);
         } else {
@@ -184,10 +229,24 @@ impl<'a> Scanner<'a> {
             }
             self.last = Last::Nothing;
         }
+        let parted = self.at > 0 && self.out[self.at - 1] == b'\n';
+        if parted && self.open.is_empty() && begins_item(&word) {
+            self.starts.push(self.at);
+        }
     }
 
     /// What comes next that is no blank, newline or comment.
-    fn next(&self) -> &'a str {
+    fn next(&mut self) -> &'a str {
+        // Many lines without anything ask for the same.
+        if self.at < self.next_at {
+            return self.source.get(self.next_at..).unwrap_or("");
+        }
+        let next = self.find_next();
+        self.next_at = self.source.len() - next.len();
+        next
+    }
+
+    fn find_next(&self) -> &'a str {
         let mut rest = self.rest();
         loop {
             rest = rest.trim_start();
@@ -198,7 +257,16 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    fn next_word_is(&self, word: &str) -> bool {
+    /// The next line begins what can be no part of this one, however this one ends.
+    fn next_begins(&mut self) -> bool {
+        let next = self.next();
+        let length = next.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(next.len());
+        let at_margin = self.source[..self.source.len() - next.len()].ends_with('\n');
+        BEGINNING_WORDS.contains(&&next[..length])
+            || (at_margin && begins_item(&next[..length]) && next[length..].starts_with(' '))
+    }
+
+    fn next_word_is(&mut self, word: &str) -> bool {
         let after = self.next().strip_prefix(word);
         after.is_some_and(|after| !after.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
     }
@@ -234,7 +302,9 @@ impl<'a> Scanner<'a> {
     /// `/* … */` is taken out like a comment, so that what it says is not read as a script.
     fn bracketed_comment(&mut self) {
         let start = self.at;
-        let length = self.rest().find("*/").map_or(2, |at| at + 2);
+        let end = if self.no_comment_ends { None } else { self.rest().find("*/") };
+        self.no_comment_ends = end.is_none();
+        let length = end.map_or(2, |at| at + 2);
         self.findings.push(
             Diagnostic::error(Code::LayoutComment, self.span(start, start + 2), "comments begin with `//`")
                 .help("write `//` at the front of each of its lines, and leave `/*` and `*/` out"),
