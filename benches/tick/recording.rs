@@ -28,10 +28,10 @@ impl Recording {
         let mut machine = Machine::new(Arc::clone(&plan.program), vehicle.channels()).unwrap();
         let mut began: Option<(usize, State)> = None;
         let (mut snapshots, mut commands) = (Vec::new(), Vec::new());
+        let mut snapshot = Snapshot::default();
+        vehicle.sense(&mut snapshot).unwrap();
         vehicle.take_over().unwrap();
         loop {
-            let mut snapshot = Snapshot::default();
-            vehicle.sense(&mut snapshot).unwrap();
             let command = machine.step(&snapshot);
             if let Some(command) = &command {
                 vehicle.command(command).unwrap();
@@ -40,8 +40,9 @@ impl Recording {
             if let (false, Some((begin, state))) = (active, began.clone()) {
                 return Recording { snapshots, commands, begin, machine, state };
             }
-            snapshots.push(snapshot);
+            snapshots.push(snapshot.clone());
             commands.push(command);
+            vehicle.sense(&mut snapshot).unwrap();
             if active && began.is_none() {
                 began = Some((snapshots.len(), machine.state().clone()));
             }
