@@ -42,30 +42,46 @@ impl Run {
 
     /// The course after all overlays, from inner to outer.
     fn amended(&mut self, p: &Program, asked: Heading) -> Heading {
-        let mut chain = Vec::new();
-        self.chain(p, &mut |id, base| chain.push((id, base)));
         let mut course = asked;
-        for &(id, base) in chain.iter().rev() {
-            for &overlay in &p.activities[id as usize].overlays {
-                course = self.amend(p, overlay, base, course);
-            }
+        // The recovery runs beside the mission's body, in its frame: innermost.
+        if let Some(recovery) = p.mission.recovery {
+            course = self.amended_in(p, recovery.activity, p.mission.base, course);
         }
-        self.end_amending_of_suspended(p, &chain);
+        course = self.amended_in(p, p.mission.activity, p.mission.base, course);
+        self.end_amending_of_suspended(p);
+        course
+    }
+
+    /// The course after the overlays of what is active inside an activity, and then of its own.
+    fn amended_in(&mut self, p: &Program, id: u32, base: Slot, asked: Heading) -> Heading {
+        if !self.is_active(p, id, base) {
+            return asked;
+        }
+        let mut course = match self.child(p, id, base) {
+            Some((child, at)) => self.amended_in(p, child, at, asked),
+            None => asked,
+        };
+        for &overlay in &p.activities[id as usize].overlays {
+            course = self.amend(p, overlay, base, course);
+        }
         course
     }
 
     /// An overlay whose wearer is suspended amends nothing until that goes on.
-    fn end_amending_of_suspended(&mut self, p: &Program, chain: &[(u32, Slot)]) {
-        if !self.state.amending.contains(&true) {
-            return;
-        }
-        let worn = |overlay: u32| chain.iter().any(|(id, _)| p.activities[*id as usize].overlays.contains(&overlay));
+    fn end_amending_of_suspended(&mut self, p: &Program) {
         for (overlay, site) in p.overlays.iter().enumerate() {
-            if self.state.amending[overlay] && !worn(overlay as u32) {
+            if self.state.amending[overlay] && !self.wears(p, overlay as u32) {
                 self.state.amending[overlay] = false;
                 self.events.push(Event::AmendingEnded(site.activity));
             }
         }
+    }
+
+    /// Whether anything that is active wears an overlay.
+    fn wears(&self, p: &Program, overlay: u32) -> bool {
+        let mut worn = false;
+        self.chain(p, &mut |id, _| worn |= p.activities[id as usize].overlays.contains(&overlay));
+        worn
     }
 
     fn amend(&mut self, p: &Program, overlay: u32, base: Slot, asked: Heading) -> Heading {
@@ -107,21 +123,27 @@ impl Run {
 
     fn chain_from(&self, p: &Program, id: u32, base: Slot, visit: &mut impl FnMut(u32, Slot)) {
         let mut next = Some((id, base));
-        while let Some((id, base)) = next {
-            let activity = &p.activities[id as usize];
-            if self.get(base + activity.header + header::STATE) != header::ACTIVE {
-                break;
-            }
+        while let Some((id, base)) = next.filter(|&(id, base)| self.is_active(p, id, base)) {
             visit(id, base);
-            let child = self.get(base + activity.header + header::CHILD);
-            next = (child != 0.0).then(|| match &activity.body {
-                Body::Table(table) => (table.behaviors[child as usize - 1].activity, base),
-                _ => {
-                    let site = &p.calls[child as usize - 1];
-                    (site.activity, base + site.base)
-                }
-            });
+            next = self.child(p, id, base);
         }
+    }
+
+    fn is_active(&self, p: &Program, id: u32, base: Slot) -> bool {
+        self.get(base + p.activities[id as usize].header + header::STATE) == header::ACTIVE
+    }
+
+    /// What an activity has called, or its active behavior, with the base of its frame.
+    fn child(&self, p: &Program, id: u32, base: Slot) -> Option<(u32, Slot)> {
+        let activity = &p.activities[id as usize];
+        let child = self.get(base + activity.header + header::CHILD);
+        (child != 0.0).then(|| match &activity.body {
+            Body::Table(table) => (table.behaviors[child as usize - 1].activity, base),
+            _ => {
+                let site = &p.calls[child as usize - 1];
+                (site.activity, base + site.base)
+            }
+        })
     }
 
     fn limit_vertical(&mut self, asked: Vertical) -> Vertical {

@@ -1,6 +1,7 @@
 //! The instructions, one by one.
 
 use crate::Event;
+use crate::lists::Order;
 use crate::state::Run;
 use albacore_geometry::{Area, Heading, Point, math, wrap_angle};
 use albacore_program::{Addr, Channel, Op, Program, Slot, Text, TextPart, header, number};
@@ -51,7 +52,16 @@ impl Evaluation {
 
 impl Run {
     /// Runs code with a frame's base until it stops.
+    #[inline]
     pub fn execute(&mut self, p: &Program, entry: Addr, base: Slot) -> Flow {
+        // Much of what an activity may have is empty: no signals, no reactions, no timers.
+        if let Some(Op::Return) = p.ops.get(entry as usize) {
+            return Flow::Return;
+        }
+        self.execute_all(p, entry, base)
+    }
+
+    fn execute_all(&mut self, p: &Program, entry: Addr, base: Slot) -> Flow {
         let mut pc = entry as usize;
         let b = |slot: Slot| slot + base;
         loop {
@@ -100,14 +110,17 @@ impl Run {
                 Op::SubVector { to, a, b: c } => self.set_vector(b(to), self.vector(b(a)) - self.vector(b(c))),
                 Op::Scale { to, vector, by } => self.set_vector(b(to), self.get(b(by)) * self.vector(b(vector))),
                 Op::Toward { to, length, heading } => {
-                    let v = self.get(b(length)) * self.heading_at(b(heading)).unit();
+                    let v = self.get(b(length)) * self.trig.unit(self.get(b(heading)));
                     self.set_vector(b(to), v);
                 }
-                Op::Direction { to, vector } => self.set(b(to), self.vector(b(vector)).toward().radians()),
+                Op::Direction { to, vector } => {
+                    let direction = self.trig.toward(self.vector(b(vector)));
+                    self.set(b(to), direction);
+                }
                 Op::Length { to, vector } => self.set(b(to), bounded(self.vector(b(vector)).length())),
                 Op::Dot { to, a, b: c } => self.set(b(to), bounded(self.vector(b(a)).dot(self.vector(b(c))))),
                 Op::Along { to, vector, heading } => {
-                    let along = self.vector(b(vector)).along(self.heading_at(b(heading)));
+                    let along = self.vector(b(vector)).dot(self.trig.unit(self.get(b(heading))));
                     self.set(b(to), along);
                 }
 
@@ -156,7 +169,8 @@ impl Run {
 
                 Op::Push { list, item, words, capacity } => self.push(b(list), b(item), words, capacity),
                 Op::Sort { list, words, it, key, value, most } => {
-                    self.sort(p, base, b(list), words, b(it), key, b(value), most);
+                    let by = Order { it: b(it), key, value: b(value), most };
+                    self.sort(p, base, b(list), words, by);
                 }
                 Op::PushSorted { list, item, words, capacity, sort } => {
                     self.push_sorted(p, b(list), b(item), words, capacity, (sort, base));
@@ -165,7 +179,8 @@ impl Run {
                 Op::At { to, list, index, words } => self.element(b(to), b(list), b(index), words),
                 Op::Top { to, list, count, words } => self.top(b(to), b(list), b(count), words),
                 Op::Spread { to, list, heading } => {
-                    let spread = self.spread(b(list), self.heading_at(b(heading)));
+                    let unit = self.trig.unit(self.get(b(heading)));
+                    let spread = self.spread(b(list), unit);
                     self.set(b(to), spread);
                 }
 

@@ -13,6 +13,7 @@ mod inputs;
 mod lists;
 mod mission;
 mod state;
+mod trig;
 
 pub use event::{Event, Outcome};
 pub use execute::Evaluation;

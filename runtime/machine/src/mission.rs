@@ -3,6 +3,7 @@
 use crate::activity::Status;
 use crate::inputs::{MissingInput, senses, wiring};
 use crate::state::{Asked, Limits, Overridden, Phase, Requirement, Run, State};
+use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
@@ -40,7 +41,7 @@ impl Run {
             began: 0,
             overridden: Overridden::default(),
         };
-        Run { state, events: Vec::new(), in_overlay: false, abort: None, senses: senses(p) }
+        Run { state, events: Vec::new(), in_overlay: false, abort: None, senses: senses(p), trig: Trig::new() }
     }
 
     fn number(&mut self, p: &Program, code: &Code) -> f64 {
@@ -130,12 +131,11 @@ impl Machine {
 
     /// One tick: takes in what was sensed, gives what to command. After the end there is nothing to command: release.
     pub fn step(&mut self, snapshot: &Snapshot) -> Option<Command> {
-        let program = Arc::clone(&self.program);
+        let Machine { program, wiring, run } = self;
         let p = program.as_ref();
-        let run = &mut self.run;
         run.events.clear();
         run.state.overridden = Overridden::default();
-        run.take_in(p, &self.wiring, &snapshot.samples);
+        run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
         let command = run.live(p);
         run.state.tick += 1;
