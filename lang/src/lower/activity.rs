@@ -16,8 +16,9 @@ impl<'a> Lowering<'a> {
         self.find_origin(activity);
         self.inputs();
         self.keep_samples();
+        self.constants_at = Some(self.input_words());
         let unit = self.unit(id);
-        let base = self.input_words();
+        let base = self.input_words() + self.program.constants.len() as u32;
         let mission = &mut self.program.mission;
         mission.name = activity.name.clone();
         mission.activity = unit.activity;
@@ -131,12 +132,9 @@ impl<'a> Lowering<'a> {
         let aborts = activity.aborts.iter().map(|(why, condition)| self.abort(why, condition)).collect();
         let reactions = self.here();
         for (condition, block) in &activity.reactions {
-            let unless = self.scratch(|l| {
-                let condition = l.expr(condition);
-                l.emit(Op::JumpUnless { unless: condition, to: 0 })
-            });
+            let unless = self.jumps_unless(condition);
             self.stmts(&block.stmts);
-            self.land(unless);
+            self.land_all(unless);
         }
         self.emit(Op::Return);
 

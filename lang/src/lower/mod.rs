@@ -5,7 +5,9 @@
 //! so that the place of every frame inside its caller's is known.
 
 mod activity;
+mod condition;
 mod expr;
+mod inline;
 mod prepare;
 mod scenario;
 mod stmt;
@@ -22,7 +24,7 @@ use crate::hir::{self, Hir};
 use crate::source::{Sources, Span};
 use crate::types::TypeTable;
 use albacore_geometry::{Geodetic, Point, TangentFrame};
-use albacore_program::{Addr, Input, Op, Program, Shape, Slot};
+use albacore_program::{ABSOLUTE, Addr, Input, Op, Program, Shape, Slot};
 use std::collections::BTreeMap;
 
 /// A run's words at most: a program that needs more is refused.
@@ -34,6 +36,8 @@ struct FnCode {
     entry: Addr,
     result: Slot,
     words: u32,
+    /// How many instructions it has.
+    ops: u32,
 }
 
 /// A lowered activity of the left margin.
@@ -58,6 +62,8 @@ struct Lowering<'a> {
     findings: Vec<Diagnostic>,
     /// What a test gives the mission in place of its defaults.
     mission_args: Option<&'a [hir::Expr]>,
+    /// Where constants have their absolute slots: only a mission has room for them.
+    constants_at: Option<Slot>,
 }
 
 /// The frame of the unit that is being lowered.
@@ -134,6 +140,7 @@ impl<'a> Lowering<'a> {
             frame: Frame::default(),
             findings: Vec::new(),
             mission_args: None,
+            constants_at: None,
         }
     }
 
@@ -149,8 +156,15 @@ impl<'a> Lowering<'a> {
     /// Makes a jump that was emitted before its target was known lead here.
     fn land(&mut self, jump: Addr) {
         let here = self.here();
-        if let Some(Op::Jump { to } | Op::JumpIf { to, .. } | Op::JumpUnless { to, .. }) =
-            self.program.ops.get_mut(jump as usize)
+        if let Some(
+            Op::Jump { to }
+            | Op::JumpIf { to, .. }
+            | Op::JumpUnless { to, .. }
+            | Op::JumpIfLess { to, .. }
+            | Op::JumpUnlessLess { to, .. }
+            | Op::JumpIfAtMost { to, .. }
+            | Op::JumpUnlessAtMost { to, .. },
+        ) = self.program.ops.get_mut(jump as usize)
         {
             *to = here;
         }
@@ -249,7 +263,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// Input blocks come first in the words of a run.
+    /// Input blocks come first in the words of a run, then constants.
     fn inputs(&mut self) {
         let mut at = 0;
         for input in &self.hir.inputs {
@@ -272,6 +286,18 @@ impl<'a> Lowering<'a> {
             input.at = at;
             at += input.words();
         }
+    }
+
+    /// The absolute slot of a constant, the same for the same bits; none where there is no room.
+    fn constant(&mut self, value: f64) -> Option<Slot> {
+        let at = self.constants_at?;
+        let constants = &mut self.program.constants;
+        let known = constants.iter().position(|known| known.to_bits() == value.to_bits());
+        let index = known.unwrap_or_else(|| {
+            constants.push(value);
+            constants.len() - 1
+        });
+        Some(ABSOLUTE | (at + index as Slot))
     }
 
     fn input_words(&self) -> u32 {

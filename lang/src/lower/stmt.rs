@@ -50,13 +50,14 @@ impl<'a> Lowering<'a> {
                 self.emit(Op::Clear { to, words: 1 });
             }
             StmtKind::If(condition, then, otherwise) => {
-                let unless = self.scratch(|l| {
-                    let condition = l.expr(condition);
-                    l.emit(Op::JumpUnless { unless: condition, to: 0 })
-                });
+                let unless = self.jumps_unless(condition);
                 self.body(then);
+                if otherwise.stmts.is_empty() {
+                    self.land_all(unless);
+                    return;
+                }
                 let end = self.emit(Op::Jump { to: 0 });
-                self.land(unless);
+                self.land_all(unless);
                 self.body(otherwise);
                 self.land(end);
             }
@@ -148,14 +149,10 @@ impl<'a> Lowering<'a> {
             l.expr_into(last, end);
         });
         let top = self.here();
-        let done = self.scratch(|l| {
-            let goes_on = l.temp(1);
-            l.emit(if inclusive {
-                Op::Le { to: goes_on, a: counter, b: end }
-            } else {
-                Op::Lt { to: goes_on, a: counter, b: end }
-            });
-            l.emit(Op::JumpUnless { unless: goes_on, to: 0 })
+        let done = self.emit(if inclusive {
+            Op::JumpUnlessAtMost { a: counter, b: end, to: 0 }
+        } else {
+            Op::JumpUnlessLess { a: counter, b: end, to: 0 }
         });
         let to = self.frame.vars[var];
         self.copy(to, counter, 1);
@@ -167,8 +164,7 @@ impl<'a> Lowering<'a> {
 
     fn count_up(&mut self, counter: Slot) {
         self.scratch(|l| {
-            let one = l.temp(1);
-            l.emit(Op::Const { to: one, value: 1.0 });
+            let one = l.number(1.0);
             l.emit(Op::Add { to: counter, a: counter, b: one });
         });
     }
@@ -228,11 +224,7 @@ impl<'a> Lowering<'a> {
         let counter = self.lasting(1);
         self.emit(Op::Const { to: counter, value: 0.0 });
         let top = self.here();
-        let done = self.scratch(|l| {
-            let goes_on = l.temp(1);
-            l.emit(Op::Lt { to: goes_on, a: counter, b: area });
-            l.emit(Op::JumpUnless { unless: goes_on, to: 0 })
-        });
+        let done = self.emit(Op::JumpUnlessLess { a: counter, b: area, to: 0 });
         let to = self.frame.vars[var];
         self.emit(Op::EdgeAt { to, area, index: counter });
         self.body(body);
@@ -329,11 +321,7 @@ impl<'a> Lowering<'a> {
         let mut cut_normally = Vec::new();
         let mut cut_off = None;
         if let Some(until) = &timed.until {
-            let holds = self.scratch(|l| {
-                let value = l.expr(until);
-                l.emit(Op::JumpIf { if_: value, to: 0 })
-            });
-            cut_normally.push(holds);
+            cut_normally.extend(self.jumps_if(until));
         }
         if let Some(ticks) = duration {
             cut_normally.push(self.jump_if_elapsed(begun, ticks, owner));

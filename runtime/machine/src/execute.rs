@@ -4,7 +4,7 @@ use crate::Event;
 use crate::lists::Order;
 use crate::state::Run;
 use albacore_geometry::{Area, Heading, Point, math, wrap_angle};
-use albacore_program::{Addr, Channel, Op, Program, Slot, Text, TextPart, header, number};
+use albacore_program::{ABSOLUTE, Addr, Channel, Op, Program, Slot, Text, TextPart, header, number};
 use albacore_vehicle::{TICK_S, Vertical};
 
 /// The largest number that arithmetic gives: its square is a number still.
@@ -63,7 +63,7 @@ impl Run {
 
     fn execute_all(&mut self, p: &Program, entry: Addr, base: Slot) -> Flow {
         let mut pc = entry as usize;
-        let b = |slot: Slot| slot + base;
+        let b = |slot: Slot| if slot & ABSOLUTE == 0 { slot + base } else { slot & !ABSOLUTE };
         loop {
             let op = p.ops[pc];
             pc += 1;
@@ -72,7 +72,6 @@ impl Run {
                 Op::Copy { to, from } => self.set(b(to), self.get(b(from))),
                 Op::CopyMany { to, from, words } => self.copy(b(to), b(from), words),
                 Op::Clear { to, words } => self.state.words[b(to) as usize..(b(to) + words) as usize].fill(0.0),
-                Op::Global { to, from, words } => self.copy(b(to), from, words),
 
                 Op::Add { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) + self.get(b(c)))),
                 Op::Sub { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) - self.get(b(c)))),
@@ -220,6 +219,28 @@ impl Run {
                 }
                 Op::JumpUnless { unless, to } => {
                     if self.get(b(unless)) == 0.0 {
+                        pc = to as usize;
+                    }
+                }
+                Op::JumpIfLess { a, b: c, to } => {
+                    if self.get(b(a)) < self.get(b(c)) {
+                        pc = to as usize;
+                    }
+                }
+                Op::JumpUnlessLess { a, b: c, to } => {
+                    let less = self.get(b(a)) < self.get(b(c));
+                    if !less {
+                        pc = to as usize;
+                    }
+                }
+                Op::JumpIfAtMost { a, b: c, to } => {
+                    if self.get(b(a)) <= self.get(b(c)) {
+                        pc = to as usize;
+                    }
+                }
+                Op::JumpUnlessAtMost { a, b: c, to } => {
+                    let at_most = self.get(b(a)) <= self.get(b(c));
+                    if !at_most {
                         pc = to as usize;
                     }
                 }

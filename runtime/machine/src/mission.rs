@@ -25,6 +25,8 @@ impl Run {
         for input in &p.inputs {
             words[(input.at + Input::STAMP) as usize] = -1.0;
         }
+        let constants_at = p.mission.base as usize - p.constants.len();
+        words[constants_at..p.mission.base as usize].copy_from_slice(&p.constants);
         let state = State {
             words,
             tick: 0,
