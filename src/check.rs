@@ -1,5 +1,7 @@
 //! `albacore check`: every error and warning of all files.
 
+mod cost;
+
 use crate::exit::Exit;
 use crate::message;
 use std::path::PathBuf;
@@ -13,6 +15,9 @@ pub struct Check {
     /// Change a parameter first: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Tell what each mission costs: the most work of one tick and the memory, and where they come from.
+    #[arg(long)]
+    cost: bool,
 }
 
 impl Check {
@@ -30,6 +35,8 @@ impl Check {
                     message::findings(&findings, &script.sources);
                     if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
                         exit = Exit::Script;
+                    } else if self.cost {
+                        cost::tell(&script);
                     }
                 }
                 Err(error) => {

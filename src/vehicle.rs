@@ -24,9 +24,10 @@ pub struct Vehicle {
     /// How many times faster than real time; give `run --link` the same.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clock::rate)]
     rate: f64,
-    /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last.
-    #[arg(long, value_name = "LENGTHxSPACINGxCOUNT", default_value = "200x30x6")]
-    rows: Rows,
+    /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last [default: those of
+    /// the scenario, else 200x30x6].
+    #[arg(long, value_name = "LENGTHxSPACINGxCOUNT")]
+    rows: Option<Rows>,
     /// The seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,

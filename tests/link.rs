@@ -166,6 +166,24 @@ fn a_mission_drives_a_vehicle_over_udp() {
 }
 
 #[test]
+fn a_guest_drives_in_its_overrides_alone() {
+    let folder = empty("guest");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let out = folder.join("run");
+    let output = vehicle.mission(&["--mission", "visit", "--out"]).arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}\n{}", stderr(&output), vehicle.said());
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert_eq!(trace.matches("completed, the vehicle is in_mission").count(), 2, "{trace}");
+    assert_eq!(trace.matches("control  in control").count(), 2, "{trace}");
+    assert!(!trace.contains("released"), "nothing is left to give back: {trace}");
+    let (code, said) = vehicle.stop();
+    assert_eq!(code, Some(0));
+    assert_eq!(said.matches("override taken").count(), 2, "{said}");
+    assert_eq!(said.matches("override released").count(), 2, "{said}");
+    assert!(!said.contains("timed out"), "{said}");
+}
+
+#[test]
 fn a_vehicle_whose_guest_is_killed_goes_back_to_its_rows() {
     let folder = empty("killed");
     let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);

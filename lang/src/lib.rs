@@ -4,6 +4,7 @@
 //! [`Script`], from which missions and scenarios are lowered (`lower`) to what the machine executes.
 
 mod check;
+pub mod cost;
 pub mod diagnostic;
 pub mod diagram;
 mod dimension;
@@ -25,6 +26,7 @@ pub use suggest::{help as suggestion, nearest};
 use albacore_geometry::Geodetic;
 use albacore_program::Program;
 use check::Override;
+use cost::Cost;
 use diagnostic::Diagnostic;
 use echo::Echoes;
 use loader::{Loader, module_name};
@@ -131,6 +133,12 @@ impl Script {
     pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
         Some(lower::mission(&self.hir, &self.types, &self.sources, *id))
+    }
+
+    /// What a mission costs.
+    pub fn cost(&self, name: &str) -> Option<Result<Cost, Vec<Diagnostic>>> {
+        let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
+        Some(cost::of(&self.hir, &self.types, &self.sources, *id))
     }
 
     /// The tests of the script's own file, ready to run.

@@ -306,6 +306,12 @@ impl Prompt {
         if findings.iter().all(|f| f.severity != Severity::Error) {
             findings.extend(rules::check(&hir, mission).into_iter().filter(|f| f.severity == Severity::Error));
         }
+        if let Some(place) = rules::first_watch(&hir, mission) {
+            findings.push(
+                Diagnostic::error("time::control", place, "at the prompt the vehicle is yours already")
+                    .help("`watch` and `override` belong to a mission that is run as a guest of its vehicle"),
+            );
+        }
         diagnostic::settle(&mut findings);
         if findings.iter().any(|f| f.severity == Severity::Error) {
             return Err(findings);

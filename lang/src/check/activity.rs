@@ -3,7 +3,7 @@
 use super::expr::article;
 use super::facts;
 use super::timed::same_channel;
-use super::{Checker, Scope, Setting, Temporal, flow};
+use super::{Checker, Driving, Scope, Setting, Temporal, flow};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
@@ -208,7 +208,9 @@ impl<'t> Checker<'t> {
                 }
                 let within = within.as_ref().map(|e| self.duration(e, "the time of the recovery"));
                 let finish = self.scope.finish.take();
+                self.scope.driving = Some(Driving::Recovery);
                 let block = self.in_block(|c| c.block(block));
+                self.scope.driving = None;
                 self.scope.finish = finish;
                 if let Some(place) = flow::aborts(&block) {
                     self.report(
@@ -386,6 +388,7 @@ impl<'t> Checker<'t> {
                 hir::Action::Keep(kept, _) => !same_channel(*kept, channel),
                 hir::Action::Guide(guide, _) => *guide != Guide::Wait,
                 hir::Action::Call(..) => false,
+                hir::Action::Watch | hir::Action::Override(_) => true,
             };
             if foreign || !timed.at.is_empty() {
                 found.push(stmt.span);

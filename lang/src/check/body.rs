@@ -1,7 +1,7 @@
 //! Blocks and the statements in them.
 
 use super::expr::article;
-use super::{Checker, Setting, flow};
+use super::{Checker, Driving, Setting, flow};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Block, Expr, Interval, Order, Stmt, StmtKind, VarKind};
 use crate::source::Span;
@@ -362,6 +362,14 @@ impl<'t> Checker<'t> {
 
     fn finish(&mut self, value: Option<&tree::Expr>, span: Span) -> Option<Stmt> {
         self.body_only(span, "`finish`");
+        if let Some(Driving::Override(outer)) = self.scope.driving {
+            self.report(
+                Diagnostic::error("flow::finish", span, "an `override` ends with its block: nothing is finished in it")
+                    .label(outer, "in this block")
+                    .help("set a `memory` in the block, and finish after it"),
+            );
+            return None;
+        }
         let wanted = self.scope.finish.clone();
         let value = match (wanted, value) {
             (None, _) => {

@@ -6,7 +6,7 @@ use crate::source::Span;
 use albacore_program::Guide;
 
 /// Whether every path through a block takes time, or leaves it for good.
-pub(super) fn takes_time(block: &Block) -> bool {
+pub(crate) fn takes_time(block: &Block) -> bool {
     block.stmts.iter().any(|stmt| match &stmt.kind {
         StmtKind::Timed(_) | StmtKind::Loop(_) | StmtKind::Finish(_) | StmtKind::Abort(_) => true,
         StmtKind::If(_, a, b) => takes_time(a) && takes_time(b),
@@ -59,7 +59,7 @@ pub(super) fn never_goes_on(stmt: &Stmt) -> bool {
     }
 }
 
-/// Whether guidance or a setpoint never ends by itself, and nothing ends it. Calls are not asked.
+/// Whether guidance, a setpoint or an override never ends by itself, and nothing ends it. Calls are not asked.
 pub(super) fn endless(timed: &Timed) -> bool {
     if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() {
         return false;
@@ -68,6 +68,8 @@ pub(super) fn endless(timed: &Timed) -> bool {
         Action::Guide(Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait, _) => true,
         Action::Guide(guide, args) => loiters_for_ever(*guide, args),
         Action::Call(..) => false,
-        Action::Keep(..) => true,
+        Action::Keep(..) | Action::Watch => true,
+        // Whoever reads its end hears that control was taken back, and goes on.
+        Action::Override(o) => timed.result.is_none() && leaves(&o.block),
     }
 }

@@ -25,6 +25,7 @@ mod test;
 mod timed;
 mod written;
 
+pub(crate) use flow::takes_time;
 pub use params::Override;
 pub use table::never_ends;
 
@@ -156,6 +157,15 @@ enum Temporal {
     Rule,
 }
 
+/// A block of a mission in which the vehicle is ours for certain.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Driving {
+    /// That of an `override`, which stands here.
+    Override(Span),
+    /// The recovery of a mission.
+    Recovery,
+}
+
 /// The names that code can see.
 struct Scope {
     module: usize,
@@ -166,6 +176,8 @@ struct Scope {
     facts: Facts,
     /// What `finish` must give: none where it cannot stand.
     finish: Option<Option<Type>>,
+    /// The block in which the vehicle is ours already: neither `watch` nor `override` can stand there.
+    driving: Option<Driving>,
 }
 
 impl Scope {
@@ -178,6 +190,7 @@ impl Scope {
             visible: Vec::new(),
             facts: Facts::default(),
             finish: None,
+            driving: None,
         }
     }
 }

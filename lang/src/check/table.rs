@@ -328,7 +328,9 @@ fn finishes(block: &hir::Block) -> bool {
 fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
     match &timed.action {
         _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
-        hir::Action::Guide(..) | hir::Action::Keep(..) => flow::endless(timed),
+        hir::Action::Guide(..) | hir::Action::Keep(..) | hir::Action::Watch | hir::Action::Override(_) => {
+            flow::endless(timed)
+        }
         hir::Action::Call(id, _) => match &hir.activities[*id].body {
             Body::Sequence(block) if !path.contains(id) => {
                 path.push(*id);

@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::names::Found;
-use super::{Checker, Def, ParamInfo, Setting, Temporal};
+use super::{Checker, Def, Driving, ParamInfo, Setting, Temporal};
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Action, ExprKind, Interval, Stmt, StmtKind, Timed, VarKind, With};
@@ -12,6 +12,8 @@ use crate::syntax::tree::{self, WithItem};
 use crate::types::Type;
 use albacore_program::{Channel, Guide};
 
+/// The enum of an override's ends, in the library's inputs.
+const OVERRIDE_END: &str = "OverrideEnd";
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 
 impl<'t> Checker<'t> {
@@ -77,6 +79,7 @@ impl<'t> Checker<'t> {
                         ty
                     }
                 }
+                (Action::Override(_), _) => self.override_end(),
                 _ => Type::Bool,
             };
             if let Some(ty) = ty {
@@ -96,7 +99,8 @@ impl<'t> Checker<'t> {
             }
             self.declare(name, VarKind::Let, found)
         });
-        if within.is_some() && result.is_none() {
+        let overrides = matches!(action, Action::Override(_));
+        if within.is_some() && result.is_none() && !overrides {
             self.report(
                 Diagnostic::warning("time::unread", timed.span, "nobody learns whether this was cut off")
                     .help("write `let ok = …`, or `until after T` when either end will do"),
@@ -136,11 +140,18 @@ impl<'t> Checker<'t> {
             }
             tree::Action::Hold => (Action::Guide(Guide::Hold, Vec::new()), false, None),
             tree::Action::Wait => (Action::Guide(Guide::Wait, Vec::new()), false, None),
-            tree::Action::Watch | tree::Action::Override => {
-                self.report(Diagnostic::error("time::control", span, "`watch` and `override` are not built yet").help(
-                    "leave them out: a mission takes control of its vehicle at its start and gives it back at its end",
-                ));
-                return None;
+            tree::Action::Watch => {
+                self.not_driving(span, "watch");
+                (Action::Watch, false, None)
+            }
+            tree::Action::Override(o) => {
+                self.not_driving(span, "override");
+                let answer = o.answer.as_ref().map(|e| self.duration(e, "the time after `within`"));
+                self.time_passes();
+                let outer = self.scope.driving.replace(Driving::Override(span));
+                let block = self.in_block(|c| c.block(&o.block));
+                self.scope.driving = outer;
+                (Action::Override(hir::Override { offered: o.offered, answer, block }), true, None)
             }
             tree::Action::Expr(e) => {
                 let id = self.called_activity(e)?;
@@ -167,6 +178,24 @@ impl<'t> Checker<'t> {
                 (Action::Call(id, values), true, signature.result)
             }
         })
+    }
+
+    /// What an `override` ended with.
+    fn override_end(&self) -> Type {
+        let known = self.types.enums.iter().position(|e| e.name == OVERRIDE_END);
+        known.map_or(Type::Unknown, Type::Enum)
+    }
+
+    /// Who drives already can neither watch nor take over.
+    fn not_driving(&mut self, span: Span, what: &str) {
+        let Some(driving) = self.scope.driving else { return };
+        let finding = Diagnostic::error("time::control", span, format!("the vehicle is ours here: nothing to {what}"));
+        self.report(match driving {
+            Driving::Override(outer) => finding
+                .label(outer, "since this `override`")
+                .help(format!("end that block first: write `{what}` after it")),
+            Driving::Recovery => finding.help("a recovery runs in control, and the vehicle is released after it"),
+        });
     }
 
     fn guidance(&mut self, verb: &tree::Name, args: &[tree::Arg], span: Span) -> Option<(Action, bool, Option<Type>)> {

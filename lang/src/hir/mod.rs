@@ -311,6 +311,21 @@ pub enum Action {
     Keep(Channel, Expr),
     /// A call with its arguments.
     Call(ActivityId, Vec<Expr>),
+    /// The vehicle runs its own plan, and nothing is sent.
+    Watch,
+    /// Takes control, does what its block says, and gives control back however that ends.
+    Override(Override),
+}
+
+/// `override when offered within T { … }` (rule 18).
+#[derive(Clone, Debug)]
+pub struct Override {
+    /// Whether it waits for the vehicle to hand over of its own accord.
+    pub offered: bool,
+    /// How long it waits for control.
+    pub answer: Option<Expr>,
+    /// What is done in control.
+    pub block: Block,
 }
 
 /// An input.

@@ -81,6 +81,10 @@ impl Stmt {
             | StmtKind::ForEdges { body, .. }
             | StmtKind::ForRows { body, .. }
             | StmtKind::While { body, .. } => vec![body],
+            StmtKind::Timed(timed) => match &timed.action {
+                Action::Override(o) => vec![&o.block],
+                _ => Vec::new(),
+            },
             _ => Vec::new(),
         }
     }
@@ -193,6 +197,11 @@ pub fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
                 match &timed.action {
                     Action::Guide(_, args) | Action::Call(_, args) => args.iter().for_each(&mut *f),
                     Action::Keep(_, e) => f(e),
+                    Action::Watch => {}
+                    Action::Override(o) => {
+                        o.answer.iter().for_each(&mut *f);
+                        block_children(&o.block, f);
+                    }
                 }
                 [&timed.duration, &timed.until, &timed.within].into_iter().flatten().for_each(&mut *f);
                 timed.at.iter().for_each(|(_, e)| f(e));

@@ -6,6 +6,7 @@
 
 mod activity;
 mod condition;
+mod control;
 mod expr;
 mod inline;
 mod prepare;
@@ -38,6 +39,22 @@ struct FnCode {
     words: u32,
     /// How many instructions it has.
     ops: u32,
+}
+
+/// The subroutine that puts an ordered list in order.
+#[derive(Clone)]
+struct Sorter {
+    entry: Addr,
+    /// What the list's key is made of beside the element; none when that cannot be compared.
+    sorted_by: Option<Vec<SortedBy>>,
+}
+
+/// Words that a key reads, and where they are kept as they were when the list was last put in order.
+#[derive(Clone, Copy)]
+struct SortedBy {
+    read: Slot,
+    words: u32,
+    then: Slot,
 }
 
 /// A lowered activity of the left margin.
@@ -90,12 +107,27 @@ struct Frame {
     /// In a guard: whether the body has come to its end.
     done: bool,
     /// The subroutine that sorts a variable that is an ordered list.
-    sorters: BTreeMap<usize, Addr>,
+    sorters: BTreeMap<usize, Sorter>,
 }
 
 /// Lowers a mission. The findings are errors that only the whole program shows.
 pub fn mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) -> Result<Program, Vec<Diagnostic>> {
     mission_with(hir, types, sources, mission, None)
+}
+
+/// Lowers a mission, and tells the words of each activity's frame, with those of what it calls.
+pub fn mission_units(
+    hir: &Hir,
+    types: &TypeTable,
+    sources: &Sources,
+    mission: usize,
+) -> Result<(Program, BTreeMap<usize, u32>), Vec<Diagnostic>> {
+    let mut lowering = Lowering::new(hir, types, sources);
+    lowering.mission(mission);
+    if !lowering.findings.is_empty() {
+        return Err(lowering.findings);
+    }
+    Ok((lowering.program, lowering.units.into_iter().map(|(id, unit)| (id, unit.words)).collect()))
 }
 
 /// Lowers the mission that is a line of the prompt, in the frame of the vehicle that it drives.

@@ -3,7 +3,9 @@
 use super::Lowering;
 use crate::hir::{self, Action, Block, Expr, Stmt, StmtKind, Timed, With};
 use crate::types::Type;
-use albacore_program::{CallSite, Cause, Channel, Guide, Op, OverlaySite, ReportSite, Slot, header, setpoints};
+use albacore_program::{
+    CallSite, Cause, Channel, Guide, Op, OverlaySite, OverrideEnd, ReportSite, Slot, header, setpoints,
+};
 
 /// The words that a guidance law keeps while its statement lasts: the most that any of them needs.
 pub const GUIDANCE_WORDS: u32 = 32;
@@ -36,8 +38,8 @@ impl<'a> Lowering<'a> {
             StmtKind::Insert(var, e) => {
                 let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
                 let capacity = self.capacity(*var);
-                match self.frame.sorters.get(var) {
-                    Some(&sort) => self.emit(Op::PushSorted { list, item, words, capacity, sort }),
+                match self.frame.sorters.get(var).map(|sorter| sorter.entry) {
+                    Some(sort) => self.emit(Op::PushSorted { list, item, words, capacity, sort }),
                     None => self.emit(Op::Push { list, item, words, capacity }),
                 };
             }
@@ -120,8 +122,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn sort(&mut self, var: usize) {
-        if let Some(&sorter) = self.frame.sorters.get(&var) {
-            self.emit(Op::Call { code: sorter, base: 0 });
+        if let Some(sorter) = self.frame.sorters.get(&var) {
+            self.emit(Op::Call { code: sorter.entry, base: 0 });
         }
     }
 
@@ -338,7 +340,9 @@ impl<'a> Lowering<'a> {
         };
         let cut = timed.duration.is_some() || timed.until.is_some() || timed.within.is_some();
         self.land(done.remove(0));
-        if let Some(to) = result {
+        if let Some(to) = result
+            && !matches!(action, Running::Override { .. })
+        {
             self.outcome_of_end(&action, has_value.as_ref(), cut, to);
         }
         let mut ends = Vec::new();
@@ -352,8 +356,13 @@ impl<'a> Lowering<'a> {
             for jump in jumps {
                 self.land(jump);
             }
-            if let Running::Call { call, .. } = action {
+            if let Running::Call { call, .. } | Running::Override { call, .. } = action {
                 self.emit(Op::Cut { call, cause });
+            }
+            if let Running::Override { end, .. } = action {
+                let value = if by_itself == 0.0 { OverrideEnd::TimedOut } else { OverrideEnd::Completed };
+                self.emit(Op::Const { to: end, value: value.number() });
+                continue;
             }
             if let Some(to) = result {
                 match &has_value {
@@ -369,9 +378,15 @@ impl<'a> Lowering<'a> {
         for end in ends {
             self.land(end);
         }
+        if let Running::Override { end, .. } = action {
+            match result {
+                Some(to) => self.copy(to, end, 1),
+                None => _ = self.emit(Op::Desert { end }),
+            }
+        }
     }
 
-    fn frozen_ticks(&mut self, duration: &Expr) -> Slot {
+    pub(super) fn frozen_ticks(&mut self, duration: &Expr) -> Slot {
         let ticks = self.lasting(1);
         self.scratch(|l| {
             let seconds = l.expr(duration);
@@ -380,7 +395,7 @@ impl<'a> Lowering<'a> {
         ticks
     }
 
-    fn jump_if_elapsed(&mut self, from: Slot, ticks: Slot, owner: Slot) -> u32 {
+    pub(super) fn jump_if_elapsed(&mut self, from: Slot, ticks: Slot, owner: Slot) -> u32 {
         self.scratch(|l| {
             let elapsed = l.temp(1);
             l.emit(Op::Elapsed { to: elapsed, from, ticks, owner });
@@ -439,6 +454,8 @@ impl<'a> Lowering<'a> {
                 let result = called.and_then(|called| called.result.as_ref()).map_or(0, |r| r.slot);
                 Running::Call { call, result: base + result }
             }
+            Action::Watch => Running::Watch,
+            Action::Override(o) => self.begin_override(o, setpoints),
         }
     }
 
@@ -454,6 +471,7 @@ impl<'a> Lowering<'a> {
             }
             (Running::Keep { .. }, Action::Keep(_, e)) => self.keep(running, e, setpoints, ended),
             (Running::Call { call, .. }, _) => _ = self.emit(Op::Step { call: *call, ended }),
+            (Running::Override { call, end }, _) => self.step_override(*call, *end, ended),
             _ => {}
         }
     }
@@ -475,8 +493,10 @@ impl<'a> Lowering<'a> {
 }
 
 /// A statement under way: where its parts are.
-enum Running {
+pub(super) enum Running {
     Guide { guide: Guide, args: Slot, state: Slot },
     Keep { channel: Channel, value: Slot, own: Slot, state: Slot },
     Call { call: u32, result: Slot },
+    Watch,
+    Override { call: u32, end: Slot },
 }

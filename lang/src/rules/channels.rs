@@ -165,8 +165,9 @@ impl Walk<'_> {
                 self.path.pop();
                 return;
             }
+            Action::Override(inner) => return self.block(&inner.block, owners),
             // A pause goes on as before; standing still needs no speed.
-            Action::Guide(Guide::Wait, _) => (false, false),
+            Action::Guide(Guide::Wait, _) | Action::Watch => (false, false),
             Action::Guide(Guide::Hold, _) => (true, false),
             Action::Guide(..) => (true, true),
             // What is kept is its own setpoint. In an overlay nothing else is needed.

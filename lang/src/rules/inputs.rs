@@ -6,6 +6,9 @@ use crate::source::Span;
 use albacore_program::Guide;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Inputs that are never too old: they tell how things stand with the vehicle, and that of one not heard from as well.
+const OF_THE_LINK: [&str; 2] = ["control", "vehicle_mode"];
+
 struct Walk<'a> {
     hir: &'a Hir,
     seen: BTreeSet<usize>,
@@ -19,10 +22,10 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = Vec::new();
     for (input, span) in read(hir, mission) {
-        if parts.requires.iter().any(|r| r.input == input) {
+        let name = &hir.inputs[input].name;
+        if parts.requires.iter().any(|r| r.input == input) || OF_THE_LINK.contains(&name.as_str()) {
             continue;
         }
-        let name = &hir.inputs[input].name;
         findings.push(
             Diagnostic::warning(
                 "missions::unrequired",
@@ -98,7 +101,7 @@ impl Walk<'_> {
                     self.note("course", stmt.span);
                     self.note("heading", stmt.span);
                 }
-                Action::Guide(Guide::Wait, _) => {}
+                Action::Guide(Guide::Wait, _) | Action::Watch | Action::Override(_) => {}
                 _ => self.note("heading", stmt.span),
             },
             _ => {}

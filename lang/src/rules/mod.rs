@@ -1,10 +1,13 @@
-//! What only a whole mission shows: every statement has its setpoints, every input that is read is required.
+//! What only a whole mission shows: every statement has its setpoints and stands where the vehicle is ours, every input that
+//! is read is required.
 
 mod channels;
+mod control;
 mod inputs;
 mod limits;
 mod unreached;
 
+pub use control::first_watch;
 pub use unreached::check as unreached;
 
 pub use inputs::read as inputs_read;
@@ -15,6 +18,7 @@ use crate::hir::Hir;
 /// The findings of a mission with all that it calls.
 pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let mut findings = channels::check(hir, mission);
+    findings.extend(control::check(hir, mission));
     findings.extend(inputs::check(hir, mission));
     findings
 }

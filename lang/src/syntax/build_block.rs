@@ -205,10 +205,17 @@ fn guided(b: &mut Builder, pair: P) -> Option<Timed> {
         Rule::kw_keep => Action::Keep(setpoint(b, inner.next()?)?),
         Rule::kw_hold => Action::Hold,
         Rule::kw_wait => Action::Wait,
-        _ if first.as_str().starts_with("watch") => Action::Watch,
-        _ => Action::Override,
+        Rule::watch => Action::Watch,
+        _ => Action::Override(override_block(b, first)?),
     };
     Some(modified(b, action, inner, span))
+}
+
+fn override_block(b: &mut Builder, pair: P) -> Option<Override> {
+    let mut inner = parts(pair).peekable();
+    let offered = take(&mut inner, Rule::when_offered).is_some();
+    let answer = take(&mut inner, Rule::mod_within).and_then(|p| parts(p).next()).map(|p| expr(b, p));
+    Some(Override { offered, answer, block: block(b, inner.next()?) })
 }
 
 /// Reads the modifiers of a statement, each once at most.

@@ -319,8 +319,19 @@ pub enum Action {
     Hold,
     Wait,
     Watch,
-    Override,
+    Override(Override),
     Expr(Expr),
+}
+
+/// `override when offered within T { … }`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    /// Whether it waits for the vehicle to hand over of its own accord.
+    pub offered: bool,
+    /// How long it waits for control.
+    pub answer: Option<Expr>,
+    /// What is done in control.
+    pub block: Block,
 }
 
 /// `label: value`, or `value`.

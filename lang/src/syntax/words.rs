@@ -34,6 +34,7 @@ pub(super) fn is_word(rule: Rule) -> bool {
             | kw_on
             | kw_or
             | kw_overlay
+            | kw_override
             | kw_record
             | kw_report
             | kw_scenario
@@ -44,6 +45,7 @@ pub(super) fn is_word(rule: Rule) -> bool {
             | kw_then
             | kw_toward
             | kw_until
+            | kw_watch
             | kw_use
             | kw_var
             | kw_while

@@ -14,7 +14,9 @@ mod goto;
 mod goto_pose;
 mod law;
 mod loiter;
+mod own_plan;
 pub mod parameters;
+mod rows;
 mod words;
 
 pub use compensate::{ThroughWater, through_water};
@@ -24,4 +26,6 @@ pub use goto::Goto;
 pub use goto_pose::GotoPose;
 pub use law::{Guidance, cross_track};
 pub use loiter::{Circling, Loiter};
+pub use own_plan::{Milestone, OwnPlan};
 pub use parameters::{turning_radius, turning_radius_in_flow};
+pub use rows::{RowMission, Rows};

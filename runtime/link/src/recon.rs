@@ -10,14 +10,13 @@ mod frame;
 mod front_seat;
 mod message;
 mod mode;
-mod rows;
 mod vehicle;
 mod vehicle_time;
 
+pub use albacore_guidance::{Milestone, Rows};
 pub use controller::{Controller, Count};
 pub use frame::{Deframer, LINE_MAX, Unreadable, seal};
 pub use front_seat::{FrontSeat, Happening};
 pub use message::{Adcp, Ctd, FromVehicle, Malformed, SpeedGoal, State, ToVehicle};
 pub use mode::{Mode, Phase};
-pub use rows::Rows;
 pub use vehicle::{HostClock, ReconVehicle};

@@ -84,7 +84,7 @@ fn nothing_is_sent_before_control_is_wanted_and_asking_goes_on_until_the_mode_sh
 #[test]
 fn an_override_that_the_vehicle_began_is_taken() {
     let mut vehicle = Vehicle::new();
-    assert_eq!(vehicle.says(0x0D).0, Control::Monitoring);
+    assert_eq!(vehicle.says(0x0D).0, Control::Offered);
     vehicle.controller.take_over();
     assert_eq!(vehicle.says(0x0D).0, Control::InControl);
 }

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{Controller, FrontSeat, Happening, Rows};
+use albacore_link::recon::{Controller, FrontSeat, Happening, Milestone, Rows};
 use albacore_sim::{KinematicVehicle, Scenario, Simulator};
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 
@@ -178,9 +178,9 @@ fn takes_control_drives_releases_and_the_vehicle_resumes_its_rows() {
     assert!(pair.release(10));
     assert_eq!(pair.controller.control(), Control::Released);
     assert_eq!(pair.controls, [Control::Monitoring, Control::InControl], "the answer comes within the tick");
-    pair.until(1500, |h| matches!(h, Happening::Resumed(at, 1) if *at == break_off));
+    pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(at, 1)) if *at == break_off));
     assert!(pair.vehicle.position().distance(break_off) < 12.0);
-    pair.until(3000, |h| *h == Happening::Over);
+    pair.until(3000, |h| *h == Happening::Plan(Milestone::Over));
     assert!(!pair.happenings.contains(&Happening::TimedOut));
 }
 
@@ -203,7 +203,7 @@ fn a_bad_wire_costs_time_and_nothing_else() {
             assert!(pair.release(300), "seed {seed}, {share}");
             assert!(pair.controls.contains(&Control::InControl), "seed {seed}, {share}: {:?}", pair.controls);
             assert!(pair.vehicle.position().distance(Point::ORIGIN) > 50.0, "seed {seed}, {share}");
-            pair.until(1500, |h| matches!(h, Happening::Resumed(_, 1)));
+            pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(_, 1))));
             let count = pair.controller.count();
             assert!(count.unreadable > 0 && count.messages > count.unreadable, "seed {seed}: {count:?}");
         }
@@ -225,7 +225,7 @@ fn who_falls_silent_loses_control_after_five_seconds_exactly() {
     assert!(pair.happenings.contains(&Happening::TimedOut));
     pair.ticks(3, None);
     assert_eq!(pair.snapshot.control, Control::Released, "and the controller, back again, is told");
-    pair.until(1500, |h| matches!(h, Happening::Resumed(_, 1)));
+    pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(_, 1))));
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn unsafe_commands_are_refused_and_noticed() {
 #[test]
 fn a_mission_that_is_over_cannot_be_overridden() {
     let mut pair = Pair::new("10x5x1", 1, 0.0);
-    pair.until(1000, |h| *h == Happening::Over);
+    pair.until(1000, |h| *h == Happening::Plan(Milestone::Over));
     pair.controller.take_over();
     pair.send();
     pair.ticks(3, None);
@@ -283,7 +283,7 @@ fn a_guest_that_comes_back_on_the_way_does_not_move_the_break_off_point() {
     pair.ticks(100, Some(&east()));
     assert_eq!(pair.controls.last(), Some(&Control::InControl));
     assert!(pair.release(10));
-    pair.until(2000, |h| matches!(h, Happening::Resumed(at, 1) if *at == first));
+    pair.until(2000, |h| matches!(h, Happening::Plan(Milestone::Resumed(at, 1)) if *at == first));
 }
 
 #[test]
@@ -293,7 +293,7 @@ fn the_closest_point_of_the_row_can_be_asked_for() {
     let north = Command { heading: Heading::NORTH, ..east() };
     pair.ticks(150, Some(&north));
     assert!(pair.release(10));
-    let closest = |h: &Happening| matches!(h, Happening::Resumed(at, 1) if at.east.abs() < 0.5 && at.north > 45.0);
+    let closest = |h: &Happening| matches!(h, Happening::Plan(Milestone::Resumed(at, 1)) if at.east.abs() < 0.5 && at.north > 45.0);
     pair.until(1500, closest);
 }
 

@@ -91,6 +91,35 @@ fn the_release_is_the_last_that_is_sent() {
 }
 
 #[test]
+fn a_guest_gives_control_back_listens_on_and_may_have_it_again() {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    vehicle.give_back().unwrap();
+    let controls: Vec<Control> = (0..20)
+        .map(|_| {
+            vehicle.sense(&mut snapshot).unwrap();
+            snapshot.control
+        })
+        .collect();
+    assert!(controls.iter().all(|control| *control == Control::Monitoring), "{controls:?}");
+    assert!(snapshot.samples.len() > 3, "it hears on");
+    let sent = wire.sent.take();
+    assert!(sent.ends_with("#E,0,*1A\n") && sent.matches("#E,0").count() < 5, "{sent}");
+    vehicle.take_over().unwrap();
+    (0..10).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
+    assert_eq!(snapshot.control, Control::InControl);
+}
+
+#[test]
+fn a_vehicle_that_falls_silent_while_a_guest_looks_on_is_lost() {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    vehicle.give_back().unwrap();
+    (0..20).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
+    wire.silent.set(true);
+    vehicle.sense(&mut snapshot).unwrap();
+    assert_eq!(snapshot.control, Control::TimedOut);
+}
+
+#[test]
 fn a_vehicle_that_falls_silent_while_we_drive_is_lost_after_five_seconds() {
     let (mut vehicle, wire, mut snapshot) = driven();
     let since = wire.now.get();

@@ -4,7 +4,7 @@ use crate::Event;
 use crate::execute::Flow;
 use crate::state::Run;
 use albacore_program::{
-    Activity, ActivityId, Addr, Body, Cause, Entry, Exit, Program, Slot, Table, Target, header, setpoints,
+    Activity, ActivityId, ActivityKind, Addr, Body, Cause, Entry, Exit, Program, Slot, Table, Target, header, setpoints,
 };
 
 /// What became of an activity in a tick.
@@ -309,6 +309,10 @@ impl Run {
         self.set_head(activity, base, header::CHILD, 0.0);
         self.set_head(activity, base, header::PC, header::ENDED);
         self.events.push(Event::Left(id, cause));
+        // However it ends (rule 18).
+        if activity.kind == ActivityKind::Override {
+            self.give_back(p);
+        }
     }
 
     pub fn enter_call(&mut self, p: &Program, call: u32, base: Slot) {

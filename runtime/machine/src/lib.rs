@@ -6,6 +6,8 @@
 mod activity;
 mod area;
 mod command;
+mod compute;
+mod control;
 mod event;
 mod execute;
 mod guide;
@@ -19,4 +21,4 @@ pub use event::{Event, Outcome};
 pub use execute::Evaluation;
 pub use inputs::MissingInput;
 pub use mission::Machine;
-pub use state::{Phase, State};
+pub use state::{Phase, State, Wish};

@@ -2,7 +2,7 @@
 
 use crate::activity::Status;
 use crate::inputs::{MissingInput, senses, wiring};
-use crate::state::{Asked, Limits, Overridden, Phase, Requirement, Run, State};
+use crate::state::{Asked, Limits, Overridden, Phase, Requirement, Run, State, Wish};
 use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
@@ -32,6 +32,7 @@ impl Run {
             tick: 0,
             phase: Phase::Waiting,
             asked: Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) },
+            wish: if p.mission.guest { Wish::Listen } else { Wish::Drive },
             command: None,
             filtered: Heading::NORTH,
             control: Control::Disconnected,
@@ -43,7 +44,15 @@ impl Run {
             began: 0,
             overridden: Overridden::default(),
         };
-        Run { state, events: Vec::new(), in_overlay: false, abort: None, senses: senses(p), trig: Trig::new() }
+        Run {
+            state,
+            events: Vec::new(),
+            in_overlay: false,
+            abort: None,
+            deserted: None,
+            senses: senses(p),
+            trig: Trig::new(),
+        }
     }
 
     fn number(&mut self, p: &Program, code: &Code) -> f64 {
@@ -75,6 +84,12 @@ impl Machine {
         self.run.state = state;
         self.run.events.clear();
         self.run.abort = None;
+        self.run.deserted = None;
+    }
+
+    /// What the mission wants of its vehicle from here on.
+    pub fn wish(&self) -> Wish {
+        self.run.state.wish
     }
 
     /// Lets a mission that has not begun begin at a later tick, in control, and know what was sensed before: ticks and their
@@ -85,7 +100,8 @@ impl Machine {
             self.run.take_in(&self.program, &self.wiring, samples);
         }
         self.run.state.tick = tick;
-        self.run.state.control = Control::InControl;
+        self.run.hear_control(Control::InControl);
+        self.run.events.clear();
     }
 
     /// Puts a value in place.
@@ -156,18 +172,20 @@ impl Machine {
 }
 
 impl Run {
-    fn hear_control(&mut self, control: Control) {
-        if control != self.state.control {
-            self.state.control = control;
-            self.events.push(Event::Control(control));
-        }
-    }
-
     /// One tick of whatever phase the mission is in.
     fn live(&mut self, p: &Program) -> Option<Command> {
         let began = self.state.phase != Phase::Waiting;
+        let guest = p.mission.guest && !matches!(self.state.phase, Phase::Recovering(..));
         match self.state.control {
             Control::InControl => {}
+            // Whoever drives, a guest lives on: its overrides hear of it.
+            Control::Monitoring
+            | Control::Offered
+            | Control::Requesting
+            | Control::Released
+            | Control::Refused
+            | Control::Suspended
+                if guest => {}
             // The vehicle does not listen for a while: the mission stands still.
             Control::Suspended => return None,
             Control::Refused => return self.over(p, Outcome::Refused),
@@ -231,6 +249,9 @@ impl Run {
             self.events.push(Event::TimedOut);
             return self.over(p, Outcome::TimedOut);
         }
+        if p.mission.guest {
+            return None;
+        }
         // Rule 6: at the very start the present heading and depth, speed 0, as far as they are known.
         let knows = |at: Option<Slot>| at.is_some_and(|at| self.get(at + Input::STAMP) >= 0.0);
         (knows(self.senses.heading) && knows(self.senses.depth)).then(|| Command {
@@ -260,10 +281,7 @@ impl Run {
     fn start(&mut self, p: &Program) {
         let base = p.mission.base;
         self.state.phase = Phase::Running;
-        self.state.filtered = self.heading();
-        // Rule 6: at the very start the present heading and depth, speed 0.
-        self.state.asked =
-            Asked { course: self.heading(), over_ground: false, speed: 0.0, vertical: Vertical::Depth(self.depth()) };
+        self.stand();
         for require in &p.mission.requires {
             let input = &p.inputs[require.input as usize];
             if let Some(at_first) = &require.at_first
@@ -326,35 +344,41 @@ impl Run {
         }
         let before = self.state.asked;
         self.state.asked.speed = 0.0;
-        let command = self.give_command(p);
+        let command = self.command_if_ours(p);
         self.state.asked = before;
-        Some(Some(command))
+        Some(command)
     }
 
     fn after_step(&mut self, p: &Program, status: Status) -> Option<Command> {
         if let Some(why) = self.abort.take() {
             self.events.push(Event::Aborted(why));
-            return self.recover(p, Outcome::Aborted);
+            return match self.deserted.take() {
+                Some(outcome) => self.over(p, outcome),
+                None => self.recover(p, Outcome::Aborted),
+            };
         }
         if status == Status::Ended {
             return self.over(p, Outcome::Completed);
         }
-        Some(self.give_command(p))
+        self.command_if_ours(p)
     }
 
-    /// Leaves all that is inside the mission and begins the recovery; without one the mission is over.
+    /// Leaves all that is inside the mission and begins the recovery; without one the mission is over, and so is that of a
+    /// guest while its vehicle runs its own plan.
     fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         self.abort = None;
+        let wish = self.state.wish;
         let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
         let (id, base) = (p.mission.activity, p.mission.base);
         let at = base + p.activities[id as usize].header;
         if self.get(at + header::STATE) == header::ACTIVE {
             self.leave_inside(p, cause);
         }
-        let Some(recovery) = p.mission.recovery else { return self.over(p, outcome) };
+        let Some(recovery) = p.mission.recovery.filter(|_| wish == Wish::Drive) else { return self.over(p, outcome) };
+        self.state.wish = wish;
         self.state.phase = Phase::Recovering(outcome, self.state.tick);
         self.enter(p, recovery.activity, base, Some(at + header::SETPOINTS));
-        Some(self.give_command(p))
+        self.command_if_ours(p)
     }
 
     /// Leaves what the mission's body has entered; the mission itself and its overlays stay for the recovery.

@@ -18,6 +18,8 @@ pub struct State {
     pub phase: Phase,
     /// What was asked last, before amendments and limits.
     pub(crate) asked: Asked,
+    /// What we want of the vehicle.
+    pub(crate) wish: Wish,
     /// What was commanded last.
     pub command: Option<Command>,
     /// The course behind the command filter.
@@ -53,6 +55,17 @@ pub enum Phase {
     Recovering(Outcome, u64),
     /// Ended.
     Over(Outcome),
+}
+
+/// What a mission wants of its vehicle. All but guests drive from their start (rule 18).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Wish {
+    /// That it runs its own plan: nothing is sent.
+    Listen,
+    /// To drive: an override waits for the answer.
+    Ask,
+    /// To go on driving.
+    Drive,
 }
 
 /// What a statement asks for.
@@ -101,6 +114,8 @@ pub(crate) struct Run {
     pub in_overlay: bool,
     /// Why the mission is aborted, when it is.
     pub abort: Option<String>,
+    /// The outcome of that, where it is another than that the script aborted it.
+    pub deserted: Option<Outcome>,
     pub senses: Senses,
     pub trig: Trig,
 }
@@ -116,6 +131,7 @@ pub(crate) struct Senses {
     pub flow: Option<Slot>,
     pub depth: Option<Slot>,
     pub water_depth: Option<Slot>,
+    pub control: Option<Slot>,
 }
 
 impl Run {

@@ -69,6 +69,8 @@ pub enum ActivityKind {
     Mission,
     /// The mission's recovery.
     Recovery,
+    /// A block in which a guest drives its vehicle.
+    Override,
 }
 
 /// Something that can be active.

@@ -17,7 +17,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 3;
+pub const PROGRAM_VERSION: u32 = 4;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -71,6 +71,8 @@ pub struct Mission {
     pub requires: Vec<Require>,
     /// What runs once after a time-out or an abort.
     pub recovery: Option<Recovery>,
+    /// Whether it is a guest of its vehicle, which it drives in its overrides alone; otherwise from its start.
+    pub guest: bool,
 }
 
 /// A piece of code that leaves a value in a slot.

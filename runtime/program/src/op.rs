@@ -430,6 +430,27 @@ pub enum Op {
         call: u32,
         cause: Cause,
     },
+    /// Asks the vehicle to let us drive, or waits until it offers.
+    Ask {
+        offered: bool,
+    },
+    /// Whether the vehicle lets us drive now, and whether it has said that it will not.
+    Answer {
+        ours: Slot,
+        refused: Slot,
+        offered: bool,
+    },
+    /// The vehicle is ours: from here on commands are sent.
+    Take,
+    /// Whether the vehicle that was ours does not listen for a while, and whether it is ours no longer.
+    Driven {
+        suspended: Slot,
+        lost: Slot,
+    },
+    /// The run ends if an override that nobody reads ended otherwise than by itself: its end, as [`OverrideEnd`] numbers them.
+    Desert {
+        end: Slot,
+    },
     /// Puts an overlay on.
     PutOn {
         overlay: u32,
@@ -488,6 +509,34 @@ pub enum Guide {
     Loiter,
 }
 
+/// How an override ended; in code its number, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum OverrideEnd {
+    /// Its block came to its end, or `for` or `until` ended it.
+    Completed,
+    /// The vehicle would not let us drive.
+    Refused,
+    /// The vehicle did not answer in time.
+    NoAnswer,
+    /// The vehicle took control back.
+    TakenBack,
+    /// `within` cut it off.
+    TimedOut,
+}
+
+impl OverrideEnd {
+    /// Its number in code.
+    pub fn number(self) -> f64 {
+        f64::from(self as u8)
+    }
+
+    /// The end of a number; what is none counts as its own.
+    pub fn from_number(number: f64) -> Self {
+        let ends = [Self::Completed, Self::Refused, Self::NoAnswer, Self::TakenBack, Self::TimedOut];
+        ends.into_iter().find(|end| end.number() == number).unwrap_or(Self::Completed)
+    }
+}
+
 /// A channel of the command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "each variant is the channel of its name")]
@@ -512,4 +561,10 @@ pub enum Cause {
     Preempted,
     /// The mission was aborted.
     Aborted,
+    /// Of an override: the vehicle would not let us drive.
+    Refused,
+    /// Of an override: the vehicle did not answer in time.
+    NoAnswer,
+    /// Of an override: the vehicle took control back.
+    TakenBack,
 }

@@ -17,6 +17,7 @@ mod world;
 
 pub use albacore_diagram as diagram;
 pub use albacore_lang::Script;
+pub use albacore_lang::cost::Cost;
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::source::{FileId, Source, Sources, Span};
 pub use albacore_link::recon::{HostClock, Rows};

@@ -444,7 +444,9 @@ impl Prompt {
 }
 
 fn vehicle(scenario: &Scenario, seed: u64) -> Result<Simulator, OpenError> {
-    Simulator::new(scenario, seed)
+    // At the prompt the vehicle is the person's from the first moment on.
+    let scenario = Scenario { handover: None, ..scenario.clone() };
+    Simulator::new(&scenario, seed)
         .map_err(|error| OpenError::Asked("the scenario cannot be".into(), Some(error.faults.join("; "))))
 }
 

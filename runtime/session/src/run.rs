@@ -6,12 +6,12 @@ use crate::picture;
 use crate::plan::{Plan, PlanError};
 use crate::summary::{Report, Summary};
 use albacore_geometry::{Area, Heading, Point, Vector};
-use albacore_machine::{Event, Machine, Outcome};
+use albacore_machine::{Event, Machine, Outcome, Wish};
 use albacore_program::{AREA_WORDS, PROGRAM_VERSION, Shape};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Closing, JournalHeader};
-use albacore_trace::{BehaviorTrace, Depths, Digest, Header, Picture};
-use albacore_vehicle::{Snapshot, TICK_S, Vehicle, Vertical};
+use albacore_trace::{BehaviorTrace, Depths, Digest, Header, Picture, Release};
+use albacore_vehicle::{Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 use std::io;
 use std::sync::Arc;
 
@@ -43,6 +43,7 @@ pub struct Run {
     picture: picture::Sketch,
     /// Where the vehicle was first, for the picture.
     start: Option<Point>,
+    /// Whether the vehicle has been asked to let us drive, and not been given back since.
     asked_for_control: bool,
     notices: Vec<String>,
     release_failed: bool,
@@ -214,14 +215,12 @@ impl Run {
         if let Err(error) = self.vehicle.port().sense(&mut self.snapshot) {
             return self.end(Outcome::Failed, &error.to_string());
         }
-        if !self.asked_for_control {
-            self.asked_for_control = true;
-            if let Err(error) = self.vehicle.port().take_over() {
-                return self.end(Outcome::Failed, &error.to_string());
-            }
+        if let Err(error) = self.follow_wish() {
+            return self.end(Outcome::Failed, &error.to_string());
         }
         let command = self.machine.step(&self.snapshot);
         let sent = command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
+        let sent = sent.and_then(|()| self.follow_wish());
         let events = self.machine.events().to_vec();
         self.hear(tick);
         if self.deepest.is_none() && !self.plan.scenario.bottom.is_level() {
@@ -237,6 +236,17 @@ impl Run {
             Some(outcome) => self.finish(outcome, Vec::new()),
             None => Running::On,
         }
+    }
+
+    /// Asks for control when the mission wants it, and gives it back when a guest's override has ended. At the end of the
+    /// mission comes the release.
+    fn follow_wish(&mut self) -> Result<(), VehicleError> {
+        let wants = self.machine.wish() != Wish::Listen;
+        if wants == self.asked_for_control || self.machine.outcome().is_some() {
+            return Ok(());
+        }
+        self.asked_for_control = wants;
+        if wants { self.vehicle.port().take_over() } else { self.vehicle.port().give_back() }
     }
 
     /// Runs to the end.
@@ -272,12 +282,17 @@ impl Run {
         }
         let released = self.vehicle.port().release();
         self.hear(self.tick());
-        if let Err(error) = &released {
-            self.notices.push(error.to_string());
-            self.release_failed = true;
-        }
+        let release = match released {
+            Err(error) => {
+                self.notices.push(error.to_string());
+                self.release_failed = true;
+                Release::Failed
+            }
+            Ok(()) if self.plan.program.mission.guest && !self.asked_for_control => Release::NotOurs,
+            Ok(()) => Release::Done,
+        };
         let ticks = self.tick();
-        self.trace.finish(outcome, released.is_ok(), ticks, &self.digest);
+        self.trace.finish(outcome, release, ticks, &self.digest);
         let (reason, digest) = (&self.reason, self.digest.value());
         self.journal.close(|| Closing { outcome, reason: reason.clone(), ticks, events, digest });
         Running::Over(outcome)

@@ -1,13 +1,16 @@
 //! From what a scenario's script says to the simulator's own plain numbers.
 
 use albacore_geometry::{Area, Heading, Point, Vector};
+use albacore_guidance::Rows;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue};
 use albacore_machine::Evaluation;
 use albacore_program::{AREA_CORNER_WORDS, Slot};
 use albacore_sim::{
-    Adcp, Bottom, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Pit, Plume, Scenario, Sounder, Source,
+    Adcp, Bottom, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume, Scenario,
+    Sounder, Source,
 };
+use albacore_vehicle::Vertical;
 
 /// A clause of a scenario with its numbers computed.
 struct Clause<'a> {
@@ -102,6 +105,28 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
                 endurance: model.number("endurance")?,
                 ..KinematicVehicle::default()
             };
+        }
+        "rows" => {
+            let depth = c.number("depth")?;
+            let vertical = if depth > 0.0 { Vertical::Depth(depth) } else { Vertical::Altitude(c.number("altitude")?) };
+            let rows = Rows {
+                length: c.number("length")?,
+                spacing: c.number("spacing")?,
+                count: c.number("count")? as u32,
+                speed: c.number("speed")?,
+            };
+            scenario.own_mission = Some(OwnMission { rows, vertical });
+        }
+        "handover" => {
+            scenario.handover = Some(Handover {
+                after: c.number("after")?,
+                refuses: c.number("refuses")? != 0.0,
+                silent: c.number("silent")? != 0.0,
+                suspends: c.number("suspends")?,
+                lasting: c.number("lasting")?,
+                takes_back: c.number("takes_back")?,
+                offers: c.number("offers")?,
+            });
         }
         "navigation" => {
             let mut navigation = Navigation { walk: 0.0, lbl: None };

@@ -44,17 +44,20 @@ impl World {
         Ok(World { name: lowered.name, scenario, frame: TangentFrame { origin } })
     }
 
-    /// The vehicle in it, with rows to swim: the first from where it starts and along its heading, at the depth at which it
+    /// The vehicle in it, with rows to swim, else those of the scenario: the first from where it starts and along its heading, at the depth at which it
     /// starts, or near the bottom if that is the surface.
-    pub fn far_end(&self, seed: u64, rows: Rows) -> Result<FarEnd, PlanError> {
+    pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
         let simulator = Simulator::new(&self.scenario, seed).map_err(|error| {
             PlanError::Asked(format!("the scenario `{}` cannot be", self.name), Some(error.faults.join("; ")))
         })?;
         let vehicle = &self.scenario.vehicle;
-        let vertical = match vehicle.depth {
-            depth if depth > 0.0 => Vertical::Depth(depth),
+        let own = self.scenario.own_mission;
+        let vertical = match (own, vehicle.depth) {
+            (Some(own), _) => own.vertical,
+            (None, depth) if depth > 0.0 => Vertical::Depth(depth),
             _ => Vertical::Altitude(ROWS_ALTITUDE),
         };
+        let rows = rows.or(own.map(|own| own.rows)).unwrap_or_default();
         let start = simulator.truth().position;
         Ok(FrontSeat::new(simulator, self.frame, rows, (start, vehicle.heading), vertical))
     }

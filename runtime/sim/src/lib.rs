@@ -5,6 +5,7 @@
 //! the same bits in debug and release: every random number is a pure function of seed, stream and index ([`Noise`]).
 
 mod bottom;
+mod computer;
 mod deepest;
 mod kinematics;
 mod noise;
@@ -21,8 +22,8 @@ mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, KinematicVehicle, Lbl, Meander, Navigation, Pit, Plume, Scenario, Sounder, Source,
-    UpperFlow,
+    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
+    Scenario, Sounder, Source, UpperFlow,
 };
 pub use simulator::{Simulator, Truth};
 pub use validate::ScenarioError;

@@ -2,6 +2,8 @@
 
 use albacore_geometry::math::PI;
 use albacore_geometry::{Area, Heading, Point, Vector};
+use albacore_guidance::Rows;
+use albacore_vehicle::Vertical;
 use serde::{Deserialize, Serialize};
 
 /// The world of a simulated run. SI units and radians throughout; points in the mission's tangent frame.
@@ -22,6 +24,10 @@ pub struct Scenario {
     pub sources: Vec<Source>,
     /// The vehicle.
     pub vehicle: KinematicVehicle,
+    /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
+    pub own_mission: Option<OwnMission>,
+    /// How it answers who asks to drive; none: it gives way at once.
+    pub handover: Option<Handover>,
     /// How the vehicle knows its position; none: perfectly.
     pub navigation: Option<Navigation>,
     /// The chemical sensor.
@@ -196,6 +202,35 @@ impl Default for Source {
             reference_age: 8752.0,
         }
     }
+}
+
+/// A vehicle's own mission: rows from where it starts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OwnMission {
+    /// The rows: the first begins at the start and runs along the vehicle's heading there.
+    pub rows: Rows,
+    /// What it holds on them.
+    pub vertical: Vertical,
+}
+
+/// How a vehicle's own computer answers who asks to drive it. Times are seconds since tick 0; 0 is never.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Handover {
+    /// How long it takes to give way, s.
+    pub after: f64,
+    /// Whether it refuses.
+    pub refuses: bool,
+    /// Whether it never answers.
+    pub silent: bool,
+    /// When it stops listening for a while, and for how long.
+    pub suspends: f64,
+    /// For so long.
+    pub lasting: f64,
+    /// When it takes control back from who drives by then.
+    pub takes_back: f64,
+    /// From when on it offers to be driven.
+    pub offers: f64,
 }
 
 /// A vehicle that follows its commands at once but for limits on its rates: no forces.

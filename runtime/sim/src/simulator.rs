@@ -1,5 +1,6 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
+use crate::computer::{Computer, Known, seconds};
 use crate::kinematics::Kinematics;
 use crate::scenario::Scenario;
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
@@ -7,12 +8,14 @@ use crate::validate::ScenarioError;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH,
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks between battery readings.
 const BATTERY_TICKS: u64 = 100;
+/// Ticks between what the vehicle tells of its own mission.
+const MODE_TICKS: u64 = 10;
 /// The profiler measures this far above the vehicle, m: the middle of its bin of 0.75 to 1.25 m (the 2005 paper, App. B).
 const PROFILER_BIN_M: f64 = 1.0;
 /// A sample this near a tick, in ticks, is taken on it.
@@ -53,6 +56,9 @@ pub struct Simulator {
     fluorometer: Fluorometer,
     sounder: EchoSounder,
     endurance: f64,
+    computer: Computer,
+    /// The latest estimate of the current, for the computer.
+    flow: Vector,
     control: Control,
     command: Option<Command>,
     truth: Truth,
@@ -79,6 +85,13 @@ impl Simulator {
             fluorometer: Fluorometer::new(&scenario.fluorometer, seed),
             sounder: EchoSounder::new(&scenario.sounder, seed),
             endurance: vehicle.endurance,
+            computer: Computer::new(
+                scenario.own_mission.as_ref(),
+                scenario.handover.as_ref(),
+                (start, vehicle.heading),
+                vehicle.speed_max,
+            ),
+            flow: Vector::ZERO,
             control: Control::Disconnected,
             command: None,
             truth: Truth::default(),
@@ -119,10 +132,21 @@ impl Simulator {
     fn advance(&mut self, tick: u64) {
         self.world.advance_to(tick);
         let flow = self.world.flow(self.vehicle.position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
-        let command = if self.control == Control::InControl { self.command.as_ref() } else { None };
+        let command = match self.control {
+            Control::InControl => self.command,
+            // A fix, or a fault: it stays where it is.
+            Control::Suspended => None,
+            _ => self.computer.steer(self.known()),
+        };
         self.intake = self.intake_now();
-        self.vehicle.step(tick, command, flow, |p| self.world.water_depth(p));
+        self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
         self.positioning.step(tick, self.vehicle.ground_velocity, self.vehicle.position);
+    }
+
+    /// What the vehicle's computer knows.
+    fn known(&self) -> Known {
+        let (position, _) = self.positioning.belief(self.truth.position);
+        Known { position, course: self.truth.course, heading: self.truth.heading, flow: self.flow }
     }
 
     /// Notes what is so now.
@@ -185,12 +209,18 @@ impl Simulator {
             altitude: truth.altitude,
         };
         if let Some(flow) = self.profiler.measure(tick, &view) {
+            self.flow = flow;
             snapshot.push(FLOW, &[flow.north, flow.east]);
         }
         self.sample_chemical(tick, snapshot);
         if tick.is_multiple_of(BATTERY_TICKS) {
             let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
             snapshot.push(BATTERY, &[charge]);
+        }
+        if tick.is_multiple_of(MODE_TICKS)
+            && let Some(mode) = self.computer.mode(self.control)
+        {
+            snapshot.push(VEHICLE_MODE, &[mode]);
         }
     }
 }
@@ -207,8 +237,8 @@ impl Vehicle for Simulator {
         }
         self.tick = Some(tick);
         self.observe();
-        if self.control == Control::Disconnected {
-            self.control = Control::Monitoring;
+        if self.control != Control::Released {
+            self.control = self.computer.answer(seconds(tick), self.known().position);
         }
         snapshot.samples.clear();
         snapshot.control = self.control;
@@ -217,7 +247,7 @@ impl Vehicle for Simulator {
     }
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
-        self.control = Control::InControl;
+        self.control = self.computer.ask(self.time_s(), self.known().position);
         self.command = None;
         Ok(())
     }
@@ -234,7 +264,15 @@ impl Vehicle for Simulator {
         Ok(())
     }
 
+    fn give_back(&mut self) -> Result<(), VehicleError> {
+        self.computer.take_back(self.known().position);
+        self.control = Control::Monitoring;
+        self.command = None;
+        Ok(())
+    }
+
     fn release(&mut self) -> Result<(), VehicleError> {
+        self.computer.take_back(self.known().position);
         self.control = Control::Released;
         self.command = None;
         Ok(())

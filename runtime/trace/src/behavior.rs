@@ -34,6 +34,17 @@ enum Kind {
     Digest,
 }
 
+/// How a run gave its vehicle back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Release {
+    /// It did.
+    Done,
+    /// The vehicle could not be told.
+    Failed,
+    /// There was nothing to give back: a guest that did not drive.
+    NotOurs,
+}
+
 /// The trace of one run, as it grows.
 #[derive(Clone, Debug)]
 pub struct BehaviorTrace {
@@ -115,13 +126,18 @@ impl BehaviorTrace {
 
     /// Ends the trace: with the outcome, unless an event has told it, whether the vehicle was given back, the length of the
     /// run, and the digest of all of it.
-    pub fn finish(&mut self, outcome: Outcome, released: bool, ticks: u64, digest: &crate::Digest) {
+    pub fn finish(&mut self, outcome: Outcome, release: Release, ticks: u64, digest: &crate::Digest) {
         if self.ended != Some(outcome) {
             self.say(Kind::Event, ticks, "end", outcome.name());
             self.last_event = ticks;
         }
-        let control = if released { "released" } else { "not released: the vehicle could not be told" };
-        self.say(Kind::Event, self.last_event, "control", control);
+        match release {
+            Release::Done => self.say(Kind::Event, self.last_event, "control", "released"),
+            Release::Failed => {
+                self.say(Kind::Event, self.last_event, "control", "not released: the vehicle could not be told");
+            }
+            Release::NotOurs => {}
+        }
         self.lines.push((Kind::Digest, format!("digest {digest}  {ticks} ticks")));
     }
 

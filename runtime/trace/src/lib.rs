@@ -12,7 +12,7 @@ mod picture;
 mod wording;
 mod words;
 
-pub use behavior::{BehaviorTrace, Header};
+pub use behavior::{BehaviorTrace, Header, Release};
 pub use compare::{Difference, first_difference, same_behavior};
 pub use digest::Digest;
 pub use picture::{Depths, Picture};

@@ -25,6 +25,9 @@ pub fn cause_name(cause: Cause) -> &'static str {
         Cause::TimedOut => "timed out",
         Cause::Preempted => "pre-empted",
         Cause::Aborted => "aborted",
+        Cause::Refused => "refused",
+        Cause::NoAnswer => "no answer",
+        Cause::TakenBack => "taken back",
     }
 }
 
@@ -42,6 +45,7 @@ pub fn control_name(control: Control) -> &'static str {
     match control {
         Control::Disconnected => "disconnected",
         Control::Monitoring => "monitoring",
+        Control::Offered => "offered",
         Control::Requesting => "requesting",
         Control::InControl => "in control",
         Control::Released => "released",

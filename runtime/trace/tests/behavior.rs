@@ -3,7 +3,7 @@
 use albacore_geometry::{Heading, Point};
 use albacore_machine::{Event, Outcome};
 use albacore_program::*;
-use albacore_trace::{BehaviorTrace, Digest, Header, first_difference, same_behavior};
+use albacore_trace::{BehaviorTrace, Digest, Header, Release, first_difference, same_behavior};
 use albacore_vehicle::Control;
 
 const MISSION: u32 = 0;
@@ -132,7 +132,7 @@ fn run(program: &Program, shift: f64) -> BehaviorTrace {
         trace.tick(tick, position, &events);
         trace.sample(tick, position, heading, Some(2.0));
     }
-    trace.finish(Outcome::Completed, true, 9600, &Digest::new());
+    trace.finish(Outcome::Completed, Release::Done, 9600, &Digest::new());
     trace
 }
 
@@ -234,7 +234,7 @@ fn logs_and_memories_are_no_behavior() {
 #[test]
 fn the_end_is_told_once_and_always() {
     let mut trace = BehaviorTrace::new(&program(47), &header());
-    trace.finish(Outcome::LinkLost, false, 77, &Digest::new());
+    trace.finish(Outcome::LinkLost, Release::Failed, 77, &Digest::new());
     let not_released = "    7.7 s  control  not released: the vehicle could not be told\n";
     assert_eq!(trace.switches(), format!("    7.7 s  end      link_lost\n{not_released}"));
     assert_eq!(run(&program(47), 0.0).to_string().matches("completed").count(), 1);

@@ -4,17 +4,18 @@
 use crate::Channel;
 
 /// What is measured, in the order of the channel numbers: name, and how many numbers.
-const CHANNELS: [(&str, usize); 10] = [
-    ("position", 3),    // m north, m east, standard deviation in m an axis
-    ("course", 1),      // rad over ground
-    ("heading", 1),     // rad
-    ("speed", 1),       // m/s over ground
-    ("depth", 1),       // m
-    ("altitude", 1),    // m above the bottom
-    ("water_depth", 1), // m
-    ("flow", 2),        // m/s toward north and east
-    ("chemical", 1),    // ratio of full scale
-    ("battery", 1),     // ratio
+const CHANNELS: [(&str, usize); 11] = [
+    ("position", 3),     // m north, m east, standard deviation in m an axis
+    ("course", 1),       // rad over ground
+    ("heading", 1),      // rad
+    ("speed", 1),        // m/s over ground
+    ("depth", 1),        // m
+    ("altitude", 1),     // m above the bottom
+    ("water_depth", 1),  // m
+    ("flow", 2),         // m/s toward north and east
+    ("chemical", 1),     // ratio of full scale
+    ("battery", 1),      // ratio
+    ("vehicle_mode", 1), // the place in the library's `enum VehicleMode`
 ];
 
 /// Where the vehicle believes to be.
@@ -37,6 +38,8 @@ pub const FLOW: u16 = 7;
 pub const CHEMICAL: u16 = 8;
 /// What is left in the battery.
 pub const BATTERY: u16 = 9;
+/// What the vehicle's own mission is about.
+pub const VEHICLE_MODE: u16 = 10;
 
 /// All of them.
 pub fn all() -> Vec<Channel> {

@@ -40,11 +40,13 @@ pub enum Control {
     Disconnected,
     /// The vehicle drives itself; we listen.
     Monitoring,
+    /// The vehicle hands over of its own accord, and waits for us to take it.
+    Offered,
     /// We have asked to drive.
     Requesting,
     /// We drive.
     InControl,
-    /// We have given the vehicle back.
+    /// We have given the vehicle back, or it has taken itself back.
     Released,
     /// The vehicle would not let us drive.
     Refused,
@@ -113,13 +115,17 @@ pub trait Vehicle {
     /// Lets one tick go by and gives what was sensed in it. The first call gives the state at tick 0.
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError>;
 
-    /// Asks for control; [`Snapshot::control`] tells how that went.
+    /// Asks for control; [`Snapshot::control`] tells how that went. A guest may do so again after it has given
+    /// control back.
     fn take_over(&mut self) -> Result<(), VehicleError>;
 
     /// Gives a command, in force until the next.
     fn command(&mut self, command: &Command) -> Result<(), VehicleError>;
 
-    /// Gives control back. Always the last act.
+    /// An override has ended: the vehicle is to drive itself again, and we listen on. It may be asked again.
+    fn give_back(&mut self) -> Result<(), VehicleError>;
+
+    /// Gives control back. Always the last act of a mission.
     fn release(&mut self) -> Result<(), VehicleError>;
 
     /// What a person should hear of the link since they were last told. No mission can read it.

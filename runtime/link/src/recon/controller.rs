@@ -10,7 +10,7 @@ use super::vehicle_time::{Stamp, VehicleTime};
 use albacore_geometry::math::{atan2, radians};
 use albacore_geometry::{Heading, TangentFrame, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH,
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
 use std::collections::VecDeque;
@@ -55,7 +55,11 @@ const VERTICAL_GOAL: usize = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Want {
     Listen,
-    Drive { since: u64 },
+    Drive {
+        since: u64,
+    },
+    /// To listen, once the vehicle says that it drives itself.
+    GiveBack,
     Leave,
 }
 
@@ -284,6 +288,7 @@ impl Controller {
             self.gather(ALTITUDE, &[altitude]);
             self.gather(WATER_DEPTH, &[state.depth + altitude]);
         }
+        self.gather(VEHICLE_MODE, &[f64::from(state.mode.0 & 0x03)]);
         let samples = std::mem::take(&mut self.gathered);
         if self.heard.len() == WAITING_MAX {
             self.heard.pop_front();
@@ -353,6 +358,7 @@ impl Controller {
         snapshot.control = self.control;
         match (self.want, self.control) {
             (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
+            (Want::GiveBack, _) => self.say(&ToVehicle::Override(false)),
             // The mission stands still, or has not begun: it commands nothing.
             (Want::Drive { .. }, Control::InControl | Control::Suspended) if tick - self.spoke >= KEEP_ALIVE_TICKS => {
                 self.hello();
@@ -369,7 +375,16 @@ impl Controller {
         let mode = self.mode;
         let active = mode.has(Mode::ACTIVE);
         let driven = matches!(self.control, Control::InControl | Control::Suspended);
-        let Want::Drive { since } = self.want else { return Control::Monitoring };
+        let since = match self.want {
+            Want::Drive { since } => since,
+            // In override although we have not asked: it hands over of its own accord, or to another.
+            Want::Listen if active && mode.phase() == Phase::InMission => return Control::Offered,
+            Want::GiveBack if !active && !mode.has(Mode::ENABLED) => {
+                self.want = Want::Listen;
+                return Control::Monitoring;
+            }
+            Want::Listen | Want::GiveBack | Want::Leave => return Control::Monitoring,
+        };
         let suspended = mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over;
         if driven && !suspended && !(active && mode.phase() == Phase::InMission) {
             self.left += 1;
@@ -409,9 +424,19 @@ impl Controller {
 
     /// Asks for control; the following ticks tell how that goes.
     pub fn take_over(&mut self) {
-        if self.want == Want::Listen {
+        if matches!(self.want, Want::Listen | Want::GiveBack) {
             self.want = Want::Drive { since: self.next_tick };
             self.say(&ToVehicle::Override(true));
+        }
+    }
+
+    /// Gives control back and listens on; the following ticks say so again until the vehicle drives itself.
+    pub fn give_back(&mut self) {
+        if let Want::Drive { .. } = self.want {
+            self.want = Want::GiveBack;
+            self.control = Control::Monitoring;
+            self.left = 0;
+            self.say(&ToVehicle::Override(false));
         }
     }
 
@@ -460,7 +485,7 @@ impl Controller {
         match self.want {
             Want::Listen => return true,
             // What was heard before we asked is no answer.
-            Want::Drive { .. } => self.want = Want::Leave,
+            Want::Drive { .. } | Want::GiveBack => self.want = Want::Leave,
             Want::Leave => {
                 if heard.is_some_and(|mode| !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)) {
                     self.control = Control::Released;

@@ -8,11 +8,10 @@ use super::fields::DAY_MS;
 use super::frame::{Deframer, seal};
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
-use super::rows::{RowMission, Rows};
 use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
-use albacore_guidance::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
-use albacore_guidance::{Goto, through_water, turning_radius};
+use albacore_guidance::parameters::TURN_RATE_MAX;
+use albacore_guidance::{Milestone, OwnPlan, Rows, through_water};
 use albacore_vehicle::{Command, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 use std::fmt;
 
@@ -41,18 +40,14 @@ const NOT_SERVED: u32 = 3;
 /// What happened, for who watches.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Happening {
-    /// A row begins, of so many.
-    Row(u32, u32),
+    /// A step in the life of the vehicle's own plan.
+    Plan(Milestone),
     /// A guest drives; from where, and on which row.
     Taken(Point, u32),
     /// The guest has given control back.
     Released,
     /// The guest is silent.
     TimedOut,
-    /// The vehicle is back where the guest took over, and goes on with a row.
-    Resumed(Point, u32),
-    /// The rows are done.
-    Over,
     /// Something that was asked for is not done, and why.
     Refused(String, &'static str),
 }
@@ -61,7 +56,7 @@ impl fmt::Display for Happening {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let seconds = TIMEOUT_TICKS as f64 * TICK_S;
         match self {
-            Happening::Row(row, of) => write!(f, "row {row} of {of}"),
+            Happening::Plan(Milestone::Row(row, of)) => write!(f, "row {row} of {of}"),
             Happening::Taken(at, row) => {
                 write!(f, "override taken at ({:.1}, {:.1}) m, on row {row}", at.north, at.east)
             }
@@ -69,21 +64,13 @@ impl fmt::Display for Happening {
             Happening::TimedOut => {
                 write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
             }
-            Happening::Resumed(at, row) => {
+            Happening::Plan(Milestone::Resumed(at, row)) => {
                 write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes row {row}", at.north, at.east)
             }
-            Happening::Over => f.write_str("the rows are done: mission over"),
+            Happening::Plan(Milestone::Over) => f.write_str("the rows are done: mission over"),
             Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
         }
     }
-}
-
-/// Who steers, and where to.
-enum Drive {
-    Rows,
-    Override(Goals),
-    Return(Goto),
-    Over,
 }
 
 /// What a guest has asked for; it holds until something else is asked for.
@@ -114,13 +101,11 @@ struct Senses {
 pub struct FrontSeat<V> {
     vehicle: V,
     frame: TangentFrame,
-    rows: RowMission,
+    plan: OwnPlan,
     /// What it holds on its rows.
     vertical: Vertical,
-    drive: Drive,
-    /// Where a guest took over, until the vehicle is back there.
-    break_off: Option<Point>,
-    to_closest_point: bool,
+    /// What the guest wants who drives; none while the vehicle follows its own plan.
+    goals: Option<Goals>,
     deframer: Deframer,
     heard: Vec<ToVehicle>,
     silent: u64,
@@ -138,16 +123,14 @@ pub struct FrontSeat<V> {
 impl<V: Vehicle> FrontSeat<V> {
     /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its rows.
     pub fn new(vehicle: V, frame: TangentFrame, rows: Rows, start: (Point, Heading), vertical: Vertical) -> Self {
-        let rows = RowMission::new(rows, start.0, start.1);
-        let happenings = vec![Happening::Row(1, rows.count())];
+        let plan = OwnPlan::new(rows, start.0, start.1);
+        let happenings = vec![Happening::Plan(Milestone::Row(1, plan.rows()))];
         FrontSeat {
             vehicle,
             frame,
-            rows,
+            plan,
             vertical,
-            drive: Drive::Rows,
-            break_off: None,
-            to_closest_point: false,
+            goals: None,
             deframer: Deframer::default(),
             heard: Vec::new(),
             silent: 0,
@@ -189,7 +172,7 @@ impl<V: Vehicle> FrontSeat<V> {
 
     /// Whether a guest drives.
     pub fn is_driven(&self) -> bool {
-        matches!(self.drive, Drive::Override(_))
+        self.goals.is_some()
     }
 
     /// Whether a guest drives and has not been heard for a second. Who lets the vehicle's time run faster than real time
@@ -207,10 +190,8 @@ impl<V: Vehicle> FrontSeat<V> {
         self.tell_samples();
         self.hear(bytes);
         let command = self.steer();
-        if let Some(command) = &command {
-            self.vehicle.command(command)?;
-        }
-        self.command = command;
+        self.vehicle.command(&command)?;
+        self.command = Some(command);
         self.tell_state();
         self.tick += 1;
         Ok(())
@@ -241,7 +222,7 @@ impl<V: Vehicle> FrontSeat<V> {
                     self.go_back();
                 }
             }
-            ToVehicle::ClosestPoint(closest) => self.to_closest_point = *closest,
+            ToVehicle::ClosestPoint(closest) => self.plan.return_to_closest_point(*closest),
             ToVehicle::VersionRequest => self.say(&FromVehicle::Version("albacore front seat".into())),
             ToVehicle::Query(_) | ToVehicle::KeepAlive(_) | ToVehicle::Other(_) => {}
             command => self.set_goal(command),
@@ -249,19 +230,16 @@ impl<V: Vehicle> FrontSeat<V> {
     }
 
     fn give_over(&mut self) {
-        match self.drive {
-            Drive::Override(_) | Drive::Over => return,
-            // Asked again on its way back, the vehicle still knows where its own mission waits.
-            Drive::Return(_) => {}
-            Drive::Rows => self.break_off = Some(self.senses.position),
+        if !self.plan.leave(self.senses.position) {
+            return;
         }
-        self.happenings.push(Happening::Taken(self.senses.position, self.rows.number()));
-        let (heading, speed) = (self.senses.heading, self.rows.speed());
-        self.drive = Drive::Override(Goals { heading, rate: 0.0, speed, vertical: self.vertical });
+        self.happenings.push(Happening::Taken(self.senses.position, self.plan.row()));
+        let (heading, speed) = (self.senses.heading, self.plan.speed());
+        self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.vertical });
     }
 
     fn set_goal(&mut self, command: &ToVehicle) {
-        let Drive::Override(goals) = &mut self.drive else {
+        let Some(goals) = &mut self.goals else {
             return self.refuse(command, NOT_IN_OVERRIDE, "override is not active");
         };
         let wanted = match command {
@@ -294,53 +272,30 @@ impl<V: Vehicle> FrontSeat<V> {
         self.refused = Some((why, self.tick));
     }
 
-    /// Back to where the guest took over, or to the closest point of the row.
     fn go_back(&mut self) {
-        let position = self.senses.position;
-        let goal = if self.to_closest_point { self.rows.closest(position) } else { self.break_off.unwrap_or(position) };
-        self.break_off = Some(goal);
-        self.drive = Drive::Return(Goto::new(goal, ARRIVAL_RADIUS, turning_radius(self.rows.speed(), TURN_RATE_MAX)));
+        self.goals = None;
+        self.plan.go_back(self.senses.position);
     }
 
     /// What to do in the coming tick.
-    fn steer(&mut self) -> Option<Command> {
-        let Senses { position, course, .. } = self.senses;
-        if let Drive::Return(goto) = &mut self.drive {
-            let guidance = goto.step(position, course);
-            if !guidance.arrived {
-                return Some(self.over_ground(guidance.course));
-            }
-            let from = self.break_off.take().unwrap_or(position);
-            self.rows.resume(from);
-            self.drive = Drive::Rows;
-            self.happenings.push(Happening::Resumed(from, self.rows.number()));
+    fn steer(&mut self) -> Command {
+        if let Some(goals) = &mut self.goals {
+            goals.heading = goals.heading + goals.rate * TICK_S;
+            return Command { heading: goals.heading, speed: goals.speed, vertical: goals.vertical };
         }
-        match &mut self.drive {
-            Drive::Override(goals) => {
-                goals.heading = goals.heading + goals.rate * TICK_S;
-                Some(Command { heading: goals.heading, speed: goals.speed, vertical: goals.vertical })
-            }
-            Drive::Rows => {
-                let before = self.rows.number();
-                let course = self.rows.step(position, course);
-                if self.rows.is_over() {
-                    self.drive = Drive::Over;
-                    self.happenings.push(Happening::Over);
-                } else if self.rows.number() != before {
-                    self.happenings.push(Happening::Row(self.rows.number(), self.rows.count()));
-                }
-                Some(self.over_ground(course))
-            }
+        let Senses { position, course, heading, .. } = self.senses;
+        let happenings = &mut self.happenings;
+        match self.plan.step(position, course, &mut |milestone| happenings.push(Happening::Plan(milestone))) {
+            Some(course) => self.over_ground(course),
             // It floats up and waits to be found.
-            Drive::Over => Some(Command { heading: self.senses.heading, speed: 0.0, vertical: Vertical::Depth(0.0) }),
-            Drive::Return(_) => None,
+            None => Command { heading, speed: 0.0, vertical: Vertical::Depth(0.0) },
         }
     }
 
     /// A course over ground at the rows' speed, through water that moves.
     fn over_ground(&self, course: Heading) -> Command {
         let flow = self.senses.flow.unwrap_or(Vector::ZERO);
-        let water = through_water(course, self.rows.speed(), flow, SPEED_MAX);
+        let water = through_water(course, self.plan.speed(), flow, SPEED_MAX);
         Command { heading: water.heading, speed: water.speed, vertical: self.vertical }
     }
 
@@ -390,11 +345,13 @@ impl<V: Vehicle> FrontSeat<V> {
     }
 
     fn mode(&self) -> Mode {
-        let closest = if self.to_closest_point { Mode::CLOSEST_POINT } else { 0 };
-        match self.drive {
-            Drive::Rows | Drive::Return(_) => Mode::new(Phase::InMission, closest),
-            Drive::Override(_) => Mode::new(Phase::InMission, closest | Mode::ENABLED | Mode::ACTIVE),
-            Drive::Over => Mode::new(Phase::Over, 0),
+        let closest = if self.plan.returns_to_closest_point() { Mode::CLOSEST_POINT } else { 0 };
+        if self.is_driven() {
+            Mode::new(Phase::InMission, closest | Mode::ENABLED | Mode::ACTIVE)
+        } else if self.plan.is_over() {
+            Mode::new(Phase::Over, 0)
+        } else {
+            Mode::new(Phase::InMission, closest)
         }
     }
 
@@ -422,7 +379,7 @@ impl<V: Vehicle> FrontSeat<V> {
             heading_rate: s.turn_rate,
             heading_goal: goal.map_or(s.heading, |c| c.heading),
             mode: self.mode(),
-            leg: Some(self.rows.number()),
+            leg: Some(self.plan.row()),
         }));
     }
 

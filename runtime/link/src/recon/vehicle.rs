@@ -132,7 +132,7 @@ impl Vehicle for ReconVehicle {
             return Ok(false);
         }
         match self.controller.control() {
-            Control::InControl | Control::Suspended => {
+            Control::InControl | Control::Suspended | Control::Monitoring | Control::Offered => {
                 self.controller.lose(format!(
                     "no state (`#S`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us \
                      leaves override by itself",
@@ -162,6 +162,11 @@ impl Vehicle for ReconVehicle {
             return Err(VehicleError("a command that is no finite number was not sent to the vehicle".into()));
         }
         self.controller.command(command);
+        self.send()
+    }
+
+    fn give_back(&mut self) -> Result<(), VehicleError> {
+        self.controller.give_back();
         self.send()
     }
 

@@ -1,12 +1,13 @@
 //! The vehicle's own mission: parallel rows, to and fro, as the 2003 paper's `Navigate Rows`.
 
+use crate::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
+use crate::{FollowLine, turning_radius};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Line, Point};
-use albacore_guidance::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
-use albacore_guidance::{FollowLine, turning_radius};
+use serde::{Deserialize, Serialize};
 
 /// Rows to swim: how long, how far apart and how many.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rows {
     /// Length of a row, m.
     pub length: f64,

@@ -1,0 +1,133 @@
+//! The computer in the vehicle's front seat: the plan that it follows by itself, and how it answers who asks to drive.
+
+use crate::scenario::{Handover, OwnMission};
+use albacore_geometry::{Heading, Point, Vector};
+use albacore_guidance::{OwnPlan, through_water};
+use albacore_vehicle::{Command, Control, TICK_S, Vertical};
+
+/// What the computer knows of its vehicle.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Known {
+    pub position: Point,
+    pub course: Heading,
+    pub heading: Heading,
+    /// The latest estimate of the current.
+    pub flow: Vector,
+}
+
+/// Who drives, as the computer sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Guest {
+    /// Nobody but itself.
+    None,
+    /// One has asked, this many seconds after tick 0.
+    Asks(f64),
+    /// One drives, since then.
+    Drives(f64),
+    /// One was sent away, with this answer.
+    Gone(Control),
+}
+
+/// The computer.
+#[derive(Clone, Debug)]
+pub(crate) struct Computer {
+    plan: Option<OwnPlan>,
+    vertical: Vertical,
+    speed_max: f64,
+    handover: Handover,
+    guest: Guest,
+}
+
+impl Computer {
+    /// One that follows a plan, if it has any, from where the vehicle starts.
+    pub fn new(
+        own: Option<&OwnMission>,
+        handover: Option<&Handover>,
+        start: (Point, Heading),
+        speed_max: f64,
+    ) -> Computer {
+        let plan = own.map(|own| OwnPlan::new(own.rows, start.0, start.1));
+        let vertical = own.map_or(Vertical::Depth(0.0), |own| own.vertical);
+        let handover = handover.cloned().unwrap_or_default();
+        Computer { plan, vertical, speed_max, handover, guest: Guest::None }
+    }
+
+    /// Somebody asks to drive; without a delay the computer gives way at once.
+    pub fn ask(&mut self, now: f64, position: Point) -> Control {
+        if !matches!(self.guest, Guest::Drives(_)) {
+            self.guest = Guest::Asks(now);
+        }
+        if self.handover == Handover::default() { self.answer(now, position) } else { Control::Requesting }
+    }
+
+    /// The guest gives the vehicle back.
+    pub fn take_back(&mut self, position: Point) {
+        self.guest = Guest::None;
+        if let Some(plan) = &mut self.plan {
+            plan.go_back(position);
+        }
+    }
+
+    /// Who drives now.
+    pub fn answer(&mut self, now: f64, position: Point) -> Control {
+        let h = &self.handover;
+        // A time that is not given is 0: that never comes.
+        let since = |at: f64, begun: f64| at > 0.0 && begun < at && now >= at;
+        match self.guest {
+            Guest::None if h.offers > 0.0 && now >= h.offers => Control::Offered,
+            Guest::None => Control::Monitoring,
+            Guest::Asks(_) if h.refuses || self.plan.as_ref().is_some_and(OwnPlan::is_over) => {
+                self.guest = Guest::Gone(Control::Refused);
+                Control::Refused
+            }
+            Guest::Asks(_) if h.silent => Control::Requesting,
+            Guest::Asks(begun) if now - begun < h.after => Control::Requesting,
+            Guest::Asks(_) => {
+                self.guest = Guest::Drives(now);
+                if let Some(plan) = &mut self.plan {
+                    plan.leave(position);
+                }
+                Control::InControl
+            }
+            Guest::Drives(begun) if since(h.takes_back, begun) => {
+                self.take_back(position);
+                self.guest = Guest::Gone(Control::Released);
+                Control::Released
+            }
+            Guest::Drives(_) if h.suspends > 0.0 && (h.suspends..h.suspends + h.lasting).contains(&now) => {
+                Control::Suspended
+            }
+            Guest::Drives(_) => Control::InControl,
+            Guest::Gone(answer) => answer,
+        }
+    }
+
+    /// What its own plan asks for in the coming tick; none without a plan.
+    pub fn steer(&mut self, known: Known) -> Option<Command> {
+        let plan = self.plan.as_mut()?;
+        let speed = plan.speed();
+        Some(match plan.step(known.position, known.course, &mut |_| {}) {
+            Some(course) => {
+                let water = through_water(course, speed, known.flow, self.speed_max);
+                Command { heading: water.heading, speed: water.speed, vertical: self.vertical }
+            }
+            // A plan that is done floats up and waits to be found.
+            None => Command { heading: known.heading, speed: 0.0, vertical: Vertical::Depth(0.0) },
+        })
+    }
+
+    /// What the plan is about, as the library's `enum VehicleMode` numbers it; none without a plan.
+    pub fn mode(&self, control: Control) -> Option<f64> {
+        let plan = self.plan.as_ref()?;
+        Some(match control {
+            Control::Suspended => 2.0,
+            _ if plan.is_over() => 3.0,
+            _ => 1.0,
+        })
+    }
+}
+
+/// Seconds after tick 0.
+pub(crate) fn seconds(tick: u64) -> f64 {
+    tick as f64 * TICK_S
+}
