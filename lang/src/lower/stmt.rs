@@ -150,18 +150,18 @@ impl<'a> Lowering<'a> {
             l.expr_into(first, counter);
             l.expr_into(last, end);
         });
+        let goes_on = |to| match inclusive {
+            true => (Op::JumpUnlessAtMost { a: counter, b: end, to }, Op::JumpIfAtMost { a: counter, b: end, to }),
+            false => (Op::JumpUnlessLess { a: counter, b: end, to }, Op::JumpIfLess { a: counter, b: end, to }),
+        };
+        let none = self.emit(goes_on(0).0);
         let top = self.here();
-        let done = self.emit(if inclusive {
-            Op::JumpUnlessAtMost { a: counter, b: end, to: 0 }
-        } else {
-            Op::JumpUnlessLess { a: counter, b: end, to: 0 }
-        });
         let to = self.frame.vars[var];
         self.copy(to, counter, 1);
         self.body(body);
         self.count_up(counter);
-        self.emit(Op::Jump { to: top });
-        self.land(done);
+        self.emit(goes_on(top).1);
+        self.land(none);
     }
 
     fn count_up(&mut self, counter: Slot) {
@@ -225,14 +225,14 @@ impl<'a> Lowering<'a> {
         let area = self.walked_area(area);
         let counter = self.lasting(1);
         self.emit(Op::Const { to: counter, value: 0.0 });
+        let none = self.emit(Op::JumpUnlessLess { a: counter, b: area, to: 0 });
         let top = self.here();
-        let done = self.emit(Op::JumpUnlessLess { a: counter, b: area, to: 0 });
         let to = self.frame.vars[var];
         self.emit(Op::EdgeAt { to, area, index: counter });
         self.body(body);
         self.count_up(counter);
-        self.emit(Op::Jump { to: top });
-        self.land(done);
+        self.emit(Op::JumpIfLess { a: counter, b: area, to: top });
+        self.land(none);
     }
 
     /// Puts setpoints and overlays in force; gives what must be undone.

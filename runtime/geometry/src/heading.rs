@@ -5,9 +5,9 @@ use crate::plane::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Sub};
 
-/// Angles from 0 to this, a hair below a full turn, and within this on either side of 0 are known to need no wrapping.
-const WITHIN_TURN: f64 = 6.28;
-const WITHIN_HALF_TURN: f64 = 3.14;
+/// Angles from 0 to this, which is below a full turn, and within this on either side of 0 are known to need no wrapping.
+const WITHIN_TURN: f64 = 6.25;
+const WITHIN_HALF_TURN: f64 = 3.125;
 
 /// A compass direction, clockwise from north, always in [0, 2 pi).
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize, Deserialize)]

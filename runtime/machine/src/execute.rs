@@ -240,7 +240,10 @@ impl Run {
 
 /// What would be too large for a number is the largest: no arithmetic fails in the water.
 pub(crate) fn bounded(x: f64) -> f64 {
-    if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) }
+    if x.abs() <= LARGEST {
+        return x;
+    }
+    if x.is_nan() { 0.0 } else { LARGEST.copysign(x) }
 }
 
 pub(crate) fn truth(b: bool) -> f64 {
