@@ -24,6 +24,7 @@ impl Check {
     /// Checks each script; the worst of them decides.
     pub fn run(&self) -> Exit {
         let mut exit = Exit::Well;
+        let mut wrong = Vec::new();
         for path in &self.scripts {
             match albacore_session::load(path, None, &self.set) {
                 Ok(script) => {
@@ -35,6 +36,7 @@ impl Check {
                     message::findings(&findings, &script.sources);
                     if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
                         exit = Exit::Script;
+                        wrong.extend(findings);
                     } else if self.cost {
                         cost::tell(&script);
                     }
@@ -47,6 +49,7 @@ impl Check {
                 }
             }
         }
+        message::more(&wrong);
         exit
     }
 }

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 pub enum Exit {
     /// All well.
     Well = 0,
-    /// The mission or a test did not end well, or a campaign was interrupted.
+    /// The mission or a test did not end well, a campaign was interrupted, or a script is not formatted.
     NotWell = 1,
     /// Wrong usage: files, names or options that do not exist.
     Usage = 2,

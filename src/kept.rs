@@ -84,9 +84,13 @@ fn forget(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// A whole file or none: what is half written goes under another name first.
+/// A whole file or none: what is half written goes under another name first. Who may read a file that is there already stays
+/// as it is.
 pub fn whole(path: &Path, text: &str) -> io::Result<()> {
     let part = path.with_extension("part");
     std::fs::write(&part, text)?;
+    if let Ok(metadata) = std::fs::metadata(path) {
+        std::fs::set_permissions(&part, metadata.permissions())?;
+    }
     std::fs::rename(&part, path)
 }

@@ -4,6 +4,8 @@ mod campaign;
 mod check;
 mod clock;
 mod exit;
+mod explain;
+mod fmt;
 mod graph;
 mod interruption;
 mod kept;
@@ -33,6 +35,8 @@ enum Verb {
     Run(run::Run),
     /// Check scripts: every error and warning of all files.
     Check(check::Check),
+    /// Lay out scripts in the one style.
+    Fmt(fmt::Fmt),
     /// Run the tests of scripts.
     Test(test::Test),
     /// Drive a simulated vehicle line by line.
@@ -44,6 +48,8 @@ enum Verb {
     Campaign(campaign::Campaign),
     /// Draw the switching diagram of a strategy.
     Graph(graph::Graph),
+    /// Explain the code of an error or a warning.
+    Explain(explain::Explain),
     /// Serve a simulated vehicle at the far end of a link.
     Vehicle(vehicle::Vehicle),
 }
@@ -61,10 +67,12 @@ fn main() -> ExitCode {
     let exit = match arguments.verb {
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
+        Verb::Fmt(fmt) => fmt.run(),
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
+        Verb::Explain(explain) => explain.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
     };
     ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })

@@ -158,6 +158,14 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     write(&text);
 }
 
+/// Says where a person learns more of what was found. Who reads a log, or has the next message a line later, needs no such line.
+pub fn more(findings: &[Diagnostic]) {
+    let error = findings.iter().find(|f| f.severity == Severity::Error);
+    if let Some(error) = error.filter(|_| std::io::stderr().is_terminal()) {
+        write(&format!("`albacore explain {}` tells more\n", error.code));
+    }
+}
+
 /// Prints an error that stands in no script.
 pub fn error(message: &str, help: Option<&str>) {
     let mut text = format!("error: {message}\n");

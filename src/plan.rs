@@ -17,6 +17,7 @@ pub fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
         Exit::Usage
     })?;
     message::findings(&script.findings, &script.sources);
+    message::more(&script.findings);
     if script.is_sound() { Ok(script) } else { Err(Exit::Script) }
 }
 
@@ -53,6 +54,7 @@ pub fn refused(error: &PlanError, script: &Script) -> Exit {
     match error {
         PlanError::Script(findings) => {
             message::findings(findings, &script.sources);
+            message::more(findings);
             Exit::Script
         }
         PlanError::Asked(what, help) => {

@@ -2,86 +2,19 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot read the reference has failed")]
 
-use albacore_session::{Script, Severity, load};
+mod examples;
+
+use examples::{Example, examples, findings};
 use std::path::Path;
 
 const REFERENCE: &str = "docs/language.md";
-
-/// What a body of statements stands in: a mission that knows its position and has its setpoints.
-const BEFORE: &str = "\
-use maneuver, search
-mission example in calm within 1 h {
-    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 800 m, width: 400 m)
-    requires {
-        position, course, heading, speed, depth, altitude, water_depth, battery, chemical fresh 1 min, else abort
-        flow fresh 1 min, at first 10 cm/s toward east, else abort
-    }
-    recovery within 1 min { goto op.center }
-    with depth 3 m, speed 1 m/s
-";
-
-/// An example: the words after its fence, where it stands, and its text.
-struct Example {
-    marks: Vec<String>,
-    place: String,
-    text: String,
-}
-
-/// The fenced blocks of a page that are scripts.
-fn examples(page: &str) -> Vec<Example> {
-    let text = std::fs::read_to_string(page).unwrap();
-    let mut examples: Vec<Example> = Vec::new();
-    let mut open = None;
-    for (i, line) in text.lines().enumerate() {
-        match (line.strip_prefix("```"), open) {
-            (Some(info), None) => {
-                let marks: Vec<String> = info.split(',').map(|mark| mark.trim().to_string()).collect();
-                open = Some(marks[0] == "alb");
-                if marks[0] == "alb" {
-                    examples.push(Example { marks, place: format!("{page}:{}", i + 1), text: String::new() });
-                }
-            }
-            (Some(_), Some(_)) => open = None,
-            (None, Some(true)) => examples.last_mut().unwrap().text.push_str(&format!("{line}\n")),
-            (None, _) => {}
-        }
-    }
-    assert_eq!(open, None, "{page}: a block that is not closed");
-    examples
-}
-
-/// Loads a script that stands in no file, with all that `check` says of it: code and message of each finding.
-fn findings(name: &str, text: &str) -> Vec<(&'static str, String)> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reference");
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(format!("{name}.alb"));
-    std::fs::write(&path, text).unwrap();
-    let script: Script = load(&path, None, &[]).unwrap();
-    let mut found = script.findings.clone();
-    if script.is_sound() {
-        let missions: Vec<String> = script.missions().map(|m| m.name.clone()).collect();
-        found.extend(missions.iter().filter_map(|m| script.mission(m)).filter_map(Result::err).flatten());
-        found.extend(script.tests().into_iter().filter_map(Result::err).flatten());
-    }
-    found
-        .into_iter()
-        .map(|f| {
-            (f.code, format!("{}: {}", if f.severity == Severity::Error { "error" } else { "warning" }, f.message))
-        })
-        .collect()
-}
 
 /// ```` ```alb ```` is a script or declarations; with `statements` the body of a mission; with `wrong` and a code it has
 /// that mistake and no other.
 fn holds(example: &Example) -> Result<(), String> {
     let marks: Vec<&str> = example.marks[1..].iter().map(String::as_str).collect();
-    let (in_body, marks) = match marks.as_slice() {
-        ["statements", rest @ ..] => (true, rest),
-        all => (false, all),
-    };
-    let text = if in_body { format!("{BEFORE}{}}}\n", example.text) } else { example.text.clone() };
-    let name = example.place.replace(|c: char| !c.is_alphanumeric(), "_");
-    let found = findings(&name, &text);
+    let marks = marks.strip_prefix(&["statements"]).unwrap_or(&marks);
+    let found = example.findings();
     let expected = match marks {
         [] => None,
         ["wrong", code] => Some(*code),

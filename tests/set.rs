@@ -4,11 +4,12 @@
 
 use albacore_session::load;
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 /// The codes of what is wrong with a mission when something is set.
 fn codes(set: &str) -> Vec<&'static str> {
     let script = load(Path::new("missions/duck_single.alb"), None, &[set.to_string()]).unwrap();
-    script.findings.iter().map(|f| f.code).collect()
+    script.findings.iter().map(|f| f.code.name()).collect()
 }
 
 #[test]
@@ -26,4 +27,15 @@ fn values_from_outside_are_checked() {
     ] {
         assert_eq!(codes(set), expected, "{set}");
     }
+}
+
+/// What a person reads when a value from outside is wrong.
+#[test]
+fn wrong_values_are_told() {
+    let told = ["lambda:6s", "lamda=6s", "cpt_2005.lambda=6s"].map(|set| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+        command.args(["check", "missions/duck_single.alb", "--set", set]).env("NO_COLOR", "1").stdin(Stdio::null());
+        String::from_utf8(command.output().unwrap().stderr).unwrap()
+    });
+    insta::assert_snapshot!(told.join("\n"));
 }

@@ -1,5 +1,6 @@
 //! What is wrong with a script: data, rendered elsewhere.
 
+use crate::code::Code;
 use crate::source::Span;
 
 /// How bad it is.
@@ -13,11 +14,12 @@ pub enum Severity {
 
 /// One finding: a code, a message, at least one place, and where we know it the mend.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
     /// A stable name, such as `units::mismatch`.
-    pub code: &'static str,
+    pub code: Code,
     /// What is wrong: lower case, no full stop, the user's words in backticks.
     pub message: String,
     /// Places with what to say of each; the first is the place of the finding.
@@ -28,7 +30,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error at a place.
-    pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn error(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             severity: Severity::Error,
             code,
@@ -39,7 +41,7 @@ impl Diagnostic {
     }
 
     /// A warning at a place.
-    pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn warning(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Warning, ..Self::error(code, span, message) }
     }
 

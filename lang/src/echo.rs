@@ -1,39 +1,40 @@
 //! What is found missing only because something could not be read: no second mistake.
 
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Sources, Span};
 use crate::syntax::Unread;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Findings that nothing has a name: what could not be read may have declared it.
-const NAMES: [&str; 9] = [
-    "names::unknown",
-    "names::member",
-    "types::unknown",
-    "units::unknown",
-    "rules::unknown",
-    "scenarios::unknown",
-    "scenarios::clause",
-    "missions::requires",
-    "tests::mission",
+const NAMES: [Code; 9] = [
+    Code::NamesUnknown,
+    Code::NamesMember,
+    Code::TypesUnknown,
+    Code::UnitsUnknown,
+    Code::RulesUnknown,
+    Code::ScenariosUnknown,
+    Code::ScenariosClause,
+    Code::MissionsRequires,
+    Code::TestsMission,
 ];
 
 /// Findings that a declaration lacks something: what could not be read of it may be just that.
-const PARTS: [&str; 14] = [
-    "types::result",
-    "types::if_value",
-    "types::match",
-    "rules::start",
-    "rules::unreachable",
-    "rules::ending",
-    "flow::result",
-    "channels::amend",
-    "channels::ends",
-    "missions::area",
-    "missions::recovery",
-    "missions::within",
-    "tests::run",
-    "time::instant_loop",
+const PARTS: [Code; 14] = [
+    Code::TypesResult,
+    Code::TypesIfValue,
+    Code::TypesMatch,
+    Code::RulesStart,
+    Code::RulesUnreachable,
+    Code::RulesEnding,
+    Code::FlowResult,
+    Code::ChannelsAmend,
+    Code::ChannelsEnds,
+    Code::MissionsArea,
+    Code::MissionsRecovery,
+    Code::MissionsWithin,
+    Code::TestsRun,
+    Code::TimeInstantLoop,
 ];
 
 /// Words after which a name is declared, inside a declaration.

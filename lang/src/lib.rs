@@ -4,11 +4,13 @@
 //! [`Script`], from which missions and scenarios are lowered (`lower`) to what the machine executes.
 
 mod check;
+pub mod code;
 pub mod cost;
 pub mod diagnostic;
 pub mod diagram;
 mod dimension;
 mod echo;
+pub mod fmt;
 mod foreign;
 mod hir;
 mod loader;
@@ -23,6 +25,7 @@ mod types;
 pub use lower::{ExpectProgram, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots};
 pub use suggest::{help as suggestion, nearest};
 
+use crate::code::Code;
 use albacore_geometry::Geodetic;
 use albacore_program::Program;
 use check::Override;
@@ -161,7 +164,7 @@ fn missing_use(finding: Diagnostic, sources: &Sources, library: &dyn Library) ->
     let source = sources.get(span.file);
     let is_head = source.text.get(span.end as usize..).is_some_and(|after| after.starts_with('.'));
     let name = sources.text(span);
-    if finding.code != "names::unknown" || !is_head {
+    if finding.code != Code::NamesUnknown || !is_head {
         return finding;
     }
     if library.module(source, &[name.to_string()]).is_ok() {
@@ -209,7 +212,8 @@ fn overrides(
             let file = sources.add(source);
             let span = Span { file, start: 0, end: text.len() as u32 };
             findings.push(
-                Diagnostic::error("set::form", span, "`--set` takes NAME=VALUE").help("for example `--set lambda=6s`"),
+                Diagnostic::error(Code::SetForm, span, "`--set` takes NAME=VALUE")
+                    .help("for example `--set lambda=6s`"),
             );
             continue;
         };

@@ -2,6 +2,7 @@
 
 use crate::Library;
 use crate::check::Module;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Source, Sources};
 use crate::syntax::tree::{self, Item};
@@ -63,7 +64,7 @@ impl<'a> Loader<'a> {
                 let earlier = self.modules[index].imports.insert(name.clone(), imported);
                 if earlier.is_some_and(|earlier| earlier != imported) {
                     let message = format!("two modules would be called `{name}` here");
-                    let finding = Diagnostic::error("imports::twice", wanted.span, message);
+                    let finding = Diagnostic::error(Code::ImportsTwice, wanted.span, message);
                     self.findings.push(finding.help("give one of the files another name"));
                 }
             }
@@ -78,7 +79,7 @@ impl<'a> Loader<'a> {
             Ok(source) => source,
             Err(help) => {
                 let message = format!("there is no module `{}`", wanted.text());
-                self.findings.push(Diagnostic::error("imports::unknown", wanted.span, message).help(help));
+                self.findings.push(Diagnostic::error(Code::ImportsUnknown, wanted.span, message).help(help));
                 self.unread.push(Unread { span: wanted.span, item: None });
                 return None;
             }
@@ -88,7 +89,7 @@ impl<'a> Loader<'a> {
             chain.push(&source.name);
             let message = format!("this import leads back to its beginning: {}", chain.join(" -> "));
             self.findings.push(
-                Diagnostic::error("imports::cycle", wanted.span, message)
+                Diagnostic::error(Code::ImportsCycle, wanted.span, message)
                     .help("move what both need into a module that neither of them imports from"),
             );
             return None;
@@ -98,7 +99,8 @@ impl<'a> Loader<'a> {
         }
         if self.modules.len() >= MODULES_MAX {
             let message = format!("more than {MODULES_MAX} modules are imported");
-            self.findings.push(Diagnostic::error("imports::many", wanted.span, message));
+            let finding = Diagnostic::error(Code::ImportsMany, wanted.span, message);
+            self.findings.push(finding.help("declare in one module what several of them hold"));
             return None;
         }
         let name = parts.last().cloned().unwrap_or_default();

@@ -9,6 +9,7 @@ mod value;
 pub use value::{Left, Named};
 
 use crate::check::{self, Module, Override};
+use crate::code::Code;
 use crate::diagnostic::{self, Diagnostic, Severity};
 use crate::hir::{Hir, VarId};
 use crate::loader::Loader;
@@ -167,8 +168,9 @@ impl Prompt {
             return self.with(items.clone(), span, known, origin);
         }
         if let Some(place) = clauses.iter().find(|c| needs_a_table(&c.kind)) {
-            let finding = Diagnostic::error("prompt::misplaced", place.span, "this stands in a strategy or a mission")
-                .help("at the prompt stand expressions, statements, `let`, `with` and declarations");
+            let finding =
+                Diagnostic::error(Code::PromptMisplaced, place.span, "this stands in a strategy or a mission")
+                    .help("at the prompt stand expressions, statements, `let`, `with` and declarations");
             return Read { line: None, findings: vec![finding] };
         }
         // An expression alone is asked for its value, which a hidden `let` takes.
@@ -302,13 +304,13 @@ impl Prompt {
         // A line has no area, no limit in time and no recovery: the person at the prompt is there. Other findings are of
         // sources that were looked at before.
         let mut findings: Vec<Diagnostic> =
-            findings.into_iter().filter(|f| f.span().file == span.file && !f.code.starts_with("missions::")).collect();
+            findings.into_iter().filter(|f| f.span().file == span.file && f.code.group() != "missions").collect();
         if findings.iter().all(|f| f.severity != Severity::Error) {
             findings.extend(rules::check(&hir, mission).into_iter().filter(|f| f.severity == Severity::Error));
         }
         if let Some(place) = rules::first_watch(&hir, mission) {
             findings.push(
-                Diagnostic::error("time::control", place, "at the prompt the vehicle is yours already")
+                Diagnostic::error(Code::TimeControl, place, "at the prompt the vehicle is yours already")
                     .help("`watch` and `override` belong to a mission that is run as a guest of its vehicle"),
             );
         }

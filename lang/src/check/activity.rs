@@ -4,6 +4,7 @@ use super::expr::article;
 use super::facts;
 use super::timed::same_channel;
 use super::{Checker, Driving, Scope, Setting, Temporal, flow};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
@@ -64,7 +65,7 @@ impl<'t> Checker<'t> {
             || kind == Kind::Strategy;
         let body = match kind {
             Kind::AmendsCourse => self.amend(a, &statements),
-            _ if is_table => self.table(id, a, kind, result.as_ref(), &statements),
+            _ if is_table => self.table(id, a, result.as_ref(), &statements),
             _ => {
                 let block = tree::Block { clauses: statements.into_iter().cloned().collect(), span: a.body.span };
                 let block = self.in_block(|c| c.block(&block));
@@ -101,7 +102,7 @@ impl<'t> Checker<'t> {
                 _ => {
                     self.report(
                         Diagnostic::error(
-                            "channels::unknown",
+                            Code::ChannelsUnknown,
                             channel.span,
                             format!("an overlay cannot {} `{}`", verb.node.trim_end_matches('s'), channel.node),
                         )
@@ -141,7 +142,7 @@ impl<'t> Checker<'t> {
                     None => c.expr(value, None),
                 });
                 if value.ty == Type::None {
-                    self.report(Diagnostic::error("types::none", value.span, "this signal is always absent"));
+                    self.report(Diagnostic::error(Code::TypesNone, value.span, "this signal is always absent"));
                 }
                 let id = self.declare(name, VarKind::Signal, value.ty.clone());
                 parts.decls.push(Decl::Signal(id, value));
@@ -155,8 +156,12 @@ impl<'t> Checker<'t> {
                 let empty_is_plain = matches!(written, Type::List(..) | Type::Optional(_) | Type::Unknown);
                 if init.is_none() && !empty_is_plain {
                     self.report(
-                        Diagnostic::error("types::memory", name.span, format!("with what does `{}` begin?", name.node))
-                            .help("write `= VALUE`; only lists begin empty and optionals absent"),
+                        Diagnostic::error(
+                            Code::TypesMemory,
+                            name.span,
+                            format!("with what does `{}` begin?", name.node),
+                        )
+                        .help("write `= VALUE`; only lists begin empty and optionals absent"),
                     );
                 }
                 let id = self.declare(name, VarKind::Memory, written);
@@ -168,8 +173,9 @@ impl<'t> Checker<'t> {
                 if let Some(earlier) = parts.mission.area {
                     let place = self.scope.vars[earlier].span;
                     self.report(
-                        Diagnostic::error("missions::twice", span, "a mission has one operating area")
-                            .label(place, "the first"),
+                        Diagnostic::error(Code::MissionsTwice, span, "a mission has one operating area")
+                            .label(place, "the first")
+                            .help("keep one of them"),
                     );
                 }
                 let id = self.declare(name, VarKind::Area, Type::Area);
@@ -204,7 +210,8 @@ impl<'t> Checker<'t> {
             }
             ClauseKind::Recovery { within, block } => {
                 if parts.mission.recovery.is_some() {
-                    self.report(Diagnostic::error("missions::twice", span, "a mission has one recovery"));
+                    let finding = Diagnostic::error(Code::MissionsTwice, span, "a mission has one recovery");
+                    self.report(finding.help("keep one of them"));
                 }
                 let within = within.as_ref().map(|e| self.duration(e, "the time of the recovery"));
                 let finish = self.scope.finish.take();
@@ -215,7 +222,7 @@ impl<'t> Checker<'t> {
                 if let Some(place) = flow::aborts(&block) {
                     self.report(
                         Diagnostic::error(
-                            "missions::recovery",
+                            Code::MissionsRecovery,
                             place,
                             "a recovery cannot abort: the mission is over already",
                         )
@@ -237,7 +244,7 @@ impl<'t> Checker<'t> {
     fn limit(&mut self, limit: &tree::Expr, mission: &mut Mission) {
         let help = "for example `altitude >= 1.5 m`, `depth <= 30 m` or `speed <= 2.6 m/s`";
         let tree::ExprKind::Binary(op, left, right) = &limit.kind else {
-            self.report(Diagnostic::error("missions::limit", limit.span, "a limit is a comparison").help(help));
+            self.report(Diagnostic::error(Code::MissionsLimit, limit.span, "a limit is a comparison").help(help));
             return;
         };
         let channel = match &left.kind {
@@ -246,7 +253,7 @@ impl<'t> Checker<'t> {
             tree::ExprKind::Name(name) if name == "speed" => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
             _ => {
                 self.report(
-                    Diagnostic::error("missions::limit", left.span, "limits hold `altitude`, `depth` and `speed`")
+                    Diagnostic::error(Code::MissionsLimit, left.span, "limits hold `altitude`, `depth` and `speed`")
                         .help(help),
                 );
                 return;
@@ -258,7 +265,7 @@ impl<'t> Checker<'t> {
             _ => {
                 self.report(
                     Diagnostic::error(
-                        "missions::limit",
+                        Code::MissionsLimit,
                         op.span,
                         "a limit is `>=` the least or `<=` the greatest value",
                     )
@@ -269,8 +276,11 @@ impl<'t> Checker<'t> {
         };
         let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
         self.not_negative(&value, "the limit");
-        if mission.limits.iter().any(|(c, l, _)| *c == channel.0 && *l == least) {
-            self.report(Diagnostic::error("missions::twice", limit.span, "this limit is set twice"));
+        if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel.0 && *l == least) {
+            let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
+                .label(first.span, "the first")
+                .help("keep one of them");
+            self.report(finding);
         }
         mission.limits.push((channel.0, least, value));
     }
@@ -284,12 +294,12 @@ impl<'t> Checker<'t> {
                 other => {
                     let finding = match other {
                         Some(def) => Diagnostic::error(
-                            "missions::requires",
+                            Code::MissionsRequires,
                             name.span,
                             format!("`{}` is {}, no input", name.node, def.what()),
                         ),
                         None => Diagnostic::error(
-                            "missions::requires",
+                            Code::MissionsRequires,
                             name.span,
                             format!("there is no input `{}`", name.node),
                         ),
@@ -304,11 +314,9 @@ impl<'t> Checker<'t> {
                 }
             };
             if mission.requires.iter().any(|r| r.input == input) {
-                self.report(Diagnostic::error(
-                    "missions::twice",
-                    name.span,
-                    format!("`{}` is required twice", name.node),
-                ));
+                let message = format!("`{}` is required twice", name.node);
+                let finding = Diagnostic::error(Code::MissionsTwice, name.span, message);
+                self.report(finding.help("keep one of them"));
             }
             let ty = self.hir.inputs[input].ty.clone();
             let at_first = require
@@ -328,11 +336,11 @@ impl<'t> Checker<'t> {
             self.scenario_named(path);
         }
         let missing = [
-            (mission.within.is_none(), "missions::within", "a time limit", "write `within 2 h` after its name"),
-            (mission.area.is_none(), "missions::area", "an operating area", "write `area op = rectangle(…)`"),
+            (mission.within.is_none(), Code::MissionsWithin, "a time limit", "write `within 2 h` after its name"),
+            (mission.area.is_none(), Code::MissionsArea, "an operating area", "write `area op = rectangle(…)`"),
             (
                 mission.recovery.is_none(),
-                "missions::recovery",
+                Code::MissionsRecovery,
                 "a recovery",
                 "write `recovery within 10 min { goto … }`: what the vehicle does after an abort",
             ),
@@ -357,7 +365,7 @@ impl<'t> Checker<'t> {
             let ty = self.type_name(result);
             self.report(
                 Diagnostic::error(
-                    "flow::result",
+                    Code::FlowResult,
                     a.name.span,
                     format!("`{}` can end without its result, {}", a.name.node, article(&ty)),
                 )
@@ -370,7 +378,7 @@ impl<'t> Checker<'t> {
         if matches!(kind, Kind::Sets(_)) && !flow::leaves(block) {
             self.report(
                 Diagnostic::error(
-                    "channels::ends",
+                    Code::ChannelsEnds,
                     a.name.span,
                     format!("`{}` ends and leaves its channel to nobody", a.name.node),
                 )
@@ -399,7 +407,7 @@ impl<'t> Checker<'t> {
         for span in found {
             self.report(
                 Diagnostic::error(
-                    "channels::other",
+                    Code::ChannelsOther,
                     span,
                     format!("an overlay that sets the {name} does nothing else"),
                 )
@@ -415,7 +423,7 @@ impl<'t> Checker<'t> {
             match &clause.kind {
                 ClauseKind::Amend(block) if found.is_none() => found = Some((block, clause.span)),
                 ClauseKind::Amend(_) => {
-                    self.report(Diagnostic::error("syntax::misplaced", clause.span, "an overlay has one `amend`"));
+                    self.report(Diagnostic::error(Code::SyntaxMisplaced, clause.span, "an overlay has one `amend`"));
                 }
                 _ => self.misplaced(
                     clause.span,
@@ -426,7 +434,7 @@ impl<'t> Checker<'t> {
         }
         let Some((block, span)) = found else {
             self.report(
-                Diagnostic::error("channels::amend", a.name.span, format!("`{}` amends nothing", a.name.node))
+                Diagnostic::error(Code::ChannelsAmend, a.name.span, format!("`{}` amends nothing", a.name.node))
                     .help("write `amend { … }`: its value is the new course, `asked` the one asked for"),
             );
             return Body::Sequence(hir::Block::default());
@@ -438,7 +446,7 @@ impl<'t> Checker<'t> {
                 match block.value.take() {
                     Some(value) => block.value = Some(Box::new(c.coerce(*value, &Type::Heading, "the amended course"))),
                     None => c.report(
-                        Diagnostic::error("channels::amend", span, "`amend` must end in a course")
+                        Diagnostic::error(Code::ChannelsAmend, span, "`amend` must end in a course")
                             .help("end it with a heading; `asked` leaves the course as it is"),
                     ),
                 }

@@ -2,6 +2,7 @@
 
 use super::expr::article;
 use super::{Checker, Def, ParamInfo};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval};
@@ -59,17 +60,19 @@ impl<'t> Checker<'t> {
             match (index, &arg.label) {
                 (Some(i), _) if given[i].is_some() => {
                     failed = true;
-                    self.report(Diagnostic::error(
-                        "args::twice",
-                        arg.value.span,
-                        format!("`{}` of `{what}` is given twice", params[i].name),
-                    ));
+                    let message = format!("`{}` of `{what}` is given twice", params[i].name);
+                    let finding = Diagnostic::error(Code::ArgsTwice, arg.value.span, message);
+                    let finding = match given[i] {
+                        Some(first) => finding.label(first.span, "the first"),
+                        None => finding,
+                    };
+                    self.report(finding.help("leave one of them out"));
                 }
                 (Some(i), _) => given[i] = Some(&arg.value),
                 (None, Some(label)) => {
                     failed = true;
                     let finding = Diagnostic::error(
-                        "args::label",
+                        Code::ArgsLabel,
                         label.span,
                         format!("`{what}` has no parameter `{}`", label.node),
                     );
@@ -83,7 +86,7 @@ impl<'t> Checker<'t> {
                 (None, None) => {
                     failed = true;
                     let finding = Diagnostic::error(
-                        "args::many",
+                        Code::ArgsMany,
                         arg.value.span,
                         format!("`{what}` takes {}, not {}", count(params.len()), args.len()),
                     );
@@ -115,7 +118,7 @@ impl<'t> Checker<'t> {
                     failed = true;
                     let ty = self.type_name(&param.ty);
                     let finding = Diagnostic::error(
-                        "args::missing",
+                        Code::ArgsMissing,
                         span,
                         format!("`{what}` needs `{}`, {}", param.name, article(&ty)),
                     )
@@ -150,7 +153,7 @@ impl<'t> Checker<'t> {
     fn unlabelled(&mut self, what: &str, args: &[tree::Arg]) {
         for label in args.iter().filter_map(|arg| arg.label.as_ref()) {
             self.report(
-                Diagnostic::error("args::label", label.span, format!("the arguments of `{what}` have no labels"))
+                Diagnostic::error(Code::ArgsLabel, label.span, format!("the arguments of `{what}` have no labels"))
                     .help("leave it out, and mind their order"),
             );
         }
@@ -169,7 +172,7 @@ impl<'t> Checker<'t> {
             Ok(array) => Some(array),
             Err(_) => {
                 self.report(Diagnostic::error(
-                    "args::many",
+                    Code::ArgsMany,
                     span,
                     format!("`{what}` takes {}, not {}", count(N), args.len()),
                 ));
@@ -202,14 +205,14 @@ impl<'t> Checker<'t> {
             Def::Activity(id) => {
                 let name = self.activity_signatures[*id].name.clone();
                 self.report(
-                    Diagnostic::error("time::call", callee.span, format!("`{name}` takes time: it is no value"))
+                    Diagnostic::error(Code::TimeCall, callee.span, format!("`{name}` takes time: it is no value"))
                         .help(format!("call it as a statement, `{name}(…)`, or `let x = {name}(…)`")),
                 );
                 self.unknown(span)
             }
             other => {
                 self.report(Diagnostic::error(
-                    "names::call",
+                    Code::NamesCall,
                     callee.span,
                     format!("this is {} and cannot be called", other.what()),
                 ));
@@ -258,7 +261,7 @@ impl<'t> Checker<'t> {
                     if side.range.low <= 0.0 {
                         self.report(
                             Diagnostic::error(
-                                "ranges::side",
+                                Code::RangesSide,
                                 side.span,
                                 "a rectangle's sides must be longer than nothing",
                             )
@@ -300,7 +303,7 @@ impl<'t> Checker<'t> {
             "abs" | "min" | "max" | "clamp" => self.ordered(name, args, span),
             _ => {
                 let finding =
-                    Diagnostic::error("names::unknown", name_span, format!("nothing named `{name}` can be called"));
+                    Diagnostic::error(Code::NamesUnknown, name_span, format!("nothing named `{name}` can be called"));
                 let known = BUILTINS.iter().copied().chain(self.callable_names());
                 let finding = match (foreign::help(name), self.nearest(name, known)) {
                     (Some(help), _) => finding.help(help),
@@ -324,7 +327,7 @@ impl<'t> Checker<'t> {
             if x.ty != Type::Unknown {
                 let name = self.type_name(&x.ty);
                 self.report(Diagnostic::error(
-                    "types::mismatch",
+                    Code::TypesMismatch,
                     x.span,
                     format!("{} has no square root", article(&name)),
                 ));
@@ -333,7 +336,7 @@ impl<'t> Checker<'t> {
         };
         if x.range.low < 0.0 {
             self.report(
-                Diagnostic::error("ranges::negative", x.span, "this may be negative, and then it has no square root")
+                Diagnostic::error(Code::RangesNegative, x.span, "this may be negative, and then it has no square root")
                     .help("write `sqrt(max(x, 0))`, or `sqrt(abs(x))`"),
             );
         }
@@ -349,7 +352,7 @@ impl<'t> Checker<'t> {
         };
         if args.len() != wanted {
             self.report(Diagnostic::error(
-                "args::many",
+                Code::ArgsMany,
                 span,
                 format!("`{name}` takes {}, not {}", count(wanted), args.len()),
             ));
@@ -363,7 +366,7 @@ impl<'t> Checker<'t> {
             if first.ty != Type::Unknown {
                 let ty = self.type_name(&first.ty);
                 self.report(Diagnostic::error(
-                    "types::mismatch",
+                    Code::TypesMismatch,
                     first.span,
                     format!("`{name}` takes numbers and quantities, this is {}", article(&ty)),
                 ));

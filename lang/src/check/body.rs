@@ -2,6 +2,7 @@
 
 use super::expr::article;
 use super::{Checker, Driving, Setting, flow};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Block, Expr, Interval, Order, Stmt, StmtKind, VarKind};
 use crate::source::Span;
@@ -23,8 +24,12 @@ impl<'t> Checker<'t> {
                     body.value = Some(Box::new(c.coerce(*value, &result, &what)));
                 }
                 None => c.report(
-                    Diagnostic::error("types::result", f.name.span, format!("`{}` ends without a value", f.name.node))
-                        .help("end its body with an expression: that is its result"),
+                    Diagnostic::error(
+                        Code::TypesResult,
+                        f.name.span,
+                        format!("`{}` ends without a value", f.name.node),
+                    )
+                    .help("end its body with an expression: that is its result"),
                 ),
             }
             body
@@ -64,7 +69,7 @@ impl<'t> Checker<'t> {
             let name = self.type_name(&key.ty);
             self.report(
                 Diagnostic::error(
-                    "types::key",
+                    Code::TypesKey,
                     span,
                     format!("a list is ordered by a number, not by {}", article(&name)),
                 )
@@ -105,7 +110,7 @@ impl<'t> Checker<'t> {
         let mut left_at: Option<Span> = None;
         for (i, clause) in clauses.iter().enumerate() {
             if let Some(span) = left_at.take() {
-                let finding = Diagnostic::error("flow::unreachable", clause.span, "this is never reached")
+                let finding = Diagnostic::error(Code::FlowUnreachable, clause.span, "this is never reached")
                     .label(span, "nothing goes on after this");
                 let endless = matches!(&stmts.last(), Some(Stmt { kind: StmtKind::Timed(_), .. }));
                 self.report(if endless {
@@ -120,7 +125,7 @@ impl<'t> Checker<'t> {
                 if self.scope.setting != Setting::Body {
                     self.report(
                         Diagnostic::error(
-                            "time::with",
+                            Code::TimeWith,
                             clause.span,
                             "`with` holds while time goes by, and here none does",
                         )
@@ -159,7 +164,7 @@ impl<'t> Checker<'t> {
                 };
                 if self.scope.setting == Setting::Body {
                     self.report(
-                        Diagnostic::error("time::var", span, "a `var` lives in instantaneous code only")
+                        Diagnostic::error(Code::TimeVar, span, "a `var` lives in instantaneous code only")
                             .help("declare a `memory` of the behavior: it is kept while time goes by"),
                     );
                 }
@@ -263,13 +268,13 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn misplaced(&mut self, span: Span, message: &str, help: &str) {
-        self.report(Diagnostic::error("syntax::misplaced", span, message).help(help));
+        self.report(Diagnostic::error(Code::SyntaxMisplaced, span, message).help(help));
     }
 
     fn effects_allowed(&mut self, span: Span, what: &str) {
         if self.scope.setting == Setting::Function {
             self.report(
-                Diagnostic::error("functions::pure", span, format!("a function is pure: {what} cannot stand in it"))
+                Diagnostic::error(Code::FunctionsPure, span, format!("a function is pure: {what} cannot stand in it"))
                     .help("return what the caller needs to say it"),
             );
         }
@@ -278,7 +283,7 @@ impl<'t> Checker<'t> {
     fn body_only(&mut self, span: Span, what: &str) {
         if self.scope.setting != Setting::Body {
             self.report(
-                Diagnostic::error("time::body", span, format!("{what} stands in the body of a behavior or mission"))
+                Diagnostic::error(Code::TimeBody, span, format!("{what} stands in the body of a behavior or mission"))
                     .help("in a switching table write `A -> abort \"why\" on X`; beside declarations `abort \"why\" on X`"),
             );
         }
@@ -295,7 +300,7 @@ impl<'t> Checker<'t> {
                         tree::TextPart::Hole(hole) => {
                             let span = hole.span;
                             self.report(
-                                Diagnostic::error("types::name", span, "a name cannot have holes")
+                                Diagnostic::error(Code::TypesName, span, "a name cannot have holes")
                                     .help("tests and tables look for it: write it out"),
                             );
                         }
@@ -328,7 +333,7 @@ impl<'t> Checker<'t> {
         let Action::Expr(e) = &timed.action else { return None };
         if timed.is_modified() {
             self.report(
-                Diagnostic::error("time::modifier", timed.span, "this takes no time: nothing to end or to cut off")
+                Diagnostic::error(Code::TimeModifier, timed.span, "this takes no time: nothing to end or to cut off")
                     .help("`for`, `until`, `within` and `at` belong to statements that take time"),
             );
         }
@@ -352,7 +357,7 @@ impl<'t> Checker<'t> {
     fn definite(&mut self, value: Expr, name: &str) -> Expr {
         if value.ty == Type::None {
             self.report(
-                Diagnostic::error("types::none", value.span, format!("of what type is `{name}` when it is present?"))
+                Diagnostic::error(Code::TypesNone, value.span, format!("of what type is `{name}` when it is present?"))
                     .help(format!("write it: `{name}: Point? = none`")),
             );
             return Expr { ty: Type::Unknown, ..value };
@@ -364,9 +369,13 @@ impl<'t> Checker<'t> {
         self.body_only(span, "`finish`");
         if let Some(Driving::Override(outer)) = self.scope.driving {
             self.report(
-                Diagnostic::error("flow::finish", span, "an `override` ends with its block: nothing is finished in it")
-                    .label(outer, "in this block")
-                    .help("set a `memory` in the block, and finish after it"),
+                Diagnostic::error(
+                    Code::FlowFinish,
+                    span,
+                    "an `override` ends with its block: nothing is finished in it",
+                )
+                .label(outer, "in this block")
+                .help("set a `memory` in the block, and finish after it"),
             );
             return None;
         }
@@ -374,15 +383,15 @@ impl<'t> Checker<'t> {
         let value = match (wanted, value) {
             (None, _) => {
                 self.report(
-                    Diagnostic::error("flow::finish", span, "nothing can be finished here")
-                        .help("`finish` ends a behavior or a strategy"),
+                    Diagnostic::error(Code::FlowFinish, span, "nothing can be finished here")
+                        .help("leave it out: `finish` ends a behavior, a strategy or a mission"),
                 );
                 return None;
             }
             (Some(Some(ty)), Some(value)) => Some(self.expr_as(value, &ty, "the result")),
             (Some(None), Some(value)) => {
                 self.report(
-                    Diagnostic::error("flow::result", value.span, "this finishes with a value, and none is declared")
+                    Diagnostic::error(Code::FlowResult, value.span, "this finishes with a value, and none is declared")
                         .help("declare it: `behavior NAME(…) -> TYPE { … }`"),
                 );
                 return None;
@@ -391,7 +400,7 @@ impl<'t> Checker<'t> {
                 let ty = self.type_name(&ty);
                 self.report(
                     Diagnostic::error(
-                        "flow::result",
+                        Code::FlowResult,
                         span,
                         format!("this finishes without its result, {}", article(&ty)),
                     )
@@ -443,13 +452,13 @@ impl<'t> Checker<'t> {
     }
 
     fn unused(&mut self, span: Span, help: &str) {
-        self.report(Diagnostic::error("flow::unused", span, "this computes a value that nobody reads").help(help));
+        self.report(Diagnostic::error(Code::FlowUnused, span, "this computes a value that nobody reads").help(help));
     }
 
     fn list_change(&mut self, base: &tree::Expr, what: &str, args: &[tree::Arg], span: Span) -> Option<Stmt> {
         let tree::ExprKind::Name(name) = &base.kind else {
             self.report(
-                Diagnostic::error("names::assign", base.span, "only a list that has a name can be changed")
+                Diagnostic::error(Code::NamesAssign, base.span, "only a list that has a name can be changed")
                     .help("keep it in a `memory`"),
             );
             return None;
@@ -458,11 +467,9 @@ impl<'t> Checker<'t> {
         let id = self.assignable(&name)?;
         let Type::List(inner, _) = self.scope.vars[id].ty.clone() else {
             let ty = self.type_name(&self.scope.vars[id].ty.clone());
-            self.report(Diagnostic::error(
-                "types::list",
-                base.span,
-                format!("`{what}` changes a list, this is {}", article(&ty)),
-            ));
+            let message = format!("`{what}` changes a list, this is {}", article(&ty));
+            let finding = Diagnostic::error(Code::TypesList, base.span, message).here(format!("`{ty}`"));
+            self.report(finding.help(format!("another value is replaced as a whole: `{} = VALUE`", name.node)));
             return None;
         };
         self.scope.facts.forget(id);

@@ -3,6 +3,7 @@
 use super::expr::article;
 use super::facts::{self, Fact};
 use super::{Checker, Temporal, flow};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Block, Expr, ExprKind, Stmt, StmtKind, VarKind};
 use crate::source::Span;
@@ -41,7 +42,7 @@ impl<'t> Checker<'t> {
             }
             Condition::Let { name, value } => {
                 let value = self.expr(value, None);
-                let present = self.truth(value.clone());
+                let present = self.make(ExprKind::IsPresent(Box::new(value.clone())), Type::Bool, value.span);
                 let then = self.in_block(|c| {
                     let bind = c.bind_present(name, &value);
                     let ty = c.scope.vars[bind].ty.clone();
@@ -79,7 +80,7 @@ impl<'t> Checker<'t> {
                 let ty = self.type_name(other);
                 self.report(
                     Diagnostic::error(
-                        "absent::let",
+                        Code::AbsentLet,
                         value.span,
                         format!("this is never absent: it is {}", article(&ty)),
                     )
@@ -102,14 +103,14 @@ impl<'t> Checker<'t> {
     ) -> Expr {
         let Some(otherwise) = otherwise else {
             self.report(
-                Diagnostic::error("types::if_value", span, "this `if` has no value when its condition does not hold")
+                Diagnostic::error(Code::TypesIfValue, span, "this `if` has no value when its condition does not hold")
                     .help("add `else { … }`"),
             );
             return self.unknown(span);
         };
         let Condition::Holds(condition) = condition else {
             self.report(
-                Diagnostic::error("types::if_let", span, "`if let` is a statement, no value")
+                Diagnostic::error(Code::TypesIfLet, span, "`if let` is a statement, no value")
                     .help("name the optional with `let` before, and test it with `if NAME`"),
             );
             return self.unknown(span);
@@ -133,7 +134,7 @@ impl<'t> Checker<'t> {
     fn join(&mut self, a: &mut Block, b: &mut Block, span: Span) -> Type {
         let (Some(x), Some(y)) = (a.value.take(), b.value.take()) else {
             self.report(
-                Diagnostic::error("types::if_value", span, "both blocks must end in a value")
+                Diagnostic::error(Code::TypesIfValue, span, "both blocks must end in a value")
                     .help("end each block with an expression"),
             );
             return Type::Unknown;
@@ -159,7 +160,7 @@ impl<'t> Checker<'t> {
                     block.value = Some(Box::new(self.coerce(*value, &ty, "the value of the other blocks")));
                 }
                 None => self.report(
-                    Diagnostic::error("types::if_value", span, "every block of this `match` must end in a value")
+                    Diagnostic::error(Code::TypesIfValue, span, "every block of this `match` must end in a value")
                         .help("end each block with an expression"),
                 ),
             }
@@ -185,7 +186,7 @@ impl<'t> Checker<'t> {
                 let name = self.type_name(other);
                 self.report(
                     Diagnostic::error(
-                        "types::match",
+                        Code::TypesMatch,
                         on.span,
                         format!("`match` chooses between the variants of an enum, this is {}", article(&name)),
                     )
@@ -202,7 +203,7 @@ impl<'t> Checker<'t> {
             for name in &arm.names {
                 match variants.iter().position(|v| *v == name.node) {
                     Some(i) if seen.contains(&i) => self.report(Diagnostic::error(
-                        "types::match",
+                        Code::TypesMatch,
                         name.span,
                         format!("`{}` is matched already", name.node),
                     )),
@@ -213,7 +214,7 @@ impl<'t> Checker<'t> {
                     None if variants.is_empty() => {}
                     None => {
                         let finding = Diagnostic::error(
-                            "types::match",
+                            Code::TypesMatch,
                             name.span,
                             format!("there is no variant `{}`", name.node),
                         );
@@ -233,7 +234,7 @@ impl<'t> Checker<'t> {
             variants.iter().enumerate().filter(|(i, _)| !seen.contains(i)).map(|(_, v)| v.as_str()).collect();
         if otherwise.is_none() && !missing.is_empty() {
             let finding = Diagnostic::error(
-                "types::match",
+                Code::TypesMatch,
                 span,
                 format!("this `match` says nothing of {}", suggest::listed(&missing)),
             )

@@ -2,6 +2,7 @@
 
 use super::Checker;
 use super::expr::article;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval};
@@ -70,7 +71,7 @@ impl<'t> Checker<'t> {
     fn mismatch(&mut self, value: &Expr, wanted: &Type, what: &str) {
         let (has, wants) = (self.type_name(&value.ty), self.type_name(wanted));
         let finding = Diagnostic::error(
-            "types::mismatch",
+            Code::TypesMismatch,
             value.span,
             format!("{what} is {}, this is {}", article(&wants), article(&has)),
         )
@@ -152,7 +153,7 @@ impl<'t> Checker<'t> {
             other => {
                 let name = self.type_name(other);
                 self.report(
-                    Diagnostic::error("types::condition", span, format!("this is {}, no condition", article(&name)))
+                    Diagnostic::error(Code::TypesCondition, span, format!("this is {}, no condition", article(&name)))
                         .here(format!("`{name}`"))
                         .help("compare it with something, such as `x > 0 m`"),
                 );

@@ -1,6 +1,7 @@
 //! The first pass: what every module declares, before any body is looked at.
 
 use super::{Checker, ClauseInfo, Def, Lazy, Scope, Setting, Signature};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Interval};
 use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
@@ -82,7 +83,7 @@ impl<'t> Checker<'t> {
     fn define(&mut self, module: usize, name: &tree::Name, def: Def) {
         if let Some(earlier) = self.names[module].get(&name.node) {
             let finding = Diagnostic::error(
-                "names::twice",
+                Code::NamesTwice,
                 name.span,
                 format!("`{}` is declared already, as {}", name.node, earlier.what()),
             )
@@ -176,11 +177,9 @@ impl<'t> Checker<'t> {
                     self.types.records[id].fields = fields;
                     if self.holds_itself(id, &mut Vec::new()) {
                         self.types.records[id].fields.clear();
-                        self.report(Diagnostic::error(
-                            "types::recursive",
-                            name.span,
-                            format!("the record `{}` would hold itself", name.node),
-                        ));
+                        let message = format!("the record `{}` would hold itself", name.node);
+                        let finding = Diagnostic::error(Code::TypesRecursive, name.span, message);
+                        self.report(finding.help("leave out the field that leads back to it"));
                     }
                 }
             }
@@ -201,7 +200,7 @@ impl<'t> Checker<'t> {
         for (i, field) in fields.iter().enumerate() {
             if let Some(first) = fields[..i].iter().find(|f| f.name.node == field.name.node) {
                 let message = format!("there are two fields `{}`", field.name.node);
-                let finding = Diagnostic::error("names::twice", field.name.span, message);
+                let finding = Diagnostic::error(Code::NamesTwice, field.name.span, message);
                 self.report(finding.label(first.name.span, "the first").help("choose another name, or leave it out"));
             }
         }
@@ -292,13 +291,13 @@ impl<'t> Checker<'t> {
             &Lazy::InProgress(name) => {
                 let message = format!("`{}` is made of itself", name.node);
                 self.report(
-                    Diagnostic::error("names::recursive", name.span, message).help("give it a value of its own"),
+                    Diagnostic::error(Code::NamesRecursive, name.span, message).help("give it a value of its own"),
                 );
                 self.unknown(name.span)
             }
             &Lazy::Unchecked { name, .. } if self.waiting == WAITING_MAX => {
                 let message = format!("`{}` is made of more than {WAITING_MAX} others declared after it", name.node);
-                let finding = Diagnostic::error("limits::constants", name.span, message);
+                let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
                 self.report(finding.help("declare first what others are made of"));
                 self.unknown(name.span)
             }

@@ -2,6 +2,7 @@
 //! longer than any stack holds.
 
 use super::Checker;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::calls_in;
 
@@ -17,7 +18,7 @@ impl<'t> Checker<'t> {
         for span in spans.into_iter().flatten() {
             self.report(
                 Diagnostic::error(
-                    "limits::calls",
+                    Code::LimitsCalls,
                     span,
                     format!("this is called through more than {CALLS_MAX} others"),
                 )

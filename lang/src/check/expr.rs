@@ -3,6 +3,7 @@
 use super::facts::Place;
 use super::sense::INT_MAX;
 use super::{Checker, Temporal};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval, TextPart};
@@ -58,7 +59,7 @@ impl<'t> Checker<'t> {
             K::Geodetic { latitude_deg, longitude_deg } => {
                 if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 {
                     self.report(
-                        Diagnostic::error("types::position", span, "there is no such place on the globe")
+                        Diagnostic::error(Code::TypesPosition, span, "there is no such place on the globe")
                             .help("latitudes go to 90° and longitudes to 180°"),
                     );
                 }
@@ -95,7 +96,7 @@ impl<'t> Checker<'t> {
     fn number(&mut self, value: f64, unit: Option<&tree::Name>, span: Span) -> Expr {
         if unit.is_none() && value.abs() > INT_MAX {
             self.report(
-                Diagnostic::error("types::number", span, "this whole number is too large to be counted exactly")
+                Diagnostic::error(Code::TypesNumber, span, "this whole number is too large to be counted exactly")
                     .help(format!("whole numbers go to {INT_MAX}")),
             );
             return self.unknown(span);
@@ -126,7 +127,7 @@ impl<'t> Checker<'t> {
     fn done(&mut self, span: Span) -> Expr {
         if self.scope.temporal != Temporal::Rule {
             self.report(
-                Diagnostic::error("rules::done", span, "`done` means something in a switching rule only")
+                Diagnostic::error(Code::RulesDone, span, "`done` means something in a switching rule only")
                     .help("in a body, what follows a statement runs when it is done"),
             );
         }
@@ -179,11 +180,9 @@ impl<'t> Checker<'t> {
             Type::Unknown => self.unknown(span),
             other => {
                 let name = self.type_name(&other);
-                self.report(Diagnostic::error(
-                    "types::index",
-                    base.span,
-                    format!("{} has no elements to index", article(&name)),
-                ));
+                let message = format!("{} has no elements to index", article(&name));
+                let finding = Diagnostic::error(Code::TypesIndex, base.span, message).here(format!("`{name}`"));
+                self.report(finding.help("only a list has elements; what else a value has stands after a dot"));
                 self.unknown(span)
             }
         }
@@ -195,7 +194,7 @@ impl<'t> Checker<'t> {
         {
             self.report(
                 Diagnostic::error(
-                    "time::ambiguous",
+                    Code::TimeAmbiguous,
                     right.span.to(duration.span),
                     format!("`for` beside `{}` needs parentheses", op.node.symbol()),
                 )
@@ -216,7 +215,7 @@ impl<'t> Checker<'t> {
     pub(super) fn temporal_allowed(&mut self, span: Span, word: &str) {
         if self.scope.temporal == Temporal::No {
             self.report(
-                Diagnostic::error("time::here", span, format!("`{word}` has no beginning to count from here"))
+                Diagnostic::error(Code::TimeHere, span, format!("`{word}` has no beginning to count from here"))
                     .help("it stands in rules, in `on`, `until` and `abort … on`, and in a `signal`; name it there"),
             );
         }
@@ -265,7 +264,7 @@ impl<'t> Checker<'t> {
                 let name = self.type_name(&other);
                 let sign = if negative { "-" } else { "+" };
                 let finding =
-                    Diagnostic::error("types::sign", operand.span, format!("{} has no `{sign}`", article(&name)));
+                    Diagnostic::error(Code::TypesSign, operand.span, format!("{} has no `{sign}`", article(&name)));
                 let finding = if matches!(other, Type::Heading) {
                     finding.help("for the opposite direction write `HEADING + 180 deg`")
                 } else {

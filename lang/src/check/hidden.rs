@@ -4,6 +4,7 @@
 use super::args::BUILTINS;
 use super::written::is_type;
 use super::{Checker, Def};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension;
 use crate::syntax::tree::{Item, Name};
@@ -68,7 +69,7 @@ impl<'t> Checker<'t> {
     fn hidden(&mut self, name: &Name, what: &str) {
         self.report(
             Diagnostic::error(
-                "names::shadowed",
+                Code::NamesShadowed,
                 name.span,
                 format!("`{}` is the name of {what} that every script knows", name.node),
             )

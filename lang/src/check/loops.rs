@@ -3,6 +3,7 @@
 use super::expr::article;
 use super::flow::takes_time;
 use super::{Checker, Temporal, facts};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Block, Expr, ExprKind, Interval, Stmt, StmtKind, VarKind};
@@ -65,7 +66,7 @@ impl<'t> Checker<'t> {
                 let ty = self.type_name(other);
                 self.report(
                     Diagnostic::error(
-                        "types::for",
+                        Code::TypesFor,
                         written.span,
                         format!("`for` walks a list or a range, this is {}", article(&ty)),
                     )
@@ -98,7 +99,7 @@ impl<'t> Checker<'t> {
         let step = given.unwrap_or_else(|| self.unknown(written.span));
         if step.range.low <= 0.0 && step.ty != Type::Unknown {
             self.report(
-                Diagnostic::error("ranges::step", step.span, "rows must lie farther apart than nothing")
+                Diagnostic::error(Code::RangesStep, step.span, "rows must lie farther apart than nothing")
                     .help("use a positive constant, or a parameter with a range such as `in 5 m..100 m`"),
             );
         }
@@ -114,7 +115,7 @@ impl<'t> Checker<'t> {
             return;
         }
         let finding =
-            Diagnostic::error("ranges::empty", range.first.span.to(range.last.span), "this range holds nothing");
+            Diagnostic::error(Code::RangesEmpty, range.first.span.to(range.last.span), "this range holds nothing");
         let finding = match (first.range.constant(), last.range.constant()) {
             (Some(first), Some(last)) if first > last => {
                 finding.help(format!("write `{last}..{first}`; to count down take `{} - i` in the loop", first + last))
@@ -164,7 +165,7 @@ impl<'t> Checker<'t> {
     pub(super) fn loop_takes_time(&mut self, body: &Block, span: Span, word: &str) {
         if !takes_time(body) {
             self.report(
-                Diagnostic::error("time::instant_loop", span, format!("this `{word}` can go round without taking time"))
+                Diagnostic::error(Code::TimeInstantLoop, span, format!("this `{word}` can go round without taking time"))
                     .here("every tick must end")
                     .help("put a statement that takes time on every path through it, such as `wait for 1 s`, or walk a list or a range with `for`"),
             );
@@ -174,11 +175,15 @@ impl<'t> Checker<'t> {
     fn bounded_or_takes_time(&mut self, body: &Block, range: Span) {
         if !takes_time(body) {
             self.report(
-                Diagnostic::error("time::instant_loop", range, "this `for` may go round too often without taking time")
-                    .here("how large can this be?")
-                    .help(format!(
-                        "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
-                    )),
+                Diagnostic::error(
+                    Code::TimeInstantLoop,
+                    range,
+                    "this `for` may go round too often without taking time",
+                )
+                .here("how large can this be?")
+                .help(format!(
+                    "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
+                )),
             );
         }
     }

@@ -3,6 +3,7 @@
 use super::expr::article;
 use super::names::Found;
 use super::{Checker, Def};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
@@ -104,7 +105,7 @@ impl<'t> Checker<'t> {
             (Type::Area, "center") => self.operation(Builtin::Center, vec![value], Type::Point, span),
             (Type::Area, "edges") => {
                 self.report(
-                    Diagnostic::error("types::edges", span, "`edges` can only be walked")
+                    Diagnostic::error(Code::TypesWalked, span, "`edges` can only be walked")
                         .help("write `for edge in area.edges { … }`"),
                 );
                 self.unknown(span)
@@ -165,15 +166,14 @@ impl<'t> Checker<'t> {
         let variants = self.types.enums[id].variants.clone();
         let known: Vec<&str> = variants.iter().map(String::as_str).collect();
         let finding = if known.contains(&member.node.as_str()) {
-            Diagnostic::error("names::value", span, format!("a variant of `{name}` is written without it"))
+            Diagnostic::error(Code::NamesValue, span, format!("a variant of `{name}` is written without it"))
                 .help(format!("write `{}`", member.node))
         } else {
-            Diagnostic::error("names::unknown", member.span, format!("`{name}` has no variant `{}`", member.node)).help(
-                match self.nearest(&member.node, known.iter().copied()) {
+            Diagnostic::error(Code::NamesUnknown, member.span, format!("`{name}` has no variant `{}`", member.node))
+                .help(match self.nearest(&member.node, known.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`? it is written without `{name}.`"),
                     None => format!("its variants are written alone: {}", suggest::listed(&known)),
-                },
-            )
+                })
         };
         self.report(finding);
         Some(self.unknown(span))
@@ -207,7 +207,7 @@ impl<'t> Checker<'t> {
 
     pub(super) fn no_such_name(&mut self, module: usize, name: &tree::Name) {
         let finding = Diagnostic::error(
-            "names::unknown",
+            Code::NamesUnknown,
             name.span,
             format!("the module `{}` has no `{}`", self.modules[module].name, name.node),
         );
@@ -223,7 +223,7 @@ impl<'t> Checker<'t> {
     fn no_such_member(&mut self, value: &Expr, member: &tree::Name) {
         let ty = self.type_name(&value.ty);
         let finding =
-            Diagnostic::error("names::member", member.span, format!("{} has no `{}`", article(&ty), member.node))
+            Diagnostic::error(Code::NamesMember, member.span, format!("{} has no `{}`", article(&ty), member.node))
                 .label(value.span, format!("`{ty}`"));
         let names = member_names(self, &value.ty);
         let finding = match self.suggestion(&member.node, names.iter().map(String::as_str)) {
@@ -258,7 +258,8 @@ impl<'t> Checker<'t> {
                     self.unknown(span)
                 }
                 _ => {
-                    self.report(Diagnostic::error("names::call", callee.span, "this cannot be called"));
+                    let finding = Diagnostic::error(Code::NamesCall, callee.span, "this cannot be called");
+                    self.report(finding.help("leave out the brackets after it"));
                     self.unknown(span)
                 }
             },
@@ -298,7 +299,7 @@ impl<'t> Checker<'t> {
                     _ => {
                         let name = self.type_name(&other.ty);
                         self.report(Diagnostic::error(
-                            "types::mismatch",
+                            Code::TypesMismatch,
                             other.span,
                             format!("`dot` takes another vector, this is {}", article(&name)),
                         ));
@@ -308,7 +309,7 @@ impl<'t> Checker<'t> {
             }
             (Type::Area, "rows") => {
                 self.report(
-                    Diagnostic::error("types::rows", span, "`rows` can only be walked")
+                    Diagnostic::error(Code::TypesWalked, span, "`rows` can only be walked")
                         .help("write `for row in area.rows(step) { … }`"),
                 );
                 self.unknown(span)
@@ -358,14 +359,24 @@ impl<'t> Checker<'t> {
             }
             (Type::List(..), "insert" | "remove" | "clear") => {
                 self.report(
-                    Diagnostic::error("types::statement", span, format!("`{}` is a statement, no value", member.node))
-                        .help("write it on a line of its own"),
+                    Diagnostic::error(
+                        Code::TypesStatement,
+                        span,
+                        format!("`{}` is a statement, no value", member.node),
+                    )
+                    .help("write it on a line of its own"),
                 );
                 self.unknown(span)
             }
             (Type::Optional(_), _) => {
                 let finding = self.absent(&value);
                 self.report(finding);
+                self.unknown(span)
+            }
+            (ty, name) if member_names(self, &ty).iter().any(|known| known == name) => {
+                let message = format!("`{name}` of {} takes no arguments", article(&self.type_name(&ty)));
+                let finding = Diagnostic::error(Code::NamesCall, member.span, message);
+                self.report(finding.help(format!("write `.{name}`, without brackets")));
                 self.unknown(span)
             }
             _ => {
@@ -384,7 +395,7 @@ impl<'t> Checker<'t> {
             Some(n) if (1.0..=HITS_MAX).contains(&n) => n as u32,
             _ => {
                 self.report(
-                    Diagnostic::error("types::hits", of.span, "how many samples are counted must be a constant")
+                    Diagnostic::error(Code::TypesHits, of.span, "how many samples are counted must be a constant")
                         .help(format!("a whole number from 1 to {HITS_MAX}")),
                 );
                 return self.unknown(span);

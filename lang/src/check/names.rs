@@ -2,6 +2,7 @@
 
 use super::facts::Place;
 use super::{Checker, Def, Setting};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::foreign;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
@@ -51,7 +52,7 @@ impl<'t> Checker<'t> {
     pub(super) fn declare(&mut self, name: &tree::Name, kind: VarKind, ty: Type) -> VarId {
         let earlier = self.local(&name.node).map(|id| self.scope.vars[id].span);
         let finding = |what: &str| {
-            Diagnostic::error("names::shadowed", name.span, format!("`{}` is the name of {what} already", name.node))
+            Diagnostic::error(Code::NamesShadowed, name.span, format!("`{}` is the name of {what} already", name.node))
                 .here("nothing can be shadowed")
                 .help("choose another name")
         };
@@ -128,7 +129,7 @@ impl<'t> Checker<'t> {
             }
             other => {
                 let what = other.what();
-                let finding = Diagnostic::error("names::value", span, format!("`{name}` is {what}, no value"));
+                let finding = Diagnostic::error(Code::NamesValue, span, format!("`{name}` is {what}, no value"));
                 let finding = match other {
                     Def::Fn(_) | Def::Record(_) => finding.help(format!("write `{name}(…)`")),
                     Def::Activity(_) => finding.help(format!("call it as a statement: `{name}(…)`")),
@@ -146,10 +147,10 @@ impl<'t> Checker<'t> {
 
     fn no_inputs_here(&mut self, name: &str, span: Span) {
         let finding = if self.scope.setting == Setting::Function {
-            Diagnostic::error("names::input", span, format!("a function cannot read the input `{name}`"))
+            Diagnostic::error(Code::NamesInput, span, format!("a function cannot read the input `{name}`"))
                 .help("give the function a parameter, and pass the input as its argument")
         } else {
-            Diagnostic::error("names::input", span, format!("`{name}` is known only when the vehicle moves"))
+            Diagnostic::error(Code::NamesInput, span, format!("`{name}` is known only when the vehicle moves"))
                 .here("a constant is needed here")
         };
         self.report(finding);
@@ -176,9 +177,9 @@ impl<'t> Checker<'t> {
     }
 
     fn unknown_name_finding(&self, name: &str, span: Span) -> Diagnostic {
-        let finding = Diagnostic::error("names::unknown", span, format!("nothing is named `{name}` here"));
+        let finding = Diagnostic::error(Code::NamesUnknown, span, format!("nothing is named `{name}` here"));
         if self.modules[self.scope.module].imports.contains_key(name) {
-            Diagnostic::error("names::module", span, format!("`{name}` is a module, no value"))
+            Diagnostic::error(Code::NamesModule, span, format!("`{name}` is a module, no value"))
                 .help(format!("write `{name}.NAME`"))
         } else if let Some(help) = foreign::help(name) {
             finding.help(help)
@@ -251,7 +252,7 @@ impl<'t> Checker<'t> {
                 Some(def) => {
                     let what = def.what();
                     self.report(Diagnostic::error(
-                        "names::assign",
+                        Code::NamesAssign,
                         name.span,
                         format!("`{}` is {what} and cannot be assigned", name.node),
                     ));
@@ -272,10 +273,13 @@ impl<'t> Checker<'t> {
             VarKind::Loop => ("set by its loop", "declare a `memory`"),
             VarKind::Area => ("the mission's area", "declare a `memory`"),
         };
-        let finding =
-            Diagnostic::error("names::assign", name.span, format!("`{}` is {what}: it cannot be assigned", name.node))
-                .label(var.span, "declared here")
-                .help(help);
+        let finding = Diagnostic::error(
+            Code::NamesAssign,
+            name.span,
+            format!("`{}` is {what}: it cannot be assigned", name.node),
+        )
+        .label(var.span, "declared here")
+        .help(help);
         self.report(finding);
         None
     }

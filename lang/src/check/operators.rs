@@ -4,6 +4,7 @@ use super::Checker;
 use super::convert::{Scaling, scaling};
 use super::expr::article;
 use super::facts;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
@@ -63,7 +64,7 @@ impl<'t> Checker<'t> {
             && inner.node.compares()
         {
             self.report(
-                Diagnostic::error("syntax::chain", op.span, "comparisons cannot be chained")
+                Diagnostic::error(Code::SyntaxChain, op.span, "comparisons cannot be chained")
                     .label(inner.span, "the first comparison")
                     .help("write `a < b and b < c`"),
             );
@@ -88,7 +89,7 @@ impl<'t> Checker<'t> {
             ExprKind::Do(Builtin::At, _) => "the list may be shorter",
             _ => "it may be absent",
         };
-        Diagnostic::error("absent::used", value.span, format!("this is {}: {why}", article(&name)))
+        Diagnostic::error(Code::AbsentUsed, value.span, format!("this is {}: {why}", article(&name)))
             .here(format!("`{name}`"))
             .help("write `… else VALUE`, or test it first: `let x = …` then `if x { … }`")
     }
@@ -101,7 +102,7 @@ impl<'t> Checker<'t> {
             {
                 self.report(
                     Diagnostic::error(
-                        "time::ambiguous",
+                        Code::TimeAmbiguous,
                         side.span,
                         format!("`becomes` beside `{}` needs parentheses", op.node.symbol()),
                     )
@@ -130,7 +131,7 @@ impl<'t> Checker<'t> {
                 let name = self.type_name(&a.ty);
                 self.report(
                     Diagnostic::error(
-                        "absent::else",
+                        Code::AbsentElse,
                         a.span,
                         format!("this is never absent: it is {}", article(&name)),
                     )
@@ -217,7 +218,7 @@ impl<'t> Checker<'t> {
         let Some(divisor) = b.ty.dimension() else { return self.no_such(op, &a, &b, span) };
         if b.range.constant() == Some(0.0) {
             self.report(
-                Diagnostic::error("ranges::zero", b.span, "this divides by zero")
+                Diagnostic::error(Code::RangesZero, b.span, "this divides by zero")
                     .help("divide by something else, or leave the division out"),
             );
             return self.unknown(span);
@@ -259,14 +260,14 @@ impl<'t> Checker<'t> {
         };
         let Some(power) = b.range.constant() else {
             self.report(
-                Diagnostic::error("types::power", b.span, "a power must be a constant")
+                Diagnostic::error(Code::TypesPower, b.span, "a power must be a constant")
                     .help("the dimension of the result depends on it"),
             );
             return self.unknown(span);
         };
         if power < 0.0 || power.fract() != 0.0 && a.range.low < 0.0 {
             self.report(
-                Diagnostic::error("types::power", b.span, "this power has no value for some bases")
+                Diagnostic::error(Code::TypesPower, b.span, "this power has no value for some bases")
                     .help("use a positive whole power, `sqrt(x)`, or divide"),
             );
             return self.unknown(span);
@@ -274,7 +275,7 @@ impl<'t> Checker<'t> {
         match d.power(power) {
             Some(d) => self.operation(Builtin::Pow, vec![a, b], Type::Quantity(d), span),
             None => {
-                self.report(Diagnostic::error("types::power", span, "the dimension of this power cannot be written"));
+                self.report(Diagnostic::error(Code::TypesPower, span, "the dimension of this power cannot be written"));
                 self.unknown(span)
             }
         }
@@ -292,20 +293,7 @@ impl<'t> Checker<'t> {
         let comparable = match (&a.ty, &b.ty) {
             (x, y) if x == y => match x {
                 Quantity(_) | Int | Depth | Altitude => true,
-                Heading => {
-                    if !equality {
-                        self.report(
-                            Diagnostic::error(
-                                "types::order",
-                                op.span,
-                                "headings have no order: 350 deg is just left of 10 deg",
-                            )
-                            .help("compare the angle between them: `HEADING - HEADING > 0 deg`"),
-                        );
-                        return self.unknown(span);
-                    }
-                    true
-                }
+                Heading => equality,
                 // Texts are for people: two that read the same may be made of different parts.
                 Text => false,
                 _ => equality,
@@ -317,6 +305,17 @@ impl<'t> Checker<'t> {
             (Optional(_), None) | (None, Optional(_)) if equality => true,
             (x, y) => matches!((x.dimension(), y.dimension()), (Some(d), Some(e)) if d == e),
         };
+        let of_heading = |x: &Type, y: &Type| *x == Heading && (*y == Heading || *y == ANGLE);
+        if !equality && (of_heading(&a.ty, &b.ty) || of_heading(&b.ty, &a.ty)) {
+            let message = "headings have no order: 350 deg is just left of 10 deg";
+            let finding = Diagnostic::error(Code::TypesOrder, op.span, message)
+                .here(format!("`{}`", op.node.symbol()))
+                .label(a.span, format!("`{}`", self.type_name(&a.ty)))
+                .label(b.span, format!("`{}`", self.type_name(&b.ty)))
+                .help("compare the angle between two, `abs(heading - north) < 3 deg`");
+            self.report(finding);
+            return self.unknown(span);
+        }
         if !comparable {
             return self.no_such(op, &a, &b, span);
         }
@@ -353,7 +352,9 @@ impl<'t> Checker<'t> {
                 && read.ty == Type::Quantity(Dimension::NONE);
             if let Some(x) = number.range.constant().filter(|x| is_ratio && *x > 1.0 && number.ty == Type::Int) {
                 let message = format!("a ratio of {x} is {} %", x * 100.0);
-                self.report(Diagnostic::warning("ranges::ratio", number.span, message).help(format!("write `{x} %`")));
+                self.report(
+                    Diagnostic::warning(Code::RangesRatio, number.span, message).help(format!("write `{x} %`")),
+                );
             }
         }
     }
@@ -363,13 +364,13 @@ impl<'t> Checker<'t> {
         let (left, right) = (self.type_name(&a.ty), self.type_name(&b.ty));
         let symbol = op.node.symbol();
         let (code, verb) = match op.node {
-            Binary::Add => ("types::sum", "cannot be added"),
-            Binary::Sub => ("types::difference", "cannot be subtracted from one another"),
-            Binary::Mul => ("types::product", "cannot be multiplied"),
-            Binary::Div => ("types::quotient", "cannot be divided"),
-            Binary::Toward => ("types::toward", "make no vector"),
-            Binary::Pow => ("types::power", "make no power"),
-            _ => ("types::comparison", "cannot be compared"),
+            Binary::Add => (Code::TypesSum, "cannot be added"),
+            Binary::Sub => (Code::TypesDifference, "cannot be subtracted from one another"),
+            Binary::Mul => (Code::TypesProduct, "cannot be multiplied"),
+            Binary::Div => (Code::TypesQuotient, "cannot be divided"),
+            Binary::Toward => (Code::TypesToward, "make no vector"),
+            Binary::Pow => (Code::TypesPower, "make no power"),
+            _ => (Code::TypesComparison, "cannot be compared"),
         };
         let finding = Diagnostic::error(code, op.span, format!("{} and {} {verb}", article(&left), article(&right)))
             .here(format!("`{symbol}`"))
@@ -400,6 +401,12 @@ impl<'t> Checker<'t> {
             (Binary::Add, Heading, Heading) => {
                 "a heading is turned by an angle: `HEADING + ANGLE`; the angle between two is `HEADING - HEADING`"
                     .into()
+            }
+            (Binary::Mul | Binary::Div, Heading, _) | (Binary::Mul, _, Heading) => {
+                "a heading is turned by an angle: `HEADING + ANGLE`".into()
+            }
+            (Binary::Mul | Binary::Div, Point, _) | (Binary::Mul, _, Point) => {
+                "the way between two points, `POINT - POINT`, is a vector, which can be multiplied and divided".into()
             }
             (Binary::Add | Binary::Sub, Point, Quantity(d)) if *d == Dimension::LENGTH => {
                 "say in which direction: `POINT + LENGTH toward HEADING`".into()

@@ -1,6 +1,7 @@
 //! Parameters: their types, ranges and defaults, and what `--set` puts in place of a default.
 
 use super::{Checker, ParamInfo, Scope, Setting};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Interval};
@@ -28,7 +29,7 @@ impl<'t> Checker<'t> {
         for param in mission.params.iter().filter(|p| p.default.is_none()) {
             self.report(
                 Diagnostic::error(
-                    "missions::default",
+                    Code::MissionsDefault,
                     param.name.span,
                     format!("the mission's parameter `{}` has no default", param.name.node),
                 )
@@ -45,7 +46,7 @@ impl<'t> Checker<'t> {
         for param in params {
             if let Some(earlier) = infos.iter().find(|i| i.name == param.name.node) {
                 let finding = Diagnostic::error(
-                    "names::twice",
+                    Code::NamesTwice,
                     param.name.span,
                     format!("there are two parameters `{}`", param.name.node),
                 )
@@ -96,7 +97,7 @@ impl<'t> Checker<'t> {
             owners.iter().filter(|(o, _)| is_meant(o)).flat_map(|(_, params)| params).map(String::as_str).collect();
         let named = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" nor ");
         let Override { declarations, param, place, .. } = unused;
-        let finding = |message: String| Diagnostic::error("set::unknown", *place, message);
+        let finding = |message: String| Diagnostic::error(Code::SetUnknown, *place, message);
         let finding = match declarations.as_slice() {
             [] => finding(format!("whose parameter is `{param}`?"))
                 .help("choose the mission with `--mission`, or write `--set DECLARATION.PARAMETER=VALUE`"),
@@ -127,7 +128,7 @@ impl<'t> Checker<'t> {
             self.within(scope, |c| (c.expr_as(&range.first, ty, "the range"), c.expr_as(&range.last, ty, "the range")));
         if !range.inclusive && *ty != Type::Int && last.ty != Type::Unknown {
             self.report(
-                Diagnostic::error("ranges::open", last.span, "only whole numbers have a last before the end")
+                Diagnostic::error(Code::RangesOpen, last.span, "only whole numbers have a last before the end")
                     .help("write `..`, which holds both ends"),
             );
         }
@@ -137,7 +138,7 @@ impl<'t> Checker<'t> {
             (Some(_), Some(_)) => {
                 self.report(
                     Diagnostic::error(
-                        "ranges::empty",
+                        Code::RangesEmpty,
                         range.first.span.to(range.last.span),
                         "this range holds nothing",
                     )
@@ -162,13 +163,13 @@ impl<'t> Checker<'t> {
         };
         let finding = match value.range.constant() {
             Some(x) => Diagnostic::error(
-                "ranges::outside",
+                Code::RangesOutside,
                 value.span,
                 format!("{} is outside the range of `{param}`", show(x)),
             )
             .help(format!("choose a value {among} {bounds}")),
             None => Diagnostic::error(
-                "ranges::unproved",
+                Code::RangesUnproved,
                 value.span,
                 format!("this may be outside the range of `{param}`, {bounds}"),
             )

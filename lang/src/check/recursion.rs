@@ -2,6 +2,7 @@
 //! memory that it takes.
 
 use super::Checker;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::calls_in;
 use crate::source::Span;
@@ -29,7 +30,7 @@ fn finding(circle: &[(String, Span)]) -> Diagnostic {
     let (first, span) = &circle[0];
     let others: Vec<String> = circle[1..].iter().map(|(name, _)| format!("`{name}`")).collect();
     let through = if others.is_empty() { String::new() } else { format!(" through {}", others.join(", ")) };
-    let mut finding = Diagnostic::error("flow::recursion", *span, format!("`{first}` calls itself{through}"))
+    let mut finding = Diagnostic::error(Code::FlowRecursion, *span, format!("`{first}` calls itself{through}"))
         .help("what can be active must be known before launch: use `loop` or `while`");
     for (i, (_, span)) in circle.iter().enumerate().skip(1) {
         finding = finding.label(*span, format!("is called by `{}`", circle[i - 1].0));

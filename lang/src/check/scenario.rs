@@ -3,6 +3,7 @@
 
 use super::names::Found;
 use super::{Checker, Def, Scope, Setting};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
@@ -46,7 +47,7 @@ impl<'t> Checker<'t> {
             // A scenario may also be chosen on the command line: what is missing here is reported where it is run.
             Some(def) => {
                 self.report(Diagnostic::error(
-                    "scenarios::unknown",
+                    Code::ScenariosUnknown,
                     path.span,
                     format!("`{}` is {}, no scenario", path.text(), def.what()),
                 ));
@@ -55,7 +56,7 @@ impl<'t> Checker<'t> {
             None => {
                 let known: Vec<String> = self.hir.scenarios.iter().map(|s| s.name.clone()).collect();
                 let finding = Diagnostic::error(
-                    "scenarios::unknown",
+                    Code::ScenariosUnknown,
                     path.span,
                     format!("there is no scenario `{}`", path.text()),
                 );
@@ -107,7 +108,7 @@ impl<'t> Checker<'t> {
             let has_name = clause.args.first().is_some_and(|(param, _)| param == "name");
             if let Some(first) = first.filter(|_| !has_name) {
                 let message = format!("a scenario has one `{}`", clause.name);
-                let finding = Diagnostic::error("scenarios::twice", clause.span, message);
+                let finding = Diagnostic::error(Code::ScenariosTwice, clause.span, message);
                 self.report(finding.label(first.span, "the first").help("leave one of them out"));
             }
         }
@@ -130,7 +131,7 @@ impl<'t> Checker<'t> {
                 _ => "this".to_string(),
             };
             let finding =
-                Diagnostic::error("scenarios::clause", callee.span, format!("`{name}` is no clause of a scenario"));
+                Diagnostic::error(Code::ScenariosClause, callee.span, format!("`{name}` is no clause of a scenario"));
             let known: Vec<String> = self
                 .clauses
                 .iter()
@@ -151,7 +152,7 @@ impl<'t> Checker<'t> {
         if self.clauses[id].kind.is_some() != as_value {
             let help = if as_value { "it stands on a line of its own" } else { "it is a value of another clause" };
             self.report(
-                Diagnostic::error("scenarios::clause", e.span, format!("`{name}` cannot stand here")).help(help),
+                Diagnostic::error(Code::ScenariosClause, e.span, format!("`{name}` cannot stand here")).help(help),
             );
             return None;
         }
@@ -180,7 +181,7 @@ impl<'t> Checker<'t> {
                         }
                     }
                     None => self.report(Diagnostic::error(
-                        "scenarios::clause",
+                        Code::ScenariosClause,
                         arg.value.span,
                         format!("`{name}` takes no `{inner_name}`"),
                     )),
@@ -198,7 +199,7 @@ impl<'t> Checker<'t> {
                     .filter(|c| c.kind.as_ref() == Some(&kind))
                     .map(|c| c.signature.name.clone())
                     .collect();
-                let finding = Diagnostic::error("scenarios::clause", head.span, message);
+                let finding = Diagnostic::error(Code::ScenariosClause, head.span, message);
                 let finding = match self.suggestion(written, known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
                     None => finding,

@@ -2,6 +2,7 @@
 //! What is known of a value is its range: one that is wholly senseless is refused, one that only may be is not.
 
 use super::Checker;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::Expr;
@@ -26,7 +27,7 @@ impl<'t> Checker<'t> {
         if value.range.high <= 0.0 {
             let how = if value.range.high < 0.0 { "negative" } else { "zero" };
             self.report(
-                Diagnostic::error("ranges::duration", value.span, format!("{what} is {how}"))
+                Diagnostic::error(Code::RangesDuration, value.span, format!("{what} is {how}"))
                     .help("write a time longer than 0 s"),
             );
         }
@@ -41,7 +42,7 @@ impl<'t> Checker<'t> {
                 Type::Altitude => "altitudes are counted from the bottom up: write it without the sign",
                 _ => "a speed has no direction: leave the sign out, and steer the other way",
             };
-            self.report(Diagnostic::error("ranges::negative", value.span, format!("{what} is negative")).help(help));
+            self.report(Diagnostic::error(Code::RangesNegative, value.span, format!("{what} is negative")).help(help));
         }
     }
 
@@ -56,7 +57,7 @@ impl<'t> Checker<'t> {
             _ => return,
         };
         self.report(
-            Diagnostic::error("ranges::negative", value.span, format!("`{param}` is a {what}, and this is negative"))
+            Diagnostic::error(Code::RangesNegative, value.span, format!("`{param}` is a {what}, and this is negative"))
                 .help("leave the sign out; a range of its own, `in LOW..HIGH`, would let it be negative"),
         );
     }
@@ -68,8 +69,12 @@ impl<'t> Checker<'t> {
             let wrapped = albacore_geometry::Heading::from_radians(angle).radians();
             let (angle, wrapped) = (shown(angle), shown(wrapped));
             self.report(
-                Diagnostic::warning("ranges::heading", span, format!("a heading of {angle} is more than a whole turn"))
-                    .help(format!("write `{wrapped}`: that is where it points")),
+                Diagnostic::warning(
+                    Code::RangesHeading,
+                    span,
+                    format!("a heading of {angle} is more than a whole turn"),
+                )
+                .help(format!("write `{wrapped}`: that is where it points")),
             );
         }
     }
@@ -86,7 +91,7 @@ impl<'t> Checker<'t> {
         let sensible = value.abs() <= QUANTITY_MAX;
         if !sensible {
             self.report(
-                Diagnostic::error("types::number", span, "this is too large to be meant")
+                Diagnostic::error(Code::TypesNumber, span, "this is too large to be meant")
                     .help(format!("quantities go to {QUANTITY_MAX:e} in metres, seconds and what they make")),
             );
         }

@@ -3,8 +3,9 @@
 use super::expr::article;
 use super::facts;
 use super::{Checker, Setting, flow};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Body, Builtin, Expr, ExprKind, Kind, Rule, Target};
+use crate::hir::{self, Body, Builtin, Expr, ExprKind, InputPart, Rule, Target};
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
 
@@ -13,7 +14,6 @@ impl<'t> Checker<'t> {
         &mut self,
         id: usize,
         a: &'t tree::Activity,
-        kind: Kind,
         result: Option<&Type>,
         clauses: &[&'t Clause],
     ) -> Body {
@@ -26,7 +26,7 @@ impl<'t> Checker<'t> {
                 ClauseKind::Behavior(b) => {
                     if let Some(earlier) = names.iter().find(|n| n.node == b.name.node) {
                         let finding = Diagnostic::error(
-                            "names::twice",
+                            Code::NamesTwice,
                             b.name.span,
                             format!("there are two behaviors `{}`", b.name.node),
                         )
@@ -38,7 +38,7 @@ impl<'t> Checker<'t> {
                 }
                 ClauseKind::Start(name) => {
                     if start.replace(name).is_some() {
-                        self.report(Diagnostic::error("rules::start", clause.span, "a table has one `start`"));
+                        self.report(Diagnostic::error(Code::RulesStart, clause.span, "a table has one `start`"));
                     }
                 }
                 ClauseKind::Rule(rule) => written.push(rule),
@@ -49,9 +49,6 @@ impl<'t> Checker<'t> {
                 ),
             }
         }
-        if kind == Kind::Mission && result.is_some() {
-            self.report(Diagnostic::error("missions::result", a.name.span, "a mission finishes with no value"));
-        }
         let mut rules = Vec::new();
         for rule in &written {
             rules.extend(self.rule(rule, &names, result));
@@ -61,7 +58,7 @@ impl<'t> Checker<'t> {
             None => {
                 self.report(
                     Diagnostic::error(
-                        "rules::start",
+                        Code::RulesStart,
                         a.name.span,
                         format!("with which behavior does `{}` begin?", a.name.node),
                     )
@@ -81,7 +78,7 @@ impl<'t> Checker<'t> {
         if let Some(param) = b.params.first() {
             self.report(
                 Diagnostic::error(
-                    "rules::params",
+                    Code::RulesParams,
                     param.name.span,
                     format!("`{}` is entered by a rule, which gives no arguments", b.name.node),
                 )
@@ -91,7 +88,7 @@ impl<'t> Checker<'t> {
         if let Some(result) = &b.result {
             self.report(
                 Diagnostic::error(
-                    "rules::result",
+                    Code::RulesResult,
                     result.span,
                     format!("`{}` ends in a table, where nobody reads a result", b.name.node),
                 )
@@ -109,7 +106,7 @@ impl<'t> Checker<'t> {
         let found = names.iter().position(|n| n.node == name.node);
         if found.is_none() {
             let finding =
-                Diagnostic::error("rules::unknown", name.span, format!("there is no behavior `{}` here", name.node));
+                Diagnostic::error(Code::RulesUnknown, name.span, format!("there is no behavior `{}` here", name.node));
             let finding = match self.suggestion(&name.node, names.iter().map(|n| n.node.as_str())) {
                 Some(help) => finding.help(help),
                 None => finding,
@@ -150,7 +147,7 @@ impl<'t> Checker<'t> {
         });
         if let (Some(back), false) = (rule.back, matches!(rule.target, tree::Target::Behavior(_))) {
             self.report(
-                Diagnostic::error("rules::back", back, "nothing comes back from here")
+                Diagnostic::error(Code::RulesBack, back, "nothing comes back from here")
                     .help("`then back` belongs to `A -> B`"),
             );
         }
@@ -159,7 +156,7 @@ impl<'t> Checker<'t> {
             && sources.contains(&to)
             && rule.back.is_some()
         {
-            self.report(Diagnostic::error("rules::back", rule.sources_span, "a behavior cannot wait for itself"));
+            self.report(Diagnostic::error(Code::RulesBack, rule.sources_span, "a behavior cannot wait for itself"));
         }
         let span = rule.sources_span;
         Some(Rule { sources, target, on, back: rule.back.is_some(), effect, span, on_span: rule.on.span })
@@ -176,7 +173,7 @@ impl<'t> Checker<'t> {
             (None, None) => Some(Target::Finish(None)),
             (Some(value), None) => {
                 self.report(
-                    Diagnostic::error("flow::result", value.span, "this finishes with a value, and none is declared")
+                    Diagnostic::error(Code::FlowResult, value.span, "this finishes with a value, and none is declared")
                         .help("declare it: `strategy NAME(…) -> TYPE { … }`"),
                 );
                 // The rule stands all the same: it leads away from its source.
@@ -186,7 +183,7 @@ impl<'t> Checker<'t> {
                 let ty = self.type_name(ty);
                 self.report(
                     Diagnostic::error(
-                        "flow::result",
+                        Code::FlowResult,
                         span,
                         format!("this finishes without its result, {}", article(&ty)),
                     )
@@ -221,7 +218,7 @@ impl<'t> Checker<'t> {
             }
             if !reached[i] {
                 self.report(
-                    Diagnostic::error("rules::unreachable", name.span, format!("`{}` is never entered", name.node))
+                    Diagnostic::error(Code::RulesUnreachable, name.span, format!("`{}` is never entered", name.node))
                         .help(format!("add a rule `… -> {} on …`, or remove it", name.node)),
                 );
                 continue;
@@ -237,7 +234,7 @@ impl<'t> Checker<'t> {
             if ends && !answered && !only_back {
                 self.report(
                     Diagnostic::error(
-                        "rules::ending",
+                        Code::RulesEnding,
                         name.span,
                         format!("`{}` can end, and no rule says what then", name.node),
                     )
@@ -249,7 +246,7 @@ impl<'t> Checker<'t> {
                     if mentions_done(&rule.on) && rule.sources.len() == 1 {
                         self.report(
                             Diagnostic::error(
-                                "rules::done",
+                                Code::RulesDone,
                                 rule.on_span,
                                 format!("`{}` never ends: it is never `done`", name.node),
                             )
@@ -263,7 +260,7 @@ impl<'t> Checker<'t> {
                 }
                 if leaving.is_empty() && !only_back {
                     self.report(
-                        Diagnostic::error("rules::forever", name.span, format!("`{}` is never left", name.node))
+                        Diagnostic::error(Code::RulesForever, name.span, format!("`{}` is never left", name.node))
                             .help(format!("add `{} -> … on …`", name.node)),
                     );
                 }
@@ -281,7 +278,7 @@ impl<'t> Checker<'t> {
             if let Some(earlier) = shadow {
                 self.report(
                     Diagnostic::error(
-                        "rules::shadowed",
+                        Code::RulesShadowed,
                         later.on_span,
                         format!("this rule of `{}` is never reached", name.node),
                     )
@@ -357,6 +354,8 @@ fn same_guard(a: &Expr, b: &Expr) -> bool {
     match (&a.kind, &b.kind) {
         (ExprKind::Done, ExprKind::Done) => true,
         (ExprKind::Var(x), ExprKind::Var(y)) => x == y,
+        // All rules of a tick see the same samples.
+        (ExprKind::Input(x, part), ExprKind::Input(y, other)) => x == y && same_part(part, other),
         (ExprKind::Number(x), ExprKind::Number(y)) => x == y,
         (ExprKind::IsPresent(x), ExprKind::IsPresent(y)) => same_guard(x, y),
         // `a or b` holds whenever `a` does.
@@ -366,6 +365,17 @@ fn same_guard(a: &Expr, b: &Expr) -> bool {
         (ExprKind::Do(op, xs), ExprKind::Do(other, ys)) => {
             op == other && xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| same_guard(x, y))
         }
+        _ => false,
+    }
+}
+
+fn same_part(a: &InputPart, b: &InputPart) -> bool {
+    match (a, b) {
+        (InputPart::Value, InputPart::Value)
+        | (InputPart::Age, InputPart::Age)
+        | (InputPart::Peak, InputPart::Peak) => true,
+        (InputPart::Field(x), InputPart::Field(y)) => x == y,
+        (InputPart::Hits(limit, of), InputPart::Hits(other, count)) => of == count && same_guard(limit, other),
         _ => false,
     }
 }

@@ -1,6 +1,7 @@
 //! Tests: a mission run in a scenario over seeds, and what must hold of it.
 
 use super::{Checker, Def, Scope, Setting};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Expect, Expr, ExprKind, Interval, Test, TestNames, VarKind, When};
@@ -34,7 +35,7 @@ impl<'t> Checker<'t> {
         });
         let Some((run_span, mission, args, scenario, seeds)) = run else {
             self.report(
-                Diagnostic::error("tests::run", test.name.span, format!("the test \"{name}\" runs nothing"))
+                Diagnostic::error(Code::TestsRun, test.name.span, format!("the test \"{name}\" runs nothing"))
                     .help("write `run MISSION in SCENARIO seeds 1..20`"),
             );
             return;
@@ -42,7 +43,7 @@ impl<'t> Checker<'t> {
         let runs = test.clauses.iter().filter(|c| matches!(c.node, TestClause::Run { .. }));
         for again in runs.skip(1) {
             self.report(
-                Diagnostic::error("tests::run", again.span, "a test runs one mission").label(run_span, "the first"),
+                Diagnostic::error(Code::TestsRun, again.span, "a test runs one mission").label(run_span, "the first"),
             );
         }
         let Some(id) = self.mission_named(m, mission) else { return };
@@ -60,7 +61,7 @@ impl<'t> Checker<'t> {
             _ => {
                 self.report(
                     Diagnostic::error(
-                        "tests::seeds",
+                        Code::TestsSeeds,
                         first.span.to(last.span),
                         "seeds are two whole numbers, the smaller first",
                     )
@@ -87,7 +88,7 @@ impl<'t> Checker<'t> {
             if *seed < seeds.0 || *seed > seeds.1 {
                 self.report(
                     Diagnostic::error(
-                        "tests::seeds",
+                        Code::TestsSeeds,
                         test.name.span,
                         format!("seed {seed} is not among those that are run"),
                     )
@@ -118,10 +119,12 @@ impl<'t> Checker<'t> {
                 let known: Vec<String> =
                     self.mission_ids.iter().map(|&id| self.activity_signatures[id].name.clone()).collect();
                 let finding =
-                    Diagnostic::error("tests::mission", path.span, format!("there is no mission `{}`", path.text()));
+                    Diagnostic::error(Code::TestsMission, path.span, format!("there is no mission `{}`", path.text()));
                 let finding = match self.suggestion(&path.text(), known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
-                    None => finding,
+                    None => {
+                        finding.help("declare it in this file, or name the module that has it: `run MODULE.NAME(…)`")
+                    }
                 };
                 self.report(finding);
                 None
@@ -159,7 +162,7 @@ impl<'t> Checker<'t> {
                     _ => {
                         self.report(
                             Diagnostic::error(
-                                "tests::share",
+                                Code::TestsShare,
                                 share.span,
                                 "a share of the runs is a constant from 0 % to 100 %",
                             )
@@ -184,7 +187,7 @@ impl<'t> Checker<'t> {
             ("truth", "deepest") => test.names.deepest,
             ("truth", other) => {
                 let finding =
-                    Diagnostic::error("tests::truth", member.span, format!("there is no `truth.{other}` to ask for"));
+                    Diagnostic::error(Code::TestsTruth, member.span, format!("there is no `truth.{other}` to ask for"));
                 let finding = match self.nearest(other, TRUTHS) {
                     Some(near) => finding.help(format!("did you mean `truth.{near}`?")),
                     None => finding.help(format!("there is {}", suggest::listed(&TRUTHS))),

@@ -3,6 +3,7 @@
 use super::expr::article;
 use super::names::Found;
 use super::{Checker, Def, Driving, ParamInfo, Setting, Temporal};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Action, ExprKind, Interval, Stmt, StmtKind, Timed, VarKind, With};
@@ -34,7 +35,8 @@ impl<'t> Checker<'t> {
         span: Span,
     ) -> Option<Stmt> {
         if let Some(repeated) = timed.repeated {
-            self.report(Diagnostic::error("syntax::modifier", repeated, "this modifier is written twice"));
+            let finding = Diagnostic::error(Code::SyntaxModifier, repeated, "this modifier is written twice");
+            self.report(finding.help("keep one of them"));
         }
         if let tree::Action::Expr(e) = &timed.action
             && self.called_activity(e).is_none()
@@ -44,21 +46,28 @@ impl<'t> Checker<'t> {
                     return None;
                 }
                 self.report(
-                    Diagnostic::error("time::modifier", timed.span, "this takes no time: nothing to end or to cut off")
-                        .help("`for`, `until`, `within` and `at` belong to statements that take time"),
+                    Diagnostic::error(
+                        Code::TimeModifier,
+                        timed.span,
+                        "this takes no time: nothing to end or to cut off",
+                    )
+                    .help("`for`, `until`, `within` and `at` belong to statements that take time"),
                 );
             }
             return self.expr_stmt(e, span);
         }
         if self.scope.setting != Setting::Body {
-            let finding =
-                Diagnostic::error("time::instant", timed.span, "this takes time, and here everything is instantaneous")
-                    .help("move it into the body of a behavior; a reaction can set a `memory` for a rule to see");
+            let finding = Diagnostic::error(
+                Code::TimeInstant,
+                timed.span,
+                "this takes time, and here everything is instantaneous",
+            )
+            .help("move it into the body of a behavior; a reaction can set a `memory` for a rule to see");
             self.report(finding);
         }
         if let (Some(duration), Some(until)) = (&timed.duration, &timed.until) {
             self.report(
-                Diagnostic::error("time::modifier", until.span, "`for` and `until` cannot both end this")
+                Diagnostic::error(Code::TimeModifier, until.span, "`for` and `until` cannot both end this")
                     .label(duration.span, "the other end")
                     .help("write `until X` with `within T` to cut it off, or `until X or after T`"),
             );
@@ -89,7 +98,7 @@ impl<'t> Checker<'t> {
                     let place = ty.span;
                     self.report(
                         Diagnostic::error(
-                            "types::mismatch",
+                            Code::TypesMismatch,
                             place,
                             format!("this gives {}, not {}", article(&has), article(&wants)),
                         )
@@ -102,14 +111,18 @@ impl<'t> Checker<'t> {
         let overrides = matches!(action, Action::Override(_));
         if within.is_some() && result.is_none() && !overrides {
             self.report(
-                Diagnostic::warning("time::unread", timed.span, "nobody learns whether this was cut off")
+                Diagnostic::warning(Code::TimeUnread, timed.span, "nobody learns whether this was cut off")
                     .help("write `let ok = …`, or `until after T` when either end will do"),
             );
         }
         if !ends && bind.is_some() && duration.is_none() && until.is_none() && within.is_none() {
             self.report(
-                Diagnostic::error("flow::endless", timed.span, "this never ends by itself: its outcome is never known")
-                    .help("bound it with `for T`, `until X` or `within T`"),
+                Diagnostic::error(
+                    Code::FlowEndless,
+                    timed.span,
+                    "this never ends by itself: its outcome is never known",
+                )
+                .help("bound it with `for T`, `until X` or `within T`"),
             );
         }
         let timed = Timed { action, duration, until, within, at, result };
@@ -124,7 +137,7 @@ impl<'t> Checker<'t> {
         }
         let Some(near) = suggest::nearest(name, ["wait", "hold", "watch"]) else { return false };
         self.report(
-            Diagnostic::error("syntax::clause", e.span, format!("`{name}` begins no statement"))
+            Diagnostic::error(Code::SyntaxClause, e.span, format!("`{name}` begins no statement"))
                 .help(format!("did you mean `{near}`?")),
         );
         true
@@ -165,7 +178,7 @@ impl<'t> Checker<'t> {
                     };
                     self.report(
                         Diagnostic::error(
-                            "time::call",
+                            Code::TimeCall,
                             e.span,
                             format!("`{}` is {what}, no statement", signature.name),
                         )
@@ -189,7 +202,8 @@ impl<'t> Checker<'t> {
     /// Who drives already can neither watch nor take over.
     fn not_driving(&mut self, span: Span, what: &str) {
         let Some(driving) = self.scope.driving else { return };
-        let finding = Diagnostic::error("time::control", span, format!("the vehicle is ours here: nothing to {what}"));
+        let finding =
+            Diagnostic::error(Code::TimeControl, span, format!("the vehicle is ours here: nothing to {what}"));
         self.report(match driving {
             Driving::Override(outer) => finding
                 .label(outer, "since this `override`")
@@ -291,7 +305,7 @@ impl<'t> Checker<'t> {
                 (Channel::Speed, true) => "`speed 1 m/s` is that speed, `speed speed + 1 m/s` 1 m/s faster than now",
                 (Channel::Speed, false) => "`speed 1 m/s` is that speed, `speed speed - 1 m/s` 1 m/s slower than now",
             };
-            self.report(Diagnostic::error("syntax::setpoint", op.span, "no setpoint begins with a sign").help(help));
+            self.report(Diagnostic::error(Code::SyntaxSetpoint, op.span, "no setpoint begins with a sign").help(help));
             written = unsigned;
         }
         let what = format!("the {} setpoint", setpoint.channel.node);
@@ -319,7 +333,7 @@ impl<'t> Checker<'t> {
                         let value = self.expr(e, None);
                         if value.ty != Type::Unknown {
                             self.report(
-                                Diagnostic::error("types::overlay", e.span, "`with` puts on overlays and setpoints")
+                                Diagnostic::error(Code::TypesOverlay, e.span, "`with` puts on overlays and setpoints")
                                     .help("for example `with safety.cage(op), altitude 2 m, speed 2 m/s`"),
                             );
                         }
@@ -329,9 +343,13 @@ impl<'t> Checker<'t> {
                     let signature = self.activity_signatures[id].clone();
                     if !self.overlay_ids.contains(&id) {
                         self.report(
-                            Diagnostic::error("types::overlay", e.span, format!("`{}` is no overlay", signature.name))
-                                .label(signature.span, "declared here")
-                                .help("call it as a statement"),
+                            Diagnostic::error(
+                                Code::TypesOverlay,
+                                e.span,
+                                format!("`{}` is no overlay", signature.name),
+                            )
+                            .label(signature.span, "declared here")
+                            .help("call it as a statement"),
                         );
                         continue;
                     }
@@ -359,7 +377,7 @@ pub(super) fn same_channel(a: Channel, b: Channel) -> bool {
 
 fn owned_twice(span: Span, earlier: Span, channel: Channel) -> Diagnostic {
     let name = if channel == Channel::Speed { "speed" } else { "vertical channel" };
-    Diagnostic::error("channels::twice", span, format!("the {name} is set twice"))
+    Diagnostic::error(Code::ChannelsTwice, span, format!("the {name} is set twice"))
         .label(earlier, "already set here")
         .help("keep one of them")
 }

@@ -1,6 +1,7 @@
 //! Types and units as they are written.
 
 use super::{Checker, Def, Scope, Setting};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::{self, Dimension, Unit};
 use crate::suggest;
@@ -14,7 +15,7 @@ impl<'t> Checker<'t> {
     pub(super) fn declared_unit(&mut self, m: usize, value: &tree::Expr) -> Option<Unit> {
         let tree::ExprKind::Number { value: number, unit: Some(unit) } = &value.kind else {
             self.report(
-                Diagnostic::error("units::declaration", value.span, "a unit is declared by a quantity")
+                Diagnostic::error(Code::UnitsDeclaration, value.span, "a unit is declared by a quantity")
                     .help("for example `unit fathom = 1.8288 m`"),
             );
             return None;
@@ -33,7 +34,7 @@ impl<'t> Checker<'t> {
         let found = dimension::unit(&word.node, &own);
         if found.is_none() {
             let known: Vec<&str> = dimension::UNITS.iter().map(|(name, ..)| *name).collect();
-            let finding = Diagnostic::error("units::unknown", word.span, format!("`{}` is no unit", word.node))
+            let finding = Diagnostic::error(Code::UnitsUnknown, word.span, format!("`{}` is no unit", word.node))
                 .here("unknown unit");
             let finding = if let Some((unit, name)) = word.node.split_once('/')
                 && dimension::unit(unit, &own).is_some()
@@ -63,8 +64,12 @@ impl<'t> Checker<'t> {
                     _ => {
                         if capacity.ty != Type::Unknown {
                             self.report(
-                                Diagnostic::error("types::capacity", capacity.span, "a list's capacity is a constant")
-                                    .help(format!("a whole number from 1 to {LIST_CAPACITY_MAX}")),
+                                Diagnostic::error(
+                                    Code::TypesCapacity,
+                                    capacity.span,
+                                    "a list's capacity is a constant",
+                                )
+                                .help(format!("a whole number from 1 to {LIST_CAPACITY_MAX}")),
                             );
                         }
                         Type::Unknown
@@ -111,7 +116,7 @@ impl<'t> Checker<'t> {
             Some(Def::Enum(id)) => Type::Enum(id),
             Some(def) => {
                 self.report(Diagnostic::error(
-                    "types::unknown",
+                    Code::TypesUnknown,
                     path.span,
                     format!("`{name}` is {}, no type", def.what()),
                 ));
@@ -122,7 +127,7 @@ impl<'t> Checker<'t> {
                 known.extend(SIMPLE_TYPES);
                 let declared = self.names[m].iter().filter(|(_, d)| matches!(d, Def::Record(_) | Def::Enum(_)));
                 known.extend(declared.map(|(n, _)| n.as_str()));
-                let finding = Diagnostic::error("types::unknown", path.span, format!("there is no type `{name}`"));
+                let finding = Diagnostic::error(Code::TypesUnknown, path.span, format!("there is no type `{name}`"));
                 let finding = match self.nearest(&name, known) {
                     Some(near) => finding.help(format!("did you mean `{near}`?")),
                     None => finding.help("types are Length, Duration, Speed, Angle, Heading, Depth, Altitude, Point, Vector, Int, Bool, … and the records and enums declared"),
@@ -137,7 +142,7 @@ impl<'t> Checker<'t> {
         let found = Dimension::of_type(&name.node);
         if found.is_none() {
             self.report(
-                Diagnostic::error("types::unknown", name.span, format!("`{}` is no quantity", name.node))
+                Diagnostic::error(Code::TypesUnknown, name.span, format!("`{}` is no quantity", name.node))
                     .help("only quantities such as Length and Duration can be multiplied and divided"),
             );
         }

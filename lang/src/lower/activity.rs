@@ -2,6 +2,7 @@
 
 use super::watch::{Timer, positions};
 use super::{Lowering, SortedBy, Sorter, WORDS_MAX};
+use crate::code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Block, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::rules;
@@ -34,11 +35,15 @@ impl<'a> Lowering<'a> {
             let span = activity.span;
             self.findings.push(
                 Diagnostic::error(
-                    "limits::memory",
+                    code::Code::LimitsMemory,
                     span,
                     format!("the mission `{}` needs too much memory", activity.name),
                 )
-                .here(format!("{} numbers, more than {WORDS_MAX}", self.program.words))
+                .here(format!(
+                    "{:.1} million numbers, more than {:.1} million",
+                    f64::from(self.program.words) / 1e6,
+                    f64::from(WORDS_MAX) / 1e6
+                ))
                 .help("make its lists shorter, or call fewer behaviors from one another"),
             );
         }

@@ -20,6 +20,7 @@ pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 
 pub use scenario::{ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Hir};
 use crate::source::{Sources, Span};
@@ -286,9 +287,15 @@ impl<'a> Lowering<'a> {
             Some(origin) => TangentFrame { origin }.to_point(position),
             None => {
                 self.findings.push(
-                    Diagnostic::error("missions::origin", span, "where is this from the mission's area?")
-                        .here("a position on the globe")
-                        .help("give the mission an `area` with a position on the globe, or write `point(north: …, east: …)`"),
+                    Diagnostic::error(
+                        Code::MissionsOrigin,
+                        span,
+                        "this place on the globe lies nowhere in the mission's frame",
+                    )
+                    .here("a position on the globe")
+                    .help(
+                        "give the mission an `area` with a position on the globe, or write `point(north: …, east: …)`",
+                    ),
                 );
                 Point::ORIGIN
             }

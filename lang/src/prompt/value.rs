@@ -1,6 +1,7 @@
 //! Values at the prompt: those that a line leaves, and those that lines can name.
 
 use crate::Script;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, VarId};
 use crate::source::Span;
@@ -40,7 +41,7 @@ impl Left {
     /// Whether the value means the same when it is used again: texts are of the program that they stand in.
     pub(super) fn can_be_kept(&self, span: Span) -> Result<(), Vec<Diagnostic>> {
         let finding =
-            |message: &str, help: &str| Err(vec![Diagnostic::error("prompt::value", span, message).help(help)]);
+            |message: &str, help: &str| Err(vec![Diagnostic::error(Code::PromptValue, span, message).help(help)]);
         if self.name.is_some() && self.shape.has_text() {
             return finding("a text cannot be given a name at the prompt", "write it where it is used");
         }

@@ -1,6 +1,7 @@
 //! One owner for each channel on every way that leads to a statement: speed and vertical are set, and set once.
 
 use super::limits::{self, Limit};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, Block, Body, Decl, Expr, Hir, Kind, StmtKind, Timed, With};
 use crate::source::Span;
@@ -91,12 +92,13 @@ impl Walk<'_> {
             _ => (&mut owners.vertical, "vertical channel"),
         };
         if let Owner::Overlay(earlier) = *slot {
-            let finding = Diagnostic::error("channels::twice", span, format!("the {name} belongs to an overlay here"))
-                .label(earlier, "put on here")
-                .help(match owner {
-                    Owner::Overlay(_) => "take one of the two overlays off",
-                    _ => "take the overlay off, or leave the setpoint out",
-                });
+            let finding =
+                Diagnostic::error(Code::ChannelsTwice, span, format!("the {name} belongs to an overlay here"))
+                    .label(earlier, "put on here")
+                    .help(match owner {
+                        Owner::Overlay(_) => "take one of the two overlays off",
+                        _ => "take the overlay off, or leave the setpoint out",
+                    });
             self.tell(finding);
             return;
         }
@@ -178,13 +180,13 @@ impl Walk<'_> {
         };
         if vertical && owners.vertical == Owner::Nobody {
             self.tell(
-                Diagnostic::error("channels::unset", span, "how deep? neither depth nor altitude is set here")
+                Diagnostic::error(Code::ChannelsUnset, span, "how deep? neither depth nor altitude is set here")
                     .help("write `at depth 3 m` after it, or `with altitude 2 m` around it"),
             );
         }
         if speed && owners.speed == Owner::Nobody {
             self.tell(
-                Diagnostic::error("channels::unset", span, "how fast? no speed is set here")
+                Diagnostic::error(Code::ChannelsUnset, span, "how fast? no speed is set here")
                     .help("write `at speed 1.5 m/s` after it, or `with speed 1.5 m/s` around it"),
             );
         }

@@ -1,5 +1,6 @@
 //! Commands only under control (rule 18): a mission that watches or overrides drives its vehicle in its overrides alone.
 
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, ActivityId, Block, Body, Hir, StmtKind};
 use crate::source::Span;
@@ -72,7 +73,7 @@ impl Walk<'_> {
                     self.path.pop();
                 }
                 Action::Override(_) | Action::Watch if driving => self.tell(
-                    Diagnostic::error("time::control", stmt.span, "the vehicle is ours here: nothing to take over")
+                    Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle is ours here: nothing to take over")
                         .help("this is called from an `override` or a recovery: call it outside, or leave this out"),
                 ),
                 Action::Override(inner) => self.block(&inner.block, true),
@@ -80,7 +81,7 @@ impl Walk<'_> {
                 Action::Watch | Action::Guide(Guide::Wait, _) => {}
                 Action::Guide(..) | Action::Keep(..) if driving => {}
                 Action::Guide(..) | Action::Keep(..) => self.tell(
-                    Diagnostic::error("time::control", stmt.span, "the vehicle drives itself here")
+                    Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle drives itself here")
                         .label(self.guest, "this makes the mission a guest, which drives in `override { … }` alone")
                         .help("put it into an `override { … }`"),
                 ),

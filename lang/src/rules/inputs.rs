@@ -1,5 +1,6 @@
 //! Inputs that are read and not required: nobody has said how old they may be.
 
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With, activity_children, children};
 use crate::source::Span;
@@ -28,7 +29,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         }
         findings.push(
             Diagnostic::warning(
-                "missions::unrequired",
+                Code::MissionsUnrequired,
                 activity.span,
                 format!("the mission `{}` reads `{name}` and does not say how old it may be", activity.name),
             )

@@ -1,5 +1,6 @@
 //! The mission's limits, and setpoints that lie beyond them whatever happens: the vehicle would never get there.
 
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Expr, Hir};
 use crate::source::Span;
@@ -40,7 +41,7 @@ pub(super) fn beyond(limits: &[Limit], channel: Channel, setpoint: &Expr) -> Opt
     let (than, bound) = if limit.least { ("less", "least") } else { ("more", "greatest") };
     Some(
         Diagnostic::error(
-            "limits::setpoint",
+            Code::LimitsSetpoint,
             setpoint.span,
             format!("this {name} is {than} than the mission's limit of {} {unit}", limit.value),
         )

@@ -1,6 +1,7 @@
 //! Values set from outside for what no mission calls: whoever set them believes that they count.
 
 use crate::check::Override;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::Hir;
 use crate::suggest;
@@ -21,7 +22,7 @@ pub fn check(hir: &Hir, missions: &[usize], overrides: &[Override]) -> Vec<Diagn
         let (declaration, missions) = (set.declarations.first().map_or("", String::as_str), suggest::listed(&names));
         findings.push(
             Diagnostic::error(
-                "set::unreached",
+                Code::SetUnreached,
                 set.value.span,
                 format!("`{declaration}.{}` is set, and {missions} never calls `{declaration}`", set.param),
             )

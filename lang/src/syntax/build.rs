@@ -5,6 +5,7 @@ use super::build_block::block;
 use super::build_expr::{cond, expr, name, path, text};
 use super::tree::*;
 use super::words::is_word;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span, Spanned};
 use pest::iterators::{Pair, Pairs};
@@ -82,7 +83,7 @@ pub(super) fn file(b: &mut Builder, pairs: Pairs<Rule>) -> File {
                 let word = pairs.peek().and_then(|next| next.as_str().split_whitespace().next()).unwrap_or("");
                 let span = Span { end: at.start + word.len() as u32, ..at };
                 b.refused.push(
-                    Diagnostic::error("layout::line", span, "this declaration begins on the line of another")
+                    Diagnostic::error(Code::LayoutLine, span, "this declaration begins on the line of another")
                         .help("begin each declaration on a line of its own"),
                 );
             }

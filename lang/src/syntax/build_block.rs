@@ -4,6 +4,7 @@ use super::build::{Builder, P, Place, activity, parts, range, take, ty};
 use super::build_expr::{cond, expr, expr_stmt, name, text};
 use super::tree::*;
 use super::{NESTING_MAX, Rule};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
@@ -25,7 +26,7 @@ pub(super) fn block(b: &mut Builder, pair: P) -> Block {
     let is_with = |c: &&Clause| matches!(c.kind, ClauseKind::With(_));
     if let Some(at) = clauses.iter().filter(is_with).nth(NESTING_MAX).map(|c| c.span) {
         b.refused.push(
-            Diagnostic::error("syntax::nesting", at, format!("more than {NESTING_MAX} `with` stand in this block"))
+            Diagnostic::error(Code::SyntaxNesting, at, format!("more than {NESTING_MAX} `with` stand in this block"))
                 .help("write what holds together in one `with`, between commas"),
         );
         clauses.truncate(NESTING_MAX);

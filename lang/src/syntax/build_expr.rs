@@ -4,6 +4,7 @@ use super::Rule;
 use super::build::{Builder, parts};
 use super::build_block::{block, modified};
 use super::tree::*;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
 use pest::iterators::Pair;
@@ -120,7 +121,7 @@ pub(super) fn expr(b: &mut Builder, pair: P) -> Expr {
 fn refused(b: &mut Builder, span: Span, message: String) -> Expr {
     let is_part = |f: &Diagnostic| span.start <= f.span().start && f.span().end <= span.end;
     if !b.refused.last().is_some_and(is_part) {
-        b.refused.push(Diagnostic::error("syntax::nesting", span, message).help("name parts of it with `let`"));
+        b.refused.push(Diagnostic::error(Code::SyntaxNesting, span, message).help("name parts of it with `let`"));
     }
     Expr { kind: ExprKind::Name(String::new()), span }
 }
@@ -262,7 +263,7 @@ fn match_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
         let span = b.span(&arm);
         if std::mem::take(&mut crowded) {
             b.refused.push(
-                Diagnostic::error("layout::line", span, "this arm begins on the line of another")
+                Diagnostic::error(Code::LayoutLine, span, "this arm begins on the line of another")
                     .help("begin each arm on a line of its own, or after `;`"),
             );
         }
@@ -290,7 +291,7 @@ fn degrees(b: &mut Builder, pair: P) -> f64 {
                 let number = number.parse::<f64>().unwrap_or(0.0);
                 if unit > 1.0 && number >= 60.0 {
                     b.refused.push(
-                        Diagnostic::error("types::position", span, format!("{number}' is more than a degree"))
+                        Diagnostic::error(Code::TypesPosition, span, format!("{number}' is more than a degree"))
                             .help("minutes of arc are less than 60: has a digit slipped?"),
                     );
                 }

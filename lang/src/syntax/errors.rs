@@ -3,6 +3,7 @@
 use super::build::{Bad, Place};
 use super::habits::{habit, untyped_memory};
 use super::{Grammar, Rule};
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::foreign;
 use crate::source::{FileId, Span};
@@ -43,7 +44,7 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
     let word: String = stretch.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
     if let Some((end, habit)) = untyped_memory(stretch) {
         let span = Span { file, start: start as u32, end: (start + end) as u32 };
-        return Diagnostic::error("syntax::expected", span, habit.message.unwrap_or_default()).help(habit.help);
+        return Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or_default()).help(habit.help);
     }
     let error = Grammar::parse(rule, stretch).err();
     let offset = error.as_ref().map_or(0, |e| match e.location {
@@ -56,9 +57,9 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
         let span = Span { file, start: start as u32, end: (start + word.len()) as u32 };
         let finding = match bad.place {
             Place::Item => {
-                Diagnostic::error("syntax::item", span, format!("`{word}` begins nothing that a file holds"))
+                Diagnostic::error(Code::SyntaxItem, span, format!("`{word}` begins nothing that a file holds"))
             }
-            _ => Diagnostic::error("syntax::clause", span, format!("`{word}` begins no statement")),
+            _ => Diagnostic::error(Code::SyntaxClause, span, format!("`{word}` begins no statement")),
         };
         if let Some(help) = foreign::help(&word) {
             return finding.help(help);
@@ -74,7 +75,7 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
     }
     match error {
         Some(error) => finding(file, stretch, start, &error),
-        None => Diagnostic::error("syntax::clause", bad.span, "this cannot stand here")
+        None => Diagnostic::error(Code::SyntaxClause, bad.span, "this cannot stand here")
             .help("one statement a line: separate two with a newline or `;`"),
     }
 }
@@ -93,7 +94,7 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
     };
     let wants_name = expected.split([',', ' ']).any(|word| word == "name");
     if wants_name && is_reserved(token) {
-        return Diagnostic::error("syntax::reserved", span, format!("`{token}` is a word of the language, no name"))
+        return Diagnostic::error(Code::SyntaxReserved, span, format!("`{token}` is a word of the language, no name"))
             .help("choose another name; as a field or a label it may stand");
     }
     let message = if expected.is_empty() {
@@ -103,8 +104,8 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
     };
     let before = text[..offset].rsplit(['\n', ';', '{']).next().unwrap_or("");
     match habit(before, rest, &expected) {
-        Some(habit) => Diagnostic::error("syntax::expected", span, habit.message.unwrap_or(message)).help(habit.help),
-        None => Diagnostic::error("syntax::expected", span, message),
+        Some(habit) => Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or(message)).help(habit.help),
+        None => Diagnostic::error(Code::SyntaxExpected, span, message),
     }
 }
 

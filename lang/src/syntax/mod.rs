@@ -12,9 +12,11 @@ mod words;
 pub use errors::begins_item;
 pub use scan::{Comment, NESTING_MAX};
 
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
-use grammar::{Grammar, Rule};
+use grammar::Grammar;
+pub(crate) use grammar::Rule;
 use pest::Parser;
 
 /// What the grammar's file becomes.
@@ -104,6 +106,15 @@ pub fn statements(source: &str) -> Vec<&str> {
     statements
 }
 
+/// What the grammar reads in a source without mistakes: every word, in the rules to which it belongs.
+pub(crate) fn concrete<T>(
+    file: FileId,
+    source: &str,
+    build: impl FnOnce(pest::iterators::Pairs<Rule>) -> T,
+) -> Option<T> {
+    Grammar::parse(Rule::file, &scan::scan(file, source).text).ok().map(build)
+}
+
 /// A stretch of a source with blanks for its comments.
 pub(crate) fn uncommented(file: FileId, stretch: &str) -> String {
     scan::scan(file, stretch).text
@@ -119,7 +130,7 @@ fn read<T>(
     let scanned = scan::scan(file, source);
     let mut findings = scanned.findings;
     // Too deep: the grammar itself would be at the mercy of the thread's stack.
-    if findings.iter().any(|f| f.code == "syntax::nesting") {
+    if findings.iter().any(|f| f.code == Code::SyntaxNesting) {
         return (None, findings, scanned.comments);
     }
     let mut builder = build::Builder::new(file);
@@ -133,7 +144,7 @@ fn read<T>(
     findings.append(&mut builder.refused);
     for bad in builder.bad {
         // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
-        let known = findings.iter().any(|f| f.code.starts_with("syntax::") && touches(f.span(), bad.span));
+        let known = findings.iter().any(|f| f.code.group() == "syntax" && touches(f.span(), bad.span));
         if !known {
             findings.push(errors::of_bad_stretch(file, &scanned.text, &bad));
         }
@@ -155,7 +166,7 @@ pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagno
                 let value = build_expr::expr(&mut builder, pair);
                 builder.refused.into_iter().next().map_or(Ok(value), Err)
             }
-            None => Err(Diagnostic::error("syntax::expected", Span { file, start: 0, end: 0 }, "a value is missing")),
+            None => Err(Diagnostic::error(Code::SyntaxExpected, Span { file, start: 0, end: 0 }, "a value is missing")),
         },
         Err(error) => Err(errors::finding(file, text, 0, &error)),
     }

@@ -4,6 +4,7 @@
 //! newline that ends nothing become blanks; the grammar then needs one rule for blanks and one for the end of a statement.
 
 use super::errors::begins_item;
+use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
@@ -205,7 +206,7 @@ impl<'a> Scanner<'a> {
         let span = self.span(at, at + 1);
         if self.findings.last().is_none_or(|f| f.span() != span) {
             self.findings.push(
-                Diagnostic::error("layout::brace", span, "this `{` stands on a line of its own")
+                Diagnostic::error(Code::LayoutBrace, span, "this `{` stands on a line of its own")
                     .help("write it at the end of the line before"),
             );
         }
@@ -228,7 +229,7 @@ impl<'a> Scanner<'a> {
         let start = self.at;
         let length = self.rest().find("*/").map_or(2, |at| at + 2);
         self.findings.push(
-            Diagnostic::error("layout::comment", self.span(start, start + 2), "comments begin with `//`")
+            Diagnostic::error(Code::LayoutComment, self.span(start, start + 2), "comments begin with `//`")
                 .help("write `//` at the front of each of its lines, and leave `/*` and `*/` out"),
         );
         for byte in &mut self.out[start..start + length] {
@@ -278,14 +279,14 @@ impl<'a> Scanner<'a> {
         if closed && hole > 0 {
             let span = self.span(start, self.at);
             self.findings.push(
-                Diagnostic::error("syntax::text", span, "this text ends inside its `{ }`")
+                Diagnostic::error(Code::SyntaxText, span, "this text ends inside its `{ }`")
                     .help("close it with `}`, or write `\\{` for the sign itself; no `\"` stands inside `{ }`"),
             );
         }
         if !closed {
             let span = self.span(start, self.at);
             self.findings.push(
-                Diagnostic::error("syntax::text", span, "this text is not closed")
+                Diagnostic::error(Code::SyntaxText, span, "this text is not closed")
                     .help("end it with `\"` on the same line"),
             );
         }
@@ -324,7 +325,7 @@ impl<'a> Scanner<'a> {
         if self.deep {
             let span = self.span(at, at + length);
             self.findings.push(
-                Diagnostic::error("syntax::nesting", span, format!("nested deeper than {NESTING_MAX} levels")).help(
+                Diagnostic::error(Code::SyntaxNesting, span, format!("nested deeper than {NESTING_MAX} levels")).help(
                     "name a part of it with `let`, or move it into a `fn` or a `behavior`; each `else if` is a level",
                 ),
             );
@@ -345,7 +346,7 @@ impl<'a> Scanner<'a> {
             None => {
                 let span = self.span(self.at, self.at + 1);
                 self.findings.push(
-                    Diagnostic::error("syntax::bracket", span, format!("this `{bracket}` closes nothing"))
+                    Diagnostic::error(Code::SyntaxBracket, span, format!("this `{bracket}` closes nothing"))
                         .help(format!("remove it, or open it with `{wanted}`")),
                 );
             }
@@ -368,7 +369,7 @@ impl<'a> Scanner<'a> {
             more => format!("this `{bracket}` is never closed, nor are {more} inside it"),
         };
         self.findings.push(
-            Diagnostic::error("syntax::bracket", self.span(*at, at + 1), message)
+            Diagnostic::error(Code::SyntaxBracket, self.span(*at, at + 1), message)
                 .help(format!("add the `{closer}` that belongs to it")),
         );
     }
@@ -377,7 +378,7 @@ impl<'a> Scanner<'a> {
         let span = self.span(at, at + c.len_utf8());
         self.findings.push(
             Diagnostic::error(
-                "syntax::deceptive",
+                Code::SyntaxDeceptive,
                 span,
                 format!("the invisible character U+{:04X} stands here", c as u32),
             )

@@ -1,6 +1,7 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
 use crate::world;
+use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioProgram, Script};
 
@@ -33,7 +34,7 @@ fn of_fault(scenario: &ScenarioProgram, fault: &str) -> Diagnostic {
     let named = fault.split(|c: char| !c.is_alphanumeric() && c != '_').find(|word| !word.is_empty()).unwrap_or("");
     let clause = scenario.clauses.iter().find(|clause| clause.name == named.trim_end_matches('s'));
     let span = clause.map_or(scenario.span, |c| c.span);
-    let found = |message: &str| Diagnostic::error("scenarios::world", span, message);
+    let found = |message: &str| Diagnostic::error(Code::ScenariosWorld, span, message);
     // What must be is the mend; what is needed and missing is another clause.
     match fault.rsplit_once(": ") {
         Some((message, must)) if must.starts_with("it must") => found(message).help(must),

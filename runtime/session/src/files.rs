@@ -76,7 +76,7 @@ pub fn load_library() -> Script {
 }
 
 /// Reads a source file as text.
-pub(crate) fn read(path: &Path) -> Result<Source, FileError> {
+pub fn read(path: &Path) -> Result<Source, FileError> {
     let name = path.display().to_string();
     let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
     // A directory, a device or a pipe would answer with something else, or never.

@@ -2,6 +2,7 @@
 
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_guidance::Rows;
+use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue};
 use albacore_machine::Evaluation;
@@ -28,7 +29,7 @@ pub(crate) fn scenario(program: &ScenarioProgram) -> Result<Scenario, Diagnostic
         let clause = Clause { clause, words };
         apply(&mut scenario, &clause).map_err(|what| {
             let message = format!("this clause cannot be: {what}");
-            Diagnostic::error("scenarios::clause", clause.clause.span, message)
+            Diagnostic::error(Code::ScenariosClause, clause.clause.span, message)
         })?;
     }
     Ok(scenario)

@@ -1,0 +1,415 @@
+//! From what the grammar has read to a document. The words are the source's own: nothing is spelt anew.
+
+use super::doc::{Clause, Column, Comment, Doc, Indent, Word};
+use crate::syntax::{self, Rule};
+use pest::iterators::{Pair, Pairs};
+
+/// The document of a file.
+pub fn file<'a>(source: &'a str, comments: &[syntax::Comment], pairs: Pairs<Rule>) -> Doc<'a> {
+    let starts = std::iter::once(0).chain(source.match_indices('\n').map(|(at, _)| at + 1)).collect();
+    let comments = comments.iter().map(|c| (c.span.start as usize, c.span.end as usize)).collect();
+    let at = if source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let mut builder =
+        Builder { source, starts, comments, seen: 0, at, led: None, tight: false, after: None, blocks: 0 };
+    let items: Vec<Pair<Rule>> = pairs.flat_map(Pair::into_inner).filter(|p| p.as_rule() != Rule::EOI).collect();
+    Doc::Concat(builder.entries(items, source.len(), ";", true))
+}
+
+/// What may come after the last word.
+#[derive(Clone, Copy, PartialEq)]
+enum After {
+    /// A line end, where the author has one.
+    Author(Indent),
+    /// A line end, where the author has one or what follows does not fit.
+    Fill(Indent),
+}
+
+/// On which sides a word stands close.
+#[derive(Clone, Copy, Default)]
+struct Tight {
+    left: bool,
+    right: bool,
+}
+
+const LEFT: Tight = Tight { left: true, right: false };
+const RIGHT: Tight = Tight { left: false, right: true };
+const BOTH: Tight = Tight { left: true, right: true };
+const NEITHER: Tight = Tight { left: false, right: false };
+
+struct Builder<'a> {
+    source: &'a str,
+    /// Where lines begin.
+    starts: Vec<usize>,
+    comments: Vec<(usize, usize)>,
+    /// How many comments have had their place.
+    seen: usize,
+    /// Where the last word or comment ended.
+    at: usize,
+    /// What stands before the word that begins here has been seen to.
+    led: Option<usize>,
+    /// The last word stands close to what follows.
+    tight: bool,
+    after: Option<After>,
+    /// How many blocks there are so far: each has its number.
+    blocks: usize,
+}
+
+impl<'a> Builder<'a> {
+    fn line(&self, at: usize) -> usize {
+        self.starts.partition_point(|&start| start <= at)
+    }
+
+    fn slice(&self, start: usize, end: usize) -> &'a str {
+        self.source.get(start..end).unwrap_or("")
+    }
+
+    /// The next comment, if it begins before a place.
+    fn comment(&mut self, before: usize) -> Option<Comment<'a>> {
+        let &(start, end) = self.comments.get(self.seen).filter(|&&(start, _)| start < before)?;
+        self.seen += 1;
+        let line_start = self.starts.get(self.line(start) - 1).copied().unwrap_or(0);
+        let column = self.slice(line_start, start).chars().count();
+        Some(Comment { text: self.slice(start, end).trim_end(), column, alone: self.at == 0 || self.breaks(start) })
+    }
+
+    /// Whether a blank line stands between the last word or comment and a place.
+    fn blank(&self, start: usize) -> bool {
+        self.at > 0 && self.line(start) > self.line(self.at - 1) + 1
+    }
+
+    fn breaks(&self, start: usize) -> bool {
+        self.at > 0 && self.line(start) > self.line(self.at - 1)
+    }
+
+    /// Sees to what stands before a word: comments and line ends.
+    fn lead(&mut self, docs: &mut Vec<Doc<'a>>, start: usize) {
+        if self.led.replace(start) == Some(start) {
+            return;
+        }
+        let after = self.after.take();
+        let indent = match after {
+            Some(After::Author(indent) | After::Fill(indent)) => indent,
+            None => Indent::Further,
+        };
+        if self.comments_before(docs, start, indent) || (after.is_some() && self.breaks(start)) {
+            docs.push(Doc::Hard(indent, self.blank(start)));
+        } else if let Some(After::Fill(indent)) = after {
+            docs.push(Doc::Fill(indent));
+        }
+    }
+
+    fn comments_before(&mut self, docs: &mut Vec<Doc<'a>>, start: usize, indent: Indent) -> bool {
+        let mut any = false;
+        while let Some(&(begin, end)) = self.comments.get(self.seen)
+            && let Some(comment) = self.comment(start)
+        {
+            if comment.alone {
+                docs.push(Doc::Hard(indent, self.blank(begin)));
+            }
+            docs.push(Doc::Comment(comment));
+            self.at = end;
+            any = true;
+        }
+        any
+    }
+
+    fn word(&mut self, docs: &mut Vec<Doc<'a>>, start: usize, end: usize, tight: Tight, column: Option<Column>) {
+        self.lead(docs, start);
+        docs.push(Doc::Word(self.bare(start, end, tight, column)));
+    }
+
+    fn bare(&mut self, start: usize, end: usize, tight: Tight, column: Option<Column>) -> Word<'a> {
+        let gap = self.slice(self.at, start);
+        let padded = gap.len() > 1 && gap.bytes().all(|b| b == b' ');
+        let blanks = usize::from(!(self.tight || tight.left));
+        self.at = end;
+        self.tight = tight.right;
+        self.led = None;
+        self.after = None;
+        Word { text: self.slice(start, end), blanks, padded: padded && blanks > 0, column }
+    }
+
+    /// The signs before a place that the grammar has no rule for. Ends at a `{`, and gives where that stands.
+    fn signs(&mut self, docs: &mut Vec<Doc<'a>>, input: &str, until: usize, rule: Rule) -> Option<usize> {
+        let from = self.at.min(until);
+        for (offset, sign) in input.get(from..until).unwrap_or("").char_indices() {
+            let start = from + offset;
+            let tight = match sign {
+                '{' => return Some(start),
+                c if c.is_whitespace() || c == '\u{feff}' => continue,
+                '(' | '[' if rule == Rule::index => BOTH,
+                '(' | '[' => RIGHT,
+                '.' | '^' | '°' | '\'' => BOTH,
+                ')' | ']' | ',' | ':' | ';' => LEFT,
+                _ => NEITHER,
+            };
+            self.word(docs, start, start + sign.len_utf8(), tight, None);
+            self.after = match sign {
+                ',' => Some(After::Fill(Indent::Further)),
+                '=' => Some(After::Author(Indent::Further)),
+                _ => None,
+            };
+        }
+        None
+    }
+
+    fn node(&mut self, pair: Pair<Rule>) -> Doc<'a> {
+        match pair.as_rule() {
+            Rule::expr => {
+                let items: Vec<_> = pair.into_inner().collect();
+                self.chain(&items)
+            }
+            Rule::params | Rule::clause_params | Rule::args | Rule::list => self.list(pair),
+            Rule::if_expr => self.choice(pair),
+            Rule::match_expr => Doc::Anchor(vec![self.sequence(pair)]),
+            Rule::text => self.leaf(pair),
+            Rule::block | Rule::test_block => self.sequence(pair),
+            _ if pair.clone().into_inner().next().is_none() => self.leaf(pair),
+            _ => self.sequence(pair),
+        }
+    }
+
+    fn leaf(&mut self, pair: Pair<Rule>) -> Doc<'a> {
+        let span = pair.as_span();
+        let tight = match pair.as_rule() {
+            Rule::range_op | Rule::dim_op => BOTH,
+            Rule::neg | Rule::pos => RIGHT,
+            Rule::maybe | Rule::north_south | Rule::east_west => LEFT,
+            _ => NEITHER,
+        };
+        // What the grammar looked ahead over is no part of the word.
+        let end = span.start() + span.as_str().trim_end().len();
+        let mut docs = Vec::new();
+        self.word(&mut docs, span.start(), end, tight, None);
+        self.after = match pair.as_rule() {
+            Rule::arrow | Rule::kw_on | Rule::kw_do => Some(After::Author(Indent::Further)),
+            _ => None,
+        };
+        Doc::Concat(docs)
+    }
+
+    /// What has no layout of its own: its parts, one after the other.
+    fn sequence(&mut self, pair: Pair<Rule>) -> Doc<'a> {
+        let (input, rule, end) = (pair.get_input(), pair.as_rule(), pair.as_span().end());
+        let mut docs = Vec::new();
+        let mut parts = pair.into_inner();
+        while let Some(part) = parts.peek() {
+            if let Some(open) = self.signs(&mut docs, input, part.as_span().start(), rule) {
+                self.block(&mut docs, open, parts.collect(), end, rule);
+                return Doc::Concat(docs);
+            }
+            parts.next();
+            self.lead(&mut docs, part.as_span().start());
+            match (rule, part.as_rule()) {
+                (Rule::switching, Rule::arrow) => self.begin(&mut docs, part, Column::Arrow),
+                (Rule::switching, Rule::kw_on) => self.begin(&mut docs, part, Column::On),
+                (Rule::do_block, Rule::kw_do) => self.begin(&mut docs, part, Column::Do),
+                _ => docs.push(self.node(part)),
+            }
+        }
+        if let Some(open) = self.signs(&mut docs, input, end, rule) {
+            self.block(&mut docs, open, Vec::new(), end, rule);
+        }
+        Doc::Concat(docs)
+    }
+
+    /// A word that begins a column of a switching table.
+    fn begin(&mut self, docs: &mut Vec<Doc<'a>>, part: Pair<Rule>, column: Column) {
+        let span = part.as_span();
+        self.word(docs, span.start(), span.end(), NEITHER, Some(column));
+        self.after = Some(After::Author(Indent::Further));
+    }
+
+    /// `( … )` and `[ … ]` with entries.
+    fn list(&mut self, pair: Pair<Rule>) -> Doc<'a> {
+        let (input, rule) = (pair.get_input(), pair.as_rule());
+        let (start, end) = (pair.as_span().start(), pair.as_span().end());
+        let mut before = Vec::new();
+        self.lead(&mut before, start);
+        let tight = if rule == Rule::list { RIGHT } else { BOTH };
+        let open = self.bare(start, start + 1, tight, None);
+        let mut docs = Vec::new();
+        let mut any = false;
+        for part in pair.into_inner() {
+            self.signs(&mut docs, input, part.as_span().start(), rule);
+            self.after = Some(if any { After::Fill(Indent::Entry) } else { After::Author(Indent::Entry) });
+            self.lead(&mut docs, part.as_span().start());
+            docs.push(self.node(part));
+            any = true;
+        }
+        if any {
+            docs.push(Doc::LastComma);
+        }
+        self.comments_before(&mut docs, end - 1, Indent::Entry);
+        self.led = Some(end - 1);
+        let close = self.bare(end - 1, end, LEFT, None);
+        let hard = self.line(start) != self.line(end - 1);
+        before.push(Doc::Bracket { open, docs, close, hard, block: false });
+        Doc::Concat(before)
+    }
+
+    /// `{ … }`.
+    fn block(&mut self, docs: &mut Vec<Doc<'a>>, start: usize, parts: Vec<Pair<Rule>>, end: usize, rule: Rule) {
+        let separator = match rule {
+            Rule::enum_item | Rule::record_item | Rule::input_item | Rule::limits => ",",
+            _ => ";",
+        };
+        self.lead(docs, start);
+        let open = self.bare(start, start + 1, NEITHER, None);
+        let hard = self.line(start) != self.line(end - 1);
+        let inside = self.entries(parts, end - 1, separator, hard);
+        let tight = if inside.is_empty() { LEFT } else { NEITHER };
+        self.tight = false;
+        let close = self.bare(end - 1, end, tight, None);
+        let hard = hard && !inside.is_empty();
+        docs.push(Doc::Bracket { open, docs: inside, close, hard, block: true });
+    }
+
+    /// Clauses or entries up to a place. When the author has written them on several lines, each line is a group.
+    fn entries(&mut self, parts: Vec<Pair<Rule>>, end: usize, separator: &'static str, hard: bool) -> Vec<Doc<'a>> {
+        self.blocks += 1;
+        let block = self.blocks;
+        let mut lines = Vec::new();
+        let mut line = Vec::new();
+        for part in parts {
+            let start = part.as_span().start();
+            let is_else = part.as_rule() == Rule::match_arm && self.slice(start, start + 4) == "else";
+            if self.next_entry(&mut lines, &mut line, start) {
+                lines.push(Doc::Hard(Indent::Entry, self.blank(start)));
+            } else if !line.is_empty() {
+                line.push(Doc::Separator(if is_else { "" } else { separator }));
+            }
+            (self.at, self.led) = (start, Some(start));
+            self.tight = false;
+            self.after = None;
+            let clause = Clause { key: self.key(&part), block, row: part.as_rule() == Rule::switching };
+            let docs = vec![self.node(part)];
+            line.push(Doc::Clause { clause, docs });
+        }
+        self.next_entry(&mut lines, &mut line, end);
+        self.led = Some(end);
+        if !hard {
+            return line;
+        }
+        if !line.is_empty() {
+            lines.push(Doc::group(line));
+        }
+        lines
+    }
+
+    /// Sees to what stands before an entry, or before the end: whether it begins a line.
+    fn next_entry(&mut self, lines: &mut Vec<Doc<'a>>, line: &mut Vec<Doc<'a>>, start: usize) -> bool {
+        let mut begins = false;
+        while let Some(&(begin, end)) = self.comments.get(self.seen)
+            && let Some(comment) = self.comment(start)
+        {
+            if !line.is_empty() {
+                lines.push(Doc::group(std::mem::take(line)));
+            }
+            if comment.alone {
+                lines.push(Doc::Hard(Indent::Entry, self.blank(begin)));
+            }
+            lines.push(Doc::Comment(comment));
+            self.at = end;
+            begins = true;
+        }
+        begins |= self.breaks(start);
+        if begins && !line.is_empty() {
+            lines.push(Doc::group(std::mem::take(line)));
+        }
+        begins
+    }
+
+    /// What the clauses that may be aligned with this one have in common: its first word, or what it is.
+    fn key(&self, part: &Pair<Rule>) -> &'a str {
+        match part.as_rule() {
+            Rule::assign => "=",
+            Rule::field => ":",
+            Rule::match_arm => "{",
+            Rule::require => "fresh",
+            Rule::switching => "->",
+            _ => {
+                let start = part.as_span().start();
+                let rest = self.slice(start, part.as_span().end());
+                let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+                &rest[..length]
+            }
+        }
+    }
+
+    /// `if … { } else if … { } else { }`, which is one thing and not nested.
+    fn choice(&mut self, pair: Pair<Rule>) -> Doc<'a> {
+        let mut docs = Vec::new();
+        let mut part = Vec::new();
+        let mut parts = pair.into_inner();
+        while let Some(next) = parts.next() {
+            let start = next.as_span().start();
+            match next.as_rule() {
+                Rule::if_expr => parts = next.into_inner(),
+                Rule::kw_else => {
+                    docs.push(Doc::Concat(std::mem::take(&mut part)));
+                    let author = self.breaks(start);
+                    if self.comments_before(&mut docs, start, Indent::Anchor) {
+                        docs.push(Doc::Hard(Indent::Anchor, false));
+                    } else {
+                        docs.push(Doc::Else { author, all: false });
+                    }
+                    self.led = Some(start);
+                    part.push(self.node(next));
+                }
+                _ => {
+                    self.lead(&mut part, start);
+                    part.push(self.node(next));
+                }
+            }
+        }
+        docs.push(Doc::Concat(part));
+        let hard = docs.iter().any(Doc::is_hard);
+        for doc in &mut docs {
+            if let Doc::Else { all, .. } = doc {
+                *all = !hard;
+            }
+        }
+        Doc::Anchor(vec![Doc::Group { docs, hard }])
+    }
+
+    /// Operands and operators: what binds least is broken first.
+    fn chain(&mut self, items: &[Pair<Rule>]) -> Doc<'a> {
+        let Some(least) = items.iter().filter_map(|item| strength(item.as_rule())).min() else {
+            let mut docs = Vec::new();
+            for item in items {
+                self.lead(&mut docs, item.as_span().start());
+                docs.push(self.node(item.clone()));
+            }
+            return Doc::Concat(docs);
+        };
+        let mut docs = Vec::new();
+        for part in items.chunk_by(|a, b| strength(a.as_rule()) != Some(least) && strength(b.as_rule()) != Some(least))
+        {
+            let Some(first) = part.first() else { continue };
+            self.lead(&mut docs, first.as_span().start());
+            if strength(first.as_rule()) == Some(least) {
+                docs.push(self.node(first.clone()));
+                self.after = Some(After::Fill(Indent::Further));
+            } else {
+                docs.push(self.chain(part));
+            }
+        }
+        Doc::group(docs)
+    }
+}
+
+/// How closely an operator binds.
+fn strength(rule: Rule) -> Option<u8> {
+    Some(match rule {
+        Rule::op_else => 0,
+        Rule::op_or => 1,
+        Rule::op_and => 2,
+        Rule::op_eq | Rule::op_ne | Rule::op_le | Rule::op_ge | Rule::op_lt | Rule::op_gt => 3,
+        Rule::op_add | Rule::op_sub => 4,
+        Rule::op_toward => 5,
+        Rule::op_mul | Rule::op_div => 6,
+        Rule::op_pow => 7,
+        _ => return None,
+    })
+}
