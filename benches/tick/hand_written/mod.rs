@@ -51,6 +51,7 @@ struct Asked {
 }
 
 #[derive(Clone)]
+#[expect(clippy::large_enum_variant, reason = "there is one, and it is nearly always the largest")]
 enum Doing {
     Waiting,
     Transit(Goto),

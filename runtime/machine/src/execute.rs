@@ -213,7 +213,7 @@ impl Run {
                     self.events.push(Event::Remembered(memory, words));
                 }
                 // All others need nothing but words: `compute` has executed them.
-                _ => {}
+                _ => continue,
             }
         }
     }
