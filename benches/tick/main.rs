@@ -54,6 +54,7 @@ fn compare() {
     println!("  ratio                                 {median:6.2}    {fastest:6.2}");
 }
 
+#[expect(clippy::disallowed_methods, reason = "a benchmark measures the time of its computer")]
 fn nanoseconds(stretch: &[Snapshot], mut step: impl FnMut(&Snapshot)) -> f64 {
     let begin = Instant::now();
     for snapshot in stretch {
