@@ -264,8 +264,10 @@ impl<'a> Work<'a> {
                 costs.tick = costs.tick.and(&goes_on);
             }
             Body::Amend { block, .. } => {
-                let value = self.value(block, vars);
-                costs.tick = costs.tick.and(&Bill::of(id, value));
+                // The command of the tick in which it is put on is amended too.
+                let value = Bill::of(id, self.value(block, vars));
+                costs.begin = costs.begin.and(&value);
+                costs.tick = costs.tick.and(&value);
             }
             Body::Table { start, behaviors, .. } => {
                 let first = behaviors.get(*start).map(|&b| self.activity(b).begin).unwrap_or_default();
