@@ -33,11 +33,12 @@ fn table(mission: &str, cost: &Cost) -> String {
     });
     section(&mut out, "loops that go round within a tick", rows.collect());
     let inputs = ("inputs".to_string(), cost.memory.inputs, String::new());
+    let constants = ("constants".to_string(), cost.memory.constants, String::new());
     let held = cost.memory.held.iter().map(|held| {
         let times = if held.places > 1 { format!(", in {} places", held.places) } else { String::new() };
         (format!("{}{times}", held.name), held.bytes, held.place.clone())
     });
-    let mut rows: Vec<(String, u64, String)> = held.chain([inputs]).collect();
+    let mut rows: Vec<(String, u64, String)> = held.chain([inputs, constants]).collect();
     rows.sort_by_key(|row| std::cmp::Reverse(row.1));
     let rows = rows.into_iter().map(|(name, size, place)| (bytes(size), percent(size, cost.memory.bytes), name, place));
     section(&mut out, "memory", rows.collect());

@@ -17,6 +17,7 @@ pub struct Run {
 pub fn compare(script: &Script, mission: &str, vehicle: &mut dyn Vehicle, ticks_max: u64) -> Run {
     let program = script.mission(mission).expect("the mission").expect("a program");
     let checked = script.checked(mission).expect("the mission");
+    let most = script.cost(mission).expect("the mission").expect("a cost").steps;
     let recovery = recovery(checked.0, checked.2);
     let sensors = vehicle.channels().to_vec();
     let mut machine = Machine::new(Arc::new(program), &sensors).expect("a vehicle that delivers");
@@ -41,6 +42,11 @@ pub fn compare(script: &Script, mission: &str, vehicle: &mut dyn Vehicle, ticks_
                 side(naive, &evaluator.w.events),
                 run.events[run.events.len().saturating_sub(12)..].join("\n  ")
             ));
+            return run;
+        }
+        let steps = evaluator.w.steps;
+        if steps > most {
+            run.difference = Some(format!("tick {}: {steps} steps, and at most {most} were foretold", run.ticks));
             return run;
         }
         run.events.extend(events);

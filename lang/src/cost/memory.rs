@@ -16,6 +16,8 @@ pub struct Memory {
     pub bytes: u64,
     /// The latest samples of the inputs, and those that `hits` counts.
     pub inputs: u64,
+    /// The numbers of its code.
+    pub constants: u64,
     /// What activities keep, the most first.
     pub held: Vec<Held>,
 }
@@ -55,7 +57,8 @@ pub(super) fn of_mission(
         .collect();
     held.sort_by(|a, b| b.bytes.cmp(&a.bytes).then_with(|| a.name.cmp(&b.name)));
     let inputs = program.inputs.iter().map(Input::words).map(u64::from).sum::<u64>() * WORD;
-    Memory { bytes: u64::from(program.words) * WORD, inputs, held }
+    let constants = program.constants.len() as u64 * WORD;
+    Memory { bytes: u64::from(program.words) * WORD, inputs, constants, held }
 }
 
 /// Counts the places that begin each activity, through all that begins them.

@@ -47,6 +47,7 @@ pub(super) fn of_mission(hir: &Hir, sources: &Sources, mission: ActivityId) -> (
     let Costs { begin, tick } = work.activity(mission);
     let (recovery_begins, recovery_goes_on) = work.recovery(mission);
     // In one tick a mission begins, or goes on and may begin its recovery, or is recovering.
+    let begin = begin.and(&Bill::of(mission, work.numbers(mission)));
     let bill = begin.or(tick.and(&recovery_begins)).or(recovery_goes_on);
     let mut loops: Vec<Round> = work
         .loops
@@ -58,6 +59,21 @@ pub(super) fn of_mission(hir: &Hir, sources: &Sources, mission: ActivityId) -> (
 }
 
 impl<'a> Work<'a> {
+    /// What a mission computes once, as it begins: its parameters, its limits, what it requires.
+    fn numbers(&mut self, mission: ActivityId) -> u64 {
+        let activity = &self.hir.activities[mission];
+        let mut steps = self.exprs(activity.defaults.iter().flatten());
+        if let Some(parts) = &activity.mission {
+            steps = sum([steps, self.exprs(&parts.within), self.exprs(parts.limits.iter().map(|(_, _, e)| e))]);
+            for require in &parts.requires {
+                let asked = [&require.at_first, &require.hold_for].into_iter().flatten();
+                // Once while the first samples are awaited, and once more at the start.
+                steps = sum([steps, self.exprs(asked.chain([&require.fresh])).saturating_mul(2)]);
+            }
+        }
+        steps
+    }
+
     fn expr(&mut self, e: &'a Expr) -> u64 {
         match &e.kind {
             // Only one of the two ways is gone.

@@ -1,10 +1,10 @@
 //! Activities to code: the pieces that the machine runs at each point of a tick.
 
 use super::watch::{Timer, positions};
-use super::{Lowering, WORDS_MAX};
+use super::{Lowering, SortedBy, Sorter, WORDS_MAX};
 use crate::code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Block, Decl, Expr, Kind, Var};
+use crate::hir::{self, Block, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::rules;
 use crate::types::Type;
 use albacore_geometry::Geodetic;
@@ -12,14 +12,18 @@ use albacore_program::{
     Abort, Activity, ActivityKind, Body, Channel, Code, Limits, Op, Recovery, Require, Slot, Valued, header,
 };
 
+/// The words that are compared, at most, before a list is put in order anew.
+const COMPARED_WORDS_MAX: u32 = 8;
+
 impl<'a> Lowering<'a> {
     pub(super) fn mission(&mut self, id: usize) {
         let activity = &self.hir.activities[id];
         self.find_origin(activity);
         self.inputs();
         self.keep_samples();
+        self.constants_at = Some(self.input_words());
         let unit = self.unit(id);
-        let base = self.input_words();
+        let base = self.input_words() + self.program.constants.len() as u32;
         let mission = &mut self.program.mission;
         mission.name = activity.name.clone();
         mission.activity = unit.activity;
@@ -68,9 +72,57 @@ impl<'a> Lowering<'a> {
             let (list, it) = (self.frame.vars[id], self.frame.vars[order.it]);
             let words = self.words(inner);
             self.emit(Op::Sort { list, words, it, key, value, most: order.most });
+            let reads = self.key_reads(order);
+            let sorted_by: Option<Vec<SortedBy>> = reads.map(|reads| {
+                reads.into_iter().map(|(read, words)| SortedBy { read, words, then: self.lasting(words) }).collect()
+            });
+            for by in sorted_by.iter().flatten() {
+                self.copy(by.then, by.read, by.words);
+            }
             self.emit(Op::Return);
-            self.frame.sorters.insert(id, sorter);
+            self.frame.sorters.insert(id, Sorter { entry: sorter, sorted_by });
         }
+    }
+
+    /// What a key is made of beside the element; none when that cannot be compared with what it was.
+    fn key_reads(&self, order: &hir::Order) -> Option<Vec<(Slot, u32)>> {
+        let mut reads = Vec::new();
+        let comparable = self.reads(&order.key, order.it, &mut reads);
+        (comparable && reads.iter().map(|(_, words)| words).sum::<u32>() <= COMPARED_WORDS_MAX).then_some(reads)
+    }
+
+    fn reads(&self, e: &Expr, it: usize, out: &mut Vec<(Slot, u32)>) -> bool {
+        match &e.kind {
+            ExprKind::Var(id) if *id == it => {}
+            ExprKind::Var(id) => out.push((self.frame.vars[*id], self.words(&e.ty))),
+            ExprKind::Number(_) | ExprKind::Do(..) | ExprKind::Part(..) => {}
+            _ => return false,
+        }
+        let mut comparable = true;
+        children(e, &mut |child| comparable &= self.reads(child, it, out));
+        comparable
+    }
+
+    /// An ordered list is put in order at the start of a tick if what its key is made of has changed since it was last put
+    /// in order: an insertion or an assignment puts it in order itself.
+    fn refresh_order(&mut self, var: usize) {
+        let Some(Sorter { entry, sorted_by }) = self.frame.sorters.get(&var).cloned() else { return };
+        let Some(sorted_by) = sorted_by else {
+            self.emit(Op::Call { code: entry, base: 0 });
+            return;
+        };
+        let mut changed = Vec::new();
+        for by in &sorted_by {
+            self.scratch(|l| {
+                let same = l.temp(1);
+                l.emit(Op::Eq { to: same, a: by.read, b: by.then, words: by.words });
+                changed.push(l.emit(Op::JumpUnless { unless: same, to: 0 }));
+            });
+        }
+        let in_order = self.emit(Op::Jump { to: 0 });
+        self.land_all(changed);
+        self.emit(Op::Call { code: entry, base: 0 });
+        self.land(in_order);
     }
 
     /// One activity; gives its index in the program.
@@ -125,9 +177,7 @@ impl<'a> Lowering<'a> {
                     self.scratch(|l| l.expr_into(e, to));
                 }
                 Decl::Memory(var, _) => {
-                    if let Some(&sorter) = self.frame.sorters.get(var) {
-                        self.emit(Op::Call { code: sorter, base: 0 });
-                    }
+                    self.refresh_order(*var);
                 }
                 _ => {}
             }
@@ -138,12 +188,9 @@ impl<'a> Lowering<'a> {
         let aborts = activity.aborts.iter().map(|(why, condition)| self.abort(why, condition)).collect();
         let reactions = self.here();
         for (condition, block) in &activity.reactions {
-            let unless = self.scratch(|l| {
-                let condition = l.expr(condition);
-                l.emit(Op::JumpUnless { unless: condition, to: 0 })
-            });
+            let unless = self.jumps_unless(condition);
             self.stmts(&block.stmts);
-            self.land(unless);
+            self.land_all(unless);
         }
         self.emit(Op::Return);
 
@@ -213,6 +260,11 @@ impl<'a> Lowering<'a> {
             }
             Decl::Memory(var, init) => {
                 let to = self.frame.vars[*var];
+                // Nothing is known of its order: no number that a key can read is this one.
+                let sorted_by = self.frame.sorters.get(var).and_then(|sorter| sorter.sorted_by.clone());
+                for by in sorted_by.iter().flatten() {
+                    self.emit(Op::Const { to: by.then, value: f64::MAX });
+                }
                 match init {
                     Some(e) => self.scratch(|l| l.expr_into(e, to)),
                     None => {

@@ -3,7 +3,7 @@
 use super::{FnCode, Lowering};
 use crate::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart};
 use crate::types::Type;
-use albacore_program::{Code, Input, Op, Slot, Text, Valued};
+use albacore_program::{ABSOLUTE, Code, Input, Op, Slot, Text, Valued};
 
 impl<'a> Lowering<'a> {
     /// Code that leaves an expression's value somewhere; a variable's stays where it is.
@@ -13,12 +13,29 @@ impl<'a> Lowering<'a> {
             ExprKind::Unwrap(inner) => self.expr(inner) + 1,
             ExprKind::Part(inner, at) => self.expr(inner) + at,
             ExprKind::IsPresent(inner) => self.expr(inner),
+            ExprKind::Number(value) => self.number(*value),
+            ExprKind::Input(id, InputPart::Value) => self.input_slot(*id, Input::VALUE),
+            ExprKind::Input(id, InputPart::Field(offset)) => self.input_slot(*id, Input::VALUE + offset),
+            ExprKind::Input(id, InputPart::Peak) => self.input_slot(*id, Input::PEAK),
             _ => {
                 let to = self.temp(self.words(&e.ty).max(1));
                 self.expr_into(e, to);
                 to
             }
         }
+    }
+
+    /// A number where operands can be.
+    pub(super) fn number(&mut self, value: f64) -> Slot {
+        self.constant(value).unwrap_or_else(|| {
+            let to = self.temp(1);
+            self.emit(Op::Const { to, value });
+            to
+        })
+    }
+
+    fn input_slot(&self, id: usize, offset: u32) -> Slot {
+        ABSOLUTE | (self.program.inputs[id].at + offset)
     }
 
     pub(super) fn copy(&mut self, to: Slot, from: Slot, words: u32) {
@@ -67,6 +84,9 @@ impl<'a> Lowering<'a> {
                 l.expr_into(b, to);
                 l.land(present);
             }),
+            ExprKind::Do(op @ (Builtin::And | Builtin::Or), operands) if operands.len() == 2 => {
+                self.and_or_into(*op == Builtin::Or, &operands[0], &operands[1], to);
+            }
             ExprKind::Do(op, operands) => self.scratch(|l| l.builtin(*op, operands, to)),
             ExprKind::Call(id, args) => self.scratch(|l| l.call(*id, args, to, words)),
             ExprKind::Record(fields) => {
@@ -86,13 +106,10 @@ impl<'a> Lowering<'a> {
                 }
             }
             ExprKind::If(condition, then, otherwise) => {
-                let unless = self.scratch(|l| {
-                    let condition = l.expr(condition);
-                    l.emit(Op::JumpUnless { unless: condition, to: 0 })
-                });
+                let unless = self.jumps_unless(condition);
                 self.block_into(then, to);
                 let end = self.emit(Op::Jump { to: 0 });
-                self.land(unless);
+                self.land_all(unless);
                 self.block_into(otherwise, to);
                 self.land(end);
             }
@@ -134,8 +151,7 @@ impl<'a> Lowering<'a> {
             let mut hits = Vec::new();
             for &variant in variants {
                 self.scratch(|l| {
-                    let wanted = l.temp(1);
-                    l.emit(Op::Const { to: wanted, value: variant as f64 });
+                    let wanted = l.number(variant as f64);
                     let equal = l.temp(1);
                     l.emit(Op::Eq { to: equal, a: value, b: wanted, words: 1 });
                     hits.push(l.emit(Op::JumpIf { if_: equal, to: 0 }));
@@ -156,11 +172,10 @@ impl<'a> Lowering<'a> {
     }
 
     fn input(&mut self, id: usize, part: &InputPart, to: Slot, words: u32) {
-        let at = self.program.inputs[id].at;
         match part {
-            InputPart::Value => _ = self.emit(Op::Global { to, from: at + Input::VALUE, words }),
-            InputPart::Field(offset) => _ = self.emit(Op::Global { to, from: at + Input::VALUE + offset, words }),
-            InputPart::Peak => _ = self.emit(Op::Global { to, from: at + Input::PEAK, words: 1 }),
+            InputPart::Value => self.copy(to, self.input_slot(id, Input::VALUE), words),
+            InputPart::Field(offset) => self.copy(to, self.input_slot(id, Input::VALUE + offset), words),
+            InputPart::Peak => self.copy(to, self.input_slot(id, Input::PEAK), 1),
             InputPart::Age => _ = self.emit(Op::Age { to, input: id as u32 }),
             InputPart::Hits(limit, of) => self.scratch(|l| {
                 let limit = l.expr(limit);
@@ -171,6 +186,10 @@ impl<'a> Lowering<'a> {
 
     fn call(&mut self, id: usize, args: &[Expr], to: Slot, words: u32) {
         let code = self.function(id);
+        if self.is_inlined(id, code) {
+            self.inline(id, args, to);
+            return;
+        }
         // Arguments first: a call inside an argument must not disturb those already in place.
         let slots: Vec<(Slot, u32)> = args.iter().map(|a| (self.expr(a), self.words(&a.ty))).collect();
         let base = self.temp(code.words);
@@ -194,6 +213,7 @@ impl<'a> Lowering<'a> {
         for order in function.vars.iter().filter_map(|v| v.order.as_ref()) {
             self.prepare(&order.key);
         }
+        let before = self.here();
         let entry = std::cell::Cell::new(0);
         let result = std::cell::Cell::new(0);
         let words = self.twice(&function.vars, 0, |l| {
@@ -205,7 +225,7 @@ impl<'a> Lowering<'a> {
             l.emit(Op::Return);
         });
         self.path.pop();
-        let code = FnCode { entry: entry.get(), result: result.get(), words };
+        let code = FnCode { entry: entry.get(), result: result.get(), words, ops: self.here() - before };
         self.fns.insert(id, code);
         code
     }
@@ -307,6 +327,10 @@ impl<'a> Lowering<'a> {
 
     /// An expression as a piece of code of its own, its value in a slot of its own.
     pub(super) fn code(&mut self, e: &Expr) -> Code {
+        if let ExprKind::Var(id) = e.kind {
+            // A variable needs no code: its value is where it is.
+            return Code { entry: self.emit(Op::Return), value: self.frame.vars[id] };
+        }
         let value = self.lasting(self.words(&e.ty).max(1));
         let entry = self.here();
         self.scratch(|l| l.expr_into(e, value));

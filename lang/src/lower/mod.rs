@@ -5,8 +5,10 @@
 //! so that the place of every frame inside its caller's is known.
 
 mod activity;
+mod condition;
 mod control;
 mod expr;
+mod inline;
 mod prepare;
 mod scenario;
 mod stmt;
@@ -24,7 +26,7 @@ use crate::hir::{self, Hir};
 use crate::source::{Sources, Span};
 use crate::types::TypeTable;
 use albacore_geometry::{Geodetic, Point, TangentFrame};
-use albacore_program::{Addr, Input, Op, Program, Shape, Slot};
+use albacore_program::{ABSOLUTE, Addr, Input, Op, Program, Shape, Slot};
 use std::collections::BTreeMap;
 
 /// Where the frame about an area touches the globe: in the middle of the positions that it is made of.
@@ -43,6 +45,24 @@ struct FnCode {
     entry: Addr,
     result: Slot,
     words: u32,
+    /// How many instructions it has.
+    ops: u32,
+}
+
+/// The subroutine that puts an ordered list in order.
+#[derive(Clone)]
+struct Sorter {
+    entry: Addr,
+    /// What the list's key is made of beside the element; none when that cannot be compared.
+    sorted_by: Option<Vec<SortedBy>>,
+}
+
+/// Words that a key reads, and where they are kept as they were when the list was last put in order.
+#[derive(Clone, Copy)]
+struct SortedBy {
+    read: Slot,
+    words: u32,
+    then: Slot,
 }
 
 /// A lowered activity of the left margin.
@@ -67,6 +87,8 @@ struct Lowering<'a> {
     findings: Vec<Diagnostic>,
     /// What a test gives the mission in place of its defaults.
     mission_args: Option<&'a [hir::Expr]>,
+    /// Where constants have their absolute slots: only a mission has room for them.
+    constants_at: Option<Slot>,
 }
 
 /// The frame of the unit that is being lowered.
@@ -93,7 +115,7 @@ struct Frame {
     /// In a guard: whether the body has come to its end.
     done: bool,
     /// The subroutine that sorts a variable that is an ordered list.
-    sorters: BTreeMap<usize, Addr>,
+    sorters: BTreeMap<usize, Sorter>,
 }
 
 /// Lowers a mission. The findings are errors that only the whole program shows.
@@ -158,6 +180,7 @@ impl<'a> Lowering<'a> {
             frame: Frame::default(),
             findings: Vec::new(),
             mission_args: None,
+            constants_at: None,
         }
     }
 
@@ -173,8 +196,15 @@ impl<'a> Lowering<'a> {
     /// Makes a jump that was emitted before its target was known lead here.
     fn land(&mut self, jump: Addr) {
         let here = self.here();
-        if let Some(Op::Jump { to } | Op::JumpIf { to, .. } | Op::JumpUnless { to, .. }) =
-            self.program.ops.get_mut(jump as usize)
+        if let Some(
+            Op::Jump { to }
+            | Op::JumpIf { to, .. }
+            | Op::JumpUnless { to, .. }
+            | Op::JumpIfLess { to, .. }
+            | Op::JumpUnlessLess { to, .. }
+            | Op::JumpIfAtMost { to, .. }
+            | Op::JumpUnlessAtMost { to, .. },
+        ) = self.program.ops.get_mut(jump as usize)
         {
             *to = here;
         }
@@ -279,7 +309,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// Input blocks come first in the words of a run.
+    /// Input blocks come first in the words of a run, then constants.
     fn inputs(&mut self) {
         let mut at = 0;
         for input in &self.hir.inputs {
@@ -302,6 +332,18 @@ impl<'a> Lowering<'a> {
             input.at = at;
             at += input.words();
         }
+    }
+
+    /// The absolute slot of a constant, the same for the same bits; none where there is no room.
+    fn constant(&mut self, value: f64) -> Option<Slot> {
+        let at = self.constants_at?;
+        let constants = &mut self.program.constants;
+        let known = constants.iter().position(|known| known.to_bits() == value.to_bits());
+        let index = known.unwrap_or_else(|| {
+            constants.push(value);
+            constants.len() - 1
+        });
+        Some(ABSOLUTE | (at + index as Slot))
     }
 
     fn input_words(&self) -> u32 {

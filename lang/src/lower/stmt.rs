@@ -38,8 +38,8 @@ impl<'a> Lowering<'a> {
             StmtKind::Insert(var, e) => {
                 let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
                 let capacity = self.capacity(*var);
-                match self.frame.sorters.get(var) {
-                    Some(&sort) => self.emit(Op::PushSorted { list, item, words, capacity, sort }),
+                match self.frame.sorters.get(var).map(|sorter| sorter.entry) {
+                    Some(sort) => self.emit(Op::PushSorted { list, item, words, capacity, sort }),
                     None => self.emit(Op::Push { list, item, words, capacity }),
                 };
             }
@@ -53,13 +53,14 @@ impl<'a> Lowering<'a> {
                 self.emit(Op::Clear { to, words });
             }
             StmtKind::If(condition, then, otherwise) => {
-                let unless = self.scratch(|l| {
-                    let condition = l.expr(condition);
-                    l.emit(Op::JumpUnless { unless: condition, to: 0 })
-                });
+                let unless = self.jumps_unless(condition);
                 self.body(then);
+                if otherwise.stmts.is_empty() {
+                    self.land_all(unless);
+                    return;
+                }
                 let end = self.emit(Op::Jump { to: 0 });
-                self.land(unless);
+                self.land_all(unless);
                 self.body(otherwise);
                 self.land(end);
             }
@@ -122,8 +123,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn sort(&mut self, var: usize) {
-        if let Some(&sorter) = self.frame.sorters.get(&var) {
-            self.emit(Op::Call { code: sorter, base: 0 });
+        if let Some(sorter) = self.frame.sorters.get(&var) {
+            self.emit(Op::Call { code: sorter.entry, base: 0 });
         }
     }
 
@@ -150,28 +151,23 @@ impl<'a> Lowering<'a> {
             l.expr_into(first, counter);
             l.expr_into(last, end);
         });
+        let goes_on = |to| match inclusive {
+            true => (Op::JumpUnlessAtMost { a: counter, b: end, to }, Op::JumpIfAtMost { a: counter, b: end, to }),
+            false => (Op::JumpUnlessLess { a: counter, b: end, to }, Op::JumpIfLess { a: counter, b: end, to }),
+        };
+        let none = self.emit(goes_on(0).0);
         let top = self.here();
-        let done = self.scratch(|l| {
-            let goes_on = l.temp(1);
-            l.emit(if inclusive {
-                Op::Le { to: goes_on, a: counter, b: end }
-            } else {
-                Op::Lt { to: goes_on, a: counter, b: end }
-            });
-            l.emit(Op::JumpUnless { unless: goes_on, to: 0 })
-        });
         let to = self.frame.vars[var];
         self.copy(to, counter, 1);
         self.body(body);
         self.count_up(counter);
-        self.emit(Op::Jump { to: top });
-        self.land(done);
+        self.emit(goes_on(top).1);
+        self.land(none);
     }
 
     fn count_up(&mut self, counter: Slot) {
         self.scratch(|l| {
-            let one = l.temp(1);
-            l.emit(Op::Const { to: one, value: 1.0 });
+            let one = l.number(1.0);
             l.emit(Op::Add { to: counter, a: counter, b: one });
         });
     }
@@ -230,18 +226,14 @@ impl<'a> Lowering<'a> {
         let area = self.walked_area(area);
         let counter = self.lasting(1);
         self.emit(Op::Const { to: counter, value: 0.0 });
+        let none = self.emit(Op::JumpUnlessLess { a: counter, b: area, to: 0 });
         let top = self.here();
-        let done = self.scratch(|l| {
-            let goes_on = l.temp(1);
-            l.emit(Op::Lt { to: goes_on, a: counter, b: area });
-            l.emit(Op::JumpUnless { unless: goes_on, to: 0 })
-        });
         let to = self.frame.vars[var];
         self.emit(Op::EdgeAt { to, area, index: counter });
         self.body(body);
         self.count_up(counter);
-        self.emit(Op::Jump { to: top });
-        self.land(done);
+        self.emit(Op::JumpIfLess { a: counter, b: area, to: top });
+        self.land(none);
     }
 
     /// Puts setpoints and overlays in force; gives what must be undone.
@@ -332,11 +324,7 @@ impl<'a> Lowering<'a> {
         let mut cut_normally = Vec::new();
         let mut cut_off = None;
         if let Some(until) = &timed.until {
-            let holds = self.scratch(|l| {
-                let value = l.expr(until);
-                l.emit(Op::JumpIf { if_: value, to: 0 })
-            });
-            cut_normally.push(holds);
+            cut_normally.extend(self.jumps_if(until));
         }
         if let Some(ticks) = duration {
             cut_normally.push(self.jump_if_elapsed(begun, ticks, owner));

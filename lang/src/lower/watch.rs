@@ -61,11 +61,7 @@ impl<'a> Lowering<'a> {
                 Timer::After { node, value } => {
                     let ExprKind::After(duration) = &node.kind else { return };
                     let ticks = l.ticks(duration);
-                    let from = from.unwrap_or_else(|| {
-                        let zero = l.temp(1);
-                        l.emit(Op::Const { to: zero, value: 0.0 });
-                        zero
-                    });
+                    let from = from.unwrap_or_else(|| l.number(0.0));
                     l.emit(Op::Elapsed { to: *value, from, ticks, owner });
                 }
             });

@@ -5,6 +5,10 @@ use crate::plane::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Sub};
 
+/// Angles from 0 to this, which is below a full turn, and within this on either side of 0 are known to need no wrapping.
+const WITHIN_TURN: f64 = 6.25;
+const WITHIN_HALF_TURN: f64 = 3.125;
+
 /// A compass direction, clockwise from north, always in [0, 2 pi).
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize, Deserialize)]
 pub struct Heading(f64);
@@ -15,6 +19,10 @@ impl Heading {
 
     /// The heading of an angle in radians, clockwise from north, wrapped.
     pub fn from_radians(angle_rad: f64) -> Self {
+        // Most angles lie within the turn already, and stay what they are to the bit: the whole turns below them are none.
+        if (0.0..WITHIN_TURN).contains(&angle_rad) {
+            return Heading(angle_rad + 0.0);
+        }
         let wrapped = angle_rad - TAU * (angle_rad / TAU).floor();
         // An angle a hair below a full turn rounds up to it.
         Heading(if wrapped >= TAU { 0.0 } else { wrapped + 0.0 })
@@ -81,6 +89,9 @@ impl Sub for Heading {
 
 /// The equivalent angle in (-pi, pi]: the paper's lim(x, -180, 180).
 pub fn wrap_angle(angle_rad: f64) -> f64 {
+    if angle_rad.abs() < WITHIN_HALF_TURN {
+        return angle_rad;
+    }
     let wrapped = angle_rad - TAU * (angle_rad / TAU + 0.5).floor();
     if wrapped <= -PI { wrapped + TAU } else { wrapped }
 }

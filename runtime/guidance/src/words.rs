@@ -18,7 +18,7 @@ impl<const N: usize> Writer<N> {
         Writer { words: [0.0; N], at: 0 }
     }
 
-    pub(crate) fn number(mut self, x: f64) -> Self {
+    pub(crate) fn number(&mut self, x: f64) -> &mut Self {
         debug_assert!(self.at < N, "a state writes as many words as it declares");
         if let Some(word) = self.words.get_mut(self.at) {
             *word = x;
@@ -27,23 +27,26 @@ impl<const N: usize> Writer<N> {
         self
     }
 
-    pub(crate) fn flag(self, set: bool) -> Self {
+    pub(crate) fn flag(&mut self, set: bool) -> &mut Self {
         self.number(if set { 1.0 } else { 0.0 })
     }
 
-    pub(crate) fn point(self, p: Point) -> Self {
+    pub(crate) fn point(&mut self, p: Point) -> &mut Self {
         self.number(p.north).number(p.east)
     }
 
-    pub(crate) fn heading(self, heading: Heading) -> Self {
+    pub(crate) fn heading(&mut self, heading: Heading) -> &mut Self {
         self.number(heading.radians())
     }
 
-    pub(crate) fn numbers(self, numbers: &[f64]) -> Self {
-        numbers.iter().fold(self, |writer, &x| writer.number(x))
+    pub(crate) fn numbers(&mut self, numbers: &[f64]) -> &mut Self {
+        for &x in numbers {
+            self.number(x);
+        }
+        self
     }
 
-    pub(crate) fn finish(self) -> [f64; N] {
+    pub(crate) fn finish(&self) -> [f64; N] {
         debug_assert!(self.at == N, "a state writes as many words as it declares");
         self.words
     }

@@ -4,7 +4,8 @@ use crate::Event;
 use crate::execute::Flow;
 use crate::state::{Declared, Phase, Run};
 use albacore_program::{
-    Activity, ActivityId, ActivityKind, Addr, Body, Cause, Entry, Exit, Program, Slot, Table, Target, header, setpoints,
+    Activity, ActivityId, ActivityKind, Addr, Body, Cause, Entry, Exit, Op, Program, Slot, Table, Target, header,
+    setpoints,
 };
 
 /// What became of an activity in a tick.
@@ -166,7 +167,8 @@ impl Run {
     fn try_rules(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot, done: bool) -> Switch {
         let Some(active) = self.active_behavior(activity, base) else { return Switch::None };
         let entry = &table.behaviors[active as usize];
-        if !done {
+        // Only timers need it.
+        if !done && !matches!(p.ops.get(entry.watch as usize), Some(Op::Return)) {
             // The rules of a behavior come before its own step, and count by the age that it will have in this tick.
             let behavior = &p.activities[entry.activity as usize];
             let age = self.head(behavior, base, header::AGE);

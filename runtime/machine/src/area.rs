@@ -52,7 +52,9 @@ impl Run {
     }
 
     fn corner_point(&self, area: Slot, i: u32) -> Point {
-        self.point(area + 1 + AREA_CORNER_WORDS * (i % self.corners(area).max(1)))
+        // The corner after the last is the first.
+        let i = if i < self.corners(area) { i } else { 0 };
+        self.point(area + 1 + AREA_CORNER_WORDS * i)
     }
 
     pub fn edge_of(&self, area: Slot, i: u32) -> Edge {
@@ -80,7 +82,14 @@ impl Run {
     }
 
     pub fn gap(&self, area: Slot, p: Point) -> f64 {
-        (0..self.corners(area)).map(|i| self.edge_of(area, i).gap(p)).fold(f64::INFINITY, f64::min)
+        let corners = self.slice(area + 1, AREA_CORNER_WORDS * self.corners(area));
+        let gaps = corners.chunks_exact(AREA_CORNER_WORDS as usize).map(|words| match *words {
+            [north, east, normal_north, normal_east] => {
+                (Point::new(north, east) - p).dot(Vector::new(normal_north, normal_east))
+            }
+            _ => f64::INFINITY,
+        });
+        gaps.fold(f64::INFINITY, f64::min)
     }
 
     pub fn nearest_edge(&self, area: Slot, p: Point) -> Edge {

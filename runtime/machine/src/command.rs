@@ -41,13 +41,26 @@ impl Run {
 
     /// The course after all overlays, from inner to outer.
     fn amended(&mut self, p: &Program, asked: Heading) -> Heading {
-        let mut chain = Vec::new();
-        self.chain(p, &mut |id, base| chain.push((id, base)));
         let mut course = asked;
-        for &(id, base) in chain.iter().rev() {
-            for &overlay in &p.activities[id as usize].overlays {
-                course = self.amend(p, overlay, base, course);
-            }
+        // The recovery runs beside the mission's body, in its frame: innermost.
+        if let Some(recovery) = p.mission.recovery {
+            course = self.amended_in(p, recovery.activity, p.mission.base, course);
+        }
+        course = self.amended_in(p, p.mission.activity, p.mission.base, course);
+        course
+    }
+
+    /// The course after the overlays of what is active inside an activity, and then of its own.
+    fn amended_in(&mut self, p: &Program, id: u32, base: Slot, asked: Heading) -> Heading {
+        if !self.is_active(p, id, base) {
+            return asked;
+        }
+        let mut course = match self.child(p, id, base) {
+            Some((child, at)) => self.amended_in(p, child, at, asked),
+            None => asked,
+        };
+        for &overlay in &p.activities[id as usize].overlays {
+            course = self.amend(p, overlay, base, course);
         }
         course
     }
@@ -109,21 +122,27 @@ impl Run {
 
     pub fn chain_from(&self, p: &Program, id: u32, base: Slot, visit: &mut impl FnMut(u32, Slot)) {
         let mut next = Some((id, base));
-        while let Some((id, base)) = next {
-            let activity = &p.activities[id as usize];
-            if self.get(base + activity.header + header::STATE) != header::ACTIVE {
-                break;
-            }
+        while let Some((id, base)) = next.filter(|&(id, base)| self.is_active(p, id, base)) {
             visit(id, base);
-            let child = self.get(base + activity.header + header::CHILD);
-            next = (child != 0.0).then(|| match &activity.body {
-                Body::Table(table) => (table.behaviors[child as usize - 1].activity, base),
-                _ => {
-                    let site = &p.calls[child as usize - 1];
-                    (site.activity, base + site.base)
-                }
-            });
+            next = self.child(p, id, base);
         }
+    }
+
+    fn is_active(&self, p: &Program, id: u32, base: Slot) -> bool {
+        self.get(base + p.activities[id as usize].header + header::STATE) == header::ACTIVE
+    }
+
+    /// What an activity has called, or its active behavior, with the base of its frame.
+    fn child(&self, p: &Program, id: u32, base: Slot) -> Option<(u32, Slot)> {
+        let activity = &p.activities[id as usize];
+        let child = self.get(base + activity.header + header::CHILD);
+        (child != 0.0).then(|| match &activity.body {
+            Body::Table(table) => (table.behaviors[child as usize - 1].activity, base),
+            _ => {
+                let site = &p.calls[child as usize - 1];
+                (site.activity, base + site.base)
+            }
+        })
     }
 
     fn limit_vertical(&mut self, asked: Vertical) -> Vertical {

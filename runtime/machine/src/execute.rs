@@ -1,9 +1,11 @@
-//! The instructions, one by one.
+//! The instructions that need more of a run than its words.
 
 use crate::Event;
+use crate::compute::{Frame, compute, place};
+use crate::lists::Order;
 use crate::state::Run;
-use albacore_geometry::{Area, Heading, Point, math, wrap_angle};
-use albacore_program::{Addr, Channel, Op, OverrideEnd, Program, Slot, Text, TextPart, header, number};
+use albacore_geometry::{Area, Heading, Point};
+use albacore_program::{Addr, Channel, Op, OverrideEnd, Program, Slot, Text, TextPart, number};
 use albacore_vehicle::{TICK_S, Vertical};
 
 /// The largest number that arithmetic gives: its square is a number still.
@@ -51,66 +53,24 @@ impl Evaluation {
 
 impl Run {
     /// Runs code with a frame's base until it stops.
+    #[inline]
     pub fn execute(&mut self, p: &Program, entry: Addr, base: Slot) -> Flow {
+        // Much of what an activity may have is empty: no signals, no reactions, no timers.
+        if let Some(Op::Return) = p.ops.get(entry as usize) {
+            return Flow::Return;
+        }
+        self.execute_all(p, entry, base)
+    }
+
+    fn execute_all(&mut self, p: &Program, entry: Addr, base: Slot) -> Flow {
         let mut pc = entry as usize;
-        let b = |slot: Slot| slot + base;
+        let b = |slot: Slot| place(slot, base);
         loop {
+            let mut frame = Frame { words: &mut self.state.words, base };
+            pc = compute(&p.ops, &mut frame, &mut self.trig, pc);
             let op = p.ops[pc];
             pc += 1;
             match op {
-                Op::Const { to, value } => self.set(b(to), value),
-                Op::Copy { to, from } => self.set(b(to), self.get(b(from))),
-                Op::CopyMany { to, from, words } => self.copy(b(to), b(from), words),
-                Op::Clear { to, words } => self.state.words[b(to) as usize..(b(to) + words) as usize].fill(0.0),
-                Op::Global { to, from, words } => self.copy(b(to), from, words),
-
-                Op::Add { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) + self.get(b(c)))),
-                Op::Sub { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) - self.get(b(c)))),
-                Op::Mul { to, a, b: c } => self.set(b(to), bounded(self.get(b(a)) * self.get(b(c)))),
-                Op::Div { to, a, b: c } => {
-                    let divisor = self.get(b(c));
-                    self.set(b(to), if divisor == 0.0 { 0.0 } else { bounded(self.get(b(a)) / divisor) });
-                }
-                Op::Min { to, a, b: c } => self.set(b(to), self.get(b(a)).min(self.get(b(c)))),
-                Op::Max { to, a, b: c } => self.set(b(to), self.get(b(a)).max(self.get(b(c)))),
-                Op::Pow { to, a, b: c } => self.set(b(to), bounded(math::pow(self.get(b(a)), self.get(b(c))))),
-                Op::Neg { to, a } => self.set(b(to), math::canonical_zero(-self.get(b(a)))),
-                Op::Abs { to, a } => self.set(b(to), self.get(b(a)).abs()),
-                Op::Sqrt { to, a } => self.set(b(to), self.get(b(a)).max(0.0).sqrt()),
-                Op::Floor { to, a } => self.set(b(to), self.get(b(a)).floor()),
-                Op::Ceil { to, a } => self.set(b(to), self.get(b(a)).ceil()),
-                Op::Round { to, a } => self.set(b(to), self.get(b(a)).round()),
-                Op::Sin { to, a } => self.set(b(to), math::sin(self.get(b(a)))),
-                Op::Cos { to, a } => self.set(b(to), math::cos(self.get(b(a)))),
-                Op::WrapHeading { to, a } => self.set(b(to), Heading::from_radians(self.get(b(a))).radians()),
-                Op::WrapAngle { to, a } => self.set(b(to), wrap_angle(self.get(b(a)))),
-                Op::Ticks { to, a } => self.set(b(to), ticks(self.get(b(a)))),
-
-                Op::Lt { to, a, b: c } => self.set(b(to), truth(self.get(b(a)) < self.get(b(c)))),
-                Op::Le { to, a, b: c } => self.set(b(to), truth(self.get(b(a)) <= self.get(b(c)))),
-                Op::Eq { to, a, b: c, words } => {
-                    let equal = self.slice(b(a), words) == self.slice(b(c), words);
-                    self.set(b(to), truth(equal));
-                }
-                Op::Not { to, a } => self.set(b(to), truth(self.get(b(a)) == 0.0)),
-                Op::And { to, a, b: c } => self.set(b(to), truth(self.get(b(a)) != 0.0 && self.get(b(c)) != 0.0)),
-                Op::Or { to, a, b: c } => self.set(b(to), truth(self.get(b(a)) != 0.0 || self.get(b(c)) != 0.0)),
-
-                Op::AddVector { to, a, b: c } => self.set_vector(b(to), self.vector(b(a)) + self.vector(b(c))),
-                Op::SubVector { to, a, b: c } => self.set_vector(b(to), self.vector(b(a)) - self.vector(b(c))),
-                Op::Scale { to, vector, by } => self.set_vector(b(to), self.get(b(by)) * self.vector(b(vector))),
-                Op::Toward { to, length, heading } => {
-                    let v = self.get(b(length)) * self.heading_at(b(heading)).unit();
-                    self.set_vector(b(to), v);
-                }
-                Op::Direction { to, vector } => self.set(b(to), self.vector(b(vector)).toward().radians()),
-                Op::Length { to, vector } => self.set(b(to), bounded(self.vector(b(vector)).length())),
-                Op::Dot { to, a, b: c } => self.set(b(to), bounded(self.vector(b(a)).dot(self.vector(b(c))))),
-                Op::Along { to, vector, heading } => {
-                    let along = self.vector(b(vector)).along(self.heading_at(b(heading)));
-                    self.set(b(to), along);
-                }
-
                 Op::Rectangle { to, center, along, length, width } => {
                     let (length, width) = (self.get(b(length)), self.get(b(width)));
                     let area = Area::rectangle(self.point(b(center)), self.heading_at(b(along)), length, width).ok();
@@ -129,10 +89,6 @@ impl Run {
                     let corner = self.farthest_corner(b(area), self.heading_at(b(heading)), self.point(b(near)));
                     self.set_point(b(to), corner);
                 }
-                Op::EdgeAt { to, area, index } => {
-                    let edge = self.edge_of(b(area), self.get(b(index)) as u32);
-                    self.set_edge(b(to), edge);
-                }
                 Op::RowAt { to, there, area, step, index } => {
                     let row = self.row_of(b(area), self.get(b(step)), self.get(b(index)) as u32);
                     self.set(b(there), truth(row.is_some()));
@@ -144,7 +100,6 @@ impl Run {
                     let edge = self.nearest_edge(b(area), self.point(b(point)));
                     self.set_edge(b(to), edge);
                 }
-                Op::EdgeGap { to, edge, point } => self.set(b(to), self.edge(b(edge)).gap(self.point(b(point)))),
                 Op::EdgeTangent { to, edge, heading } => {
                     let tangent = self.edge(b(edge)).tangent(self.heading_at(b(heading)));
                     self.set(b(to), tangent.radians());
@@ -156,7 +111,8 @@ impl Run {
 
                 Op::Push { list, item, words, capacity } => self.push(b(list), b(item), words, capacity),
                 Op::Sort { list, words, it, key, value, most } => {
-                    self.sort(p, base, b(list), words, b(it), key, b(value), most);
+                    let by = Order { it: b(it), key, value: b(value), most };
+                    self.sort(p, base, b(list), words, by);
                 }
                 Op::PushSorted { list, item, words, capacity, sort } => {
                     self.push_sorted(p, b(list), b(item), words, capacity, (sort, base));
@@ -165,7 +121,8 @@ impl Run {
                 Op::At { to, list, index, words } => self.element(b(to), b(list), b(index), words),
                 Op::Top { to, list, count, words } => self.top(b(to), b(list), b(count), words),
                 Op::Spread { to, list, heading } => {
-                    let spread = self.spread(b(list), self.heading_at(b(heading)));
+                    let unit = self.trig.unit(self.get(b(heading)));
+                    let spread = self.spread(b(list), unit);
                     self.set(b(to), spread);
                 }
 
@@ -175,39 +132,6 @@ impl Run {
                     self.set(b(to), hits);
                 }
 
-                Op::HeldFor { to, x, since, ticks, owner } => {
-                    let age = self.age(b(owner));
-                    let holds = self.get(b(x)) != 0.0;
-                    let began = match (holds, self.get(b(since))) {
-                        (false, _) => -1.0,
-                        (true, since) if since < 0.0 => age,
-                        (true, since) => since,
-                    };
-                    self.set(b(since), began);
-                    self.set(b(to), truth(holds && age - began >= self.get(b(ticks))));
-                }
-                Op::Becomes { to, x, before } => {
-                    let holds = self.get(b(x)) != 0.0;
-                    self.set(b(to), truth(holds && self.get(b(before)) == 0.0));
-                    self.set(b(before), truth(holds));
-                }
-                Op::Elapsed { to, from, ticks, owner } => {
-                    let elapsed = self.age(b(owner)) - self.get(b(from)) >= self.get(b(ticks));
-                    self.set(b(to), truth(elapsed));
-                }
-                Op::Now { to, owner } => self.set(b(to), self.age(b(owner))),
-
-                Op::Jump { to } => pc = to as usize,
-                Op::JumpIf { if_, to } => {
-                    if self.get(b(if_)) != 0.0 {
-                        pc = to as usize;
-                    }
-                }
-                Op::JumpUnless { unless, to } => {
-                    if self.get(b(unless)) == 0.0 {
-                        pc = to as usize;
-                    }
-                }
                 Op::Call { code, base: frame } => _ = self.execute(p, code, b(frame)),
                 Op::Return => return Flow::Return,
 
@@ -288,16 +212,14 @@ impl Run {
                     let words = self.slice(b(value.slot), value.shape.words()).to_vec();
                     self.events.push(Event::Remembered(memory, words));
                 }
+                // All others need nothing but words: `compute` has executed them.
+                _ => continue,
             }
         }
     }
 
     fn heading_at(&self, slot: Slot) -> Heading {
         Heading::from_radians(self.get(slot))
-    }
-
-    fn age(&self, owner: Slot) -> f64 {
-        self.get(owner + header::AGE)
     }
 
     /// A text with its holes filled.
@@ -318,10 +240,13 @@ impl Run {
 
 /// What would be too large for a number is the largest: no arithmetic fails in the water.
 pub(crate) fn bounded(x: f64) -> f64 {
-    if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) }
+    if x.abs() <= LARGEST {
+        return x;
+    }
+    if x.is_nan() { 0.0 } else { LARGEST.copysign(x) }
 }
 
-fn truth(b: bool) -> f64 {
+pub(crate) fn truth(b: bool) -> f64 {
     if b { 1.0 } else { 0.0 }
 }
 

@@ -75,19 +75,17 @@ impl Run {
             if numbers.iter().any(|x| !x.is_finite()) {
                 continue;
             }
-            let first_in_tick = self.get(input.at + Input::STAMP) != tick;
-            let peak = if first_in_tick { numbers[0] } else { self.get(input.at + Input::PEAK).max(numbers[0]) };
-            self.set(input.at + Input::STAMP, tick);
-            self.set(input.at + Input::PEAK, peak);
-            let count = self.get(input.at + Input::COUNT);
-            self.set(input.at + Input::COUNT, count + 1.0);
+            // The block is found once, not anew for each of its words.
+            let block = self.state.words.get_mut(input.at as usize..(input.at + input.words()) as usize);
+            let Some([stamp, peak, count, values @ ..]) = block else { continue };
+            *peak = if *stamp == tick { peak.max(numbers[0]) } else { numbers[0] };
+            *stamp = tick;
+            values[..width].copy_from_slice(numbers);
             if input.kept > 0 {
-                let place = (count as u64 % u64::from(input.kept)) as u32;
-                self.set(input.at + input.ring() + place, numbers[0]);
+                let place = (*count as u64 % u64::from(input.kept)) as usize;
+                values[input.width as usize + place] = numbers[0];
             }
-            for (i, number) in numbers.iter().enumerate() {
-                self.set(input.at + Input::VALUE + i as u32, *number);
-            }
+            *count += 1.0;
         }
     }
 

@@ -6,6 +6,7 @@
 mod activity;
 mod area;
 mod command;
+mod compute;
 mod control;
 mod event;
 mod execute;
@@ -14,6 +15,7 @@ mod inputs;
 mod lists;
 mod mission;
 mod state;
+mod trig;
 
 pub use event::{Event, Outcome};
 pub use execute::Evaluation;

@@ -1,8 +1,24 @@
 //! Bounded lists in words: a count, then the elements.
 
 use crate::state::Run;
-use albacore_geometry::{Heading, Point};
-use albacore_program::{Program, Slot};
+use albacore_geometry::Vector;
+use albacore_program::{Addr, Program, Slot};
+
+/// The order of a list: `key` computes the word at `value` from the element at `it`.
+#[derive(Clone, Copy)]
+pub(crate) struct Order {
+    pub it: Slot,
+    pub key: Addr,
+    pub value: Slot,
+    pub most: bool,
+}
+
+impl Order {
+    /// Whether an element may stand before another, by their keys.
+    fn holds(self, first: f64, second: f64) -> bool {
+        if self.most { first >= second } else { first <= second }
+    }
+}
 
 impl Run {
     fn count(&self, list: Slot) -> u32 {
@@ -67,33 +83,15 @@ impl Run {
     }
 
     /// Insertion sort: lists are short and nearly in order. Stable, so that ties keep the older first.
-    #[allow(clippy::too_many_arguments, reason = "the operands of one instruction")]
-    pub fn sort(
-        &mut self,
-        program: &Program,
-        base: Slot,
-        list: Slot,
-        words: u32,
-        it: Slot,
-        key: u32,
-        value: Slot,
-        most: bool,
-    ) {
+    pub fn sort(&mut self, program: &Program, base: Slot, list: Slot, words: u32, by: Order) {
         let count = self.count(list);
-        let mut keys: Vec<f64> = Vec::with_capacity(count as usize);
-        for i in 0..count {
-            self.copy(it, list + 1 + i * words, words);
-            self.execute(program, key, base);
-            keys.push(self.get(value));
+        if self.in_order(program, base, list, words, by) {
+            return;
         }
+        let mut keys: Vec<f64> = (0..count).map(|i| self.key(program, base, list + 1 + i * words, words, by)).collect();
         for i in 1..count {
             let mut j = i;
-            while j > 0 {
-                let (a, b) = (keys[j as usize - 1], keys[j as usize]);
-                let in_order = if most { a >= b } else { a <= b };
-                if in_order {
-                    break;
-                }
+            while j > 0 && !by.holds(keys[j as usize - 1], keys[j as usize]) {
                 keys.swap(j as usize - 1, j as usize);
                 for w in 0..words {
                     let (x, y) = ((list + 1 + (j - 1) * words + w) as usize, (list + 1 + j * words + w) as usize);
@@ -102,6 +100,25 @@ impl Run {
                 j -= 1;
             }
         }
+    }
+
+    /// Whether a list is in order, as it is on nearly every tick: then nothing is kept and nothing allocated.
+    fn in_order(&mut self, program: &Program, base: Slot, list: Slot, words: u32, by: Order) -> bool {
+        let count = self.count(list);
+        if count < 2 {
+            return true;
+        }
+        let mut before = self.key(program, base, list + 1, words, by);
+        (1..count).all(|i| {
+            let key = self.key(program, base, list + 1 + i * words, words, by);
+            by.holds(std::mem::replace(&mut before, key), key)
+        })
+    }
+
+    fn key(&mut self, program: &Program, base: Slot, element: Slot, words: u32, by: Order) -> f64 {
+        self.copy(by.it, element, words);
+        self.execute(program, by.key, base);
+        self.get(by.value)
     }
 
     pub fn remove(&mut self, list: Slot, item: Slot, words: u32) {
@@ -132,12 +149,12 @@ impl Run {
         self.set(to, f64::from(count));
     }
 
-    pub fn spread(&self, list: Slot, heading: Heading) -> f64 {
+    pub fn spread(&self, list: Slot, unit: Vector) -> f64 {
         let mut low = f64::INFINITY;
         let mut high = f64::NEG_INFINITY;
         for i in 0..self.count(list) {
             let at = list + 1 + 2 * i;
-            let along = Point::new(self.get(at), self.get(at + 1)).along(heading);
+            let along = self.vector(at).dot(unit);
             low = low.min(along);
             high = high.max(along);
         }

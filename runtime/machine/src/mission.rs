@@ -3,6 +3,7 @@
 use crate::activity::Status;
 use crate::inputs::{MissingInput, senses, wiring};
 use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State, Wish};
+use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
@@ -24,6 +25,8 @@ impl Run {
         for input in &p.inputs {
             words[(input.at + Input::STAMP) as usize] = -1.0;
         }
+        let constants_at = p.mission.base as usize - p.constants.len();
+        words[constants_at..p.mission.base as usize].copy_from_slice(&p.constants);
         let state = State {
             words,
             tick: 0,
@@ -41,7 +44,15 @@ impl Run {
             began: 0,
             overridden: Overridden::default(),
         };
-        Run { state, events: Vec::new(), in_overlay: false, abort: None, deserted: None, senses: senses(p) }
+        Run {
+            state,
+            events: Vec::new(),
+            in_overlay: false,
+            abort: None,
+            deserted: None,
+            senses: senses(p),
+            trig: Trig::new(),
+        }
     }
 
     fn number(&mut self, p: &Program, code: &Code) -> f64 {
@@ -138,12 +149,11 @@ impl Machine {
 
     /// One tick: takes in what was sensed, gives what to command. After the end there is nothing to command: release.
     pub fn step(&mut self, snapshot: &Snapshot) -> Option<Command> {
-        let program = Arc::clone(&self.program);
+        let Machine { program, wiring, run } = self;
         let p = program.as_ref();
-        let run = &mut self.run;
         run.events.clear();
         run.state.overridden = Overridden::default();
-        run.take_in(p, &self.wiring, &snapshot.samples);
+        run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
         let command = run.live(p);
         run.state.tick += 1;

@@ -1,6 +1,7 @@
 //! The state of a run: one plain value.
 
 use crate::Outcome;
+use crate::trig::Trig;
 use albacore_geometry::Heading;
 use albacore_program::{Slot, setpoints};
 use albacore_vehicle::{Command, Control, Vertical};
@@ -128,6 +129,7 @@ pub(crate) struct Run {
     /// The outcome of that, where it is another than that the script aborted it.
     pub deserted: Option<Outcome>,
     pub senses: Senses,
+    pub trig: Trig,
 }
 
 use crate::Event;
@@ -158,6 +160,13 @@ impl Run {
     }
 
     pub fn copy(&mut self, to: Slot, from: Slot, words: u32) {
-        self.state.words.copy_within(from as usize..(from + words) as usize, to as usize);
+        // Most are points and vectors: two words are copied sooner than a copy of any length is called.
+        if words == 2 {
+            let (a, b) = (self.get(from), self.get(from + 1));
+            self.set(to, a);
+            self.set(to + 1, b);
+        } else {
+            self.state.words.copy_within(from as usize..(from + words) as usize, to as usize);
+        }
     }
 }

@@ -17,7 +17,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 3;
+pub const PROGRAM_VERSION: u32 = 4;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -40,9 +40,11 @@ pub struct Program {
     pub memories: Vec<Watched>,
     /// The inputs it reads.
     pub inputs: Vec<Input>,
+    /// Numbers that code reads: they lie behind the inputs in a run's words.
+    pub constants: Vec<f64>,
     /// What belongs to the mission alone.
     pub mission: Mission,
-    /// How many words a run needs in all: inputs first, then the mission's frame.
+    /// How many words a run needs in all: inputs first, then constants, then the mission's frame.
     pub words: u32,
 }
 

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// An offset from the base of a frame.
+/// An offset from the base of a frame, or with [`ABSOLUTE`] from the first word of a run.
 pub type Slot = u32;
+/// Marks an operand that belongs to no frame: an input or a constant. Nothing is written there.
+pub const ABSOLUTE: Slot = 1 << 31;
 /// An index into [`crate::Program::ops`].
 pub type Addr = u32;
 
@@ -28,12 +30,6 @@ pub enum Op {
     /// Zeros: an absent value, an empty list.
     Clear {
         to: Slot,
-        words: u32,
-    },
-    /// From an absolute slot: inputs belong to no frame.
-    Global {
-        to: Slot,
-        from: Slot,
         words: u32,
     },
 
@@ -372,6 +368,27 @@ pub enum Op {
     },
     JumpUnless {
         unless: Slot,
+        to: Addr,
+    },
+    /// A comparison and the jump that it decides.
+    JumpIfLess {
+        a: Slot,
+        b: Slot,
+        to: Addr,
+    },
+    JumpUnlessLess {
+        a: Slot,
+        b: Slot,
+        to: Addr,
+    },
+    JumpIfAtMost {
+        a: Slot,
+        b: Slot,
+        to: Addr,
+    },
+    JumpUnlessAtMost {
+        a: Slot,
+        b: Slot,
         to: Addr,
     },
     /// Runs a function whose frame begins at `base`.

@@ -114,6 +114,7 @@ impl<'p> Activation<'p> {
     /// Rule 2: signals and timers; aborts; (overlays;) rules; reactions; body. Tells whether it came to its own end.
     pub fn step(&mut self, w: &mut World<'p>) -> Result<bool, Aborted> {
         self.age += 1;
+        w.steps += 1;
         self.refresh(w);
         self.test_aborts(w)?;
         self.step_overlays(w)?;

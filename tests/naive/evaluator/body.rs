@@ -58,6 +58,7 @@ pub fn advance<'b>(w: &mut World<'_>, frame: &Frame<'_>, todo: &mut Vec<Todo<'b>
             Todo::EndWith => return Stop::EndWith,
             Todo::Timed(underway) => return Stop::Underway(underway),
         };
+        w.steps += 1;
         let s = Scope::of(frame);
         match &stmt.kind {
             StmtKind::If(condition, then, otherwise) => {

@@ -63,6 +63,7 @@ pub fn values(w: &mut World<'_>, s: Scope<'_, '_>, list: &[Expr]) -> Vec<Value> 
 }
 
 pub fn value(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
+    w.steps += 1;
     match &e.kind {
         ExprKind::Number(x) => Value::Number(*x),
         ExprKind::Geodetic { latitude_deg, longitude_deg } => {

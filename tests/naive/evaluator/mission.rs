@@ -98,6 +98,7 @@ impl<'p> Evaluator<'p> {
     /// One tick.
     pub fn step(&mut self, snapshot: &Snapshot) -> Option<Command> {
         self.w.events.clear();
+        self.w.steps = 0;
         self.w.kept = Setpoints::default();
         self.w.sense(self.sensors, &snapshot.samples);
         if snapshot.control != self.control {

@@ -40,6 +40,8 @@ pub struct World<'p> {
     pub kept: Setpoints,
     /// Rule 17: the recovery runs without aborts.
     pub is_recovering: bool,
+    /// What was computed and done in this tick, as `check --cost` counts it.
+    pub steps: u64,
     /// What happened in this tick, one line each.
     pub events: Vec<String>,
 }
@@ -67,6 +69,7 @@ impl<'p> World<'p> {
             asked,
             kept: Setpoints::default(),
             is_recovering: false,
+            steps: 0,
             events: Vec::new(),
         }
     }

@@ -124,7 +124,8 @@ impl Generator {
                 "($B or $B)",
                 "($H == $H)",
                 "($M == $M)",
-                "($p != none)",
+                // Alone it would show that what is tested by `if let` afterwards is never absent.
+                "(($p != none) or $B)",
                 "($D > $D)",
                 "($S <= $S)",
                 "($P == $P)",
