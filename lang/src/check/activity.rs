@@ -67,8 +67,7 @@ impl<'t> Checker<'t> {
             Kind::AmendsCourse => self.amend(a, &statements),
             _ if is_table => self.table(id, a, result.as_ref(), &statements),
             _ => {
-                let block = tree::Block { clauses: statements.into_iter().cloned().collect(), span: a.body.span };
-                let block = self.in_block(|c| c.block(&block));
+                let block = self.in_block(|c| hir::Block { stmts: c.stmts(&statements), value: None });
                 self.sequence_ends(a, kind, result.as_ref(), &block);
                 Body::Sequence(block)
             }

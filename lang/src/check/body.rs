@@ -81,7 +81,8 @@ impl<'t> Checker<'t> {
 
     /// A block of statements.
     pub(super) fn block(&mut self, block: &tree::Block) -> Block {
-        let stmts = self.stmts(&block.clauses);
+        let clauses: Vec<&Clause> = block.clauses.iter().collect();
+        let stmts = self.stmts(&clauses);
         Block { stmts, value: None }
     }
 
@@ -93,7 +94,8 @@ impl<'t> Checker<'t> {
             }
             _ => (None, &block.clauses[..]),
         };
-        let mut stmts = self.stmts(before);
+        let before: Vec<&Clause> = before.iter().collect();
+        let mut stmts = self.stmts(&before);
         let value = match last.map(|timed| &timed.action) {
             Some(Action::Expr(e)) => Some(Box::new(self.expr(e, expected))),
             Some(_) => {
@@ -105,8 +107,8 @@ impl<'t> Checker<'t> {
         Block { stmts, value }
     }
 
-    fn stmts(&mut self, clauses: &[Clause]) -> Vec<Stmt> {
-        let mut stmts = Vec::new();
+    pub(super) fn stmts(&mut self, clauses: &[&Clause]) -> Vec<Stmt> {
+        let mut stmts = Vec::with_capacity(clauses.len());
         let mut left_at: Option<Span> = None;
         for (i, clause) in clauses.iter().enumerate() {
             if let Some(span) = left_at.take() {

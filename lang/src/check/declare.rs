@@ -55,11 +55,13 @@ impl<'t> Checker<'t> {
             return;
         }
         // Whether a behavior can end depends on what it calls: tables come when all bodies are known.
-        for activity in self.hir.activities.clone() {
+        let hir = std::mem::take(&mut self.hir);
+        for activity in &hir.activities {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
-                self.check_table(behaviors, *start, rules);
+                self.check_table(&hir, behaviors, *start, rules);
             }
         }
+        self.hir = hir;
     }
 
     /// Every declaration gets its index before any body is checked: bodies refer to one another.

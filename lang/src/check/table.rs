@@ -205,10 +205,10 @@ impl<'t> Checker<'t> {
     }
 
     /// What the table promises: every behavior reachable, every ending answered, every rule alive.
-    pub(super) fn check_table(&mut self, behaviors: &[usize], start: usize, rules: &[Rule]) {
+    pub(super) fn check_table(&mut self, hir: &hir::Hir, behaviors: &[usize], start: usize, rules: &[Rule]) {
         let names: Vec<tree::Name> = behaviors
             .iter()
-            .map(|&b| tree::Name { node: self.hir.activities[b].name.clone(), span: self.hir.activities[b].span })
+            .map(|&b| tree::Name { node: hir.activities[b].name.clone(), span: hir.activities[b].span })
             .collect();
         let mut reached = vec![false; names.len()];
         let mut todo = vec![start];
@@ -235,8 +235,8 @@ impl<'t> Checker<'t> {
             }
             let only_back =
                 rules.iter().all(|r| !matches!(r.target, Target::Behavior(to) if to == i) || r.back) && i != start;
-            let ends = match &self.hir.activities[behaviors[i]].body {
-                Body::Sequence(block) => can_end(block, &self.hir, &mut Vec::new()),
+            let ends = match &hir.activities[behaviors[i]].body {
+                Body::Sequence(block) => can_end(block, hir, &mut Vec::new()),
                 _ => false,
             };
             let leaving: Vec<&Rule> = rules.iter().filter(|r| r.sources.contains(&i)).collect();

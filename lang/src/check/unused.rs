@@ -44,9 +44,9 @@ impl Checker<'_> {
         let variables = self.names_used.declared.iter().filter(|(name, _)| !self.names_used.read.contains(&name.span));
         let mut findings: Vec<Diagnostic> = variables.filter_map(|(name, kind)| unread(name, *kind)).collect();
         for (m, module) in self.modules.iter().enumerate() {
-            for item in &module.tree.items {
-                findings.extend(self.unused_imports(m, item));
-                findings.extend(self.unused_item(m, item).filter(|_| m == crate::MAIN && is_whole(&module.tree)));
+            findings.extend(module.tree.items.iter().flat_map(|item| self.unused_imports(m, item)));
+            if m == crate::MAIN && is_whole(&module.tree) {
+                findings.extend(module.tree.items.iter().filter_map(|item| self.unused_item(m, item)));
             }
         }
         findings.retain(|finding| !finding.message.starts_with("`_"));

@@ -11,8 +11,10 @@ use crate::source::Span;
 /// A block, or the lines of a prompt, which have no braces.
 pub(super) fn block(b: &mut Builder, pair: P) -> Block {
     let span = b.span(&pair);
-    let mut clauses = Vec::new();
-    for pair in pair.into_inner() {
+    let pairs = pair.into_inner();
+    // A clause is large, and most blocks hold few: a vector that grows would take room for more than there are.
+    let mut clauses = Vec::with_capacity(pairs.len());
+    for pair in pairs {
         match pair.as_rule() {
             Rule::EOI => {}
             Rule::bad => b.bad(&pair, Place::Clause),
