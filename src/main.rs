@@ -10,6 +10,7 @@ mod graph;
 mod interruption;
 mod kept;
 mod message;
+mod new;
 mod output;
 mod plan;
 mod repl;
@@ -31,6 +32,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    /// Start a project: a folder with a mission that runs, and its test.
+    New(new::New),
     /// Check a mission script and run it.
     Run(run::Run),
     /// Check scripts: every error and warning of all files.
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
         }
     };
     let exit = match arguments.verb {
+        Verb::New(new) => new.run(),
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
         Verb::Fmt(fmt) => fmt.run(),
