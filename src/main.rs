@@ -3,6 +3,7 @@
 mod campaign;
 mod check;
 mod clock;
+mod completions;
 mod exit;
 mod explain;
 mod fmt;
@@ -18,7 +19,7 @@ mod run;
 mod test;
 mod vehicle;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use exit::Exit;
 use std::process::ExitCode;
 
@@ -55,6 +56,10 @@ enum Verb {
     Explain(explain::Explain),
     /// Serve a simulated vehicle at the far end of a link.
     Vehicle(vehicle::Vehicle),
+    /// Print a script with which a shell completes verbs and options.
+    ///
+    /// For bash: `albacore completions bash > ~/.local/share/bash-completion/completions/albacore`.
+    Completions(completions::Completions),
 }
 
 fn main() -> ExitCode {
@@ -78,6 +83,7 @@ fn main() -> ExitCode {
         Verb::Graph(graph) => graph.run(),
         Verb::Explain(explain) => explain.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
+        Verb::Completions(completions) => completions.run(Arguments::command()),
     };
     ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })
 }
