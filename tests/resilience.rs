@@ -29,7 +29,7 @@ const ERRORS_MAX: usize = 3;
 /// What must be told in place, in hundredths.
 const FLOOR: usize = 90;
 /// The sample takes one edit of so many.
-const SAMPLED: usize = 61;
+const SAMPLED: usize = 37;
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Kind {

@@ -196,6 +196,8 @@ impl<'t> Checker<'t> {
 
     pub(super) fn shown_number(&self, x: f64, ty: &Type) -> String {
         let display = match ty {
+            // Whole minutes, as they are spoken of.
+            Type::Quantity(Dimension::TIME) if x >= 120.0 && x % 60.0 == 0.0 => return format!("{} min", x / 60.0),
             Type::Quantity(d) if !d.is_none() => d.display(),
             Type::Heading => Dimension::ANGLE.display(),
             Type::Depth | Type::Altitude => Dimension::LENGTH.display(),

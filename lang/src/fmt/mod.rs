@@ -12,7 +12,7 @@ mod table;
 
 use crate::diagnostic::Diagnostic;
 use crate::source::FileId;
-use crate::syntax;
+use crate::syntax::{self, Comment};
 
 /// No line is wider, unless nothing in it can be broken, or it is a row of a switching table.
 const WIDTH: usize = 120;
@@ -31,5 +31,22 @@ pub fn format(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     table::align(&mut lines);
     align::declarations(&mut lines);
     align::comments(&mut lines);
-    Ok(lines.iter().map(print::Line::text).collect())
+    let formatted: String = lines.iter().map(print::Line::text).collect();
+    // Better not formatted than not the same script: a fault of ours must not reach a person's file.
+    let again = syntax::parse(file, &formatted);
+    let is_whole = again.findings.is_empty() && again.file.items.len() == parsed.file.items.len();
+    Ok(if is_whole && words(&again.comments, &formatted) == words(&parsed.comments, source) {
+        formatted
+    } else {
+        source.to_string()
+    })
+}
+
+/// What comments say.
+fn words<'a>(comments: &[Comment], text: &'a str) -> Vec<&'a str> {
+    comments
+        .iter()
+        .filter_map(|comment| text.get(comment.span.start as usize..comment.span.end as usize))
+        .map(str::trim_end)
+        .collect()
 }
