@@ -30,9 +30,14 @@ impl Refusal {
         Refusal { exit: Exit::Usage, message, help }
     }
 
+    fn taken(mission: &str) -> Self {
+        let message = format!("`{mission}` cannot be the name of a mission: it means something else already");
+        Refusal::usage(message, format!("try `{mission}_survey`"))
+    }
+
     fn unwritable(folder: &Path, error: &io::Error) -> Self {
         let message = format!("`{}` cannot be written: {error}", folder.display());
-        Refusal { exit: Exit::Failed, message, help: "choose a folder where you may write".into() }
+        Refusal { exit: Exit::Failed, message, help: "choose a folder where you may write, on a disk with room".into() }
     }
 }
 
@@ -72,29 +77,32 @@ fn make(folder: &Path) -> Result<String, Refusal> {
     }
     // Beside the folder, so that it is on the same disk and can be renamed to it.
     let part = folder.with_file_name(format!(".{mission}.{}.part", std::process::id()));
-    fs::create_dir(&part).map_err(|error| Refusal::unwritable(folder, &error))?;
-    let made = fill(&part, &mission)
-        .and_then(|()| fs::rename(&part, folder).map_err(|error| Refusal::unwritable(folder, &error)));
+    let unwritable = |error: io::Error| Refusal::unwritable(folder, &error);
+    fs::create_dir(&part).map_err(unwritable)?;
+    let made = fill(&part, &mission).map_err(unwritable).and_then(|sound| {
+        if sound { fs::rename(&part, folder).map_err(unwritable) } else { Err(Refusal::taken(&mission)) }
+    });
     if made.is_err() {
         let _ = fs::remove_dir_all(&part);
     }
     made.map(|()| mission)
 }
 
-/// Writes the files of a project into an empty folder.
-fn fill(folder: &Path, mission: &str) -> Result<(), Refusal> {
-    let write = |file: &str, text: &str| {
-        fs::write(folder.join(file), text).map_err(|error| Refusal::unwritable(&folder.join(file), &error))
-    };
+/// Writes the files of a project into an empty folder, and tells whether its script is sound. It is not when the mission's
+/// name means something already, in the language or in the script: the checker knows.
+fn fill(folder: &Path, mission: &str) -> io::Result<bool> {
     let named = |template: &str| template.replace("NAME", mission);
-    write("albacore.toml", &named(include_str!("new/albacore.toml")))?;
-    write("README.md", &named(include_str!("new/README.md")))?;
-    write(".gitignore", include_str!("new/gitignore"))?;
-    let script = format!("{mission}.alb");
-    write(&script, &laid_out(&named(include_str!("new/mission.alb"))))?;
-    let path = folder.join(script);
-    let script = sound(&path, mission)?;
-    accept(&script, &path).map_err(|error| Refusal::unwritable(&path.with_file_name("snapshots"), &error))
+    let path = folder.join(format!("{mission}.alb"));
+    fs::write(folder.join("albacore.toml"), named(include_str!("new/albacore.toml")))?;
+    fs::write(folder.join("README.md"), named(include_str!("new/README.md")))?;
+    fs::write(folder.join(".gitignore"), include_str!("new/gitignore"))?;
+    fs::write(&path, laid_out(&named(include_str!("new/mission.alb"))))?;
+    match albacore_session::load(&path, None, &[]) {
+        Ok(script) if script.findings.is_empty() && albacore_session::findings(&script).is_empty() => {
+            accept(&script, &path).map(|()| true)
+        }
+        _ => Ok(false),
+    }
 }
 
 /// A long name may end a line elsewhere. What cannot be read is left as it is, for the checker to tell.
@@ -103,19 +111,7 @@ fn laid_out(text: &str) -> String {
     albacore_session::format(file, text).unwrap_or_else(|_| text.to_string())
 }
 
-/// The script, unless its name means something already, in the language or in the script: the checker knows.
-fn sound(path: &Path, mission: &str) -> Result<Script, Refusal> {
-    if let Ok(script) = albacore_session::load(path, None, &[])
-        && script.findings.is_empty()
-        && albacore_session::findings(&script).is_empty()
-    {
-        return Ok(script);
-    }
-    let message = format!("`{mission}` cannot be the name of a mission: it means something else already");
-    Err(Refusal::usage(message, format!("try `{mission}_survey`")))
-}
-
-/// Writes the snapshots of a script's tests. They are made here and not kept as a template, for they hold the mission's name and
+/// Writes the snapshots of a script's tests. They are made here and are no templates, for they hold the mission's name and
 /// are aligned by it.
 fn accept(script: &Script, path: &Path) -> io::Result<()> {
     for test in script.tests().into_iter().flatten() {
