@@ -3,6 +3,7 @@
 mod campaign;
 mod check;
 mod clock;
+mod completions;
 mod exit;
 mod explain;
 mod fmt;
@@ -10,6 +11,7 @@ mod graph;
 mod interruption;
 mod kept;
 mod message;
+mod new;
 mod output;
 mod plan;
 mod repl;
@@ -17,7 +19,7 @@ mod run;
 mod test;
 mod vehicle;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use exit::Exit;
 use std::process::ExitCode;
 
@@ -31,6 +33,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    /// Start a project: a folder with a mission that runs, and its test.
+    New(new::New),
     /// Check a mission script and run it.
     Run(run::Run),
     /// Check scripts: every error and warning of all files.
@@ -52,6 +56,10 @@ enum Verb {
     Explain(explain::Explain),
     /// Serve a simulated vehicle at the far end of a link.
     Vehicle(vehicle::Vehicle),
+    /// Print a script with which a shell completes verbs and options.
+    ///
+    /// For bash: `albacore completions bash > ~/.local/share/bash-completion/completions/albacore`.
+    Completions(completions::Completions),
 }
 
 fn main() -> ExitCode {
@@ -65,6 +73,7 @@ fn main() -> ExitCode {
         }
     };
     let exit = match arguments.verb {
+        Verb::New(new) => new.run(),
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
         Verb::Fmt(fmt) => fmt.run(),
@@ -74,6 +83,7 @@ fn main() -> ExitCode {
         Verb::Graph(graph) => graph.run(),
         Verb::Explain(explain) => explain.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
+        Verb::Completions(completions) => completions.run(Arguments::command()),
     };
     ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })
 }

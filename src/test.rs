@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Run the tests of scripts.
 #[derive(clap::Args)]
 pub struct Test {
-    /// Scripts, or folders of scripts; else the folder `missions`.
+    /// Scripts, or folders of scripts; else the folder `missions`, or this one where there is none.
     #[arg(value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// Only the tests whose names contain this.
@@ -31,7 +31,8 @@ struct Count {
 impl Test {
     /// Runs all tests; one that fails makes the whole fail.
     pub fn run(&self) -> Exit {
-        let paths = if self.paths.is_empty() { vec![PathBuf::from("missions")] } else { self.paths.clone() };
+        let usual = Path::new(if Path::new("missions").is_dir() { "missions" } else { "." });
+        let paths = if self.paths.is_empty() { vec![usual.to_path_buf()] } else { self.paths.clone() };
         let mut scripts = Vec::new();
         for path in &paths {
             match scripts_of(path) {
@@ -166,7 +167,7 @@ fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
 }
 
 /// `missions/snapshots/duck_single-one_source-1.trace`.
-fn snapshot_file(script: &Path, test: &str, seed: u64) -> PathBuf {
+pub fn snapshot_file(script: &Path, test: &str, seed: u64) -> PathBuf {
     let plain: String =
         test.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
     let words: Vec<&str> = plain.split('_').filter(|w| !w.is_empty()).collect();
