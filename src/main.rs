@@ -3,6 +3,7 @@
 mod campaign;
 mod check;
 mod clock;
+mod completions;
 mod exit;
 mod explain;
 mod fmt;
@@ -10,6 +11,7 @@ mod graph;
 mod interruption;
 mod kept;
 mod message;
+mod new;
 mod output;
 mod plan;
 mod repl;
@@ -31,6 +33,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    /// Begin a project: a mission with its world and its test.
+    New(new::New),
     /// Check a mission script and run it.
     Run(run::Run),
     /// Check scripts: every error and warning of all files.
@@ -52,6 +56,8 @@ enum Verb {
     Explain(explain::Explain),
     /// Serve a simulated vehicle at the far end of a link.
     Vehicle(vehicle::Vehicle),
+    /// Print the completions of a shell.
+    Completions(completions::Completions),
 }
 
 fn main() -> ExitCode {
@@ -65,6 +71,7 @@ fn main() -> ExitCode {
         }
     };
     let exit = match arguments.verb {
+        Verb::New(new) => new.run(),
         Verb::Run(run) => run.run(),
         Verb::Check(check) => check.run(),
         Verb::Fmt(fmt) => fmt.run(),
@@ -74,6 +81,7 @@ fn main() -> ExitCode {
         Verb::Graph(graph) => graph.run(),
         Verb::Explain(explain) => explain.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
+        Verb::Completions(completions) => completions.run(),
     };
     ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })
 }

@@ -166,7 +166,7 @@ fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
 }
 
 /// `missions/snapshots/duck_single-one_source-1.trace`.
-fn snapshot_file(script: &Path, test: &str, seed: u64) -> PathBuf {
+pub fn snapshot_file(script: &Path, test: &str, seed: u64) -> PathBuf {
     let plain: String =
         test.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
     let words: Vec<&str> = plain.split('_').filter(|w| !w.is_empty()).collect();

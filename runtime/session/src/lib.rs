@@ -27,7 +27,7 @@ pub use albacore_link::{LinkError, Transport, Url, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use check::findings;
-pub use files::{FileError, Files, load, load_library, load_or_module, read};
+pub use files::{FileError, Files, load, load_library, load_or_module, load_text, read};
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
 pub use run::{Run, Running};
