@@ -40,10 +40,7 @@ pub fn declaration(item: &Item, span: Span, written: &Written, comments: &mut Co
         },
         Item::Scenario { name, params, body } => {
             body.clauses.iter().for_each(|clause| drop(comments.above(clause.span.start)));
-            Declaration {
-                params: self::params(params, written, comments),
-                ..whole("scenario", name, span, written)
-            }
+            Declaration { params: self::params(params, written, comments), ..whole("scenario", name, span, written) }
         }
         Item::Activity(a) => activity(a, span, written, comments),
     };

@@ -60,9 +60,7 @@ fn parameters_behaviors_and_tables_are_as_written() {
     let params: Vec<[&str; 5]> = tour
         .params
         .iter()
-        .map(|p| {
-            [&*p.name, &*p.ty, p.default.as_deref().unwrap_or(""), p.range.as_deref().unwrap_or(""), &*p.text]
-        })
+        .map(|p| [&*p.name, &*p.ty, p.default.as_deref().unwrap_or(""), p.range.as_deref().unwrap_or(""), &*p.text])
         .collect();
     assert_eq!(
         params,

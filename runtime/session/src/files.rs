@@ -69,6 +69,16 @@ pub fn load_or_module(path: &Path) -> Result<Script, FileError> {
     Ok(albacore_lang::load(source, &Files::around(Path::new("")), None, &[]))
 }
 
+/// The modules of the standard library, in the order of their names.
+pub fn standard_modules() -> impl Iterator<Item = &'static str> {
+    STDLIB.iter().map(|(name, _)| *name)
+}
+
+/// Whether every script knows the names of a module of the standard library.
+pub fn is_known_everywhere(module: &str) -> bool {
+    PRELUDE.contains(&module)
+}
+
 /// Checks a script that is in no file yet, as if it stood alone in the folder of its name.
 pub fn load_text(source: Source) -> Script {
     let files = Files::around(Path::new(&*source.name));
