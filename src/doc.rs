@@ -94,7 +94,7 @@ impl Doc {
     fn dressed(&self, title: &str, text: &str, home: Option<(usize, &Module)>, names: &Names) -> String {
         match self.format {
             Format::Markdown => text.to_string(),
-            Format::Html => html::page(title, text, home, names),
+            Format::Html => html::page(title, text, home, names, self.out.is_some()),
         }
     }
 

@@ -7,11 +7,11 @@ use pulldown_cmark::{CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
 
 const STYLE: &str = include_str!("style.css");
 
-/// A page; an index has no home.
-pub fn page(title: &str, markdown: &str, home: Option<(usize, &Module)>, names: &Names) -> String {
+/// A page; an index has no home. `beside_index` is one that the index leads to.
+pub fn page(title: &str, markdown: &str, home: Option<(usize, &Module)>, names: &Names, beside_index: bool) -> String {
     let mut body = String::new();
     html::push_html(&mut body, events(markdown, home, names).into_iter());
-    let up = if home.is_some() { "<nav><a href=\"index.html\">all modules</a></nav>\n" } else { "" };
+    let up = if beside_index && home.is_some() { "<nav><a href=\"index.html\">all modules</a></nav>\n" } else { "" };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n\

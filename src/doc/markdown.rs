@@ -67,7 +67,12 @@ fn declaration(text: &mut String, d: &Declaration, home: usize, names: &Names, w
     if let Some(terms) = &d.terms {
         code(text, "alb", terms);
     }
-    if !d.behaviors.is_empty() {
+    if d.behaviors.iter().all(|behavior| behavior.text.is_empty()) {
+        let listed: Vec<String> = d.behaviors.iter().map(|behavior| format!("`{}`", behavior.name)).collect();
+        if !listed.is_empty() {
+            paragraph(text, &format!("Its behaviors are {}.", listed.join(", ")));
+        }
+    } else {
         text.push_str("\n| behavior | what it is |\n|---|---|\n");
         for behavior in &d.behaviors {
             text.push_str(&format!("| `{}` | {} |\n", behavior.name, cell(&link(&behavior.text))));

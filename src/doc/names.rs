@@ -6,9 +6,16 @@ use std::collections::BTreeMap;
 /// The names of all pages that are made together.
 pub struct Names {
     /// By module: what it is called, and its declarations by name, each with its word.
-    modules: Vec<(String, BTreeMap<String, Vec<&'static str>>)>,
+    modules: Vec<(String, BTreeMap<String, Vec<Named>>)>,
     /// Modules whose names every script knows.
     known: Vec<usize>,
+}
+
+/// What has a name.
+struct Named {
+    word: &'static str,
+    /// A clause that is the value of another, such as `kinematic`, is written without brackets where its defaults do.
+    is_value: bool,
 }
 
 /// Where a name stands.
@@ -28,9 +35,11 @@ const CALLED: [&str; 6] = ["behavior", "clause", "fn", "mission", "overlay", "st
 impl Names {
     pub fn new(modules: &[Module]) -> Self {
         let named = |module: &Module| {
-            let mut names: BTreeMap<String, Vec<&'static str>> = BTreeMap::new();
+            let mut names: BTreeMap<String, Vec<Named>> = BTreeMap::new();
             for declaration in &module.page.declarations {
-                names.entry(declaration.name.clone()).or_default().push(declaration.word);
+                let word = declaration.word;
+                let is_value = !CALLED.contains(&word) || (word == "clause" && declaration.result.is_some());
+                names.entry(declaration.name.clone()).or_default().push(Named { word, is_value });
             }
             (module.name.clone(), names)
         };
@@ -51,15 +60,13 @@ impl Names {
 
     fn in_module(&self, at: usize, name: &str, used: Use) -> Option<String> {
         let (_, names) = self.modules.get(at)?;
-        let fits = |word: &&&'static str| match used {
-            Use::Called => CALLED.contains(word) || **word == "record",
-            Use::Value => !CALLED.contains(word) || **word == "clause",
+        let fits = |named: &&Named| match used {
+            Use::Called => CALLED.contains(&named.word) || named.word == "record",
+            Use::Value => named.is_value,
             Use::Told => true,
         };
-        // A clause that is no statement is written without brackets where its defaults do: `vehicle(kinematic, …)`.
-        let words = names.get(name)?;
-        let word = words.iter().filter(fits).min_by_key(|word| **word == "clause" && used == Use::Value)?;
-        Some(anchor(&format!("{word} {name}")))
+        let named = names.get(name)?.iter().find(fits)?;
+        Some(anchor(&format!("{} {name}", named.word)))
     }
 
     fn from(&self, home: usize, at: usize, anchor: &str) -> String {
