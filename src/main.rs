@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod clock;
 mod completions;
+mod doc;
 mod exit;
 mod explain;
 mod fmt;
@@ -52,6 +53,8 @@ enum Verb {
     Campaign(campaign::Campaign),
     /// Draw the switching diagram of a strategy.
     Graph(graph::Graph),
+    /// Make reference pages of scripts, from their declarations and comments.
+    Doc(doc::Doc),
     /// Explain the code of an error or a warning.
     Explain(explain::Explain),
     /// Serve a simulated vehicle at the far end of a link.
@@ -81,6 +84,7 @@ fn main() -> ExitCode {
         Verb::Repl(repl) => repl.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
+        Verb::Doc(doc) => doc.run(),
         Verb::Explain(explain) => explain.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
         Verb::Completions(completions) => completions.run(Arguments::command()),

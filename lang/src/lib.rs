@@ -10,6 +10,7 @@ pub mod cost;
 pub mod diagnostic;
 pub mod diagram;
 pub mod dimension;
+pub mod doc;
 mod echo;
 pub mod fmt;
 mod foreign;

@@ -69,6 +69,22 @@ pub fn load_or_module(path: &Path) -> Result<Script, FileError> {
     Ok(albacore_lang::load(source, &Files::around(Path::new("")), None, &[]))
 }
 
+/// The modules of the standard library, in the order of their names.
+pub fn standard_modules() -> impl Iterator<Item = &'static str> {
+    STDLIB.iter().map(|(name, _)| *name)
+}
+
+/// Whether every script knows the names of a module of the standard library.
+pub fn is_known_everywhere(module: &str) -> bool {
+    PRELUDE.contains(&module)
+}
+
+/// Checks a script that is in no file yet, as if it stood alone in the folder of its name.
+pub fn load_text(source: Source) -> Script {
+    let files = Files::around(Path::new(&*source.name));
+    albacore_lang::load(source, &files, None, &[])
+}
+
 /// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it.
 pub fn load_library() -> Script {
     let nothing = Source { name: "the standard library".into(), text: "".into() };

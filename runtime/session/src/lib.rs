@@ -19,6 +19,7 @@ pub use albacore_diagram as diagram;
 pub use albacore_lang::code::Code;
 pub use albacore_lang::cost::Cost;
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
+pub use albacore_lang::doc;
 pub use albacore_lang::fmt::format;
 pub use albacore_lang::source::{FileId, Source, Sources, Span};
 pub use albacore_lang::{Script, nearest};
@@ -27,7 +28,9 @@ pub use albacore_link::{LinkError, Transport, Url, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use check::findings;
-pub use files::{FileError, Files, load, load_library, load_or_module, read};
+pub use files::{
+    FileError, Files, is_known_everywhere, load, load_library, load_or_module, load_text, read, standard_modules,
+};
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
 pub use run::{Run, Running};

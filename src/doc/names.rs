@@ -1,0 +1,84 @@
+//! Which name is told of where: the links between pages.
+
+use super::{Import, Module};
+use std::collections::BTreeMap;
+
+/// The names of all pages that are made together.
+pub struct Names {
+    /// By module: what it is called, and its declarations by name, each with its word.
+    modules: Vec<(String, BTreeMap<String, Vec<Named>>)>,
+    /// Modules whose names every script knows.
+    known: Vec<usize>,
+}
+
+/// What has a name.
+struct Named {
+    word: &'static str,
+    /// A clause that is the value of another, such as `kinematic`, is written without brackets where its defaults do.
+    is_value: bool,
+}
+
+/// Where a name stands.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Use {
+    /// Before `(`.
+    Called,
+    /// Anywhere else in a script.
+    Value,
+    /// In a comment.
+    Told,
+}
+
+/// What can be called. A record is called too, and a type besides.
+const CALLED: [&str; 6] = ["behavior", "clause", "fn", "mission", "overlay", "strategy"];
+
+impl Names {
+    pub fn new(modules: &[Module]) -> Self {
+        let named = |module: &Module| {
+            let mut names: BTreeMap<String, Vec<Named>> = BTreeMap::new();
+            for declaration in &module.page.declarations {
+                let word = declaration.word;
+                let is_value = !CALLED.contains(&word) || (word == "clause" && declaration.result.is_some());
+                names.entry(declaration.name.clone()).or_default().push(Named { word, is_value });
+            }
+            (module.name.clone(), names)
+        };
+        let known = (0..modules.len()).filter(|&i| modules[i].standard == Some(Import::Known)).collect();
+        Names { modules: modules.iter().map(named).collect(), known }
+    }
+
+    /// The link to what a name means on a page: `search.find` of another module, `duck_2003` of one that every script knows.
+    pub fn link(&self, path: &str, home: usize, used: Use) -> Option<String> {
+        if let Some((module, name)) = path.split_once('.')
+            && let Some(at) = self.modules.iter().position(|(named, _)| named == module)
+        {
+            return self.in_module(at, name, used).map(|anchor| self.from(home, at, &anchor));
+        }
+        let own = std::iter::once(home).chain(self.known.iter().copied());
+        own.map(|at| (at, self.in_module(at, path, used))).find_map(|(at, anchor)| Some(self.from(home, at, &anchor?)))
+    }
+
+    fn in_module(&self, at: usize, name: &str, used: Use) -> Option<String> {
+        let (_, names) = self.modules.get(at)?;
+        let fits = |named: &&Named| match used {
+            Use::Called => CALLED.contains(&named.word) || named.word == "record",
+            Use::Value => named.is_value,
+            Use::Told => true,
+        };
+        let named = names.get(name)?.iter().find(fits)?;
+        Some(anchor(&format!("{} {name}", named.word)))
+    }
+
+    fn from(&self, home: usize, at: usize, anchor: &str) -> String {
+        match self.modules.get(at) {
+            Some((module, _)) if at != home => format!("{module}.md#{anchor}"),
+            _ => format!("#{anchor}"),
+        }
+    }
+}
+
+/// The anchor of a heading, as forges make it.
+pub fn anchor(heading: &str) -> String {
+    let kept = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+    kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
+}
