@@ -23,7 +23,10 @@ impl<'a> Lowering<'a> {
         }
         self.path.push(function.name.clone());
         let outer = std::mem::replace(&mut self.frame.vars, vars);
+        // The lists that are kept in order are the caller's, under numbers that here mean other variables.
+        let sorters = std::mem::take(&mut self.frame.sorters);
         self.block_into(&function.body, to);
+        self.frame.sorters = sorters;
         self.frame.vars = outer;
         self.path.pop();
     }
