@@ -101,7 +101,11 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
     let span = Span { file, start: (start + offset) as u32, end: (start + offset + token.len()) as u32 };
     let expected = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => expectation(positives),
-        ErrorVariant::CustomError { message } => message.clone(),
+        // The grammar's own guard against what nests without a bracket: `if if if …`.
+        ErrorVariant::CustomError { .. } => {
+            return Diagnostic::error(Code::SyntaxNesting, span, "this is nested too deep to be read")
+                .help("name its inner parts with `let`, or make functions of them");
+        }
     };
     let wants_name = expected.split([',', ' ']).any(|word| word == "name");
     if wants_name && is_reserved(token) {
