@@ -36,8 +36,8 @@ impl Broken {
             }
         }
         // A behavior of a table is broken with its strategy.
-        let owned =
-            hir.activities.iter().filter(|a| a.owner.is_some_and(|o| broken.names.contains(&hir.activities[o].span)));
+        let is_broken = |owner: usize| hir.activities.get(owner).is_some_and(|o| broken.names.contains(&o.span));
+        let owned = hir.activities.iter().filter(|a| a.owner.is_some_and(is_broken));
         let owned: Vec<Span> = owned.map(|a| a.span).collect();
         broken.names.extend(owned);
         broken

@@ -333,12 +333,7 @@ impl<'t> Checker<'t> {
             return self.timed_stmt(timed, Some((name, ty)), span);
         }
         let Action::Expr(e) = &timed.action else { return None };
-        if timed.is_modified() {
-            self.report(
-                Diagnostic::error(Code::TimeModifier, timed.span, "this takes no time: nothing to end or to cut off")
-                    .help("`for`, `until`, `within` and `at` belong to statements that take time"),
-            );
-        }
+        let told = self.findings.len();
         let value = match ty {
             Some(ty) => {
                 let ty = self.written_type(self.scope.module, ty);
@@ -349,6 +344,13 @@ impl<'t> Checker<'t> {
                 self.definite(value, &name.node)
             }
         };
+        // What is called may be misspelt: then nobody knows whether it takes time.
+        if timed.is_modified() && self.findings.len() == told {
+            self.report(
+                Diagnostic::error(Code::TimeModifier, timed.span, "this takes no time: nothing to end or to cut off")
+                    .help("`for`, `until`, `within` and `at` belong to statements that take time"),
+            );
+        }
         let range = value.range;
         let id = self.declare(name, VarKind::Let, value.ty.clone());
         self.scope.vars[id].range = range;

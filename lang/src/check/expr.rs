@@ -206,6 +206,23 @@ impl<'t> Checker<'t> {
                 )),
             );
         }
+        // `a for 5 s or b`: what stands after the time would be read as part of it.
+        if let tree::ExprKind::Binary(op, time, other) = &duration.kind
+            && matches!(op.node, tree::Binary::And | tree::Binary::Or)
+        {
+            let word = op.node.symbol();
+            self.report(
+                Diagnostic::error(
+                    Code::TimeAmbiguous,
+                    holds.span.to(time.span),
+                    format!("`for` beside `{word}` needs parentheses"),
+                )
+                .here("this alone for so long?")
+                .label(other.span, "or together with this?")
+                .help(format!("write `(… for T) {word} …`, or `(… {word} …) for T` when both together must have held")),
+            );
+            return self.unknown(span);
+        }
         self.temporal_allowed(span, "for");
         let holds = self.condition(holds);
         let duration = self.duration(duration, "the time after `for`");

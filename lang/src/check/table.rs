@@ -66,14 +66,27 @@ impl<'t> Checker<'t> {
         let start = match start {
             Some(name) => self.behavior_named(name, &names),
             None => {
-                self.report(
-                    Diagnostic::error(
+                let name = &a.name.node;
+                // A brace in the wrong place.
+                let inner =
+                    names.first().filter(|_| matches!(a.kind, tree::ActivityKind::Behavior) && written.is_empty());
+                self.report(match inner {
+                    Some(inner) => Diagnostic::error(
+                        Code::RulesStart,
+                        inner.span,
+                        format!("the behavior `{}` stands inside the behavior `{name}`", inner.node),
+                    )
+                    .label(a.name.span, "which is open here")
+                    .help(format!(
+                        "close `{name}` before it; what holds behaviors is a `strategy`, with `start NAME` and rules"
+                    )),
+                    None => Diagnostic::error(
                         Code::RulesStart,
                         a.name.span,
-                        format!("with which behavior does `{}` begin?", a.name.node),
+                        format!("with which behavior does `{name}` begin?"),
                     )
                     .help("write `start NAME`"),
-                );
+                });
                 None
             }
         };

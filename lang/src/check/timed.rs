@@ -45,6 +45,12 @@ impl<'t> Checker<'t> {
                 if self.misspelt_statement(e) {
                     return None;
                 }
+                // What is called may be misspelt: then nobody knows whether it takes time.
+                let told = self.findings.len();
+                let stmt = self.expr_stmt(e, span);
+                if self.findings.len() > told {
+                    return stmt;
+                }
                 self.report(
                     Diagnostic::error(
                         Code::TimeModifier,
@@ -53,6 +59,7 @@ impl<'t> Checker<'t> {
                     )
                     .help("`for`, `until`, `within` and `at` belong to statements that take time"),
                 );
+                return stmt;
             }
             return self.expr_stmt(e, span);
         }
@@ -225,7 +232,7 @@ impl<'t> Checker<'t> {
         let yes = |b: bool| Some((ExprKind::Number(f64::from(u8::from(b))), Type::Bool, Interval::ANY));
         let positive = Some(Interval { low: 0.1, high: f64::INFINITY, not_zero: true });
         // A turning radius of 0 stands for the one that the speed and the command filter allow.
-        let turning = || param("radius", LENGTH, length(0.0), None);
+        let turning = || param("radius", LENGTH, length(0.0), positive);
         let (guide, params, ends) = match verb.node.as_str() {
             "goto" => {
                 let params =
@@ -247,7 +254,7 @@ impl<'t> Checker<'t> {
                 let params = vec![
                     param("center", Type::Point, None, None),
                     param("radius", LENGTH, None, positive),
-                    param("turns", Type::Quantity(Dimension::NONE), turns, None),
+                    param("turns", Type::Quantity(Dimension::NONE), turns, Some(Interval::new(0.0, f64::INFINITY))),
                     param("clockwise", Type::Bool, yes(true), None),
                 ];
                 (Guide::Loiter, params, true)

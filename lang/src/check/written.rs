@@ -183,6 +183,8 @@ fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         "radian" | "radians" => "rad",
         "kt" | "kts" => "kn",
         "percent" => "%",
+        "mps" => return Some("m/s"),
+        "kmh" | "kph" | "kmph" => return Some("km/h"),
         "feet" | "foot" => "ft",
         _ => return suggest::nearest(word, known.iter().copied()),
     };

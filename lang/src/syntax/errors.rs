@@ -120,8 +120,28 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
     let before = text[..offset].rsplit(['\n', ';', '{']).next().unwrap_or("");
     match habit(before, rest, &expected) {
         Some(habit) => Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or(message)).help(habit.help),
-        None => Diagnostic::error(Code::SyntaxExpected, span, message),
+        None => match missing_comma(before, rest, token) {
+            Some(help) => {
+                Diagnostic::error(Code::SyntaxExpected, span, format!("expected `,` or an operator, found `{token}`"))
+                    .help(help)
+            }
+            None => Diagnostic::error(Code::SyntaxExpected, span, message),
+        },
     }
+}
+
+/// How to part two values that stand side by side: in brackets, or the second with a label.
+fn missing_comma(before: &str, rest: &str, token: &str) -> Option<String> {
+    let ends_value = |c: char| c.is_alphanumeric() || matches!(c, '_' | ')' | ']' | '%');
+    let begins_value = token.starts_with(|c: char| c.is_alphanumeric() || c == '_') && !is_reserved(token);
+    if !begins_value || !before.trim_end().ends_with(ends_value) {
+        return None;
+    }
+    if rest[token.len()..].trim_start().starts_with(':') {
+        return Some(format!("write a comma between them: `, {token}: …`"));
+    }
+    let open = before.matches(['(', '[']).count() > before.matches([')', ']']).count();
+    open.then(|| "write a comma between two arguments or elements".to_string())
 }
 
 fn is_reserved(word: &str) -> bool {
