@@ -358,6 +358,10 @@ fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
                 path.pop();
                 endless
             }
+            // A strategy ends by a rule alone.
+            Body::Table { behaviors, rules, .. } => {
+                !behaviors.is_empty() && !rules.iter().any(|rule| matches!(rule.target, Target::Finish(_)))
+            }
             _ => false,
         },
     }

@@ -125,9 +125,23 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
                 Diagnostic::error(Code::SyntaxExpected, span, format!("expected `,` or an operator, found `{token}`"))
                     .help(help)
             }
+            None if is_position(before, rest) => Diagnostic::error(
+                Code::SyntaxExpected,
+                span,
+                "this position cannot be read",
+            )
+            .help("a position is its latitude, a blank and its longitude: `36°10.8'N 75°44.4'W`, or `36.18°N 75.74°W`"),
             None => Diagnostic::error(Code::SyntaxExpected, span, message),
         },
     }
+}
+
+/// Whether what cannot be read stands in a position on the globe, or directly after one.
+fn is_position(before: &str, rest: &str) -> bool {
+    let word = before.rsplit([' ', '(', '=']).next().unwrap_or("");
+    let last = before.trim_end().rsplit([' ', '(', '=']).next().unwrap_or("");
+    let next = rest.split([' ', ',', ')', '\n']).next().unwrap_or("");
+    word.contains('°') || next.contains('°') || last.contains('°')
 }
 
 /// How to part two values that stand side by side: in brackets, or the second with a label.
