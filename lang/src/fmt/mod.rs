@@ -20,8 +20,23 @@ const WIDTH: usize = 120;
 /// How much deeper each block stands.
 const INDENT: usize = 4;
 
+/// The layout of a layout is nearly always the same; where an author's columns end after one, it is so after two.
+const ROUNDS_MAX: usize = 4;
+
 /// Formats a script; one that cannot be read is not touched, and what is wrong with it is given instead.
 pub fn format(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
+    let mut text = source.to_string();
+    for _ in 0..ROUNDS_MAX {
+        let laid_out = lay_out(file, &text)?;
+        if laid_out == text {
+            break;
+        }
+        text = laid_out;
+    }
+    Ok(text)
+}
+
+fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     let parsed = syntax::parse(file, source);
     if !parsed.findings.is_empty() {
         return Err(parsed.findings);
