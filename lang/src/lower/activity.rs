@@ -4,7 +4,7 @@ use super::watch::{Timer, positions};
 use super::{Lowering, SortedBy, Sorter, WORDS_MAX};
 use crate::code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Block, Decl, Expr, ExprKind, Kind, Var, children};
+use crate::hir::{self, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::rules;
 use crate::types::Type;
 use albacore_geometry::Geodetic;
@@ -325,7 +325,8 @@ impl<'a> Lowering<'a> {
         }
         let recovery = mission.recovery.as_ref().map(|(within, block)| {
             let within = within.as_ref().map(|e| self.ticks_code(e));
-            Recovery { activity: self.recovery(block), within }
+            let activity = self.block_activity("recovery", ActivityKind::Recovery, |l, _| l.stmts(&block.stmts));
+            Recovery { activity, within }
         });
         let lowered = &mut self.program.mission;
         lowered.within = within;
@@ -334,27 +335,28 @@ impl<'a> Lowering<'a> {
         lowered.recovery = recovery;
     }
 
-    /// The recovery is an activity that shares the mission's frame.
-    fn recovery(&mut self, block: &Block) -> u32 {
+    /// A block that is an activity of its own, in the frame of what it stands in: it can be entered, stand still and be left
+    /// like any other.
+    pub(super) fn block_activity(&mut self, name: &str, kind: ActivityKind, body: impl FnOnce(&mut Self, Slot)) -> u32 {
         let outer = (self.frame.header, self.frame.result, std::mem::take(&mut self.frame.overlays));
         let at = self.lasting(header::WORDS);
         (self.frame.header, self.frame.result) = (at, at);
         let nothing = self.emit(Op::Return);
-        let body = self.here();
-        self.stmts(&block.stmts);
+        let entry = self.here();
+        body(self, at);
         self.emit(Op::End);
         let overlays = std::mem::replace(&mut self.frame.overlays, outer.2);
         (self.frame.header, self.frame.result) = (outer.0, outer.1);
         self.program.activities.push(Activity {
-            name: "recovery".to_string(),
+            name: name.to_string(),
             place: String::new(),
-            kind: ActivityKind::Recovery,
+            kind,
             header: at,
             entry: nothing,
             refresh: nothing,
             aborts: Vec::new(),
             reactions: nothing,
-            body: Body::Sequence(body),
+            body: Body::Sequence(entry),
             overlays,
             result: None,
         });

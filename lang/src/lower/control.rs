@@ -4,7 +4,7 @@
 use super::Lowering;
 use super::stmt::Running;
 use crate::hir;
-use albacore_program::{Activity, ActivityKind, Body, CallSite, Cause, Op, OverrideEnd, Slot, header};
+use albacore_program::{ActivityKind, CallSite, Cause, Op, OverrideEnd, Slot};
 
 impl<'a> Lowering<'a> {
     /// The first tick of an override: it is entered, and asks.
@@ -13,7 +13,10 @@ impl<'a> Lowering<'a> {
         self.emit(Op::Const { to: end, value: OverrideEnd::Completed.number() });
         let over = self.emit(Op::Jump { to: 0 });
         let caller = self.frame.header;
-        let activity = self.override_activity(o, end);
+        let activity = self.block_activity("override", ActivityKind::Override, |l, header| {
+            l.ask(o, header, end);
+            l.stmts(&o.block.stmts);
+        });
         self.land(over);
         self.program.calls.push(CallSite { activity, caller, base: 0, setpoints });
         let call = self.program.calls.len() as u32 - 1;
@@ -47,33 +50,6 @@ impl<'a> Lowering<'a> {
             l.land(stands);
             l.land(left);
         });
-    }
-
-    fn override_activity(&mut self, o: &hir::Override, end: Slot) -> u32 {
-        let outer = (self.frame.header, self.frame.result, std::mem::take(&mut self.frame.overlays));
-        let at = self.lasting(header::WORDS);
-        (self.frame.header, self.frame.result) = (at, at);
-        let nothing = self.emit(Op::Return);
-        let body = self.here();
-        self.ask(o, at, end);
-        self.stmts(&o.block.stmts);
-        self.emit(Op::End);
-        let overlays = std::mem::replace(&mut self.frame.overlays, outer.2);
-        (self.frame.header, self.frame.result) = (outer.0, outer.1);
-        self.program.activities.push(Activity {
-            name: "override".to_string(),
-            place: String::new(),
-            kind: ActivityKind::Override,
-            header: at,
-            entry: nothing,
-            refresh: nothing,
-            aborts: Vec::new(),
-            reactions: nothing,
-            body: Body::Sequence(body),
-            overlays,
-            result: None,
-        });
-        self.program.activities.len() as u32 - 1
     }
 
     /// Asks for control, and waits for the answer.

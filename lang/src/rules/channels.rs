@@ -1,15 +1,13 @@
 //! One owner for each channel on every way that leads to a statement: speed and vertical are set, and set once.
 
 use super::limits::{self, Limit};
+use super::told::Told;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, Interval, Kind, StmtKind, Timed, With};
 use crate::source::Span;
 use albacore_program::{Channel, Guide};
 use std::collections::BTreeSet;
-
-/// A finding names this many places at most.
-const PLACES_MAX: usize = 4;
 
 /// So many ways to activities are told apart by what the calls on them give.
 const WAYS_MAX: usize = 10_000;
@@ -38,21 +36,18 @@ struct Walk<'a> {
     hir: &'a Hir,
     /// The mission's limits.
     limits: Vec<Limit>,
-    /// The calls that lead here.
-    path: Vec<(String, Span)>,
     seen: BTreeSet<Way>,
     /// What is known of the parameters of the activity that is walked, from the call that leads to it.
     given: Vec<Interval>,
-    findings: Vec<Diagnostic>,
+    told: Told,
 }
 
 /// Walks all ways from a mission to its statements.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let limits = limits::of(hir, mission);
-    let (path, seen, given, findings) = (Vec::new(), BTreeSet::new(), Vec::new(), Vec::new());
-    let mut walk = Walk { hir, limits, path, seen, given, findings };
+    let mut walk = Walk { hir, limits, seen: BTreeSet::new(), given: Vec::new(), told: Told::default() };
     walk.activity(mission, Owners { vertical: Owner::Nobody, speed: Owner::Nobody });
-    walk.findings
+    walk.told.findings()
 }
 
 impl Walk<'_> {
@@ -92,9 +87,9 @@ impl Walk<'_> {
                     if let Kind::Sets(channel) = self.hir.activities[*id].kind {
                         self.own(&mut owners, channel, Owner::Overlay(*place), *place);
                     }
-                    self.path.push((self.hir.activities[*id].full_name.clone(), *place));
+                    self.told.called(self.hir, *id, *place);
                     self.called(args, |walk| walk.overlay(*id));
-                    self.path.pop();
+                    self.told.back();
                 }
             }
         }
@@ -115,7 +110,7 @@ impl Walk<'_> {
                         Owner::Overlay(_) => "take one of the two overlays off",
                         _ => "take the overlay off, or leave the setpoint out",
                     });
-            self.tell(finding);
+            self.told.tell(finding);
             return;
         }
         *slot = owner;
@@ -125,7 +120,7 @@ impl Walk<'_> {
     fn limited(&mut self, channel: Channel, setpoint: &Expr) {
         let range = self.range(setpoint);
         if let Some(finding) = limits::beyond(&self.limits, channel, setpoint, range) {
-            self.tell(finding);
+            self.told.tell(finding);
         }
     }
 
@@ -161,21 +156,6 @@ impl Walk<'_> {
         kept.into_iter().for_each(|(channel, e)| self.limited(channel, e));
     }
 
-    fn tell(&mut self, mut finding: Diagnostic) {
-        // One missing setpoint leaves many statements without: one mistake, shown where it first tells and in some more places.
-        let span = finding.span();
-        if let Some(told) = self.findings.iter_mut().find(|f| f.code == finding.code && f.message == finding.message) {
-            if told.labels.len() < PLACES_MAX && !told.labels.iter().any(|(s, _)| *s == span) {
-                told.labels.push((span, "and here".to_string()));
-            }
-            return;
-        }
-        for (name, span) in self.path.iter().rev() {
-            finding = finding.label(*span, format!("`{name}` is called here"));
-        }
-        self.findings.push(finding);
-    }
-
     fn block(&mut self, block: &Block, owners: Owners) {
         for stmt in &block.stmts {
             match &stmt.kind {
@@ -196,9 +176,9 @@ impl Walk<'_> {
         }
         let (vertical, speed) = match &timed.action {
             Action::Call(id, args) => {
-                self.path.push((self.hir.activities[*id].full_name.clone(), span));
+                self.told.called(self.hir, *id, span);
                 self.called(args, |walk| walk.activity(*id, owners));
-                self.path.pop();
+                self.told.back();
                 return;
             }
             Action::Override(inner) => return self.block(&inner.block, owners),
@@ -213,13 +193,13 @@ impl Walk<'_> {
             }
         };
         if vertical && owners.vertical == Owner::Nobody {
-            self.tell(
+            self.told.tell(
                 Diagnostic::error(Code::ChannelsUnset, span, "how deep? neither depth nor altitude is set here")
                     .help("write `at depth 3 m` after it, or `with altitude 2 m` around it"),
             );
         }
         if speed && owners.speed == Owner::Nobody {
-            self.tell(
+            self.told.tell(
                 Diagnostic::error(Code::ChannelsUnset, span, "how fast? no speed is set here")
                     .help("write `at speed 1.5 m/s` after it, or `with speed 1.5 m/s` around it"),
             );

@@ -1,14 +1,12 @@
 //! Commands only under control (rule 18): a mission that watches or overrides drives its vehicle in its overrides alone.
 
+use super::told::Told;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, ActivityId, Block, Body, Hir, StmtKind};
 use crate::source::Span;
 use albacore_program::Guide;
 use std::collections::BTreeSet;
-
-/// A finding names this many places at most.
-const PLACES_MAX: usize = 4;
 
 /// Where a mission watches or overrides, if it does: then it is a guest of its vehicle.
 pub fn first_watch(hir: &Hir, mission: ActivityId) -> Option<Span> {
@@ -31,21 +29,19 @@ struct Walk<'a> {
     hir: &'a Hir,
     /// Why the mission drives only in its overrides.
     guest: Span,
-    /// The calls that lead here.
-    path: Vec<(String, Span)>,
     seen: BTreeSet<(ActivityId, bool)>,
-    findings: Vec<Diagnostic>,
+    told: Told,
 }
 
 /// The statements of a guest that command outside of an override, and the overrides inside another.
 pub(super) fn check(hir: &Hir, mission: ActivityId) -> Vec<Diagnostic> {
     let Some(guest) = first_watch(hir, mission) else { return Vec::new() };
-    let mut walk = Walk { hir, guest, path: Vec::new(), seen: BTreeSet::new(), findings: Vec::new() };
+    let mut walk = Walk { hir, guest, seen: BTreeSet::new(), told: Told::default() };
     walk.activity(mission, false);
     if let Some((_, recovery)) = hir.activities[mission].mission.as_ref().and_then(|m| m.recovery.as_ref()) {
         walk.block(recovery, true);
     }
-    walk.findings
+    walk.told.findings()
 }
 
 impl Walk<'_> {
@@ -68,11 +64,11 @@ impl Walk<'_> {
             };
             match &timed.action {
                 Action::Call(id, _) => {
-                    self.path.push((self.hir.activities[*id].full_name.clone(), stmt.span));
+                    self.told.called(self.hir, *id, stmt.span);
                     self.activity(*id, driving);
-                    self.path.pop();
+                    self.told.back();
                 }
-                Action::Override(_) | Action::Watch if driving => self.tell(
+                Action::Override(_) | Action::Watch if driving => self.told.tell(
                     Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle is ours here: nothing to take over")
                         .help("this is called from an `override` or a recovery: call it outside, or leave this out"),
                 ),
@@ -80,26 +76,12 @@ impl Walk<'_> {
                 // A pause sends nothing that was not sent before.
                 Action::Watch | Action::Guide(Guide::Wait, _) => {}
                 Action::Guide(..) | Action::Keep(..) if driving => {}
-                Action::Guide(..) | Action::Keep(..) => self.tell(
+                Action::Guide(..) | Action::Keep(..) => self.told.tell(
                     Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle drives itself here")
                         .label(self.guest, "this makes the mission a guest, which drives in `override { … }` alone")
                         .help("put it into an `override { … }`"),
                 ),
             }
         }
-    }
-
-    fn tell(&mut self, mut finding: Diagnostic) {
-        let span = finding.span();
-        if let Some(told) = self.findings.iter_mut().find(|f| f.message == finding.message) {
-            if told.labels.len() < PLACES_MAX && !told.labels.iter().any(|(s, _)| *s == span) {
-                told.labels.push((span, "and here".to_string()));
-            }
-            return;
-        }
-        for (name, span) in self.path.iter().rev() {
-            finding = finding.label(*span, format!("`{name}` is called here"));
-        }
-        self.findings.push(finding);
     }
 }

@@ -7,6 +7,7 @@ mod inputs;
 mod limits;
 mod overlaps;
 mod places;
+mod told;
 mod unreached;
 
 pub use control::first_watch;

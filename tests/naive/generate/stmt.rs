@@ -227,14 +227,7 @@ impl Generator {
         if self.random.percent(50) {
             self.out.truncate(self.out.trim_end().len());
             self.out.push_str(" else {\n");
-            let names = self.names.clone();
-            self.depth += 1;
-            self.nested += 1;
-            inside(self);
-            self.nested -= 1;
-            self.depth -= 1;
-            self.names = names;
-            self.line("}");
+            self.to_brace(inside);
         }
     }
 
