@@ -5,6 +5,9 @@
 use albacore_session::{Files, Script, Source};
 use std::path::{Path, PathBuf};
 
+/// One token of so many.
+const SAMPLED: usize = 23;
+
 fn scripts() -> Vec<PathBuf> {
     let mut scripts: Vec<PathBuf> = ["stdlib", "missions", "tests/rules", "tests/diagnostics"]
         .iter()
@@ -46,32 +49,22 @@ fn check(path: &Path, text: &str) -> Script {
     script
 }
 
-/// Checks scripts cut off after one token of so many, and without it.
-fn spoil(one_of: usize) {
-    let mut count = 0;
+/// Scripts cut off after a token, and without it: of one token of so many, and with `SPOIL_ONE_OF=1` of every.
+#[test]
+fn scripts_cut_off_at_a_token_and_without_it_are_checked() {
+    let one_of = std::env::var("SPOIL_ONE_OF").ok().and_then(|n| n.parse().ok()).unwrap_or(SAMPLED);
+    let mut count: usize = 0;
     for path in scripts() {
         let text = std::fs::read_to_string(&path).unwrap();
         for (start, end) in tokens(&text) {
             count += 1;
-            if count % one_of == 0 {
+            if count.is_multiple_of(one_of) {
                 check(&path, &text[..end]);
                 check(&path, &format!("{}{}", &text[..start], &text[end..]));
             }
         }
     }
     assert!(count > 10_000, "{count} tokens");
-}
-
-#[test]
-fn scripts_cut_off_at_a_token_and_without_it_are_checked() {
-    spoil(23);
-}
-
-/// All of them: `cargo test --release --test syntax -- --ignored`.
-#[test]
-#[ignore = "takes minutes"]
-fn scripts_cut_off_at_each_token_and_without_it_are_checked() {
-    spoil(1);
 }
 
 fn check_text(text: &str) -> Script {
