@@ -2,15 +2,13 @@
 
 use super::expr::article;
 use super::facts;
-use super::timed::same_channel;
 use super::{Checker, Driving, Scope, Setting, Temporal, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::dimension::Dimension;
-use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, Require, VarKind};
+use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, VarKind};
 use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
 use crate::types::Type;
-use albacore_program::{Channel, Guide};
+use albacore_program::Channel;
 
 /// The parts of an activity, gathered clause by clause.
 #[derive(Default)]
@@ -235,125 +233,8 @@ impl<'t> Checker<'t> {
     }
 
     /// Works where code is instantaneous.
-    fn instant<T>(&mut self, temporal: Temporal, work: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn instant<T>(&mut self, temporal: Temporal, work: impl FnOnce(&mut Self) -> T) -> T {
         self.with_setting(Setting::Instant, |c| c.with_temporal(temporal, work))
-    }
-
-    /// `altitude >= 1.5 m`.
-    fn limit(&mut self, limit: &tree::Expr, mission: &mut Mission) {
-        let help = "for example `altitude >= 1.5 m`, `depth <= 30 m` or `speed <= 2.6 m/s`";
-        let tree::ExprKind::Binary(op, left, right) = &limit.kind else {
-            self.report(Diagnostic::error(Code::MissionsLimit, limit.span, "a limit is a comparison").help(help));
-            return;
-        };
-        let channel = match &left.kind {
-            tree::ExprKind::Name(name) if name == "altitude" => (Channel::Altitude, Type::Altitude),
-            tree::ExprKind::Name(name) if name == "depth" => (Channel::Depth, Type::Depth),
-            tree::ExprKind::Name(name) if name == "speed" => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
-            _ => {
-                self.report(
-                    Diagnostic::error(Code::MissionsLimit, left.span, "limits hold `altitude`, `depth` and `speed`")
-                        .help(help),
-                );
-                return;
-            }
-        };
-        let least = match op.node {
-            tree::Binary::Ge => true,
-            tree::Binary::Le => false,
-            _ => {
-                self.report(
-                    Diagnostic::error(
-                        Code::MissionsLimit,
-                        op.span,
-                        "a limit is `>=` the least or `<=` the greatest value",
-                    )
-                    .help(help),
-                );
-                return;
-            }
-        };
-        let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
-        self.not_negative(&value, "the limit");
-        if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel.0 && *l == least) {
-            let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
-                .label(first.span, "the first")
-                .help("keep one of them");
-            self.report(finding);
-        }
-        mission.limits.push((channel.0, least, value));
-    }
-
-    fn require(&mut self, require: &tree::Require, mission: &mut Mission) {
-        let fresh = self.duration(&require.fresh, "the time after `fresh`");
-        let hold_for = require.hold_for.as_ref().map(|e| self.duration(e, "the time after `hold for`"));
-        for name in &require.inputs {
-            let input = match self.lookup(self.scope.module, &name.node) {
-                Some(super::Def::Input(id)) => *id,
-                other => {
-                    let finding = match other {
-                        Some(def) => Diagnostic::error(
-                            Code::MissionsRequires,
-                            name.span,
-                            format!("`{}` is {}, no input", name.node, def.what()),
-                        ),
-                        None => Diagnostic::error(
-                            Code::MissionsRequires,
-                            name.span,
-                            format!("there is no input `{}`", name.node),
-                        ),
-                    };
-                    let known: Vec<String> = self.hir.inputs.iter().map(|i| i.name.clone()).collect();
-                    let finding = match self.nearest(&name.node, known.iter().map(String::as_str)) {
-                        Some(near) => finding.help(format!("did you mean `{near}`?")),
-                        None => finding,
-                    };
-                    self.report(finding);
-                    continue;
-                }
-            };
-            if mission.requires.iter().any(|r| r.input == input) {
-                let message = format!("`{}` is required twice", name.node);
-                let finding = Diagnostic::error(Code::MissionsTwice, name.span, message);
-                self.report(finding.help("keep one of them"));
-            }
-            let ty = self.hir.inputs[input].ty.clone();
-            let at_first = require
-                .at_first
-                .as_ref()
-                .map(|e| self.instant(Temporal::No, |c| c.expr_as(e, &ty, "the value at first")));
-            let (fresh, hold_for) = (fresh.clone(), hold_for.clone());
-            mission.requires.push(Require { input, span: name.span, fresh, at_first, hold_for });
-        }
-    }
-
-    fn mission_header(&mut self, a: &tree::Activity, mission: &mut Mission) {
-        let ActivityKind::Mission { scenario, within } = &a.kind else { return };
-        mission.within = within.as_ref().map(|e| self.duration(e, "the mission's time limit"));
-        if let Some(path) = scenario {
-            mission.scenario = Some(path.text());
-            self.scenario_named(path);
-        }
-        let missing = [
-            (mission.within.is_none(), Code::MissionsWithin, "a time limit", "write `within 2 h` after its name"),
-            (mission.area.is_none(), Code::MissionsArea, "an operating area", "write `area op = rectangle(…)`"),
-            (
-                mission.recovery.is_none(),
-                Code::MissionsRecovery,
-                "a recovery",
-                "write `recovery within 10 min { goto … }`: what the vehicle does after an abort",
-            ),
-        ];
-        for (is_missing, code, what, help) in missing {
-            if is_missing {
-                let message = format!(
-                    "the mission `{}` has no {}",
-                    a.name.node,
-                    what.trim_start_matches("a ").trim_start_matches("an ")
-                );
-                self.report(Diagnostic::warning(code, a.name.span, message).help(help));
-            }
-        }
     }
 
     /// A body's end: what must finish does, and what ends says so.
@@ -384,78 +265,6 @@ impl<'t> Checker<'t> {
                 .help("write its statements in a `loop { … }`"),
             );
         }
-    }
-
-    /// An overlay that owns a channel has nothing to say of the others.
-    fn sets_only(&mut self, channel: Channel, block: &hir::Block) {
-        let mut found = Vec::new();
-        block.each(&mut |stmt| {
-            let hir::StmtKind::Timed(timed) = &stmt.kind else { return };
-            let foreign = match &timed.action {
-                hir::Action::Keep(kept, _) => !same_channel(*kept, channel),
-                hir::Action::Guide(guide, _) => *guide != Guide::Wait,
-                hir::Action::Call(..) => false,
-                hir::Action::Watch | hir::Action::Override(_) => true,
-            };
-            if foreign || !timed.at.is_empty() {
-                found.push(stmt.span);
-            }
-        });
-        let (name, setpoint) =
-            if channel == Channel::Speed { ("speed", "keep speed V") } else { ("vertical", "keep depth D") };
-        for span in found {
-            self.report(
-                Diagnostic::error(
-                    Code::ChannelsOther,
-                    span,
-                    format!("an overlay that sets the {name} does nothing else"),
-                )
-                .help(format!("it holds statements such as `{setpoint}` and `wait`")),
-            );
-        }
-    }
-
-    fn amend(&mut self, a: &'t tree::Activity, statements: &[&'t Clause]) -> Body {
-        let asked_name = tree::Name { node: "asked".to_string(), span: a.name.span };
-        let mut found = None;
-        for clause in statements {
-            match &clause.kind {
-                ClauseKind::Amend(block) if found.is_none() => found = Some((block, clause.span)),
-                ClauseKind::Amend(_) => {
-                    self.report(Diagnostic::error(Code::SyntaxMisplaced, clause.span, "an overlay has one `amend`"));
-                }
-                _ => self.misplaced(
-                    clause.span,
-                    "an overlay that amends the course has no body",
-                    "write it inside `amend { … }`",
-                ),
-            }
-        }
-        let Some((block, span)) = found else {
-            self.report(
-                Diagnostic::error(Code::ChannelsAmend, a.name.span, format!("`{}` amends nothing", a.name.node))
-                    .help("write `amend { … }`: its value is the new course, `asked` the one asked for"),
-            );
-            return Body::Sequence(hir::Block::default());
-        };
-        let (asked, block) = self.in_block(|c| {
-            let asked = c.declare(&asked_name, VarKind::Let, Type::Heading);
-            // An overlay may lead elsewhere whatever is asked.
-            c.names_used.read(asked_name.span);
-            let block = c.with_setting(Setting::Instant, |c| {
-                let mut block = c.value_block(block, Some(&Type::Heading));
-                match block.value.take() {
-                    Some(value) => block.value = Some(Box::new(c.coerce(*value, &Type::Heading, "the amended course"))),
-                    None => c.report(
-                        Diagnostic::error(Code::ChannelsAmend, span, "`amend` must end in a course")
-                            .help("end it with a heading; `asked` leaves the course as it is"),
-                    ),
-                }
-                block
-            });
-            (asked, block)
-        });
-        Body::Amend { asked, block }
     }
 
     /// A condition of a rule, in whose context `done` may stand.

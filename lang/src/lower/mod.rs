@@ -9,6 +9,7 @@ mod condition;
 mod control;
 mod expr;
 mod inline;
+mod loops;
 mod prepare;
 mod scenario;
 mod stmt;

@@ -3,12 +3,15 @@
 //! The text that comes out has the same length as the one that went in, so that every span stays true. A comment and a
 //! newline that ends nothing become blanks; the grammar then needs one rule for blanks and one for the end of a statement.
 
+mod nesting;
+
 use super::braces;
 use super::deceptive::{self, deceives};
 use super::errors::begins_item;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
+use nesting::Open;
 
 /// Brackets, blocks and `else if` may be nested this deep, on every machine and in every build.
 pub const NESTING_MAX: usize = 64;
@@ -26,6 +29,7 @@ const OPEN_WORDS: [&str; 9] = ["and", "or", "not", "toward", "else", "on", "do",
 pub fn goes_on_after(word: &str) -> bool {
     OPEN_WORDS.contains(&word)
 }
+
 /// Words that begin a statement and never go on with one.
 const BEGINNING_WORDS: [&str; 18] = [
     "use", "const", "behavior", "strategy", "mission", "scenario", "overlay", "with", "signal", "memory", "let", "var",
@@ -111,14 +115,6 @@ enum Last {
     Nothing,
     Goes,
     Ends,
-}
-
-/// A bracket that is open.
-struct Open {
-    bracket: char,
-    at: usize,
-    /// The `else if` of the statement in which it stands: each nests its blocks one deeper.
-    chained: usize,
 }
 
 struct Scanner<'a> {
@@ -384,72 +380,6 @@ impl<'a> Scanner<'a> {
         self.after_else = word == "else" && !is_field;
         self.last = if OPEN_WORDS.contains(&word) && !is_field { Last::Goes } else { Last::Ends };
         self.at += length;
-    }
-
-    fn open(&mut self, bracket: char) {
-        self.too_deep(self.at, 1, 1);
-        self.after_else = false;
-        self.open.push(Open { bracket, at: self.at, chained: std::mem::take(&mut self.chained) });
-        self.at += 1;
-    }
-
-    /// Reports, once, what stands deeper than anything may; `inside` tells how deep it is in what is open.
-    fn too_deep(&mut self, at: usize, length: usize, inside: usize) {
-        if self.deep {
-            return;
-        }
-        let chained: usize = self.open.iter().map(|open| open.chained).sum();
-        self.deep = self.open.len() + chained + self.chained + inside > NESTING_MAX;
-        if self.deep {
-            let span = self.span(at, at + length);
-            self.findings.push(
-                Diagnostic::error(Code::SyntaxNesting, span, format!("nested deeper than {NESTING_MAX} levels")).help(
-                    "name a part of it with `let`, or move it into a `fn` or a `behavior`; each `else if` is a level",
-                ),
-            );
-        }
-    }
-
-    fn close(&mut self, bracket: char) {
-        let wanted = match bracket {
-            ')' => '(',
-            ']' => '[',
-            _ => '{',
-        };
-        match self.open.iter().rposition(|open| open.bracket == wanted) {
-            Some(index) => {
-                self.all_unclosed(index + 1);
-                self.chained = self.open.pop().map_or(0, |open| open.chained);
-            }
-            None => {
-                let span = self.span(self.at, self.at + 1);
-                self.findings.push(
-                    Diagnostic::error(Code::SyntaxBracket, span, format!("this `{bracket}` closes nothing"))
-                        .help(format!("remove it, or open it with `{wanted}`")),
-                );
-            }
-        }
-        self.at += 1;
-    }
-
-    /// What is open from a level on was never closed: told of the outermost, for what stands in it is open with it.
-    fn all_unclosed(&mut self, level: usize) {
-        let inside = self.open.split_off(level);
-        let Some(Open { bracket, at, .. }) = inside.first() else { return };
-        let closer = match bracket {
-            '(' => ')',
-            '[' => ']',
-            _ => '}',
-        };
-        let message = match inside.len() - 1 {
-            0 => format!("this `{bracket}` is never closed"),
-            1 => format!("this `{bracket}` is never closed, nor is one inside it"),
-            more => format!("this `{bracket}` is never closed, nor are {more} inside it"),
-        };
-        self.findings.push(
-            Diagnostic::error(Code::SyntaxBracket, self.span(*at, at + 1), message)
-                .help(format!("add the `{closer}` that belongs to it")),
-        );
     }
 
     fn deceptive(&mut self, c: char, at: usize) {

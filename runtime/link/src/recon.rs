@@ -8,6 +8,7 @@ mod controller;
 mod fields;
 mod frame;
 mod front_seat;
+mod goal;
 mod message;
 mod mode;
 mod vehicle;

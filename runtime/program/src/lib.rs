@@ -5,11 +5,15 @@
 //! can ever be called has its place before launch, and the whole state of a run is one array of words.
 
 mod activity;
+mod cause;
+mod guide;
 pub mod number;
 mod op;
 mod shape;
 
 pub use activity::*;
+pub use cause::*;
+pub use guide::*;
 pub use op::*;
 pub use shape::*;
 

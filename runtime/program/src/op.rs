@@ -1,5 +1,6 @@
 //! The machine's instructions: three-address code over slots of words.
 
+use crate::{Cause, Channel, Guide};
 use serde::{Deserialize, Serialize};
 
 /// An offset from the base of a frame, or with [`ABSOLUTE`] from the first word of a run.
@@ -447,7 +448,7 @@ pub enum Op {
         suspended: Slot,
         lost: Slot,
     },
-    /// The run ends if an override that nobody reads ended otherwise than by itself: its end, as [`OverrideEnd`] numbers them.
+    /// The run ends if an override that nobody reads ended otherwise than by itself: its end, as [`crate::OverrideEnd`] numbers them.
     Desert {
         end: Slot,
     },
@@ -484,87 +485,4 @@ pub enum Op {
     Changed {
         memory: u32,
     },
-}
-
-/// A guidance law. Arguments are frozen at the beginning, except the course of `steer`, which the code computes anew.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Guide {
-    /// Arguments: point (2), radius of arrival.
-    Goto,
-    /// Arguments: line (4), turning radius.
-    Follow,
-    /// Arguments: point (2), heading, turning radius, 1 for all six words.
-    Dubins,
-    /// Arguments: course over ground. Never ends.
-    Steer,
-    /// Arguments: heading through the water. Never ends.
-    SteerHeading,
-    /// Keeps course; the setpoints say the rest. Never ends.
-    Keep,
-    /// Stays: speed 0. Never ends.
-    Hold,
-    /// Goes on as commanded last. Never ends.
-    Wait,
-    /// Arguments: centre (2), radius, turns (0: for ever), 1 for clockwise.
-    Loiter,
-}
-
-/// How an override ended; in code its number, in this order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum OverrideEnd {
-    /// Its block came to its end, or `for` or `until` ended it.
-    Completed,
-    /// The vehicle would not let us drive.
-    Refused,
-    /// The vehicle did not answer in time.
-    NoAnswer,
-    /// The vehicle took control back.
-    TakenBack,
-    /// `within` cut it off.
-    TimedOut,
-}
-
-impl OverrideEnd {
-    /// Its number in code.
-    pub fn number(self) -> f64 {
-        f64::from(self as u8)
-    }
-
-    /// The end of a number; what is none counts as its own.
-    pub fn from_number(number: f64) -> Self {
-        let ends = [Self::Completed, Self::Refused, Self::NoAnswer, Self::TakenBack, Self::TimedOut];
-        ends.into_iter().find(|end| end.number() == number).unwrap_or(Self::Completed)
-    }
-}
-
-/// A channel of the command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "each variant is the channel of its name")]
-pub enum Channel {
-    Depth,
-    Altitude,
-    Speed,
-}
-
-/// Why an activity was left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Cause {
-    /// It came to its own end.
-    Done,
-    /// A rule of its table left it.
-    Rule,
-    /// `for` or `until` ended the statement that called it.
-    Until,
-    /// `within` cut it off.
-    TimedOut,
-    /// Something outside it ended.
-    Preempted,
-    /// The mission was aborted.
-    Aborted,
-    /// Of an override: the vehicle would not let us drive.
-    Refused,
-    /// Of an override: the vehicle did not answer in time.
-    NoAnswer,
-    /// Of an override: the vehicle took control back.
-    TakenBack,
 }

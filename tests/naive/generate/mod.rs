@@ -148,11 +148,11 @@ impl Generator {
     /// `HEAD {`, what is inside, `}`. Names declared inside are gone after it.
     fn braces(&mut self, head: &str, inside: impl FnOnce(&mut Self)) {
         self.line(&format!("{head} {{"));
-        self.to_brace(inside);
+        self.until_brace(inside);
     }
 
     /// What is inside of braces that are open, and the closing one.
-    fn to_brace(&mut self, inside: impl FnOnce(&mut Self)) {
+    fn until_brace(&mut self, inside: impl FnOnce(&mut Self)) {
         let names = self.names.clone();
         self.depth += 1;
         self.nested += 1;

@@ -227,7 +227,7 @@ impl Generator {
         if self.random.percent(50) {
             self.out.truncate(self.out.trim_end().len());
             self.out.push_str(" else {\n");
-            self.to_brace(inside);
+            self.until_brace(inside);
         }
     }
 

@@ -4,17 +4,17 @@
 //! same bytes give the same run however late they are read.
 
 use super::frame::{Deframer, seal};
+use super::goal::Goal;
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
 use super::vehicle_time::{Stamp, VehicleTime};
-use albacore_geometry::math::{atan2, radians};
+use albacore_geometry::math::atan2;
 use albacore_geometry::{Heading, TangentFrame, Vector};
 use albacore_vehicle::channels::{
     self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
 use std::collections::VecDeque;
-use std::mem::discriminant;
 
 /// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
 /// 2 m comes to, m an axis.
@@ -23,20 +23,8 @@ const POSITION_SIGMA: f64 = 3.0;
 pub(super) const FULL_SCALE_VOLTS: f64 = 5.0;
 /// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
 const DRIFT_TICKS: u64 = 50;
-/// A goal that the vehicle has not taken up is sent again after this many ticks.
-const UNCONFIRMED_TICKS: u64 = 2;
-/// Every goal is sent again after this many ticks, twice a second: goals latch, but a vehicle may lose one, and it leaves who
-/// is silent.
-const AGAIN_TICKS: u64 = 5;
 /// Who commands nothing says at least this often that it is there.
 const KEEP_ALIVE_TICKS: u64 = 10;
-/// A goal that the vehicle has not taken up for this many ticks is one that it refuses.
-const IGNORED_TICKS: u64 = 30;
-/// How far what the vehicle holds may be from what was asked: what a goal that moves comes to while it is on its way. In
-/// degrees (the command filter lets a heading turn by 10 a second), m, and m/s.
-const HEADING_SLACK_DEG: f64 = 10.0;
-const HEIGHT_SLACK: f64 = 0.5;
-const SPEED_SLACK: f64 = 0.2;
 /// A vehicle that answers, but does not let us drive for this many ticks, refuses.
 const REQUEST_TICKS: u64 = 300;
 /// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
@@ -61,65 +49,6 @@ enum Want {
     /// To listen, once the vehicle says that it drives itself.
     GiveBack,
     Leave,
-}
-
-/// A goal: what is asked, and what the vehicle says that it holds.
-#[derive(Clone, Debug, Default)]
-struct Goal {
-    asked: Option<ToVehicle>,
-    /// The tick in which it was asked last.
-    last: u64,
-    /// What was sent last, and in which tick.
-    sent: Option<(String, u64)>,
-    /// What the vehicle reported last.
-    held: Option<ToVehicle>,
-    /// The last tick in which the two agreed.
-    agreed: u64,
-    told: bool,
-}
-
-impl Goal {
-    /// Takes in what is asked in a tick; gives what to tell when the vehicle has not taken it up for too long.
-    fn ask(&mut self, message: ToVehicle, now: u64) -> Option<String> {
-        let begins = self.last + 1 < now;
-        self.last = now;
-        // A depth says nothing of an altitude.
-        self.held = self.held.take().filter(|held| discriminant(held) == discriminant(&message));
-        let agree = self.held.as_ref().is_some_and(|held| agree(held, &message));
-        let asked = self.asked.insert(message);
-        if agree || begins {
-            self.agreed = now;
-            self.told = false;
-        }
-        if self.told || now - self.agreed <= IGNORED_TICKS {
-            return None;
-        }
-        self.told = true;
-        let holds = self.held.as_ref().map(|held| format!(" and says `#{held}`")).unwrap_or_default();
-        Some(format!("the vehicle does not follow `#{asked}`{holds}; it may be protecting itself"))
-    }
-
-    /// The text to send, if it is time: it has changed, was not taken up, or was sent half a second ago.
-    fn due(&self, now: u64) -> Option<String> {
-        let asked = self.asked.as_ref().filter(|_| self.last == now)?.to_string();
-        let Some((sent, tick)) = &self.sent else { return Some(asked) };
-        let again = if self.agreed == now { AGAIN_TICKS } else { UNCONFIRMED_TICKS };
-        (*sent != asked || now - tick >= again).then_some(asked)
-    }
-}
-
-/// Whether what the vehicle holds is what was asked.
-fn agree(held: &ToVehicle, asked: &ToVehicle) -> bool {
-    match (held, asked) {
-        (ToVehicle::Heading(a), ToVehicle::Heading(b)) => (*a - *b).abs() <= radians(HEADING_SLACK_DEG),
-        (ToVehicle::Depth(a), ToVehicle::Depth(b)) | (ToVehicle::Altitude(a), ToVehicle::Altitude(b)) => {
-            (a - b).abs() <= HEIGHT_SLACK
-        }
-        (ToVehicle::Speed(SpeedGoal::MetresPerSecond(a)), ToVehicle::Speed(SpeedGoal::MetresPerSecond(b))) => {
-            (a - b).abs() <= SPEED_SLACK
-        }
-        _ => false,
-    }
 }
 
 /// What the vehicle said up to a tick.

@@ -1,0 +1,129 @@
+//! What belongs to a mission alone: limits, what it requires, its time, area and recovery.
+
+use super::{Checker, Temporal};
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
+use crate::hir::{Mission, Require};
+use crate::syntax::tree::{self, ActivityKind};
+use crate::types::Type;
+use albacore_program::Channel;
+
+impl Checker<'_> {
+    /// `altitude >= 1.5 m`.
+    pub(super) fn limit(&mut self, limit: &tree::Expr, mission: &mut Mission) {
+        let help = "for example `altitude >= 1.5 m`, `depth <= 30 m` or `speed <= 2.6 m/s`";
+        let tree::ExprKind::Binary(op, left, right) = &limit.kind else {
+            self.report(Diagnostic::error(Code::MissionsLimit, limit.span, "a limit is a comparison").help(help));
+            return;
+        };
+        let channel = match &left.kind {
+            tree::ExprKind::Name(name) if name == "altitude" => (Channel::Altitude, Type::Altitude),
+            tree::ExprKind::Name(name) if name == "depth" => (Channel::Depth, Type::Depth),
+            tree::ExprKind::Name(name) if name == "speed" => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
+            _ => {
+                self.report(
+                    Diagnostic::error(Code::MissionsLimit, left.span, "limits hold `altitude`, `depth` and `speed`")
+                        .help(help),
+                );
+                return;
+            }
+        };
+        let least = match op.node {
+            tree::Binary::Ge => true,
+            tree::Binary::Le => false,
+            _ => {
+                self.report(
+                    Diagnostic::error(
+                        Code::MissionsLimit,
+                        op.span,
+                        "a limit is `>=` the least or `<=` the greatest value",
+                    )
+                    .help(help),
+                );
+                return;
+            }
+        };
+        let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
+        self.not_negative(&value, "the limit");
+        if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel.0 && *l == least) {
+            let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
+                .label(first.span, "the first")
+                .help("keep one of them");
+            self.report(finding);
+        }
+        mission.limits.push((channel.0, least, value));
+    }
+
+    pub(super) fn require(&mut self, require: &tree::Require, mission: &mut Mission) {
+        let fresh = self.duration(&require.fresh, "the time after `fresh`");
+        let hold_for = require.hold_for.as_ref().map(|e| self.duration(e, "the time after `hold for`"));
+        for name in &require.inputs {
+            let input = match self.lookup(self.scope.module, &name.node) {
+                Some(super::Def::Input(id)) => *id,
+                other => {
+                    let finding = match other {
+                        Some(def) => Diagnostic::error(
+                            Code::MissionsRequires,
+                            name.span,
+                            format!("`{}` is {}, no input", name.node, def.what()),
+                        ),
+                        None => Diagnostic::error(
+                            Code::MissionsRequires,
+                            name.span,
+                            format!("there is no input `{}`", name.node),
+                        ),
+                    };
+                    let known: Vec<String> = self.hir.inputs.iter().map(|i| i.name.clone()).collect();
+                    let finding = match self.nearest(&name.node, known.iter().map(String::as_str)) {
+                        Some(near) => finding.help(format!("did you mean `{near}`?")),
+                        None => finding,
+                    };
+                    self.report(finding);
+                    continue;
+                }
+            };
+            if mission.requires.iter().any(|r| r.input == input) {
+                let message = format!("`{}` is required twice", name.node);
+                let finding = Diagnostic::error(Code::MissionsTwice, name.span, message);
+                self.report(finding.help("keep one of them"));
+            }
+            let ty = self.hir.inputs[input].ty.clone();
+            let at_first = require
+                .at_first
+                .as_ref()
+                .map(|e| self.instant(Temporal::No, |c| c.expr_as(e, &ty, "the value at first")));
+            let (fresh, hold_for) = (fresh.clone(), hold_for.clone());
+            mission.requires.push(Require { input, span: name.span, fresh, at_first, hold_for });
+        }
+    }
+
+    pub(super) fn mission_header(&mut self, a: &tree::Activity, mission: &mut Mission) {
+        let ActivityKind::Mission { scenario, within } = &a.kind else { return };
+        mission.within = within.as_ref().map(|e| self.duration(e, "the mission's time limit"));
+        if let Some(path) = scenario {
+            mission.scenario = Some(path.text());
+            self.scenario_named(path);
+        }
+        let missing = [
+            (mission.within.is_none(), Code::MissionsWithin, "a time limit", "write `within 2 h` after its name"),
+            (mission.area.is_none(), Code::MissionsArea, "an operating area", "write `area op = rectangle(…)`"),
+            (
+                mission.recovery.is_none(),
+                Code::MissionsRecovery,
+                "a recovery",
+                "write `recovery within 10 min { goto … }`: what the vehicle does after an abort",
+            ),
+        ];
+        for (is_missing, code, what, help) in missing {
+            if is_missing {
+                let message = format!(
+                    "the mission `{}` has no {}",
+                    a.name.node,
+                    what.trim_start_matches("a ").trim_start_matches("an ")
+                );
+                self.report(Diagnostic::warning(code, a.name.span, message).help(help));
+            }
+        }
+    }
+}

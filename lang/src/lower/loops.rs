@@ -1,0 +1,99 @@
+//! `for` to code: what is walked is fixed when the loop begins.
+
+use super::Lowering;
+use crate::hir::{self, Block, Expr};
+use crate::types::Type;
+use albacore_program::{Op, Slot};
+
+impl<'a> Lowering<'a> {
+    pub(super) fn for_range(&mut self, var: usize, first: &Expr, last: &Expr, inclusive: bool, body: &Block) {
+        let (counter, end) = (self.lasting(1), self.lasting(1));
+        self.scratch(|l| {
+            l.expr_into(first, counter);
+            l.expr_into(last, end);
+        });
+        let goes_on = |to| match inclusive {
+            true => (Op::JumpUnlessAtMost { a: counter, b: end, to }, Op::JumpIfAtMost { a: counter, b: end, to }),
+            false => (Op::JumpUnlessLess { a: counter, b: end, to }, Op::JumpIfLess { a: counter, b: end, to }),
+        };
+        let none = self.emit(goes_on(0).0);
+        let top = self.here();
+        let to = self.frame.vars[var];
+        self.copy(to, counter, 1);
+        self.body(body);
+        self.count_up(counter);
+        self.emit(goes_on(top).1);
+        self.land(none);
+    }
+
+    fn count_up(&mut self, counter: Slot) {
+        self.scratch(|l| {
+            let one = l.number(1.0);
+            l.emit(Op::Add { to: counter, a: counter, b: one });
+        });
+    }
+
+    /// Walks a copy of the list, made at the start.
+    pub(super) fn for_list(&mut self, var: usize, list: &Expr, body: &Block) {
+        let Type::List(inner, _) = &list.ty else { return };
+        let (words, element) = (self.words(&list.ty), self.words(inner));
+        let copy = self.lasting(words);
+        let (counter, found) = (self.lasting(1), self.lasting(1 + element));
+        self.scratch(|l| l.expr_into(list, copy));
+        self.emit(Op::Const { to: counter, value: 0.0 });
+        let top = self.here();
+        self.emit(Op::At { to: found, list: copy, index: counter, words: element });
+        let done = self.emit(Op::JumpUnless { unless: found, to: 0 });
+        let to = self.frame.vars[var];
+        self.copy(to, found + 1, element);
+        self.body(body);
+        self.count_up(counter);
+        self.emit(Op::Jump { to: top });
+        self.land(done);
+    }
+
+    /// An area that is a variable cannot change while it is walked; any other is copied.
+    fn walked_area(&mut self, area: &Expr) -> Slot {
+        match area.kind {
+            hir::ExprKind::Var(id) => self.frame.vars[id],
+            _ => {
+                let copy = self.lasting(self.words(&Type::Area));
+                self.scratch(|l| l.expr_into(area, copy));
+                copy
+            }
+        }
+    }
+
+    /// Each row is computed when its turn comes: there are none left when there is none of the next index.
+    pub(super) fn for_rows(&mut self, var: usize, area: &Expr, step: &Expr, body: &Block) {
+        let area = self.walked_area(area);
+        let (apart, counter) = (self.lasting(1), self.lasting(1));
+        self.scratch(|l| l.expr_into(step, apart));
+        self.emit(Op::Const { to: counter, value: 0.0 });
+        let top = self.here();
+        let to = self.frame.vars[var];
+        let done = self.scratch(|l| {
+            let there = l.temp(1);
+            l.emit(Op::RowAt { to, there, area, step: apart, index: counter });
+            l.emit(Op::JumpUnless { unless: there, to: 0 })
+        });
+        self.body(body);
+        self.count_up(counter);
+        self.emit(Op::Jump { to: top });
+        self.land(done);
+    }
+
+    pub(super) fn for_edges(&mut self, var: usize, area: &Expr, body: &Block) {
+        let area = self.walked_area(area);
+        let counter = self.lasting(1);
+        self.emit(Op::Const { to: counter, value: 0.0 });
+        let none = self.emit(Op::JumpUnlessLess { a: counter, b: area, to: 0 });
+        let top = self.here();
+        let to = self.frame.vars[var];
+        self.emit(Op::EdgeAt { to, area, index: counter });
+        self.body(body);
+        self.count_up(counter);
+        self.emit(Op::JumpIfLess { a: counter, b: area, to: top });
+        self.land(none);
+    }
+}
