@@ -16,14 +16,12 @@ mod scenario;
 mod sensors;
 mod simulator;
 mod start;
-mod validate;
 mod water;
 mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
-    Scenario, Sounder, Source, UpperFlow,
+    Scenario, ScenarioError, Sounder, Source, UpperFlow,
 };
 pub use simulator::{Simulator, Truth};
-pub use validate::ScenarioError;
