@@ -16,6 +16,7 @@ mod scenario;
 mod sensors;
 mod simulator;
 mod start;
+mod survey;
 mod water;
 mod world;
 
@@ -25,3 +26,4 @@ pub use scenario::{
     Scenario, ScenarioError, Sounder, Source, UpperFlow,
 };
 pub use simulator::{Simulator, Truth};
+pub use survey::Survey;

@@ -1,7 +1,8 @@
 //! All that is there without the vehicle: water, plume and bottom, in time.
 
-use crate::plume::{Nearby, Plume, spin_up_begin};
+use crate::plume::{Index, Nearby, Plume, spin_up_begin};
 use crate::scenario::{Bottom, Scenario, UpperFlow};
+use crate::survey::Survey;
 use crate::water::Water;
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::TICK_S;
@@ -58,7 +59,13 @@ impl World {
         self.nearby.reading(plume, [x, y, height], time)
     }
 
-    /// The same from no particular place: searches the whole plume for each look-up.
+    /// The chemical at a time within the last tick, for looks at many places.
+    pub fn survey(&self, time: f64) -> Survey {
+        let index = self.plume.as_ref().map(|plume| Index::new(plume, time));
+        Survey { frame: self.water.frame().clone(), index }
+    }
+
+    /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
     pub fn look_up(&self, p: Point, height: f64, time: f64) -> f64 {
         let (x, y) = self.water.frame().to_local(p);
         self.plume.as_ref().map_or(0.0, |plume| Nearby::default().reading(plume, [x, y, height], time))
