@@ -22,8 +22,8 @@ mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
-    Scenario, ScenarioError, Sounder, Source, UpperFlow,
+    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Patch, Pit,
+    Plume, Scenario, ScenarioError, Sounder, Source, Tide, Times, UpperFlow, Waves,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;
