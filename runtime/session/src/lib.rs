@@ -11,6 +11,7 @@ mod plan;
 pub mod prompt;
 mod run;
 mod scenario;
+mod shown;
 mod summary;
 mod tests;
 mod world;
@@ -34,6 +35,7 @@ pub use files::{
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
 pub use run::{Run, Running};
+pub use shown::{Shown, ShownClause};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, run_test};
 pub use world::{FarEnd, World};

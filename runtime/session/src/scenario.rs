@@ -16,18 +16,23 @@ use clause::Clause;
 
 /// The simulator's scenario; else what of it cannot be understood, and where.
 pub(crate) fn scenario(program: &ScenarioProgram) -> Result<Scenario, Diagnostic> {
-    let mut evaluation = Evaluation::new(&program.program);
-    evaluation.run(&program.program, program.program.mission.activity);
-    let words = evaluation.words(0, program.program.words);
+    let words = words(program);
     let mut scenario = Scenario::default();
     for clause in &program.clauses {
-        let clause = Clause { clause, words };
+        let clause = Clause { clause, words: &words };
         apply(&mut scenario, &clause).map_err(|what| {
             let message = format!("this clause cannot be: {what}");
             Diagnostic::error(Code::ScenariosClause, clause.clause.span, message)
         })?;
     }
     Ok(scenario)
+}
+
+/// The words that the clauses' arguments point into.
+pub(crate) fn words(program: &ScenarioProgram) -> Vec<f64> {
+    let mut evaluation = Evaluation::new(&program.program);
+    evaluation.run(&program.program, program.program.mission.activity);
+    evaluation.words(0, program.program.words).to_vec()
 }
 
 fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {

@@ -104,10 +104,8 @@ impl Default for Source {
 /// What of the sources cannot be, once region and flow are sound.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     for (some, what) in [(!scenario.sources.is_empty(), "sources"), (!scenario.patches.is_empty(), "patches")] {
-        objections.unless(
-            !some || scenario.plume.is_some(),
-            format!("`{what}` need a `plume`: without one nothing spreads"),
-        );
+        objections
+            .unless(!some || scenario.plume.is_some(), format!("`{what}` need a `plume`: without one nothing spreads"));
     }
     let before = objections.0.len();
     let layer = scenario.plume.as_ref().and_then(|plume| plume.layer);
