@@ -7,6 +7,7 @@
 mod bottom;
 mod computer;
 mod deepest;
+pub mod hull;
 mod kinematics;
 mod noise;
 mod normal;

@@ -1,0 +1,59 @@
+//! Our Fossen plant against time series that other software computed: `tests/reference/remus100`.
+
+use albacore_geometry::Vector;
+use albacore_geometry::math::PI;
+use albacore_sim::hull::{ActuatorLimits, Actuators, Controls, Fossen, State, Surroundings, runge_kutta};
+use std::path::Path;
+
+/// Commands are held so long, s.
+const HOLD_S: f64 = 0.1;
+
+fn rows(name: &str) -> Vec<Vec<f64>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/remus100").join(name);
+    let text = std::fs::read_to_string(path).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect()
+}
+
+/// The largest difference of any of the fifteen states at any time, with steps of so many to a command.
+fn apart(case: &str, current: Vector, steps: usize) -> f64 {
+    let h = HOLD_S / steps as f64;
+    let plant = Fossen::new();
+    let around = Surroundings { current, ..Surroundings::default() };
+    let mut actuators = Actuators::new(ActuatorLimits::default(), h);
+    let mut state = State::default();
+    let expected = rows(&format!("{case}_rk4.csv"));
+    let mut expected = expected.iter().peekable();
+    let mut worst: f64 = 0.0;
+    for (k, input) in rows(&format!("{case}_inputs.csv")).iter().enumerate() {
+        let time = k as f64 * HOLD_S;
+        if let Some(row) = expected.next_if(|row| (row[0] - time).abs() < 1e-6) {
+            let now = [actuators.now.rudder, actuators.now.stern, actuators.now.rpm];
+            let states = state.pose.iter().chain(&state.velocity).chain(&now);
+            worst = states.zip(&row[1..]).fold(worst, |worst, (ours, theirs)| worst.max((ours - theirs).abs()));
+        }
+        let goal = actuators.within_limits(&Controls { rudder: input[1], stern: input[2], rpm: input[3] });
+        for _ in 0..steps {
+            let controls = actuators.step(&goal);
+            state = runge_kutta(&plant, &state, &controls, &around, h);
+        }
+    }
+    // The last row may lie one hold behind the last command.
+    assert!(expected.count() <= 1, "{case}: rows are left over");
+    worst
+}
+
+#[test]
+fn every_case_is_followed_to_a_millionth_over_its_whole_length() {
+    let toward = PI / 4.0;
+    let current = 0.5 * Vector::new(toward.cos(), toward.sin());
+    for (case, current) in [
+        ("straight", Vector::ZERO),
+        ("depth_step_30m", Vector::ZERO),
+        ("turning_circle", Vector::ZERO),
+        ("turning_circle_current", current),
+    ] {
+        let [fine, coarse] = [20, 10].map(|steps| apart(case, current, steps));
+        println!("{case}: {fine:.1e} with 5 ms, {coarse:.1e} with 10 ms");
+        assert!(fine < 1e-6 && coarse < 1e-6, "{case}: {fine:e}, {coarse:e}");
+    }
+}
