@@ -8,7 +8,6 @@ mod bottom;
 mod computer;
 mod deepest;
 pub mod hull;
-mod kinematics;
 mod noise;
 mod normal;
 mod plume;

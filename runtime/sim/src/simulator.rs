@@ -1,7 +1,7 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
 use crate::computer::{Computer, Known, seconds};
-use crate::kinematics::Kinematics;
+use crate::hull::Kinematics;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
 use crate::world::World;

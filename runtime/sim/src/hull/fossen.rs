@@ -7,7 +7,8 @@
 mod cross_flow;
 
 use super::mass::InverseMass;
-use super::six_dof::{Attitude, Controls, Plant, Six};
+use super::six_dof::{Attitude, Controls, Load, Plant, Six};
+use super::surface::Body;
 use albacore_geometry::Vector;
 use albacore_geometry::math::{PI, atan2, exp, ln};
 use cross_flow::CrossFlow;
@@ -138,19 +139,15 @@ impl Fossen {
         }
     }
 
+    /// What the surface makes of it.
+    pub fn body(&self) -> Body {
+        let heave_mass = self.mass + self.added[2];
+        Body { weight: self.weight(), length: LENGTH, diameter: DIAMETER, heave_mass }
+    }
+
     /// Its weight, and its buoyancy, N.
-    pub fn weight(&self) -> f64 {
+    fn weight(&self) -> f64 {
         self.mass * GRAVITY
-    }
-
-    /// Its diameter, m.
-    pub fn diameter(&self) -> f64 {
-        DIAMETER
-    }
-
-    /// Its mass with what it moves of the water up and down, kg.
-    pub fn heave_mass(&self) -> f64 {
-        self.mass + self.added[2]
     }
 
     /// Surge force and roll moment of the propeller, N and N m, at a speed through the water.
@@ -174,7 +171,7 @@ impl Plant for Fossen {
         velocity: &Six,
         controls: &Controls,
         current: Vector,
-        extra_weight: f64,
+        load: Load,
     ) -> Six {
         let [_, _, w, p, q, r] = *velocity;
         // The published model turns the current with yaw alone, as if the hull were level.
@@ -237,11 +234,11 @@ impl Plant for Fossen {
         let righting = METACENTRE * self.weight();
         let force = [
             thrust + rudder * controls.rudder + stern * controls.stern - cos_attack * drag + sin_attack * lift
-                - extra_weight * attitude.sin_pitch,
-            rudder - sway_drag + extra_weight * heel,
-            stern - sin_attack * drag - cos_attack * lift + extra_weight * attitude.cos_pitch * attitude.cos_roll,
+                - load.down * attitude.sin_pitch,
+            rudder - sway_drag + load.down * heel,
+            stern - sin_attack * drag - cos_attack * lift + load.down * attitude.cos_pitch * attitude.cos_roll,
             torque - righting * heel,
-            -FIN_AT * stern - righting * attitude.sin_pitch,
+            load.pitch - FIN_AT * stern - righting * attitude.sin_pitch,
             FIN_AT * rudder - yaw_drag,
         ];
         let balance = std::array::from_fn(|i| force[i] - rigid[i] - added[i] - damping[i]);

@@ -12,7 +12,8 @@
 //! - In yaw and in pitch it is unstable: left alone it does not run straight.
 
 use super::mass::InverseMass;
-use super::six_dof::{Attitude, Controls, Plant, Six};
+use super::six_dof::{Attitude, Controls, Load, Plant, Six};
+use super::surface::Body;
 use albacore_geometry::Vector;
 use albacore_geometry::math::TAU;
 
@@ -24,6 +25,8 @@ const MASS: f64 = 30.48;
 const INERTIA: [f64; 3] = [0.177, 3.45, 3.45];
 /// The centre of gravity is so far below the origin, the centre of buoyancy, m.
 const Z_G: f64 = 0.0196;
+/// Length and diameter, m.
+const LENGTH: f64 = 1.33;
 const DIAMETER: f64 = 0.191;
 
 // Coefficients by force and moment, with the motion that they belong to.
@@ -121,19 +124,9 @@ impl Prestero {
         Prestero { buoyancy: WEIGHT, ..self }
     }
 
-    /// Its weight, N.
-    pub fn weight(&self) -> f64 {
-        WEIGHT
-    }
-
-    /// Its diameter, m.
-    pub fn diameter(&self) -> f64 {
-        DIAMETER
-    }
-
-    /// Its mass with what it moves of the water up and down, kg.
-    pub fn heave_mass(&self) -> f64 {
-        MASS - Z_WDOT
+    /// What the surface makes of it.
+    pub fn body(&self) -> Body {
+        Body { weight: WEIGHT, length: LENGTH, diameter: DIAMETER, heave_mass: MASS - Z_WDOT }
     }
 }
 
@@ -145,14 +138,14 @@ impl Plant for Prestero {
         velocity: &Six,
         controls: &Controls,
         current: Vector,
-        extra_weight: f64,
+        load: Load,
     ) -> Six {
         let [_, _, _, p, q, r] = *velocity;
         let water = attitude.to_body([current.north, current.east, 0.0]);
         let (u, v, w) = (velocity[0] - water[0], velocity[1] - water[1], velocity[2] - water[2]);
 
         // Down at the origin, and down at the centre of gravity.
-        let heavy = WEIGHT - self.buoyancy + extra_weight;
+        let heavy = WEIGHT - self.buoyancy + load.down;
         let righting = Z_G * WEIGHT;
         let heel = attitude.cos_pitch * attitude.sin_roll;
         let turns = controls.rpm * (TAU / 60.0);
@@ -186,7 +179,7 @@ impl Plant for Prestero {
             -righting * heel + K_PP * p * p.abs() - (INERTIA[2] - INERTIA[1]) * q * r
                 - MASS * Z_G * (w * p - u * r)
                 + TORQUE * turns2,
-            -righting * attitude.sin_pitch
+            load.pitch - righting * attitude.sin_pitch
                 + M_WW * w * w.abs()
                 + M_QQ * q * q.abs()
                 + (M_RP - (INERTIA[0] - INERTIA[2])) * r * p

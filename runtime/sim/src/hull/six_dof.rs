@@ -4,6 +4,7 @@
 //! north-east-down frame with Euler angles zyx, the velocity over ground in the body's own frame, x forward, y to starboard, z
 //! down.
 
+use super::surface::Surface;
 use albacore_geometry::Vector;
 use albacore_geometry::math::sin_cos;
 
@@ -41,37 +42,42 @@ pub struct Surroundings {
     pub surface: Option<Surface>,
 }
 
-/// The surface, as a body that comes out of the water feels it: pressed back by the weight that the water no longer carries,
-/// and slowed by the waves that it makes. Ours: enough to keep it there, no model of a sea.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surface {
-    /// Weight that a metre out of the water adds, N/m.
-    pub stiffness: f64,
-    /// Damping while it is out, N/(m/s).
-    pub damping: f64,
+/// What weighs on a hull besides its own weight and buoyancy.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// A force down at the origin, N.
+    pub down: f64,
+    /// A moment that lifts the nose, N m.
+    pub pitch: f64,
 }
 
 /// The dynamics of a hull: what accelerates it.
 pub trait Plant {
-    /// The acceleration of the body, in its own frame: m/s2 and rad/s2. `extra_weight` is a force down, at the origin, N.
+    /// The acceleration of the body, in its own frame: m/s2 and rad/s2.
     fn acceleration(
         &self,
         attitude: &Attitude,
         velocity: &Six,
         controls: &Controls,
         current: Vector,
-        extra_weight: f64,
+        load: Load,
     ) -> Six;
 }
 
 /// Sines and cosines of the Euler angles.
 #[derive(Clone, Copy, Debug)]
 pub struct Attitude {
+    /// Of roll.
     pub sin_roll: f64,
+    /// Of roll.
     pub cos_roll: f64,
+    /// Of pitch.
     pub sin_pitch: f64,
+    /// Of pitch.
     pub cos_pitch: f64,
+    /// Of yaw.
     pub sin_yaw: f64,
+    /// Of yaw.
     pub cos_yaw: f64,
 }
 
@@ -125,26 +131,14 @@ impl Attitude {
     }
 }
 
-impl Surroundings {
-    /// The force down that is no part of the plant, N, at a depth and with a speed down.
-    #[inline]
-    fn extra_weight(&self, depth: f64, sinking: f64) -> f64 {
-        match &self.surface {
-            Some(surface) if depth < 0.0 => {
-                self.buoyancy_loss - surface.stiffness * depth - surface.damping * sinking
-            }
-            _ => self.buoyancy_loss,
-        }
-    }
-}
-
 /// The rate of change of a state.
 #[inline]
 fn derivative<P: Plant>(plant: &P, state: &State, controls: &Controls, around: &Surroundings) -> State {
     let attitude = Attitude::of(&state.pose);
     let pose = attitude.rates(&state.velocity);
-    let extra = around.extra_weight(state.pose[2], pose[2]);
-    State { pose, velocity: plant.acceleration(&attitude, &state.velocity, controls, around.current, extra) }
+    let lost = around.surface.as_ref().map_or(Load::default(), |surface| surface.load(&attitude, state.pose[2], &pose));
+    let load = Load { down: lost.down + around.buoyancy_loss, ..lost };
+    State { pose, velocity: plant.acceleration(&attitude, &state.velocity, controls, around.current, load) }
 }
 
 /// The state after `h` seconds, by the classic Runge-Kutta method of fourth order; `controls` are those at the beginning, in
@@ -200,7 +194,7 @@ mod tests {
     /// A body that nothing accelerates, but that turns: the frame of the body turns with it.
     struct Free;
     impl Plant for Free {
-        fn acceleration(&self, _: &Attitude, velocity: &Six, _: &Controls, _: Vector, _: f64) -> Six {
+        fn acceleration(&self, _: &Attitude, velocity: &Six, _: &Controls, _: Vector, _: Load) -> Six {
             let [u, v, _, _, _, r] = *velocity;
             [r * v, -r * u, 0.0, 0.0, 0.0, 0.0]
         }

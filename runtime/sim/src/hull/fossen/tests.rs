@@ -125,9 +125,9 @@ fn a_current_carries_a_level_hull_as_a_whole() {
     let (current, r) = (Vector::new(0.3, -0.4), 0.2);
     let [ahead, right, _] = attitude.to_body([current.north, current.east, 0.0]);
     let controls = Controls { rudder: 0.1, stern: -0.1, rpm: 1200.0 };
-    let still = plant.acceleration(&attitude, &[1.5, 0.2, 0.1, 0.0, 0.0, r], &controls, Vector::ZERO, 0.0);
+    let still = plant.acceleration(&attitude, &[1.5, 0.2, 0.1, 0.0, 0.0, r], &controls, Vector::ZERO, Load::default());
     let over_ground = [1.5 + ahead, 0.2 + right, 0.1, 0.0, 0.0, r];
-    let carried = plant.acceleration(&attitude, &over_ground, &controls, current, 0.0);
+    let carried = plant.acceleration(&attitude, &over_ground, &controls, current, Load::default());
     let turning = [r * right, -r * ahead, 0.0, 0.0, 0.0, 0.0];
     for i in 0..6 {
         assert!((carried[i] - turning[i] - still[i]).abs() < 1e-13, "{i}: {} {}", carried[i], still[i]);

@@ -47,7 +47,7 @@ fn its_buoyancy_asks_for_the_trim_of_others() {
         let attitude = Attitude::of(&[0.0, 0.0, 0.0, 0.0, pitch, 0.0]);
         let [u, v, w] = attitude.to_body([1.54, 0.0, 0.0]);
         let controls = Controls { stern, ..CRUISE };
-        let a = plant.acceleration(&attitude, &[u, v, w, 0.0, 0.0, 0.0], &controls, Vector::ZERO, 0.0);
+        let a = plant.acceleration(&attitude, &[u, v, w, 0.0, 0.0, 0.0], &controls, Vector::ZERO, Load::default());
         (a[2], a[4])
     };
     // Newton's method on two nearly linear equations.
@@ -71,7 +71,7 @@ fn left_alone_it_does_not_run_straight() {
     let plant = Prestero::default().neutral();
     let level = Attitude::of(&[0.0; 6]);
     let rates = |v: f64, r: f64| {
-        let a = plant.acceleration(&level, &[1.54, v, 0.0, 0.0, 0.0, r], &CRUISE, Vector::ZERO, 0.0);
+        let a = plant.acceleration(&level, &[1.54, v, 0.0, 0.0, 0.0, r], &CRUISE, Vector::ZERO, Load::default());
         (a[1], a[5])
     };
     let (step, rest) = (1e-6, rates(0.0, 0.0));
@@ -91,7 +91,7 @@ fn it_holds_its_speed_at_1500_rpm() {
         &ahead(1.543).velocity,
         &CRUISE,
         Vector::ZERO,
-        0.0,
+        Load::default(),
     );
     assert!(a[0].abs() < 1e-3, "{}", a[0]);
 }
