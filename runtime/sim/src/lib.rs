@@ -21,7 +21,7 @@ mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
-    Scenario, ScenarioError, Sounder, Source, UpperFlow,
+    Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Meander, Navigation, OwnMission, Pit,
+    Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, UpperFlow, VehicleSetup,
 };
 pub use simulator::{Simulator, Truth};

@@ -13,7 +13,7 @@ pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
 pub use plume::{Plume, Source};
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
-pub use vehicle::{Handover, KinematicVehicle, OwnMission};
+pub use vehicle::{Handover, HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
@@ -35,7 +35,7 @@ pub struct Scenario {
     /// What releases chemical.
     pub sources: Vec<Source>,
     /// The vehicle.
-    pub vehicle: KinematicVehicle,
+    pub vehicle: VehicleSetup,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
     pub own_mission: Option<OwnMission>,
     /// How it answers who asks to drive; none: it gives way at once.

@@ -1,7 +1,10 @@
 //! The simulator as a machine sees it: through the port alone.
 
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_sim::{Bottom, Flow, Fluorometer, Lbl, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow, presets};
+use albacore_sim::{
+    Bottom, Flow, Fluorometer, HullSetup, KinematicHull, Lbl, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow,
+    presets,
+};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 
@@ -79,7 +82,7 @@ fn each_channel_at_its_own_rate() {
 #[test]
 fn impossible_scenarios_are_refused_with_every_reason() {
     let mut bad = scenario();
-    bad.vehicle.turn_rate = 0.0;
+    bad.vehicle.hull = HullSetup::Kinematic(KinematicHull { turn_rate: 0.0, ..KinematicHull::default() });
     bad.vehicle.depth = 11.0;
     bad.fluorometer.noise = f64::NAN;
     let error = Simulator::new(&bad, 1).unwrap_err();

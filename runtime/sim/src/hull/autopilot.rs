@@ -72,6 +72,8 @@ const SPEED_GAIN: f64 = 1.0;
 const SPEED_INTEGRAL: f64 = 0.1;
 /// Gains are no higher than at this speed, m/s: a hull at rest does not answer its fins at all.
 const SPEED_MIN: f64 = 0.8;
+/// Less deep than this a hull is at the surface, m.
+const AT_SURFACE: f64 = 0.1;
 /// The speed at which turns and speed are compared, m/s.
 const MAP_SPEED: f64 = 2.0;
 
@@ -115,16 +117,11 @@ impl Autopilot {
             fin_max: limits.fin,
             rpm_max: limits.rpm,
             speed_max,
-            rpm_per_speed: rpm_at(plant, MAP_SPEED) / MAP_SPEED,
+            rpm_per_speed: rpm_per_speed(plant),
             rudder_trim: 0.0,
             pitch_trim: 0.0,
             speed_trim: 0.0,
         }
-    }
-
-    /// The speed that the greatest turns of the propeller give, straight and level, m/s.
-    pub fn speed_possible(&self) -> f64 {
-        self.rpm_max / self.rpm_per_speed
     }
 
     /// What fins and propeller are to do in the coming tick. Without a command the propeller stops and the fins are neutral.
@@ -164,7 +161,9 @@ impl Autopilot {
         let asked = hold + gains.pitch * (down + sensed.pitch) + gains.pitch_rate / speed * sensed.pitch_rate;
         let stern = asked.clamp(-self.fin_max, self.fin_max);
         // At its limit the trim may only help it back.
-        if stern == asked || (asked > 0.0) != (error > 0.0) {
+        let helps = stern == asked || (asked > 0.0) != (error > 0.0);
+        // At the surface it can rise no further.
+        if helps && (error > 0.0 || sensed.depth > AT_SURFACE) {
             let lasting = error.clamp(-DEPTH_LASTS, DEPTH_LASTS);
             let trim = self.pitch_trim + gains.depth_integral * lasting * TICK_S;
             self.pitch_trim = trim.clamp(-PITCH_TRIM_MAX, PITCH_TRIM_MAX);
@@ -186,18 +185,29 @@ impl Autopilot {
     }
 }
 
-/// The turns that hold a speed straight and level, 1/min: where thrust and drag balance.
-fn rpm_at<P: Plant>(plant: &P, speed: f64) -> f64 {
+/// The speed that so many turns a minute give, straight and level, m/s.
+pub(crate) fn speed_possible<P: Plant>(plant: &P, rpm: f64) -> f64 {
+    rpm / rpm_per_speed(plant)
+}
+
+/// The turns a minute for each m/s, straight and level: where thrust and drag balance. Both grow as a square, so that the
+/// quotient is hardly another at another speed.
+fn rpm_per_speed<P: Plant>(plant: &P) -> f64 {
     let level = Attitude::of(&[0.0; 6]);
+    let ahead = [MAP_SPEED, 0.0, 0.0, 0.0, 0.0, 0.0];
     let surge = |rpm: f64| {
         let controls = Controls { rpm, ..Controls::default() };
-        plant.acceleration(&level, &[speed, 0.0, 0.0, 0.0, 0.0, 0.0], &controls, Vector::ZERO, Load::default())[0]
+        plant.acceleration(&level, &ahead, &controls, Vector::ZERO, Load::default())[0]
     };
     // Bisection: more turns, more thrust.
-    let (mut low, mut high) = (0.0, 20_000.0);
-    for _ in 0..60 {
+    let (mut low, mut high) = (0.0, RPM_HIGH);
+    for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if surge(middle) < 0.0 { low = middle } else { high = middle }
     }
-    0.5 * (low + high)
+    0.5 * (low + high) / MAP_SPEED
 }
+
+/// Where the search for turns begins, and how often its interval is halved.
+const RPM_HIGH: f64 = 20_000.0;
+const BISECTIONS: u32 = 60;

@@ -48,8 +48,11 @@ mod tests {
 
     #[test]
     fn the_matrix_times_the_acceleration_is_the_force() {
-        let mut mass: [Six; 6] = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 5.0 + i as f64 } else { 0.0 }));
-        for (i, j, value) in [(0, 4, 0.6), (4, 0, 0.7), (2, 4, 1.9), (4, 2, -0.3), (1, 3, -0.6), (5, 1, 1.2), (1, 5, -1.9)] {
+        let mut mass: [Six; 6] =
+            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 5.0 + i as f64 } else { 0.0 }));
+        for (i, j, value) in
+            [(0, 4, 0.6), (4, 0, 0.7), (2, 4, 1.9), (4, 2, -0.3), (1, 3, -0.6), (5, 1, 1.2), (1, 5, -1.9)]
+        {
             mass[i][j] = value;
         }
         let force = [1.0, -2.0, 3.0, 0.5, -0.25, 4.0];

@@ -16,6 +16,7 @@ use super::six_dof::{Attitude, Controls, Load, Plant, Six};
 use super::surface::Body;
 use albacore_geometry::Vector;
 use albacore_geometry::math::TAU;
+use serde::{Deserialize, Serialize};
 
 /// Weight and buoyancy, N; mass, kg.
 const WEIGHT: f64 = 299.0;
@@ -78,7 +79,7 @@ const THRUST: f64 = 1.5698e-4;
 const TORQUE: f64 = -2.242e-5;
 
 /// Which drag of the water flowing across the hull in sway.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Crossflow {
     /// `Yvv` = -131, like `Zww`.
     #[default]
@@ -162,7 +163,11 @@ impl Plant for Prestero {
                 + X_RR * r * r
                 - MASS * Z_G * p * r
                 + THRUST * turns2,
-            heavy * heel + self.y_vv * v * v.abs() + Y_RR * r * r.abs() + Y_UV * u * v + (Y_WP + MASS) * w * p
+            heavy * heel
+                + self.y_vv * v * v.abs()
+                + Y_RR * r * r.abs()
+                + Y_UV * u * v
+                + (Y_WP + MASS) * w * p
                 + (Y_UR - MASS) * u * r
                 - MASS * Z_G * q * r
                 + Y_PQ * p * q
@@ -176,8 +181,7 @@ impl Plant for Prestero {
                 + MASS * Z_G * (p * p + q * q)
                 + Z_RP * r * p
                 + Z_STERN * stern,
-            -righting * heel + K_PP * p * p.abs() - (INERTIA[2] - INERTIA[1]) * q * r
-                - MASS * Z_G * (w * p - u * r)
+            -righting * heel + K_PP * p * p.abs() - (INERTIA[2] - INERTIA[1]) * q * r - MASS * Z_G * (w * p - u * r)
                 + TORQUE * turns2,
             load.pitch - righting * attitude.sin_pitch
                 + M_WW * w * w.abs()
@@ -188,7 +192,10 @@ impl Plant for Prestero {
                 + M_UW * u * w
                 + M_VP * v * p
                 + M_STERN * stern,
-            N_VV * v * v.abs() + N_RR * r * r.abs() + N_UV * u * v + (N_PQ - (INERTIA[1] - INERTIA[0])) * p * q
+            N_VV * v * v.abs()
+                + N_RR * r * r.abs()
+                + N_UV * u * v
+                + (N_PQ - (INERTIA[1] - INERTIA[0])) * p * q
                 + N_WP * w * p
                 + N_UR * u * r
                 + N_RUDDER * rudder,

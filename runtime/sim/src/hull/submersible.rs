@@ -1,10 +1,10 @@
 //! A hull that forces move: plant, actuators and autopilot.
 
-use super::Motion;
 use super::actuators::{ActuatorLimits, Actuators};
 use super::autopilot::{Autopilot, Gains, Sensed};
 use super::six_dof::{Attitude, Controls, Plant, State, Surroundings, runge_kutta};
 use super::surface::{Body, Surface};
+use super::{Berth, Motion};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_vehicle::{Command, TICK_S};
 
@@ -38,11 +38,12 @@ pub struct Submersible<P> {
 
 impl<P: Plant> Submersible<P> {
     /// At rest in water that moves with `flow`.
-    pub fn new(plant: P, body: &Body, settings: &Settings, at: Point, heading: Heading, depth: f64, flow: Vector) -> Self {
-        let mut state = State { pose: [at.north, at.east, depth, 0.0, 0.0, wrap_angle(heading.radians())], ..State::default() };
-        let [ahead, right, _] = Attitude::of(&state.pose).to_body([flow.north, flow.east, 0.0]);
-        (state.velocity[0], state.velocity[1]) = (ahead, right);
-        let motion = Motion { position: at, heading, depth, ground_velocity: flow, ..Motion::default() };
+    pub fn new(plant: P, body: &Body, settings: &Settings, berth: &Berth) -> Self {
+        let Berth { position, heading, depth, flow } = *berth;
+        let pose = [position.north, position.east, depth, 0.0, 0.0, wrap_angle(heading.radians())];
+        let [u, v, w] = Attitude::of(&pose).to_body([flow.north, flow.east, 0.0]);
+        let state = State { pose, velocity: [u, v, w, 0.0, 0.0, 0.0] };
+        let motion = berth.motion();
         Submersible {
             actuators: Actuators::new(settings.limits, TICK_S / f64::from(settings.steps)),
             autopilot: Autopilot::new(&plant, settings.gains, &settings.limits, settings.speed_max),
@@ -64,8 +65,15 @@ impl<P: Plant> Submersible<P> {
     fn controls(&mut self, command: Option<&Command>, water_depth: f64) -> Controls {
         let [_, _, depth, _, pitch, _] = self.state.pose;
         let [_, _, _, _, pitch_rate, yaw_rate] = self.state.velocity;
-        let sensed =
-            Sensed { heading: self.motion.heading, pitch, pitch_rate, yaw_rate, depth, water_depth, speed: self.motion.speed };
+        let sensed = Sensed {
+            heading: self.motion.heading,
+            pitch,
+            pitch_rate,
+            yaw_rate,
+            depth,
+            water_depth,
+            speed: self.motion.speed,
+        };
         let wanted = self.autopilot.steer(&sensed, command);
         self.actuators.within_limits(&wanted)
     }

@@ -27,14 +27,17 @@ fn the_numbers_are_the_published_ones() {
     let plant = Fossen::new();
     let near = |value: f64, published: f64| assert!((value / published - 1.0).abs() < 1e-6, "{value} {published}");
     near(plant.mass, 31.029_385);
-    for (value, published) in plant.added.iter().zip([0.838_909, 29.437_637, 29.437_637, 0.033_605, 3.426_21, 3.426_21]) {
+    for (value, published) in plant.added.iter().zip([0.838_909, 29.437_637, 29.437_637, 0.033_605, 3.426_21, 3.426_21])
+    {
         assert!((value - published).abs() < 1e-6, "{value} {published}");
     }
     near(plant.moment, 0.620_588);
     for (value, published) in plant.inertia.iter().zip([0.124_428, 4.040_181, 4.027_769]) {
         assert!((value - published).abs() < 1e-6, "{value} {published}");
     }
-    for (value, published) in plant.damping.iter().zip([1.593_415, 3.023_351, 3.023_351, 0.588_519, 10.787_267, 7.453_980]) {
+    for (value, published) in
+        plant.damping.iter().zip([1.593_415, 3.023_351, 3.023_351, 0.588_519, 10.787_267, 7.453_980])
+    {
         near(*value, published);
     }
     assert!((plant.drag - 0.055_959_6).abs() < 1e-7);
@@ -46,7 +49,9 @@ fn energy(plant: &Fossen, state: &State) -> f64 {
     let [u, v, w, p, q, r] = state.velocity;
     let m = plant.mass;
     let a = &plant.added;
-    let moving = (m + a[0]) * u * u + (m + a[1]) * v * v + (m + a[2]) * w * w
+    let moving = (m + a[0]) * u * u
+        + (m + a[1]) * v * v
+        + (m + a[2]) * w * w
         + (plant.inertia[0] + a[3]) * p * p
         + (plant.inertia[1] + a[4]) * q * q
         + (plant.inertia[2] + a[5]) * r * r

@@ -2,14 +2,14 @@
 
 use super::*;
 use crate::hull::{Fossen, Prestero};
-use albacore_vehicle::Vertical;
 use albacore_geometry::math::degrees;
+use albacore_vehicle::Vertical;
 
 fn fossen() -> Submersible<Fossen> {
     let plant = Fossen::new();
     let settings = Settings { steps: 10, speed_max: 2.5, limits: ActuatorLimits::default(), gains: Gains::FOSSEN };
     let body = plant.body();
-    Submersible::new(plant, &body, &settings, Point::ORIGIN, Heading::NORTH, 5.0, Vector::ZERO)
+    Submersible::new(plant, &body, &settings, &Berth { depth: 5.0, ..Berth::default() })
 }
 
 fn prestero() -> Submersible<Prestero> {
@@ -17,7 +17,7 @@ fn prestero() -> Submersible<Prestero> {
     let limits = ActuatorLimits { rpm: 2500.0, ..ActuatorLimits::default() };
     let settings = Settings { steps: 10, speed_max: 2.5, limits, gains: Gains::PRESTERO };
     let body = plant.body();
-    Submersible::new(plant, &body, &settings, Point::ORIGIN, Heading::NORTH, 5.0, Vector::ZERO)
+    Submersible::new(plant, &body, &settings, &Berth { depth: 5.0, ..Berth::default() })
 }
 
 fn show<P: Plant>(name: &str, hull: &mut Submersible<P>, speed: f64) {
@@ -30,8 +30,18 @@ fn show<P: Plant>(name: &str, hull: &mut Submersible<P>, speed: f64) {
             if (i + 1) % (every * 10) == 0 {
                 let m = hull.motion();
                 let a = &hull.actuators.now;
-                println!("{:4} head {:7.2} depth {:7.3} pitch {:6.2} roll {:6.2} speed {:.3} rud {:6.2} stern {:6.2} rpm {:.0}", (i + 1) / 10,
-                    degrees(wrap_angle(m.heading.radians())), m.depth, degrees(m.pitch), degrees(m.roll), m.speed, degrees(a.rudder), degrees(a.stern), a.rpm);
+                println!(
+                    "{:4} head {:7.2} depth {:7.3} pitch {:6.2} roll {:6.2} speed {:.3} rud {:6.2} stern {:6.2} rpm {:.0}",
+                    (i + 1) / 10,
+                    degrees(wrap_angle(m.heading.radians())),
+                    m.depth,
+                    degrees(m.pitch),
+                    degrees(m.roll),
+                    m.speed,
+                    degrees(a.rudder),
+                    degrees(a.stern),
+                    a.rpm
+                );
             }
         }
     };
