@@ -39,6 +39,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "plume" => plume::plume(scenario, c),
         "source" => plume::source(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
+        "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "handover" => vehicle::handover(scenario, c),
         "navigation" => sensors::navigation(scenario, c),

@@ -8,6 +8,7 @@ mod bottom;
 mod computer;
 mod deepest;
 pub mod hull;
+mod limits;
 mod noise;
 mod normal;
 mod plume;
@@ -21,7 +22,7 @@ mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Meander, Navigation, OwnMission, Pit,
-    Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, UpperFlow, VehicleSetup,
+    Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander, Navigation, OwnMission,
+    Pit, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, UpperFlow, VehicleSetup,
 };
 pub use simulator::{Simulator, Truth};

@@ -13,7 +13,7 @@ pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
 pub use plume::{Plume, Source};
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
-pub use vehicle::{Handover, HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
+pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
@@ -36,6 +36,8 @@ pub struct Scenario {
     pub sources: Vec<Source>,
     /// The vehicle.
     pub vehicle: VehicleSetup,
+    /// The vehicle's own limits; none: its hull's alone.
+    pub limits: Option<Limits>,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
     pub own_mission: Option<OwnMission>,
     /// How it answers who asks to drive; none: it gives way at once.

@@ -2,6 +2,7 @@
 
 use crate::computer::{Computer, Known, seconds};
 use crate::hull::Hull;
+use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
 use crate::world::World;
@@ -60,6 +61,7 @@ pub struct Simulator {
     sounder: EchoSounder,
     endurance: f64,
     computer: Computer,
+    watch: Watch,
     /// The latest estimate of the current, for the computer.
     flow: Vector,
     control: Control,
@@ -94,6 +96,7 @@ impl Simulator {
                 (start, vehicle.heading),
                 vehicle.hull.speed_max(),
             ),
+            watch: Watch::new(scenario.limits.as_ref(), vehicle.hull.speed_max()),
             flow: Vector::ZERO,
             control: Control::Disconnected,
             command: None,
@@ -141,6 +144,8 @@ impl Simulator {
             Control::Suspended => None,
             _ => self.computer.steer(self.known()),
         };
+        let water_depth = self.truth.depth + self.truth.altitude;
+        let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
         self.intake = self.intake_now();
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
         let motion = self.vehicle.motion();
@@ -282,5 +287,9 @@ impl Vehicle for Simulator {
         self.control = Control::Released;
         self.command = None;
         Ok(())
+    }
+
+    fn notices(&mut self) -> Vec<String> {
+        self.watch.take_notices()
     }
 }

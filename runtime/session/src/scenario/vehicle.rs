@@ -3,7 +3,7 @@
 use super::clause::Clause;
 use albacore_guidance::Rows;
 use albacore_sim::hull::Crossflow;
-use albacore_sim::{Handover, HullSetup, KinematicHull, OwnMission, Scenario, SubmersibleHull, VehicleSetup};
+use albacore_sim::{Handover, HullSetup, KinematicHull, Limits, OwnMission, Scenario, SubmersibleHull, VehicleSetup};
 use albacore_vehicle::Vertical;
 
 /// `vehicle(…)`: how it moves and where it starts.
@@ -49,6 +49,14 @@ fn submersible(c: &Clause) -> Result<SubmersibleHull, String> {
         rpm_max: 60.0 * c.number("turns_max")?,
         step: c.number("step")?,
     })
+}
+
+/// `limits(…)`: the vehicle's own, apart from the mission's.
+pub fn limits(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    // 0 is no limit.
+    let limit = |name: &str| Ok::<_, String>(Some(c.number(name)?).filter(|limit| *limit != 0.0));
+    scenario.limits = Some(Limits { depth: limit("depth")?, altitude: c.number("altitude")?, speed: limit("speed")? });
+    Ok(())
 }
 
 /// `rows(…)`: its own mission.

@@ -42,7 +42,7 @@ impl Gains {
         pitch_rate: 1.2,
         righting: 1.6,
         depth: 0.1,
-        depth_integral: 0.005,
+        depth_integral: 0.006,
     };
     /// For the plant after Prestero, which is unstable without.
     pub const PRESTERO: Gains = Gains {
@@ -64,7 +64,7 @@ const RUDDER_TRIM_MAX: f64 = 5.0 * PI / 180.0;
 const PITCH_TRIM_MAX: f64 = 15.0 * PI / 180.0;
 /// Of a larger error only so much is counted as one that lasts: it is on its way. Heading in rad, depth in m, speed in m/s.
 const HEADING_LASTS: f64 = 5.0 * PI / 180.0;
-const DEPTH_LASTS: f64 = 0.5;
+const DEPTH_LASTS: f64 = 0.25;
 const SPEED_LASTS: f64 = 0.2;
 /// Turns for an error of speed are asked for as if so many times the error were to be gone faster.
 const SPEED_GAIN: f64 = 1.0;
@@ -72,6 +72,9 @@ const SPEED_GAIN: f64 = 1.0;
 const SPEED_INTEGRAL: f64 = 0.1;
 /// Gains are no higher than at this speed, m/s: a hull at rest does not answer its fins at all.
 const SPEED_MIN: f64 = 0.8;
+/// Over so long, in s, the slope of the bottom is smoothed; steeper than this, in m/s, is a step and no slope.
+const BOTTOM_TIME: f64 = 1.0;
+const FALL_MAX: f64 = 0.5;
 /// Less deep than this a hull is at the surface, m.
 const AT_SURFACE: f64 = 0.1;
 /// The speed at which turns and speed are compared, m/s.
@@ -103,6 +106,9 @@ pub struct Autopilot {
     speed_max: f64,
     /// Turns for each m/s, straight and level, 1/min.
     rpm_per_speed: f64,
+    /// The depth of the water a tick ago, m, and how fast it has lately been growing, m/s.
+    bottom: Option<f64>,
+    bottom_falls: f64,
     /// What lasting errors have come to: rudder (rad), pitch down (rad), speed (m/s).
     rudder_trim: f64,
     pitch_trim: f64,
@@ -118,6 +124,8 @@ impl Autopilot {
             rpm_max: limits.rpm,
             speed_max,
             rpm_per_speed: rpm_per_speed(plant),
+            bottom: None,
+            bottom_falls: 0.0,
             rudder_trim: 0.0,
             pitch_trim: 0.0,
             speed_trim: 0.0,
@@ -126,18 +134,19 @@ impl Autopilot {
 
     /// What fins and propeller are to do in the coming tick. Without a command the propeller stops and the fins are neutral.
     pub fn steer(&mut self, sensed: &Sensed, command: Option<&Command>) -> Controls {
+        self.watch_bottom(sensed.water_depth);
         let Some(command) = command else {
             (self.rudder_trim, self.pitch_trim, self.speed_trim) = (0.0, 0.0, 0.0);
             return Controls::default();
         };
         let speed = sensed.speed.max(SPEED_MIN);
-        let wanted_depth = match command.vertical {
-            Vertical::Depth(depth) => depth,
-            Vertical::Altitude(altitude) => sensed.water_depth - altitude,
+        let (wanted_depth, sinking) = match command.vertical {
+            Vertical::Depth(depth) => (depth, 0.0),
+            Vertical::Altitude(altitude) => (sensed.water_depth - altitude, self.bottom_falls),
         };
         Controls {
             rudder: self.rudder(command.heading - sensed.heading, sensed.yaw_rate, speed),
-            stern: self.stern(wanted_depth.max(0.0) - sensed.depth, sensed, speed),
+            stern: self.stern(wanted_depth.max(0.0) - sensed.depth, sinking / speed, sensed, speed),
             rpm: self.rpm(command.speed.clamp(0.0, self.speed_max), sensed.speed),
         }
     }
@@ -153,10 +162,18 @@ impl Autopilot {
         (asked + self.rudder_trim).clamp(-self.fin_max, self.fin_max)
     }
 
-    /// `error` is how much deeper it is to be, m. Pitch is positive nose up, and the stern plane nose down.
-    fn stern(&mut self, error: f64, sensed: &Sensed, speed: f64) -> f64 {
+    /// How the bottom goes up and down under the hull, smoothed.
+    fn watch_bottom(&mut self, depth: f64) {
+        let falls = (depth - self.bottom.unwrap_or(depth)) / TICK_S;
+        self.bottom = Some(depth);
+        self.bottom_falls += (falls.clamp(-FALL_MAX, FALL_MAX) - self.bottom_falls) * TICK_S / BOTTOM_TIME;
+    }
+
+    /// `error` is how much deeper it is to be, m, and `slope` that of its way down. Pitch is positive nose up, and the stern
+    /// plane nose down.
+    fn stern(&mut self, error: f64, slope: f64, sensed: &Sensed, speed: f64) -> f64 {
         let gains = self.gains;
-        let down = (gains.depth * error + self.pitch_trim).clamp(-PITCH_MAX, PITCH_MAX);
+        let down = (gains.depth * error + slope + self.pitch_trim).clamp(-PITCH_MAX, PITCH_MAX);
         let hold = gains.righting / (speed * speed) * sin(down);
         let asked = hold + gains.pitch * (down + sensed.pitch) + gains.pitch_rate / speed * sensed.pitch_rate;
         let stern = asked.clamp(-self.fin_max, self.fin_max);

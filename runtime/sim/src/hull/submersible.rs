@@ -93,7 +93,7 @@ impl<P: Plant> Submersible<P> {
         self.observe(before, flow);
     }
 
-    /// The bottom stops it: deeper it does not go, and what it sank with is gone.
+    /// The bottom stops it and holds it: it can only rise from there.
     fn rest_on(&mut self, bottom: f64) {
         if self.state.pose[2] <= bottom {
             return;
@@ -101,8 +101,8 @@ impl<P: Plant> Submersible<P> {
         self.state.pose[2] = bottom;
         let attitude = Attitude::of(&self.state.pose);
         let [u, v, w, ..] = self.state.velocity;
-        let [north, east, down] = attitude.to_ned([u, v, w]);
-        let [u, v, w] = attitude.to_body([north, east, down.min(0.0)]);
+        let [_, _, down] = attitude.to_ned([u, v, w]);
+        let [u, v, w] = attitude.to_body([0.0, 0.0, down.min(0.0)]);
         self.state.velocity[..3].copy_from_slice(&[u, v, w]);
     }
 

@@ -195,6 +195,18 @@ pub struct Handover {
     pub offers: f64,
 }
 
+/// The vehicle's own limits, whoever commands it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Limits {
+    /// It goes no deeper than this, m. Default none.
+    pub depth: Option<f64>,
+    /// It comes no nearer to the bottom than this, m. Default 0: it may.
+    pub altitude: f64,
+    /// It goes no faster through the water than this, m/s. Default none: as fast as its hull can.
+    pub speed: Option<f64>,
+}
+
 /// What of the vehicle cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let v = &scenario.vehicle;
@@ -216,6 +228,11 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         ),
     );
     objections.positive("vehicle.endurance", v.endurance);
+    if let Some(limits) = &scenario.limits {
+        objections.positive("limits.depth", limits.depth.unwrap_or(1.0));
+        objections.not_negative("limits.altitude", limits.altitude);
+        objections.positive("limits.speed", limits.speed.unwrap_or(1.0));
+    }
     match &v.hull {
         HullSetup::Kinematic(hull) => check_kinematic(hull, objections),
         HullSetup::Fossen(hull) => hull.check(hull::speed_possible(&Fossen::new(), hull.rpm_max), objections),
