@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::hull::six_dof::{State, Surroundings, runge_kutta};
+use albacore_geometry::math::{degrees, radians};
 
 const NEUTRAL: [Controls; 3] = [Controls { rudder: 0.0, stern: 0.0, rpm: 0.0 }; 3];
 
@@ -136,5 +137,21 @@ fn a_current_carries_a_level_hull_as_a_whole() {
     let turning = [r * right, -r * ahead, 0.0, 0.0, 0.0, 0.0];
     for i in 0..6 {
         assert!((carried[i] - turning[i] - still[i]).abs() < 1e-13, "{i}: {} {}", carried[i], still[i]);
+    }
+}
+
+#[test]
+fn it_turns_as_widely_as_others_computed() {
+    for (rpm, rudder_deg, rate, radius) in
+        [(1200.0, 5.0, 2.66, 43.0), (1200.0, 10.0, 4.39, 26.0), (1200.0, 15.0, 5.82, 19.4), (1525.0, 15.0, 7.77, 18.5)]
+    {
+        let plant = Fossen::new();
+        let controls = [Controls { rudder: radians(rudder_deg), stern: 0.0, rpm }; 3];
+        let still = Surroundings::default();
+        let end = (0..12_000).fold(State::default(), |state, _| runge_kutta(&plant, &state, &controls, &still, 0.01));
+        let [u, v, _, _, _, r] = end.velocity;
+        let wide = (u * u + v * v).sqrt() / r;
+        println!("{rpm} rpm, {rudder_deg} deg: {:.2} deg/s, {wide:.1} m", degrees(r));
+        assert!((degrees(r) - rate).abs() < 0.02 && (wide - radius).abs() < 0.6, "{rpm} {rudder_deg}");
     }
 }

@@ -136,6 +136,16 @@ fn it_dives_from_the_surface_and_comes_back_to_it() {
 }
 
 #[test]
+fn the_buoyant_hull_needs_some_speed_to_stay_down() {
+    let mut trial = Trial::cruising(PRESTERO());
+    for (speed, stays) in [(1.2, true), (1.0, false)] {
+        let way = trial.go(0.0, speed, Vertical::Depth(5.0), 300.0);
+        let off = way[1500..].iter().map(|m| (m.depth - 5.0).abs()).fold(0.0, f64::max);
+        assert_eq!(off < 0.3, stays, "{speed} m/s: {off} m");
+    }
+}
+
+#[test]
 fn a_current_is_no_matter_to_its_way_through_the_water() {
     for (name, hull) in HULLS {
         let mut trial = Trial::new(hull());
