@@ -17,12 +17,15 @@ mod scenario;
 mod sensors;
 mod simulator;
 mod start;
+mod survey;
 mod water;
 mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander, Navigation, OwnMission,
-    Pit, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, UpperFlow, VehicleSetup,
+    Patch, Pit, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
+    Waves,
 };
 pub use simulator::{Simulator, Truth};
+pub use survey::Survey;
