@@ -108,9 +108,9 @@ fn a_uniform_current_carries_it_as_a_whole() {
     let still = run(&plant, ahead(1.5), controls, &Surroundings::default(), 60.0);
     let carried = run(&plant, carried, controls, &water, 60.0);
     let drift = [60.0 * current.north, 60.0 * current.east, 0.0, 0.0, 0.0, 0.0];
-    for i in 0..6 {
-        let apart = carried.pose[i] - still.pose[i] - drift[i];
-        assert!(apart.abs() < 1e-5, "{i}: {apart}");
+    for ((carried, still), drift) in carried.pose.iter().zip(still.pose).zip(drift) {
+        let apart = carried - still - drift;
+        assert!(apart.abs() < 1e-5, "{apart}");
     }
 }
 

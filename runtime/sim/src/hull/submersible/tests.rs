@@ -1,15 +1,24 @@
 //! How both hulls answer their autopilots, and what becomes of them when something fails.
 
-use crate::hull::Crossflow;
-use crate::hull::{Hull, Motion, Stuck};
+use crate::hull::{Crossflow, Hull, Motion, Stuck};
 use crate::scenario::{HullSetup, SubmersibleHull, VehicleSetup};
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::{Command, TICK_S, Vertical};
 
-const FOSSEN: fn() -> HullSetup = || HullSetup::Fossen(SubmersibleHull::fossen());
-const PRESTERO: fn() -> HullSetup = || HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected);
-const HULLS: [(&str, fn() -> HullSetup); 2] = [("fossen", FOSSEN), ("prestero", PRESTERO)];
+/// The hull after Fossen.
+fn fossen() -> HullSetup {
+    HullSetup::Fossen(SubmersibleHull::fossen())
+}
+
+/// The hull after Prestero.
+fn prestero() -> HullSetup {
+    HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected)
+}
+
+/// A hull by its name.
+type Named = (&'static str, fn() -> HullSetup);
+const HULLS: [Named; 2] = [("fossen", fossen), ("prestero", prestero)];
 
 /// A hull under way, and what is asked of it.
 struct Trial {
@@ -137,7 +146,7 @@ fn it_dives_from_the_surface_and_comes_back_to_it() {
 
 #[test]
 fn the_buoyant_hull_needs_some_speed_to_stay_down() {
-    let mut trial = Trial::cruising(PRESTERO());
+    let mut trial = Trial::cruising(prestero());
     for (speed, stays) in [(1.2, true), (1.0, false)] {
         let way = trial.go(0.0, speed, Vertical::Depth(5.0), 300.0);
         let off = way[1500..].iter().map(|m| (m.depth - 5.0).abs()).fold(0.0, f64::max);
@@ -185,7 +194,7 @@ fn a_stuck_rudder_turns_it_in_circles_whatever_it_is_told() {
 
 #[test]
 fn a_stuck_propeller_and_stern_plane_stay_where_they_are() {
-    let mut trial = Trial::cruising(FOSSEN());
+    let mut trial = Trial::cruising(fossen());
     let actuators = trial.hull.actuators_mut().unwrap();
     actuators.stuck = Stuck { rpm: Some(actuators.now.rpm), stern: Some(radians(5.0)), ..Stuck::default() };
     let end = *trial.go(0.0, 0.5, Vertical::Depth(5.0), 20.0).last().unwrap();
