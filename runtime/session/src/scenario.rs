@@ -50,6 +50,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "leak" => plume::leak(scenario, c),
         "patch" => plume::patch(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
+        "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "handover" => vehicle::handover(scenario, c),
         "navigation" => sensors::navigation(scenario, c),
