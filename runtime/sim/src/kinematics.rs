@@ -20,6 +20,8 @@ pub struct Kinematics {
     pub depth: f64,
     /// Velocity over ground in the last tick, m/s.
     pub ground_velocity: Vector,
+    /// Whether the bottom held it in the last tick.
+    pub aground: bool,
     jitter: Jitter,
 }
 
@@ -33,12 +35,16 @@ impl Kinematics {
             speed: 0.0,
             depth: settings.depth,
             ground_velocity: flow,
+            aground: false,
             jitter: Jitter::new(settings, seed),
         }
     }
 
     /// Lets one tick go by, in water that moves with `flow`. Without a command the propeller stops and the vehicle drifts at
     /// its depth. `water_depth` tells the depth of the water at a point.
+    ///
+    /// Where it would come to lie on the bottom, or in it, it is aground: it stays where it was, at rest, until what is
+    /// commanded leads up or away.
     pub fn step(&mut self, tick: u64, command: Option<&Command>, flow: Vector, water_depth: impl Fn(Point) -> f64) {
         let wanted_heading = command.map_or(self.heading, |c| c.heading);
         let wanted_speed = command.map_or(0.0, |c| c.speed.clamp(0.0, self.settings.speed_max));
@@ -48,17 +54,24 @@ impl Kinematics {
         let old_speed = self.speed;
         self.speed = approached(self.speed, wanted_speed, self.settings.acceleration * TICK_S);
         self.ground_velocity = 0.5 * (old_speed + self.speed) * middle.unit() + flow;
-        self.position += TICK_S * self.ground_velocity;
+        let reached = self.position + TICK_S * self.ground_velocity;
         self.heading = turned(middle, wanted_heading, &self.settings, TICK_S / 2.0);
 
-        let water = water_depth(self.position);
+        let water = water_depth(reached);
         let wobble = self.jitter.step(tick);
         let wanted_depth = match command.map(|c| c.vertical) {
             Some(Vertical::Depth(depth)) => depth,
             Some(Vertical::Altitude(altitude)) => water - altitude + wobble,
             None => self.depth,
         };
-        self.depth = approached(self.depth, wanted_depth, self.settings.depth_rate * TICK_S).clamp(0.0, water);
+        let depth = approached(self.depth, wanted_depth, self.settings.depth_rate * TICK_S).clamp(0.0, f64::INFINITY);
+        self.aground = depth >= water;
+        if self.aground {
+            (self.speed, self.ground_velocity) = (0.0, Vector::ZERO);
+            self.depth = depth.min(water_depth(self.position));
+        } else {
+            (self.position, self.depth) = (reached, depth);
+        }
     }
 }
 
@@ -160,6 +173,55 @@ mod tests {
         let mut v = Kinematics::new(&KinematicVehicle::default(), flow, 1);
         run(&mut v, 6000, None, flow);
         assert!(v.position.distance(Point::new(-60.0, 30.0)) < 1e-9);
+    }
+
+    /// A bottom that rises by a metre every ten to the north, from 20 m at the origin to a shore at 200 m.
+    fn beach(p: Point) -> f64 {
+        (20.0 - 0.1 * p.north).max(0.0)
+    }
+
+    #[test]
+    fn a_slope_stops_it_and_it_comes_free_upward_or_away() {
+        let aground = || {
+            let mut v =
+                Kinematics::new(&KinematicVehicle { depth: 15.0, ..KinematicVehicle::default() }, Vector::ZERO, 1);
+            for tick in 1..=600 {
+                v.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(15.0))), Vector::new(0.1, 0.0), beach);
+            }
+            v
+        };
+        let stuck = aground();
+        assert!(stuck.aground && stuck.speed == 0.0 && stuck.ground_velocity == Vector::ZERO);
+        assert!((49.7..50.0).contains(&stuck.position.north) && stuck.depth == 15.0, "{:?}", stuck.position);
+
+        let mut up = aground();
+        for tick in 601..=700 {
+            up.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(12.0))), Vector::ZERO, beach);
+        }
+        assert!(!up.aground && up.depth == 12.0 && up.position.north > 52.0, "{:?}", up.position);
+
+        let mut away = aground();
+        for tick in 601..=900 {
+            away.step(tick, Some(&command(180.0, 2.0, Vertical::Depth(15.0))), Vector::ZERO, beach);
+        }
+        assert!(!away.aground && away.speed == 2.0 && away.position.north < 45.0, "{:?}", away.position);
+    }
+
+    #[test]
+    fn it_lies_on_a_level_bottom_and_does_not_drive_ashore() {
+        let mut v = Kinematics::new(&KinematicVehicle::default(), Vector::ZERO, 1);
+        run(&mut v, 600, Some(&command(0.0, 2.0, Vertical::Depth(30.0))), Vector::ZERO);
+        assert!(v.aground && v.depth == 20.0 && v.ground_velocity == Vector::ZERO);
+        let lain = v.position;
+        run(&mut v, 100, Some(&command(90.0, 2.0, Vertical::Depth(30.0))), Vector::new(0.2, 0.0));
+        assert_eq!(v.position, lain, "who pushes in is not carried off");
+
+        // An altitude that the water does not have is the surface: there the shore stops it.
+        let mut v = Kinematics::new(&KinematicVehicle::default(), Vector::ZERO, 1);
+        for tick in 1..=2000 {
+            v.step(tick, Some(&command(0.0, 2.0, Vertical::Altitude(3.0))), Vector::ZERO, beach);
+        }
+        assert!(v.aground && v.depth == 0.0 && (199.7..=200.0).contains(&v.position.north), "{:?}", v.position);
     }
 
     #[test]

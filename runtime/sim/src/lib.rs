@@ -7,6 +7,7 @@
 mod bottom;
 mod computer;
 mod deepest;
+mod incidents;
 mod kinematics;
 mod noise;
 mod normal;
@@ -21,7 +22,7 @@ mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
-    Scenario, ScenarioError, Sounder, Source, UpperFlow,
+    Adcp, Bottom, Flow, Fluorometer, Grid, Ground, Handover, KinematicVehicle, Lbl, Meander, Navigation, NoGo,
+    OwnMission, Pit, Plane, Plume, Scenario, ScenarioError, Sounder, Source, UpperFlow,
 };
 pub use simulator::{Simulator, Truth};

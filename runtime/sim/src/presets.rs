@@ -1,6 +1,8 @@
 //! Two worlds for tests and benchmarks: the June 2003 trial at Duck, with and without its vertical part.
 
-use crate::scenario::{Bottom, Flow, KinematicVehicle, Lbl, Meander, Navigation, Plume, Scenario, Source};
+use crate::scenario::{
+    Bottom, Flow, Ground, KinematicVehicle, Lbl, Meander, Navigation, Plane, Plume, Scenario, Source,
+};
 use albacore_geometry::{Area, Heading, Point};
 
 /// Where the mean flow of the trial goes, degrees.
@@ -16,7 +18,10 @@ pub fn duck_2003_flat() -> Scenario {
     Scenario {
         region: Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0).ok(),
         flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), upper: None },
-        bottom: Bottom { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0, pits: Vec::new() },
+        bottom: Bottom {
+            ground: Ground::Plane(Plane { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0 }),
+            pits: Vec::new(),
+        },
         plume: Some(Plume::default()),
         sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
         vehicle: KinematicVehicle { start: place(527.0, -163.5), ..KinematicVehicle::default() },

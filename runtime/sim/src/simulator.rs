@@ -1,6 +1,7 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
 use crate::computer::{Computer, Known, seconds};
+use crate::incidents::Incidents;
 use crate::kinematics::Kinematics;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
@@ -61,6 +62,7 @@ pub struct Simulator {
     control: Control,
     command: Option<Command>,
     truth: Truth,
+    incidents: Incidents,
     /// The tick last sensed; none before the first.
     tick: Option<u64>,
 }
@@ -94,6 +96,7 @@ impl Simulator {
             control: Control::Disconnected,
             command: None,
             truth: Truth::default(),
+            incidents: Incidents::new(&scenario.no_go),
             tick: None,
         };
         simulator.observe();
@@ -166,6 +169,12 @@ impl Simulator {
         };
     }
 
+    /// Notes what befell the vehicle.
+    fn note_incidents(&mut self) {
+        let Truth { position, depth, altitude, .. } = self.truth;
+        self.incidents.observe(position, depth + altitude, self.vehicle.aground || altitude <= 0.0);
+    }
+
     /// Where the chemical sensor's intake is, and its height above the bottom (m).
     fn intake_now(&self) -> (Point, f64) {
         let v = &self.vehicle;
@@ -236,6 +245,7 @@ impl Vehicle for Simulator {
         }
         self.tick = Some(tick);
         self.observe();
+        self.note_incidents();
         if self.control != Control::Released {
             self.control = self.computer.answer(seconds(tick), self.known().position);
         }
@@ -275,5 +285,9 @@ impl Vehicle for Simulator {
         self.control = Control::Released;
         self.command = None;
         Ok(())
+    }
+
+    fn notices(&mut self) -> Vec<String> {
+        self.incidents.take()
     }
 }
