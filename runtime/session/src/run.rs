@@ -174,10 +174,10 @@ impl Run {
         self.deepest
     }
 
-    /// The deepest point, where that is what is sought: there are pits to be found, and no sources.
+    /// The deepest point, where that is what is sought: there are hollows to be found, and no sources.
     fn deepest_sought(&self) -> Option<Point> {
         let world = &self.plan.scenario;
-        self.deepest.filter(|_| world.sources.is_empty() && !world.bottom.pits.is_empty())
+        self.deepest.filter(|_| world.sources.is_empty() && world.bottom.has_hollows())
     }
 
     /// The corners of the mission's area, once it has one.
