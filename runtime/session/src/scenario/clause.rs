@@ -39,6 +39,12 @@ impl<'a> Clause<'a> {
         Ok(Point::new(self.word(at), self.word(at + 1)))
     }
 
+    /// A point that may be absent.
+    pub fn optional_point(&self, name: &str) -> Result<Option<Point>, String> {
+        let at = self.slot(name)?;
+        Ok((self.word(at) != 0.0).then(|| Point::new(self.word(at + 1), self.word(at + 2))))
+    }
+
     pub fn vector(&self, name: &str) -> Result<Vector, String> {
         let at = self.slot(name)?;
         Ok(Vector::new(self.word(at), self.word(at + 1)))
