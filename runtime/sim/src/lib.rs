@@ -12,6 +12,7 @@ mod noise;
 mod normal;
 mod plume;
 pub mod presets;
+mod recorded;
 mod scenario;
 mod sensors;
 mod simulator;
@@ -21,6 +22,7 @@ mod water;
 mod world;
 
 pub use noise::{Noise, Stream};
+pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
     Scenario, Sounder, Source, UpperFlow,

@@ -35,6 +35,8 @@ pub enum Stream {
     Sounder = 11,
     /// Where the vehicle starts.
     Start = 12,
+    /// The moment at which a recorded plume is begun.
+    RecordStart = 80,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.
