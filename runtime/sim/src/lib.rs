@@ -17,7 +17,6 @@ mod scenario;
 mod sensors;
 mod simulator;
 mod start;
-mod validate;
 mod water;
 mod world;
 
@@ -25,7 +24,6 @@ pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
-    Scenario, Sounder, Source, UpperFlow,
+    Scenario, ScenarioError, Sounder, Source, UpperFlow,
 };
 pub use simulator::{Simulator, Truth};
-pub use validate::ScenarioError;

@@ -2,9 +2,8 @@
 
 use crate::computer::{Computer, Known, seconds};
 use crate::kinematics::Kinematics;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
-use crate::validate::ScenarioError;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{

@@ -1,0 +1,119 @@
+//! The water's motion: what a scenario says of it, and what of that cannot be.
+
+use crate::plume::SPIN_UP_STEP_S;
+use crate::scenario::{Objections, Scenario};
+use crate::water::{FlowFrame, mesh_fault};
+use albacore_geometry::Vector;
+use albacore_geometry::math::PI;
+use serde::{Deserialize, Serialize};
+
+/// The water's motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Flow {
+    /// The mean flow, m/s toward. Default none.
+    pub mean: Vector,
+    /// Its wandering; none: uniform and steady.
+    pub meander: Option<Meander>,
+    /// Another current above this one, as in the 2003 trial; none: the same at every height.
+    pub upper: Option<UpperFlow>,
+}
+
+/// A uniform current that lies over the flow that carries the plume.
+///
+/// The 2005 paper's own main source of wrong flow (Sec. IV): the upward profiler measures above the vehicle, and where the
+/// boundary is low it measures this instead.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct UpperFlow {
+    /// Its velocity, m/s toward. Default 0.225 m/s northward.
+    pub mean: Vector,
+    /// Height above the bottom where it begins, m. Default 3.5.
+    pub above: f64,
+}
+
+impl Default for UpperFlow {
+    fn default() -> Self {
+        UpperFlow { mean: Vector::new(0.225, 0.0), above: 3.5 }
+    }
+}
+
+/// A flow field that wanders: the advection field of Farrell et al. 2002 on a grid along the mean flow.
+///
+/// Each velocity component at the four corners is the mean plus coloured noise of standard deviation
+/// `direction_sd` times the mean speed; inside, du/dt = -(u . grad) u + `viscosity`/2 lap u.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Meander {
+    /// Standard deviation of the flow's direction at a corner, rad. The field damps it on its way in. Default 8 degrees.
+    pub direction_sd: f64,
+    /// Period of the noise, s: its bandwidth is 2 pi over it. Default 2732 s (0.0023 rad/s).
+    pub period: f64,
+    /// Damping ratio of the noise, between 0 and 1. Default 0.1.
+    pub damping: f64,
+    /// Twice the eddy viscosity of the field, m2/s: Farrell's k_x = k_y. Default 27.
+    pub viscosity: f64,
+    /// Side of a grid cell, about, m. Default 20.
+    pub cell: f64,
+    /// How far the grid reaches beyond the region on every side, m. Default 60.
+    pub margin: f64,
+    /// Time step of the field, s. Default 5.
+    pub step: f64,
+}
+
+impl Default for Meander {
+    fn default() -> Self {
+        Meander {
+            direction_sd: 8.0 * PI / 180.0,
+            period: 2732.0,
+            damping: 0.1,
+            viscosity: 27.0,
+            cell: 20.0,
+            margin: 60.0,
+            step: 5.0,
+        }
+    }
+}
+
+/// The mean and the upper flow.
+pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+    objections.flow("flow.mean", scenario.flow.mean);
+    if let Some(upper) = &scenario.flow.upper {
+        objections.flow("flow.upper.mean", upper.mean);
+        objections.not_negative("flow.upper.above", upper.above);
+    }
+}
+
+/// The meander, once region and mean flow are sound.
+pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
+    let Some(meander) = &scenario.flow.meander else { return };
+    let before = objections.0.len();
+    objections.unless(scenario.region.is_some(), "`flow.meander` needs a `region`: the flow wanders on a grid over it");
+    objections.unless(scenario.flow.mean.length() > 0.0, "`flow.meander` needs a mean flow: `flow.mean` is 0");
+    objections.unless(
+        (0.0..=DIRECTION_SD_MAX).contains(&meander.direction_sd),
+        format!("`flow.meander.direction_sd` is {} rad: it must be 0 to {DIRECTION_SD_MAX}", meander.direction_sd),
+    );
+    objections.positive("flow.meander.period", meander.period);
+    objections.unless(
+        meander.damping > 0.0 && meander.damping < 1.0,
+        format!("`flow.meander.damping` is {}: it must be between 0 and 1", meander.damping),
+    );
+    objections.positive("flow.meander.viscosity", meander.viscosity);
+    objections.positive("flow.meander.cell", meander.cell);
+    objections.not_negative("flow.meander.margin", meander.margin);
+    let least = scenario.plume.as_ref().map_or(0.0, |plume| plume.step).max(SPIN_UP_STEP_S / 2.0);
+    objections.unless(
+        meander.step >= least && meander.step <= FLOW_STEP_MAX_S,
+        format!("`flow.meander.step` is {} s: it must be {least} to {FLOW_STEP_MAX_S}", meander.step),
+    );
+    if objections.0.len() == before {
+        let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
+        objections.0.extend(mesh_fault(meander, &frame, scenario.flow.mean.length()));
+    }
+}
+
+/// The widest meander, rad: beyond it the flow turns round, and the plume with it.
+const DIRECTION_SD_MAX: f64 = 1.0;
+/// The longest step of the flow field, s.
+const FLOW_STEP_MAX_S: f64 = 60.0;
