@@ -14,6 +14,7 @@ mod plume;
 pub mod presets;
 mod recorded;
 mod scenario;
+mod sea;
 mod sensors;
 mod simulator;
 mod start;

@@ -9,14 +9,16 @@ mod flow;
 mod header;
 mod interval;
 mod playback;
+mod settings;
 
 pub use header::RecordingHeader;
 pub use playback::Playback;
+pub(crate) use settings::check;
+pub use settings::{RecordedKernel, RecordedPlume};
 
 use albacore_geometry::{Area, Point, Vector};
 use flow::FlowRecord;
 use header::Kernel;
-use std::sync::Arc;
 
 /// Why a record cannot be used: every fault found in the part that was looked at.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -49,49 +51,6 @@ struct Track {
     row: usize,
 }
 
-/// What a filament adds to the reading at a distance from its middle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RecordedKernel {
-    /// The three-dimensional Gaussian of the model that made the record: it thins with r^3.
-    #[default]
-    Pompy,
-    /// A two-dimensional one, which thins with r^2: as a flat plume of the simulator's own does.
-    Flat,
-}
-
-/// A record as the world of a run.
-#[derive(Clone, Debug)]
-pub struct RecordedPlume {
-    /// The record.
-    pub recording: Arc<Recording>,
-    /// How its filaments read.
-    pub kernel: RecordedKernel,
-    /// The moment of the record at which a run begins, s.
-    pub start: f64,
-    /// Each seed begins somewhere else, evenly from `start` to so much later, s.
-    pub start_spread: f64,
-    /// What the chemical sensor reads where the record is at its own threshold of detection, ratio of full scale.
-    pub threshold: f64,
-}
-
-/// The papers' threshold of detection, ratio of full scale: with it a record saturates the sensor at 25 thresholds.
-pub const THRESHOLD: f64 = 0.04;
-
-impl RecordedPlume {
-    /// A record from its beginning, read as its makers do.
-    pub fn new(recording: Arc<Recording>) -> Self {
-        RecordedPlume { recording, kernel: RecordedKernel::Pompy, start: 0.0, start_spread: 0.0, threshold: THRESHOLD }
-    }
-}
-
-impl PartialEq for RecordedPlume {
-    fn eq(&self, other: &Self) -> bool {
-        self.recording.header.sha256() == other.recording.header.sha256()
-            && (self.kernel, self.start, self.start_spread, self.threshold)
-                == (other.kernel, other.start, other.start_spread, other.threshold)
-    }
-}
-
 impl Recording {
     /// What it is called.
     pub fn name(&self) -> &str {
@@ -106,6 +65,17 @@ impl Recording {
     /// Where the chemical comes from.
     pub fn source(&self) -> Point {
         self.header.source.place()
+    }
+
+    /// Filaments that it releases a second, on average.
+    pub fn release_rate(&self) -> f64 {
+        self.header.release_rate
+    }
+
+    /// What a filament reads in its middle when it is as old as it gets on its way through the area at the mean flow, in
+    /// thresholds of detection; and that age, s.
+    pub fn far_peak(&self) -> (f64, f64) {
+        self.header.kernel.far_peak()
     }
 
     /// The area that the record covers.

@@ -15,6 +15,7 @@ pub use plume::{Plume, Source};
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
 pub use vehicle::{Handover, KinematicVehicle, OwnMission};
 
+use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +35,9 @@ pub struct Scenario {
     pub plume: Option<Plume>,
     /// What releases chemical.
     pub sources: Vec<Source>,
+    /// A plume that was computed elsewhere, and the flow that carries it, instead of those of our own.
+    #[serde(skip)]
+    pub recording: Option<RecordedPlume>,
     /// The vehicle.
     pub vehicle: KinematicVehicle,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
@@ -51,6 +55,11 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// Whether there is any chemical to be sensed.
+    pub fn has_plume(&self) -> bool {
+        self.plume.is_some() || self.recording.is_some()
+    }
+
     /// Lists impossible physics, all of it at once.
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let mut objections = Objections::default();
@@ -65,6 +74,7 @@ impl Scenario {
             flow::check_meander(self, &mut objections);
             plume::check(self, &mut objections);
             plume::check_sources(self, &mut objections);
+            recorded::check(self, &mut objections);
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);

@@ -231,6 +231,9 @@ impl Vehicle for Simulator {
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         let tick = self.tick.map_or(0, |tick| tick + 1);
+        if let Some(why) = self.world.end_before(tick) {
+            return Err(VehicleError(why));
+        }
         if tick > 0 {
             self.advance(tick);
         }

@@ -26,6 +26,7 @@ pub struct RecordingHeader {
     pub(super) record: Record,
     pub(super) source: Source,
     pub(super) kernel: Kernel,
+    pub(super) release_rate: f64,
     pub(super) grid: Grid,
     pub(super) area: Area,
     pub(super) layout: Layout,
@@ -119,6 +120,7 @@ struct Concentration {
 struct Parameters {
     r0_m: f64,
     growth_m2_s: f64,
+    release_per_s: f64,
 }
 
 #[derive(Deserialize)]
@@ -191,6 +193,7 @@ impl Raw {
             ("concentration.r2_far", self.concentration.r2_far),
             ("concentration.q", self.concentration.q),
             ("parameters.r0_m", self.parameters.r0_m),
+            ("parameters.release_per_s", self.parameters.release_per_s),
         ] {
             unless(value > 0.0 && value.is_finite(), format!("`{name}` is {value}: it must be above 0"));
         }
@@ -237,6 +240,7 @@ impl Raw {
                 initial: self.parameters.r0_m * self.parameters.r0_m,
                 growth,
             },
+            release_rate: self.parameters.release_per_s,
             record: self.record,
             source: self.source,
             grid: self.flow_grid,
@@ -326,6 +330,12 @@ impl Kernel {
     /// Squared radius at an age (s), m2.
     pub fn squared_radius(&self, age: f64) -> f64 {
         self.initial + self.growth * age
+    }
+
+    /// The peak that the record is scaled by, in thresholds of detection, and the age (s) of a filament that has it.
+    pub fn far_peak(&self) -> (f64, f64) {
+        let age = if self.growth > 0.0 { (self.far - self.initial) / self.growth } else { 0.0 };
+        (self.peak, age.max(0.0))
     }
 
     /// What a filament of a squared radius (m2) reads at a squared distance (m2), in thresholds of detection.

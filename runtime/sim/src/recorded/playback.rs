@@ -30,9 +30,12 @@ impl Playback {
         &self.plume.recording
     }
 
-    /// Whether the record reaches to a time of the run, s.
-    pub fn reaches(&self, time: f64) -> bool {
-        self.begin + time <= self.plume.recording.duration()
+    /// Why a run cannot go on to a time (s): it is over when its record is, which is neither begun again nor frozen.
+    pub fn end_before(&self, time: f64) -> Option<String> {
+        let duration = self.plume.recording.duration();
+        let left = duration - self.begin;
+        (time > left)
+            .then(|| format!("the recorded plume ends after {duration} s, {left:.1} s from the start of the run"))
     }
 
     /// The water's velocity at a point and a time of the run (s), m/s toward.

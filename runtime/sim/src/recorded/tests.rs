@@ -4,7 +4,7 @@ use super::*;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 const KERNELS: [(RecordedKernel, &str); 2] = [(RecordedKernel::Pompy, "pompy"), (RecordedKernel::Flat, "flat")];
 
@@ -167,7 +167,7 @@ fn seeds_begin_at_their_own_moments_and_end_with_the_record() {
     let begins: Vec<f64> = (0..200)
         .map(|seed| {
             let playback = Playback::new(&spread, seed);
-            let reaches = |time: &f64| playback.reaches(*time);
+            let reaches = |time: &f64| playback.end_before(*time).is_none();
             // Whole seconds that are left of it.
             (0..5401).map(f64::from).take_while(reaches).last().map(|left| 5400.0 - left).unwrap()
         })
@@ -178,7 +178,11 @@ fn seeds_begin_at_their_own_moments_and_end_with_the_record() {
     let mut fixed = Playback::new(&RecordedPlume { start: 100.0, ..RecordedPlume::new(record()) }, 1);
     let expected = 0.04 * record().concentration(RecordedKernel::Pompy, p, 107.3);
     assert!((fixed.reading(p, 7.3) - expected).abs() < 1e-9 && (fixed.look_up(p, 7.3) - expected).abs() < 1e-12);
-    assert!(fixed.reaches(5300.0) && !fixed.reaches(5300.1));
+    assert_eq!(fixed.end_before(5300.0), None);
+    assert_eq!(
+        fixed.end_before(5300.1).unwrap(),
+        "the recorded plume ends after 5400 s, 5300.0 s from the start of the run"
+    );
 }
 
 /// A record of two filaments in three frames, of which a test spoils a part.

@@ -96,7 +96,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 /// What of the sources cannot be, once region and flow are sound.
 pub(crate) fn check_sources(scenario: &Scenario, objections: &mut Objections) {
     objections.unless(
-        scenario.sources.is_empty() || scenario.plume.is_some(),
+        scenario.sources.is_empty() || scenario.has_plume(),
         "`sources` need a `plume`: without one nothing spreads",
     );
     let before = objections.0.len();
