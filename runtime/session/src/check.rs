@@ -29,7 +29,7 @@ fn scenario(script: &Script, name: &str) -> Vec<Diagnostic> {
         Some(Err(findings)) => return findings,
         None => return Vec::new(),
     };
-    match crate::scenario::scenario(&lowered) {
+    match crate::scenario::scenario(&lowered, &script.sources) {
         Err(finding) => vec![finding],
         Ok(world) => match world.validate() {
             Err(error) => error.faults.iter().map(|fault| of_fault(&lowered, fault)).collect(),

@@ -143,7 +143,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
 }
 
 /// An error of the system without its number.
-fn plain(error: &std::io::Error) -> String {
+pub(crate) fn plain(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_lowercase()
 }
@@ -173,6 +173,11 @@ impl Files {
             }
         }
         Files { root }
+    }
+
+    /// The project's folder.
+    pub(crate) fn root(&self) -> &Path {
+        &self.root
     }
 
     /// The names that `use` can give.

@@ -3,6 +3,7 @@
 pub mod campaign;
 mod check;
 mod craft;
+mod data_files;
 mod files;
 mod journal;
 mod link;

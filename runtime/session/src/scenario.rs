@@ -4,30 +4,40 @@ mod bottom;
 mod clause;
 mod flow;
 mod plume;
+mod recorded;
 mod sensors;
 mod vehicle;
 
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::source::Sources;
 use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use clause::Clause;
 
 /// The simulator's scenario; else what of it cannot be understood, and where.
-pub(crate) fn scenario(program: &ScenarioProgram) -> Result<Scenario, Diagnostic> {
+pub(crate) fn scenario(program: &ScenarioProgram, sources: &Sources) -> Result<Scenario, Diagnostic> {
     let mut evaluation = Evaluation::new(&program.program);
     evaluation.run(&program.program, program.program.mission.activity);
     let words = evaluation.words(0, program.program.words);
     let mut scenario = Scenario::default();
     for clause in &program.clauses {
-        let clause = Clause { clause, words };
+        let file = &sources.get(clause.span.file).name;
+        let clause = Clause { clause, words, file };
         apply(&mut scenario, &clause).map_err(|what| {
             let message = format!("this clause cannot be: {what}");
             Diagnostic::error(Code::ScenariosClause, clause.clause.span, message)
         })?;
     }
-    Ok(scenario)
+    match program.clauses.iter().find(|clause| recorded::BROUGHT.contains(&clause.name.as_str())) {
+        Some(clause) if scenario.recording.is_some() => {
+            let message = format!("the record brings its own `{}`", clause.name);
+            Err(Diagnostic::error(Code::ScenariosClause, clause.span, message)
+                .help("leave it out, or `recorded_plume`"))
+        }
+        _ => Ok(scenario),
+    }
 }
 
 fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -38,6 +48,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "pit" => bottom::pit(scenario, c),
         "plume" => plume::plume(scenario, c),
         "source" => plume::source(scenario, c),
+        "recorded_plume" => recorded::recorded_plume(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "handover" => vehicle::handover(scenario, c),

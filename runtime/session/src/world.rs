@@ -89,7 +89,8 @@ pub(crate) fn scenario(
             return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
         }
     };
-    let world = crate::scenario::scenario(&lowered).map_err(|finding| PlanError::Script(vec![finding]))?;
+    let world =
+        crate::scenario::scenario(&lowered, &script.sources).map_err(|finding| PlanError::Script(vec![finding]))?;
     world.validate().map_err(|error| {
         let message = format!("the scenario `{}` cannot be", lowered.name);
         PlanError::Asked(message, Some(error.faults.join("; ")))

@@ -12,6 +12,7 @@ mod noise;
 mod normal;
 mod plume;
 pub mod presets;
+pub mod probe;
 mod recorded;
 mod scenario;
 mod sea;

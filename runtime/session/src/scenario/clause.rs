@@ -8,6 +8,8 @@ use albacore_program::{AREA_CORNER_WORDS, Slot};
 pub struct Clause<'a> {
     pub clause: &'a ScenarioClause,
     pub words: &'a [f64],
+    /// The script that it stands in.
+    pub file: &'a str,
 }
 
 impl<'a> Clause<'a> {
@@ -62,7 +64,7 @@ impl<'a> Clause<'a> {
 
     pub fn clause(&self, name: &str) -> Option<Clause<'a>> {
         match self.value(name) {
-            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, words: self.words }),
+            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, ..*self }),
             _ => None,
         }
     }

@@ -1,0 +1,44 @@
+//! What a scenario says of a plume that was computed elsewhere.
+
+use super::clause::Clause;
+use crate::data_files::DataFiles;
+use albacore_sim::{RecordedKernel, RecordedPlume, RecordingError, RecordingHeader, Scenario};
+use std::sync::Arc;
+
+/// A header is no larger than this, bytes.
+const HEADER_BYTES_MAX: u64 = 4 * 1024 * 1024;
+
+/// The clauses that a record takes the place of.
+pub const BROUGHT: [&str; 4] = ["flow", "region", "plume", "source"];
+
+/// `recorded_plume(…)`: the record, and all that it brings.
+pub fn recorded_plume(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    let path = c.text("file")?;
+    let files = DataFiles::of_script(c.file);
+    let header = RecordingHeader::read(&files.read_text(&path, HEADER_BYTES_MAX)?).map_err(|e| told(&path, &e))?;
+    // The binary lies beside its header.
+    let folder = path.rfind('/').map_or("", |slash| &path[..=slash]);
+    let binary = format!("{folder}{}", header.binary());
+    let bytes = files.read(&binary, header.bytes() as u64)?;
+    let recording = header.decode(&bytes).map_err(|error| told(&path, &error))?;
+    let kernel = match c.clause("kernel").map(|kernel| kernel.clause.name.as_str()) {
+        Some("flat") => RecordedKernel::Flat,
+        _ => RecordedKernel::Pompy,
+    };
+    let recorded = RecordedPlume {
+        recording: Arc::new(recording),
+        kernel,
+        start: c.number("start")?,
+        start_spread: c.number("start_spread")?,
+        threshold: c.number("threshold")?,
+    };
+    scenario.region = Some(recorded.recording.area().clone());
+    scenario.flow.mean = recorded.recording.mean_flow();
+    scenario.sources = vec![recorded.source()];
+    scenario.recording = Some(recorded);
+    Ok(())
+}
+
+fn told(path: &str, error: &RecordingError) -> String {
+    format!("`{path}`: {error}")
+}
