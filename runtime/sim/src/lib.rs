@@ -19,13 +19,15 @@ mod sea;
 mod sensors;
 mod simulator;
 mod start;
+mod survey;
 mod water;
 mod world;
 
 pub use noise::{Noise, Stream};
-pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader};
+pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
     Scenario, ScenarioError, Sounder, Source, UpperFlow,
 };
 pub use simulator::{Simulator, Truth};
+pub use survey::Survey;

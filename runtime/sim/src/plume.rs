@@ -1,9 +1,11 @@
 //! The plume: filaments released at the sources that drift with the water, diffuse, and grow (Farrell et al. 2002).
 
+mod index;
 mod kernel;
 mod nearby;
 mod release;
 
+pub use index::Index;
 pub use nearby::Nearby;
 
 use crate::noise::{Noise, Stream};
@@ -13,8 +15,16 @@ use albacore_vehicle::TICK_S;
 use kernel::Kernel;
 use release::Release;
 
-/// The plume is spun up in steps of this, s: its law does not depend on the step, so a coarse one will do.
-pub const SPIN_UP_STEP_S: f64 = 5.0;
+/// Once the plume is spun up, its steps are this long at most, s.
+pub const LONGEST_STEP_S: f64 = 5.0;
+/// The plume is spun up in steps so many times as long as those that follow: its law does not depend on the step, and nobody
+/// looks. They are [`LONGEST_STEP_S`] long at least, and at most this.
+const SPIN_UP_STEPS: f64 = 5.0;
+const LONGEST_SPIN_UP_STEP_S: f64 = 20.0;
+/// In a step of the spin-up the mean flow goes this share of a cell of the field at most.
+const CELL_SHARE: f64 = 0.25;
+/// The bound of a diffusion's draw, in standard deviations ([`Noise::nearly_gaussian_pair`]).
+const LARGEST_DRAW: f64 = 3.46;
 /// The spin-up lasts this many times the mean flow's time from the farthest source to the down-flow end.
 const SPIN_UP_TRANSITS: f64 = 1.15;
 
@@ -107,7 +117,7 @@ impl Plume {
             length: frame.length,
             width: frame.width,
             end: begin,
-            step: SPIN_UP_STEP_S,
+            step: spin_up_step(scenario),
             end_tick: 0,
             step_ticks: (settings.step / TICK_S).round() as u64,
             steps: 0,
@@ -118,9 +128,10 @@ impl Plume {
 
     /// Fills the region: everything that was released before time 0.
     pub fn spin_up(&mut self, water: &mut Water) {
-        let steps = (-self.end / SPIN_UP_STEP_S).round() as u64;
+        let step = self.step;
+        let steps = (-self.end / step).round() as u64;
         for left in (0..steps).rev() {
-            self.advance(-(left as f64) * SPIN_UP_STEP_S, water);
+            self.advance(-(left as f64) * step, water);
         }
     }
 
@@ -143,18 +154,20 @@ impl Plume {
     /// A bound of the largest squared radius, m2. Filaments stand in the order of the steps of their release, so that none is
     /// older than the first alive by more than one step.
     fn largest_squared_radius(&self) -> f64 {
-        let first = self.filaments.iter().find(|f| f.birth < GONE).map_or(self.end, |f| f.birth - SPIN_UP_STEP_S);
+        let first =
+            self.filaments.iter().find(|f| f.birth < GONE).map_or(self.end, |f| f.birth - LONGEST_SPIN_UP_STEP_S);
         self.settings.initial_radius * self.settings.initial_radius + self.settings.growth * (self.end - first)
     }
 
     /// One step, to a time.
     ///
-    /// x += u dt + sqrt(2 K dt) N, Euler: at 1 s and 0.125 m/s a step is shorter than a filament is wide. (pompy multiplies
-    /// the noise by dt, which makes the diffusivity depend on the time step.)
+    /// x += u dt + sqrt(2 K dt) N, Euler, with the flow in the middle of the step: a step is short beside what the flow changes
+    /// over. (pompy multiplies the noise by dt, which makes the diffusivity depend on the time step.)
     fn advance(&mut self, end: f64, water: &mut Water) {
         (self.step, self.end) = (end - self.end, end);
-        water.advance_to(end);
-        water.frozen(end - 0.5 * self.step, &mut self.cells);
+        let middle = end - 0.5 * self.step;
+        water.advance_to(middle);
+        water.frozen(middle, &mut self.cells);
         self.steps += 1;
         self.drift();
         self.release();
@@ -268,7 +281,22 @@ pub fn spin_up_begin(scenario: &Scenario) -> f64 {
     let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
     let farthest = scenario.sources.iter().map(|s| frame.length - frame.to_local(s.at).0).fold(0.0, f64::max);
     let transit = farthest / scenario.flow.mean.length();
-    -(SPIN_UP_TRANSITS * transit / SPIN_UP_STEP_S).ceil() * SPIN_UP_STEP_S
+    let step = spin_up_step(scenario);
+    -(SPIN_UP_TRANSITS * transit / step).ceil() * step
+}
+
+/// The time step of the spin-up, s: so long that a filament neither crosses its layer nor much of a cell of the field.
+fn spin_up_step(scenario: &Scenario) -> f64 {
+    let Some(plume) = &scenario.plume else { return LONGEST_STEP_S };
+    let cell = scenario.flow.meander.as_ref().map_or(f64::INFINITY, |meander| meander.cell);
+    let fits = |step: f64| scenario.flow.mean.length() * step <= CELL_SHARE * cell && stays_in_layer(plume, step);
+    let longest = (SPIN_UP_STEPS * plume.step).min(LONGEST_SPIN_UP_STEP_S);
+    if longest > LONGEST_STEP_S && fits(longest) { longest } else { LONGEST_STEP_S }
+}
+
+/// Whether no filament can cross its layer in one step, s: it is mirrored at one wall of it at most.
+pub fn stays_in_layer(plume: &scenario::Plume, step: f64) -> bool {
+    plume.layer.is_none_or(|layer| LARGEST_DRAW * (2.0 * plume.vertical * step).sqrt() <= layer)
 }
 
 /// A height mirrored at the bottom and at the ceiling of the layer.

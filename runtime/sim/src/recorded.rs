@@ -12,7 +12,7 @@ mod playback;
 mod settings;
 
 pub use header::RecordingHeader;
-pub use playback::Playback;
+pub use playback::{Playback, Still};
 pub(crate) use settings::check;
 pub use settings::{RecordedKernel, RecordedPlume};
 

@@ -1,7 +1,8 @@
 //! Water and plume as they are computed while a run goes on.
 
-use crate::plume::{Nearby, Plume, spin_up_begin};
+use crate::plume::{Index, Nearby, Plume, spin_up_begin};
 use crate::scenario::Scenario;
+use crate::survey::Survey;
 use crate::water::Water;
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::TICK_S;
@@ -47,7 +48,12 @@ impl Sea {
         self.nearby.reading(plume, [x, y, height], time)
     }
 
-    /// The same from no particular place: searches the whole plume for each look-up.
+    /// The chemical at a time within the last tick, for looks at many places.
+    pub fn survey(&self, time: f64) -> Survey {
+        Survey::simulated(self.water.frame(), self.plume.as_ref().map(|plume| Index::new(plume, time)))
+    }
+
+    /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
     pub fn look_up(&self, p: Point, height: f64, time: f64) -> f64 {
         let (x, y) = self.water.frame().to_local(p);
         self.plume.as_ref().map_or(0.0, |plume| Nearby::default().reading(plume, [x, y, height], time))

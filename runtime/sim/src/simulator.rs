@@ -4,6 +4,7 @@ use crate::computer::{Computer, Known, seconds};
 use crate::kinematics::Kinematics;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
+use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{
@@ -127,9 +128,15 @@ impl Simulator {
     }
 
     /// What a perfect chemical sensor without saturation would read now at a point and a height above the bottom (m): a ratio
-    /// of full scale. For pictures and statistics; the vehicle's own is in [`Simulator::truth`].
+    /// of full scale; the vehicle's own is in [`Simulator::truth`]. It searches the whole plume: for more than a few places take
+    /// [`Simulator::survey`].
     pub fn concentration(&self, p: Point, height: f64) -> f64 {
         self.world.look_up(p, height, self.time_s())
+    }
+
+    /// The chemical now, for looks at many places.
+    pub fn survey(&self) -> Survey {
+        self.world.survey(self.time_s())
     }
 
     /// Moves the world from the last tick to this one.

@@ -3,6 +3,7 @@
 use crate::recorded::Playback;
 use crate::scenario::{Bottom, Scenario, UpperFlow};
 use crate::sea::Sea;
+use crate::survey::Survey;
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::TICK_S;
 
@@ -71,7 +72,15 @@ impl World {
         }
     }
 
-    /// The same from no particular place: searches the whole plume for each look-up.
+    /// The chemical at a time within the last tick, for looks at many places.
+    pub fn survey(&self, time: f64) -> Survey {
+        match &self.carrier {
+            Carrier::Simulated(sea) => sea.survey(time),
+            Carrier::Recorded(playback) => Survey::recorded(playback.still(time)),
+        }
+    }
+
+    /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
     pub fn look_up(&self, p: Point, height: f64, time: f64) -> f64 {
         match &self.carrier {
             Carrier::Simulated(sea) => sea.look_up(p, height, time),

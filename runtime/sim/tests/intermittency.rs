@@ -14,7 +14,8 @@ fn probe(scenario: &Scenario, seeds: u64) -> Result<Vec<Band>, ScenarioError> {
     for seed in 0..seeds {
         let simulator = Simulator::new(scenario, seed)?;
         let places = simulator.filaments().map(|(place, _)| place);
-        let reads = |p| simulator.concentration(p, 2.0) > THRESHOLD;
+        let survey = simulator.survey();
+        let reads = |p| survey.concentration(p, 2.0) > THRESHOLD;
         probe.fly(scenario.sources[0].at, scenario.flow.mean.toward(), places, reads);
     }
     Ok(probe.bands)

@@ -16,7 +16,7 @@ pub struct Axis {
     /// Between ticks; none: the axis is logarithmic, with a tick at every decade.
     pub step: Option<f64>,
     /// Of the ticks' numbers.
-    pub decimals: usize,
+    pub decimals: u8,
 }
 
 /// A chart on a page.
@@ -32,7 +32,7 @@ pub struct Chart<'a> {
 
 impl Axis {
     /// A linear axis.
-    pub fn linear(label: &'static str, low: f64, high: f64, step: f64, decimals: usize) -> Self {
+    pub fn linear(label: &'static str, low: f64, high: f64, step: f64, decimals: u8) -> Self {
         Axis { label, low, high, step: Some(step), decimals }
     }
 

@@ -3,9 +3,10 @@
 use albacore_geometry::math::PI;
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_sim::probe::{Band, Probe};
-use albacore_sim::{Flow, Plume, RecordedKernel, Recording, Scenario, ScenarioError, Simulator, Source};
+use albacore_sim::{Flow, Plume, RecordedKernel, RecordedPlume, Recording, Scenario, ScenarioError, Simulator, Source, Still};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, VehicleError};
 use std::error::Error;
+use std::sync::Arc;
 
 /// Edges of the bands, m from the source.
 pub const BANDS: [f64; 5] = [20.0, 100.0, 300.0, 600.0, 950.0];
@@ -30,7 +31,8 @@ pub fn run(simulator: &mut Simulator, seconds: f64) -> Result<(), VehicleError> 
 /// A probe up the centreline of a plume as it is now.
 pub fn fly(probe: &mut Probe, scenario: &Scenario, simulator: &Simulator) {
     let places = simulator.filaments().map(|(place, _)| place);
-    let reads = |p| simulator.concentration(p, ALTITUDE) > THRESHOLD;
+    let survey = simulator.survey();
+    let reads = |p| survey.concentration(p, ALTITUDE) > THRESHOLD;
     probe.fly(scenario.sources[0].at, scenario.flow.mean.toward(), places, reads);
 }
 
@@ -44,13 +46,14 @@ pub fn bands(scenario: &Scenario, seeds: u64) -> Result<Vec<Band>, ScenarioError
 }
 
 /// What probes meet in a recorded plume: one way every 100 s.
-pub fn recorded_bands(recording: &Recording, kernel: RecordedKernel) -> Vec<Band> {
+pub fn recorded_bands(recording: &Arc<Recording>, kernel: RecordedKernel) -> Vec<Band> {
+    let plume = RecordedPlume { kernel, ..RecordedPlume::new(Arc::clone(recording)) };
     let mut probe = Probe::new(&BANDS);
     for frame in 0..=(recording.duration() / 100.0) as u32 {
         let time = 100.0 * f64::from(frame);
         let places = recording.alive(time).map(|(place, _)| place);
-        let reads = |p| recording.concentration(kernel, p, time) > 1.0;
-        probe.fly(recording.source(), Heading::SOUTH, places, reads);
+        let still = Still::new(&plume, time);
+        probe.fly(recording.source(), Heading::from_degrees(180.0), places, |p| still.reading(p) > THRESHOLD);
     }
     probe.bands
 }
@@ -117,6 +120,7 @@ pub fn amounts(layer: Option<f64>) -> Result<Vec<(f64, f64)>, ScenarioError> {
     let scenario = uniform(plume.clone(), 2e-3);
     let source = &scenario.sources[0];
     let simulator = Simulator::new(&scenario, 5)?;
+    let survey = simulator.survey();
     let reference = plume.initial_radius * plume.initial_radius + plume.growth * source.reference_age;
     // 2 pi r2 peak (ref / r2); in a layer (2 pi r2)^1.5 peak (ref / r2)^1.5, of which the images keep all within it.
     let flat = 2.0 * PI * source.peak * reference;
@@ -134,7 +138,7 @@ pub fn amounts(layer: Option<f64>) -> Result<Vec<(f64, f64)>, ScenarioError> {
         for (i, j) in (-24..=24).flat_map(|i| (-24..=24).map(move |j| (i, j))) {
             let p = place + step * Vector::new(f64::from(i), f64::from(j));
             for k in 0..heights {
-                sum += simulator.concentration(p, (f64::from(k) + 0.5) * thick);
+                sum += survey.concentration(p, (f64::from(k) + 0.5) * thick);
             }
         }
         let age = (radius * radius - plume.initial_radius * plume.initial_radius) / plume.growth;
@@ -196,7 +200,7 @@ pub fn meanders(scenario: &Scenario, seeds: u64) -> Result<Meanders, Box<dyn Err
             turned += inside
                 .iter()
                 .map(|p| {
-                    let off = albacore_geometry::wrap_angle(simulator.flow(*p, ALTITUDE).toward() - ahead);
+                    let off = simulator.flow(*p, ALTITUDE).toward() - ahead;
                     off * off / inside.len() as f64
                 })
                 .sum::<f64>();
@@ -214,7 +218,7 @@ pub fn directions(scenario: &Scenario, seed: u64, seconds: f64) -> Result<Vec<(f
     while simulator.time_s() < seconds {
         run(&mut simulator, 60.0)?;
         let off = simulator.flow(Point::ORIGIN, ALTITUDE).toward() - scenario.flow.mean.toward();
-        found.push((simulator.time_s() / 3600.0, albacore_geometry::wrap_angle(off) * 180.0 / PI));
+        found.push((simulator.time_s() / 3600.0, off * 180.0 / PI));
     }
     Ok(found)
 }
@@ -225,7 +229,7 @@ pub fn recorded_directions(recording: &Recording) -> Vec<(f64, f64)> {
     let minutes = (recording.duration() / 60.0) as u32;
     let at = |minute: u32| {
         let off = recording.flow(Point::ORIGIN, 60.0 * f64::from(minute)).toward() - mean;
-        (f64::from(minute) / 60.0, albacore_geometry::wrap_angle(off) * 180.0 / PI)
+        (f64::from(minute) / 60.0, off * 180.0 / PI)
     };
     (0..=minutes).map(at).collect()
 }

@@ -32,33 +32,45 @@ impl Kernel {
         self.initial + self.growth * age
     }
 
-    /// The reading of a filament at a place (m), `before` seconds before the end of its step and at an age.
+    /// The reading in the middle of a filament of a squared radius, m2, that no wall is near.
     ///
-    /// Flat: peak (r2_ref / r2) exp(-d2 / 2 r2). In a layer of height H: peak (r2_ref / r2)^1.5 times the horizontal Gaussian
-    /// times the sum of the vertical ones of the filament and its mirror images at -z and 2H - z, and theirs in turn.
+    /// Flat: peak r2_ref / r2. In a layer: peak (r2_ref / r2)^1.5.
+    pub fn strength(&self, r2: f64) -> f64 {
+        let thinning = self.reference / r2;
+        if self.layer.is_some() { self.peak * thinning * thinning.sqrt() } else { self.peak * thinning }
+    }
+
+    /// The reading of a filament at a place (m), `before` seconds before the end of its step and at an age.
     pub fn reading(&self, filament: &Filament, before: f64, age: f64, place: [f64; 3]) -> f64 {
         let r2 = self.squared_radius(age);
-        let [x, y, z] = filament.at(before);
-        let (dx, dy) = (x - place[0], y - place[1]);
-        let d2 = dx * dx + dy * dy;
-        let far = CUT_RADII * CUT_RADII * r2;
-        if d2 > far {
-            return 0.0;
-        }
-        let thinning = self.reference / r2;
-        let Some(ceiling) = self.layer else {
-            return self.peak * thinning * exp(-d2 / (2.0 * r2));
-        };
-        let mut sum = 0.0;
-        for image in [z, -z, 2.0 * ceiling - z, 2.0 * ceiling + z, z - 2.0 * ceiling] {
-            let dz = image - place[2];
-            let squared = d2 + dz * dz;
-            if squared <= far {
-                sum += exp(-squared / (2.0 * r2));
-            }
-        }
-        self.peak * thinning * thinning.sqrt() * sum
+        let share = share(filament.at(before), r2, self.layer, place);
+        if share > 0.0 { self.strength(r2) * share } else { 0.0 }
     }
+}
+
+/// What share of its strength a filament at `center`, of squared radius `r2`, reads at a place.
+///
+/// Flat: exp(-d2 / 2 r2). In a layer of height H: the sum of that over the filament and its mirror images at -z and 2H - z, and
+/// theirs in turn.
+#[inline]
+pub fn share(center: [f64; 3], r2: f64, layer: Option<f64>, place: [f64; 3]) -> f64 {
+    let [x, y, z] = center;
+    let (dx, dy) = (x - place[0], y - place[1]);
+    let d2 = dx * dx + dy * dy;
+    let far = CUT_RADII * CUT_RADII * r2;
+    if d2 > far {
+        return 0.0;
+    }
+    let Some(ceiling) = layer else { return exp(-d2 / (2.0 * r2)) };
+    let mut sum = 0.0;
+    for image in [z, -z, 2.0 * ceiling - z, 2.0 * ceiling + z, z - 2.0 * ceiling] {
+        let dz = image - place[2];
+        let squared = d2 + dz * dz;
+        if squared <= far {
+            sum += exp(-squared / (2.0 * r2));
+        }
+    }
+    sum
 }
 
 #[cfg(test)]

@@ -101,6 +101,28 @@ fn one_search_for_a_neighbourhood_reads_the_same_bits_as_one_for_each_place() {
     assert!(read > 500, "{read} places with chemical");
 }
 
+/// The index leaves out what reads exactly zero, and sums the rest in another order.
+#[test]
+fn an_index_reads_what_a_search_of_the_whole_plume_does() {
+    for scenario in [presets::duck_2003(), presets::duck_2003_flat()] {
+        let (mut plume, mut water) = begun(&scenario, spin_up_begin(&scenario), 4);
+        plume.spin_up(&mut water);
+        plume.advance_to(10, &mut water);
+        let index = Index::new(&plume, 0.7);
+        assert_eq!(index.len(), plume.alive(0.7).count());
+        let (mut read, mut nothing) = (0, 0);
+        for place in plume.alive(0.7).map(|(place, _)| place).step_by(31).collect::<Vec<_>>() {
+            for aside in [0.0, 3.0, 60.0, 1000.0] {
+                let place = [place[0] - 0.3 * aside, place[1] + aside, 1.5];
+                let (searched, indexed) = (Nearby::default().reading(&plume, place, 0.7), index.reading(place));
+                assert!((searched - indexed).abs() <= 1e-12 * searched, "{searched} {indexed}");
+                *(if searched > 0.0 { &mut read } else { &mut nothing }) += 1;
+            }
+        }
+        assert!(read > 300 && nothing > 300, "{read} places with chemical, {nothing} without");
+    }
+}
+
 /// Between steps a filament moves on a line: it ends a step where it begins the next.
 #[test]
 fn nothing_jumps_between_steps() {

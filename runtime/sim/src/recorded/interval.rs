@@ -40,14 +40,23 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// The concentration at a point and time (s) of the record, in thresholds of detection.
-    pub fn concentration(&mut self, recording: &Recording, kernel: RecordedKernel, p: Point, time: f64) -> f64 {
+    /// Makes it the interval that holds a time of the record, s.
+    pub fn turn_to(&mut self, recording: &Recording, time: f64) {
         let frame = (time / recording.header.record.frame_interval_s).floor().max(0.0) as usize;
         if self.frame != Some(frame) {
             self.fill(recording, frame);
         }
+    }
+
+    /// The concentration at a point and a time (s) of the interval, in thresholds of detection.
+    pub fn concentration(&self, recording: &Recording, kernel: RecordedKernel, p: Point, time: f64) -> f64 {
         let law = recording.kernel();
         self.near(p).iter().map(|passage| passage.reading(law, kernel, p, time)).sum()
+    }
+
+    /// How many filaments are alive at a time (s) of the interval.
+    pub fn alive(&self, time: f64) -> usize {
+        self.passages.iter().filter(|passage| passage.lives(time)).count()
     }
 
     /// The passages of the strips that a query can reach.
@@ -130,8 +139,12 @@ impl Passage {
         self.place.north + 0.5 * self.velocity[0] * (self.until - self.since)
     }
 
+    fn lives(&self, time: f64) -> bool {
+        self.since <= time && time <= self.until
+    }
+
     fn reading(&self, law: &Kernel, kernel: RecordedKernel, p: Point, time: f64) -> f64 {
-        if time < self.since || time > self.until {
+        if !self.lives(time) {
             return 0.0;
         }
         let gone = time - self.since;

@@ -15,6 +15,14 @@ pub struct Playback {
     interval: Interval,
 }
 
+/// A record at one moment.
+#[derive(Clone, Debug)]
+pub struct Still {
+    plume: RecordedPlume,
+    time: f64,
+    interval: Interval,
+}
+
 impl Playback {
     /// A record begun where this seed begins it: evenly within the spread.
     pub fn new(plume: &RecordedPlume, seed: u64) -> Self {
@@ -45,8 +53,14 @@ impl Playback {
 
     /// The reading at a point and a time of the run (s), ratio of full scale. It is not limited to full scale.
     pub fn reading(&mut self, p: Point, time: f64) -> f64 {
-        let RecordedPlume { recording, kernel, threshold, .. } = &self.plume;
-        threshold * self.interval.concentration(recording, *kernel, p, self.begin + time)
+        let (RecordedPlume { recording, kernel, threshold, .. }, time) = (&self.plume, self.begin + time);
+        self.interval.turn_to(recording, time);
+        threshold * self.interval.concentration(recording, *kernel, p, time)
+    }
+
+    /// The record at a time of the run (s), for looks at many places.
+    pub fn still(&self, time: f64) -> Still {
+        Still::new(&self.plume, self.begin + time)
     }
 
     /// The same without an index: it adds up all filaments for each look-up.
@@ -58,5 +72,25 @@ impl Playback {
     /// The filaments alive at a time of the run (s): where they are and their radii, m.
     pub fn filaments(&self, time: f64) -> impl Iterator<Item = (Point, f64)> + '_ {
         self.plume.recording.alive(self.begin + time).map(|(place, r2)| (place, r2.sqrt()))
+    }
+}
+
+impl Still {
+    /// A record at one of its times, s.
+    pub fn new(plume: &RecordedPlume, time: f64) -> Self {
+        let mut interval = Interval::default();
+        interval.turn_to(&plume.recording, time);
+        Still { plume: plume.clone(), time, interval }
+    }
+
+    /// The reading at a point, ratio of full scale.
+    pub fn reading(&self, p: Point) -> f64 {
+        let RecordedPlume { recording, kernel, threshold, .. } = &self.plume;
+        threshold * self.interval.concentration(recording, *kernel, p, self.time)
+    }
+
+    /// How many filaments are alive.
+    pub fn filaments(&self) -> usize {
+        self.interval.alive(self.time)
     }
 }

@@ -1,6 +1,6 @@
 //! The plume and its sources: what a scenario says of them, and what of that cannot be.
 
-use crate::plume::{SPIN_UP_STEP_S, spin_up_begin};
+use crate::plume::{LONGEST_STEP_S, spin_up_begin, stays_in_layer};
 use crate::scenario::{Objections, Scenario};
 use albacore_geometry::Point;
 use albacore_vehicle::TICK_S;
@@ -74,9 +74,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     match plume.layer {
         Some(layer) => {
             objections.positive("plume.layer", layer);
-            let farthest = LARGEST_DRAW * (2.0 * plume.vertical * SPIN_UP_STEP_S).sqrt();
             objections.unless(
-                farthest <= layer || layer <= 0.0,
+                stays_in_layer(plume, LONGEST_STEP_S) || layer <= 0.0,
                 format!("`plume.vertical` mixes a `plume.layer` of {layer} m within seconds: leave both out for a flat plume"),
             );
         }
@@ -85,9 +84,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
     let ticks = plume.step / TICK_S;
     objections.unless(
-        plume.step >= TICK_S && plume.step <= SPIN_UP_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
+        plume.step >= TICK_S && plume.step <= LONGEST_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
         format!(
-            "`plume.step` is {} s: it must be a whole number of ticks of {TICK_S} s, {SPIN_UP_STEP_S} s at most",
+            "`plume.step` is {} s: it must be a whole number of ticks of {TICK_S} s, {LONGEST_STEP_S} s at most",
             plume.step
         ),
     );
@@ -136,5 +135,3 @@ pub(crate) fn check_sources(scenario: &Scenario, objections: &mut Objections) {
 const SPIN_UP_MAX_S: f64 = 200_000.0;
 /// The most filaments alive, by estimate.
 const FILAMENTS_MAX: f64 = 200_000.0;
-/// The bound of the diffusion's draws, in standard deviations ([`crate::Noise::nearly_gaussian_pair`]).
-const LARGEST_DRAW: f64 = 3.46;

@@ -84,7 +84,8 @@ fn fast(change: impl Fn(&mut Plume)) -> Vec<Met> {
                 simulator.sense(&mut snapshot).unwrap();
             }
             let places = simulator.filaments().map(|(place, _)| place);
-            look(&mut met, source, places, |p| simulator.concentration(p, 2.0));
+            let survey = simulator.survey();
+            look(&mut met, source, places, |p| survey.concentration(p, 2.0));
         }
     }
     met
