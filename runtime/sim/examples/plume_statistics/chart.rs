@@ -48,8 +48,9 @@ impl Axis {
         let mut ticks = Vec::new();
         match self.step {
             Some(step) => {
-                let count = ((self.high - self.low) / step + 1e-9) as u32;
-                ticks.extend((0..=count).map(|i| self.low + f64::from(i) * step));
+                // Multiples of the step.
+                let (first, last) = ((self.low / step - 1e-9).ceil() as i32, (self.high / step + 1e-9).floor() as i32);
+                ticks.extend((first..=last).map(|i| f64::from(i) * step));
             }
             None => {
                 let mut tick = self.low;
@@ -114,6 +115,12 @@ impl Chart<'_> {
     pub fn dot(&mut self, x: f64, y: f64, colour: &str) {
         let place = self.place(x, y);
         self.svg.circle(place, 4.0, &format!("fill=\"{colour}\" stroke=\"#fff\""));
+    }
+
+    /// A ring, within which a dot is seen.
+    pub fn ring(&mut self, x: f64, y: f64, colour: &str) {
+        let place = self.place(x, y);
+        self.svg.circle(place, 6.5, &format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\""));
     }
 
     /// What is allowed, from `low` to `high` over an interval of x.

@@ -3,7 +3,9 @@
 use albacore_geometry::math::PI;
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_sim::probe::{Band, Probe};
-use albacore_sim::{Flow, Plume, RecordedKernel, RecordedPlume, Recording, Scenario, ScenarioError, Simulator, Source, Still};
+use albacore_sim::{
+    Flow, Plume, RecordedKernel, RecordedPlume, Recording, Scenario, ScenarioError, Simulator, Source, Still,
+};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, VehicleError};
 use std::error::Error;
 use std::sync::Arc;
@@ -171,7 +173,7 @@ pub struct Meanders {
     pub direction: f64,
 }
 
-/// The deviations of a scenario's flow: over seeds, and every 400 s of each.
+/// The deviations of a scenario's flow: over seeds, and every 800 s of each.
 pub fn meanders(scenario: &Scenario, seeds: u64) -> Result<Meanders, Box<dyn Error>> {
     let ahead = scenario.flow.mean.toward();
     let across = ahead + PI / 2.0;
@@ -186,8 +188,8 @@ pub fn meanders(scenario: &Scenario, seeds: u64) -> Result<Meanders, Box<dyn Err
     let (mut sums, mut turned, mut n) = ([(0.0, 0.0); 3], 0.0, 0.0);
     for seed in 0..seeds {
         let mut simulator = Simulator::new(&quiet, seed)?;
-        for _ in 0..20 {
-            run(&mut simulator, 400.0)?;
+        for _ in 0..10 {
+            run(&mut simulator, 800.0)?;
             n += 1.0;
             for (places, sum) in [&corners[..], &edges, &inside].into_iter().zip(&mut sums) {
                 for p in places {

@@ -114,14 +114,14 @@ impl Brute {
                     continue;
                 }
                 let [u, v] = old[i][j];
-                for c in 0..2 {
+                self.nodes[i][j] = std::array::from_fn(|c| {
                     let (west, east) = (old[i - 1][j][c], old[i + 1][j][c]);
                     let (near, far) = (old[i][j - 1][c], old[i][j + 1][c]);
                     let here = old[i][j][c];
                     let carried = u * (east - west) / (2.0 * dx) + v * (far - near) / (2.0 * dy);
                     let spread = (east - 2.0 * here + west) / (dx * dx) + (far - 2.0 * here + near) / (dy * dy);
-                    self.nodes[i][j][c] = here + STEP_S * (0.5 * law.viscosity * spread - carried);
-                }
+                    here + STEP_S * (0.5 * law.viscosity * spread - carried)
+                });
             }
         }
     }
