@@ -43,11 +43,17 @@ pub(crate) fn scenario(program: &ScenarioProgram, sources: &Sources) -> Result<S
 fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
     match c.clause.name.as_str() {
         "flow" => flow::flow(scenario, c),
+        "turning" => flow::turning(scenario, c),
+        "tide" => flow::tide(scenario, c),
+        "waves" => flow::waves(scenario, c),
+        "upper_layer" => flow::upper_layer(scenario, c),
         "region" => flow::region(scenario, c),
         "bottom" => bottom::bottom(scenario, c),
         "pit" => bottom::pit(scenario, c),
         "plume" => plume::plume(scenario, c),
         "source" => plume::source(scenario, c),
+        "leak" => plume::leak(scenario, c),
+        "patch" => plume::patch(scenario, c),
         "recorded_plume" => recorded::recorded_plume(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
         "rows" => vehicle::rows(scenario, c),

@@ -15,8 +15,8 @@ pub mod presets;
 pub mod probe;
 mod recorded;
 mod scenario;
-mod sea;
 mod sensors;
+mod simulated;
 mod simulator;
 mod start;
 mod survey;
@@ -26,8 +26,8 @@ mod world;
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
-    Scenario, ScenarioError, Sounder, Source, UpperFlow,
+    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Patch, Pit,
+    Plume, Scenario, ScenarioError, Sounder, Source, Tide, Times, UpperFlow, Waves,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

@@ -209,9 +209,10 @@ impl Simulator {
         snapshot.push(COURSE, &[truth.course.radians()]);
         snapshot.push(HEADING, &[truth.heading.radians()]);
         snapshot.push(SPEED, &[truth.speed_over_ground]);
-        snapshot.push(DEPTH, &[truth.depth]);
+        let depth = (truth.depth + self.world.wave_head(truth.position, truth.altitude, self.time_s())).max(0.0);
+        snapshot.push(DEPTH, &[depth]);
         snapshot.push(ALTITUDE, &[echo]);
-        snapshot.push(WATER_DEPTH, &[truth.depth + echo]);
+        snapshot.push(WATER_DEPTH, &[depth + echo]);
         let view = View {
             ground_velocity: self.vehicle.ground_velocity,
             flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),

@@ -2,8 +2,9 @@
 
 use crate::recorded::Playback;
 use crate::scenario::{Bottom, Scenario, UpperFlow};
-use crate::sea::Sea;
+use crate::simulated::Simulated;
 use crate::survey::Survey;
+use crate::water::Sea;
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::TICK_S;
 
@@ -12,6 +13,7 @@ use albacore_vehicle::TICK_S;
 pub struct World {
     carrier: Carrier,
     upper: Option<UpperFlow>,
+    sea: Option<Sea>,
     bottom: Bottom,
 }
 
@@ -19,7 +21,7 @@ pub struct World {
 #[derive(Clone, Debug)]
 enum Carrier {
     /// Computed as the run goes on.
-    Simulated(Box<Sea>),
+    Simulated(Box<Simulated>),
     /// Computed elsewhere. It knows no heights.
     Recorded(Box<Playback>),
 }
@@ -29,9 +31,12 @@ impl World {
     pub fn new(scenario: &Scenario, seed: u64) -> Self {
         let carrier = match &scenario.recording {
             Some(recording) => Carrier::Recorded(Box::new(Playback::new(recording, seed))),
-            None => Carrier::Simulated(Box::new(Sea::new(scenario, seed))),
+            None => Carrier::Simulated(Box::new(Simulated::new(scenario, seed))),
         };
-        World { carrier, upper: scenario.flow.upper.clone(), bottom: scenario.bottom.clone() }
+        let (upper, bottom) = (scenario.flow.upper.clone(), scenario.bottom.clone());
+        let depth = bottom.depth_at(scenario.vehicle.start);
+        let sea = scenario.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
+        World { carrier, upper, sea, bottom }
     }
 
     /// Why the world cannot go on to a tick, if it cannot.
@@ -44,18 +49,25 @@ impl World {
 
     /// Makes the world known up to a tick.
     pub fn advance_to(&mut self, tick: u64) {
-        if let Carrier::Simulated(sea) = &mut self.carrier {
-            sea.advance_to(tick);
+        if let Carrier::Simulated(own) = &mut self.carrier {
+            own.advance_to(tick);
         }
     }
 
-    /// The water's velocity, m/s toward, at a point, a height above the bottom (m) and a time within the last tick.
+    /// The water's velocity, m/s toward, at a point, a height above the bottom (m) and a time within the last tick: the flow,
+    /// and the orbital motion of the waves.
     pub fn flow(&self, p: Point, height: f64, time: f64) -> Vector {
-        match (&self.upper, &self.carrier) {
-            (Some(upper), _) if height > upper.above => upper.mean,
-            (_, Carrier::Simulated(sea)) => sea.flow(p, time),
+        let flow = match (&self.upper, &self.carrier) {
+            (Some(upper), _) if height > upper.begins(time) => upper.mean,
+            (_, Carrier::Simulated(own)) => own.flow(p, time),
             (_, Carrier::Recorded(playback)) => playback.flow(p, time),
-        }
+        };
+        self.sea.as_ref().map_or(flow, |sea| flow + sea.velocity(p, height, time))
+    }
+
+    /// What waves make a pressure sensor read too deep, m, at a point, a height above the bottom (m) and a time.
+    pub fn wave_head(&self, p: Point, height: f64, time: f64) -> f64 {
+        self.sea.as_ref().map_or(0.0, |sea| sea.head(p, height, time))
     }
 
     /// The water's depth, m.
@@ -67,7 +79,7 @@ impl World {
     /// time within the last tick.
     pub fn concentration(&mut self, p: Point, height: f64, time: f64) -> f64 {
         match &mut self.carrier {
-            Carrier::Simulated(sea) => sea.concentration(p, height, time),
+            Carrier::Simulated(own) => own.concentration(p, height, time),
             Carrier::Recorded(playback) => playback.reading(p, time),
         }
     }
@@ -75,7 +87,7 @@ impl World {
     /// The chemical at a time within the last tick, for looks at many places.
     pub fn survey(&self, time: f64) -> Survey {
         match &self.carrier {
-            Carrier::Simulated(sea) => sea.survey(time),
+            Carrier::Simulated(own) => own.survey(time),
             Carrier::Recorded(playback) => Survey::recorded(playback.still(time)),
         }
     }
@@ -83,7 +95,7 @@ impl World {
     /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
     pub fn look_up(&self, p: Point, height: f64, time: f64) -> f64 {
         match &self.carrier {
-            Carrier::Simulated(sea) => sea.look_up(p, height, time),
+            Carrier::Simulated(own) => own.look_up(p, height, time),
             Carrier::Recorded(playback) => playback.look_up(p, time),
         }
     }
@@ -91,7 +103,7 @@ impl World {
     /// The filaments alive at a time within the last tick: where they are and their radii, m.
     pub fn filaments(&self, time: f64) -> Box<dyn Iterator<Item = (Point, f64)> + '_> {
         match &self.carrier {
-            Carrier::Simulated(sea) => Box::new(sea.filaments(time)),
+            Carrier::Simulated(own) => Box::new(own.filaments(time)),
             Carrier::Recorded(playback) => Box::new(playback.filaments(time)),
         }
     }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 const HEADER_BYTES_MAX: u64 = 4 * 1024 * 1024;
 
 /// The clauses that a record takes the place of.
-pub const BROUGHT: [&str; 4] = ["flow", "region", "plume", "source"];
+pub const BROUGHT: [&str; 8] = ["flow", "turning", "tide", "region", "plume", "source", "leak", "patch"];
 
 /// `recorded_plume(…)`: the record, and all that it brings.
 pub fn recorded_plume(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {

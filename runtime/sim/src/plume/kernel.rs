@@ -1,7 +1,7 @@
 //! What one filament adds to the reading at a point.
 
 use crate::plume::Filament;
-use crate::scenario::{self, Source};
+use crate::scenario;
 use albacore_geometry::math::exp;
 
 /// A filament ends at this many radii: what is cut off is below 4e-6 of its peak.
@@ -20,11 +20,11 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The kernel of a source in a plume.
-    pub fn new(source: &Source, plume: &scenario::Plume) -> Self {
+    /// The kernel of filaments that read `peak` in their middle at an age (s), in a plume.
+    pub fn new(peak: f64, reference_age: f64, plume: &scenario::Plume) -> Self {
         let initial = plume.initial_radius * plume.initial_radius;
-        let reference = initial + plume.growth * source.reference_age;
-        Kernel { peak: source.peak, initial, growth: plume.growth, reference, layer: plume.layer }
+        let reference = initial + plume.growth * reference_age;
+        Kernel { peak, initial, growth: plume.growth, reference, layer: plume.layer }
     }
 
     /// Squared radius at an age, m2: r2 = R0^2 + gamma age.
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn a_far_end_filament_peaks_at_twice_the_threshold() {
-        let kernel = Kernel::new(&Source::default(), &scenario::Plume::default());
+        let kernel = Kernel::new(0.08, 8752.0, &scenario::Plume::default());
         let at = |place, age| kernel.reading(&filament(0.2), 0.0, age, place);
         assert!((at([10.0, 20.0, 0.0], 8752.0) - 0.08).abs() < 1e-12);
         let radius = (0.04_f64 + 1e-4 * 8752.0).sqrt();
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn images_conserve_the_amount() {
         let plume = scenario::Plume { layer: Some(3.5), ..scenario::Plume::default() };
-        let kernel = Kernel::new(&Source::default(), &plume);
+        let kernel = Kernel::new(0.08, 8752.0, &plume);
         for age in [0.0, 2000.0, 9000.0] {
             let amount = |z: f64| {
                 let steps = 700;

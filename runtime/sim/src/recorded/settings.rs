@@ -71,9 +71,11 @@ impl PartialEq for RecordedPlume {
 /// What of a recorded plume cannot be in a scenario.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let Some(recorded) = &scenario.recording else { return };
+    let flow = &scenario.flow;
+    let own_flow = flow.meander.is_some() || flow.turning != 0.0 || !flow.tides.is_empty();
     objections.unless(
-        scenario.plume.is_none() && scenario.flow.meander.is_none(),
-        "`recorded_plume` brings its own plume and its own flow: leave out `plume` and the meander of `flow`",
+        scenario.plume.is_none() && !own_flow,
+        "`recorded_plume` brings its own plume and its own flow: leave out `plume`, and all of `flow` but an upper layer and waves",
     );
     objections.positive("recorded_plume.threshold", recorded.threshold);
     objections.not_negative("recorded_plume.start", recorded.start);

@@ -9,22 +9,22 @@ use albacore_vehicle::TICK_S;
 
 /// The moving water, and the plume that it carries.
 #[derive(Clone, Debug)]
-pub struct Sea {
+pub struct Simulated {
     water: Water,
     plume: Option<Plume>,
     nearby: Nearby,
 }
 
-impl Sea {
-    /// The sea of a valid scenario at tick 0, with its flow wandering and its plume spread.
+impl Simulated {
+    /// Those of a valid scenario at tick 0, with its flow wandering and its plume spread.
     pub fn new(scenario: &Scenario, seed: u64) -> Self {
         let begin = spin_up_begin(scenario);
         let mut water = Water::new(&scenario.flow, scenario.region.as_ref(), begin, seed);
         let mut plume = Plume::new(scenario, water.frame(), begin, seed);
         if let Some(plume) = &mut plume {
-            plume.spin_up(&mut water);
+            plume.spin_up(&mut water, &scenario.patches, seed);
         }
-        Sea { water, plume, nearby: Nearby::default() }
+        Simulated { water, plume, nearby: Nearby::default() }
     }
 
     /// Makes both known up to a tick.
