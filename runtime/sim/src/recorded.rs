@@ -57,6 +57,11 @@ impl Recording {
         self.header.name()
     }
 
+    /// The SHA-256 of its binary, in hexadecimal digits.
+    pub fn sha256(&self) -> &str {
+        self.header.sha256()
+    }
+
     /// How long it lasts, s: it is known from 0 to here.
     pub fn duration(&self) -> f64 {
         (self.header.record.n_frames - 1) as f64 * self.header.record.frame_interval_s

@@ -62,7 +62,7 @@ impl RecordedPlume {
 /// Two are the same if their data are.
 impl PartialEq for RecordedPlume {
     fn eq(&self, other: &Self) -> bool {
-        self.recording.header.sha256() == other.recording.header.sha256()
+        self.recording.sha256() == other.recording.sha256()
             && (self.kernel, self.start, self.start_spread, self.threshold)
                 == (other.kernel, other.start, other.start_spread, other.threshold)
     }
