@@ -20,6 +20,8 @@ pub struct Kinematics {
     pub depth: f64,
     /// Velocity over ground in the last tick, m/s.
     pub ground_velocity: Vector,
+    /// Where a rudder is stuck: a share of its greatest deflection, positive to starboard.
+    pub stuck_rudder: Option<f64>,
     jitter: Jitter,
 }
 
@@ -33,6 +35,7 @@ impl Kinematics {
             speed: 0.0,
             depth: settings.depth,
             ground_velocity: flow,
+            stuck_rudder: None,
             jitter: Jitter::new(settings, seed),
         }
     }
@@ -44,12 +47,12 @@ impl Kinematics {
         let wanted_speed = command.map_or(0.0, |c| c.speed.clamp(0.0, self.settings.speed_max));
 
         // Midpoint rule: half the turn, the whole displacement, the other half.
-        let middle = turned(self.heading, wanted_heading, &self.settings, TICK_S / 2.0);
+        let middle = self.turned(self.heading, wanted_heading, TICK_S / 2.0);
         let old_speed = self.speed;
         self.speed = approached(self.speed, wanted_speed, self.settings.acceleration * TICK_S);
         self.ground_velocity = 0.5 * (old_speed + self.speed) * middle.unit() + flow;
         self.position += TICK_S * self.ground_velocity;
-        self.heading = turned(middle, wanted_heading, &self.settings, TICK_S / 2.0);
+        self.heading = self.turned(middle, wanted_heading, TICK_S / 2.0);
 
         let water = water_depth(self.position);
         let wobble = self.jitter.step(tick);
@@ -59,6 +62,15 @@ impl Kinematics {
             None => self.depth,
         };
         self.depth = approached(self.depth, wanted_depth, self.settings.depth_rate * TICK_S).clamp(0.0, water);
+    }
+
+    /// The heading after `time` seconds. A stuck rudder turns at its share of the greatest rate at full speed, and at slower
+    /// speeds in proportion: without way it turns nothing.
+    fn turned(&self, from: Heading, to: Heading, time: f64) -> Heading {
+        match self.stuck_rudder {
+            None => turned(from, to, &self.settings, time),
+            Some(share) => from + share * self.settings.turn_rate * self.speed / self.settings.speed_max * time,
+        }
     }
 }
 
@@ -160,6 +172,15 @@ mod tests {
         let mut v = Kinematics::new(&KinematicVehicle::default(), flow, 1);
         run(&mut v, 6000, None, flow);
         assert!(v.position.distance(Point::new(-60.0, 30.0)) < 1e-9);
+    }
+
+    #[test]
+    fn a_stuck_rudder_turns_steadily_whatever_is_asked_for() {
+        let mut v = Kinematics::new(&KinematicVehicle::default(), Vector::ZERO, 1);
+        run(&mut v, 200, Some(&command(0.0, 1.3, Vertical::Depth(0.0))), Vector::ZERO);
+        v.stuck_rudder = Some(-0.5);
+        run(&mut v, 100, Some(&command(90.0, 1.3, Vertical::Depth(0.0))), Vector::ZERO);
+        assert!((v.heading.degrees() - 335.0).abs() < 1e-9, "a quarter of 10 deg/s for 10 s: {}", v.heading.degrees());
     }
 
     #[test]

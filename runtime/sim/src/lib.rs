@@ -7,6 +7,7 @@
 mod bottom;
 mod computer;
 mod deepest;
+mod fault;
 mod kinematics;
 mod noise;
 mod normal;
@@ -19,6 +20,7 @@ mod start;
 mod water;
 mod world;
 
+pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,

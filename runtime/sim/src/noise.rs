@@ -35,6 +35,10 @@ pub enum Stream {
     Sounder = 11,
     /// Where the vehicle starts.
     Start = 12,
+    /// What faulty sensors tell; one sub-stream a fault.
+    Fault = 60,
+    /// Where wrong positions and flows are off; one sub-stream a fault.
+    FaultDirection = 61,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.

@@ -15,6 +15,7 @@ pub use plume::{Plume, Source};
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
 pub use vehicle::{Handover, KinematicVehicle, OwnMission};
 
+use crate::fault::{self, Fault};
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
 
@@ -48,6 +49,8 @@ pub struct Scenario {
     pub adcp: Adcp,
     /// The echo sounder.
     pub sounder: Sounder,
+    /// What goes wrong. Default nothing.
+    pub faults: Vec<Fault>,
 }
 
 impl Scenario {
@@ -68,6 +71,7 @@ impl Scenario {
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);
+        fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }
     }
 }

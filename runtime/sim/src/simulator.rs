@@ -1,6 +1,7 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
 use crate::computer::{Computer, Known, seconds};
+use crate::fault::Faults;
 use crate::kinematics::Kinematics;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
@@ -61,6 +62,7 @@ pub struct Simulator {
     control: Control,
     command: Option<Command>,
     truth: Truth,
+    faults: Faults,
     /// The tick last sensed; none before the first.
     tick: Option<u64>,
 }
@@ -94,6 +96,7 @@ impl Simulator {
             control: Control::Disconnected,
             command: None,
             truth: Truth::default(),
+            faults: Faults::new(&scenario.faults, seed),
             tick: None,
         };
         simulator.observe();
@@ -130,16 +133,25 @@ impl Simulator {
     /// Moves the world from the last tick to this one.
     fn advance(&mut self, tick: u64) {
         self.world.advance_to(tick);
+        let ailing = *self.faults.ailing();
         let flow = self.world.flow(self.vehicle.position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
+        let flow = flow + ailing.current;
         let command = match self.control {
+            _ if ailing.leaks => Some(self.float_up()),
             Control::InControl => self.command,
             // A fix, or a fault: it stays where it is.
             Control::Suspended => None,
             _ => self.computer.steer(self.known()),
         };
         self.intake = self.intake_now();
+        self.vehicle.stuck_rudder = ailing.rudder;
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
         self.positioning.step(tick, self.vehicle.ground_velocity, self.vehicle.position);
+    }
+
+    /// What a vehicle does that gives up.
+    fn float_up(&self) -> Command {
+        Command { heading: self.truth.heading, speed: 0.0, vertical: Vertical::Depth(0.0) }
     }
 
     /// What the vehicle's computer knows.
@@ -161,7 +173,7 @@ impl Simulator {
             speed_over_ground: v.ground_velocity.length(),
             depth: v.depth,
             altitude,
-            flow: self.world.flow(v.position, altitude, time),
+            flow: self.world.flow(v.position, altitude, time) + self.faults.ailing().current,
             concentration: self.world.concentration(intake, height, time),
         };
     }
@@ -202,7 +214,8 @@ impl Simulator {
         snapshot.push(WATER_DEPTH, &[truth.depth + echo]);
         let view = View {
             ground_velocity: self.vehicle.ground_velocity,
-            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),
+            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s())
+                + self.faults.ailing().current,
             heading: truth.heading,
             depth: truth.depth,
             altitude: truth.altitude,
@@ -231,23 +244,32 @@ impl Vehicle for Simulator {
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         let tick = self.tick.map_or(0, |tick| tick + 1);
+        self.faults.advance_to(tick);
         if tick > 0 {
             self.advance(tick);
         }
         self.tick = Some(tick);
         self.observe();
+        if self.faults.ailing().leaks {
+            self.control = Control::Released;
+        }
         if self.control != Control::Released {
             self.control = self.computer.answer(seconds(tick), self.known().position);
         }
         snapshot.samples.clear();
         snapshot.control = self.control;
         self.measure(tick, snapshot);
+        self.faults.filter(tick, &mut snapshot.samples);
         Ok(())
     }
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
-        self.control = self.computer.ask(self.time_s(), self.known().position);
         self.command = None;
+        if self.faults.ailing().leaks {
+            self.control = Control::Refused;
+            return Ok(());
+        }
+        self.control = self.computer.ask(self.time_s(), self.known().position);
         Ok(())
     }
 
@@ -259,7 +281,9 @@ impl Vehicle for Simulator {
         if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
             return Err(VehicleError(String::from("the vehicle was given a command that is not a finite number")));
         }
-        self.command = Some(*command);
+        if !self.faults.ailing().deaf {
+            self.command = Some(*command);
+        }
         Ok(())
     }
 
@@ -275,5 +299,9 @@ impl Vehicle for Simulator {
         self.control = Control::Released;
         self.command = None;
         Ok(())
+    }
+
+    fn notices(&mut self) -> Vec<String> {
+        self.faults.take_notices()
     }
 }
