@@ -242,8 +242,8 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// The kind of clause that a name which nobody has stands for: the one that its parameter takes, else the first of those
-    /// that the clause takes.
+    /// The kind of clause that a name which nobody has stands for: of those that its parameter takes, or that the clause takes
+    /// where it has no label, the one that has a name like it, else the first.
     fn misspelt_clause(
         &self,
         head: &tree::Expr,
@@ -256,6 +256,11 @@ impl<'t> Checker<'t> {
             return None;
         }
         let fits = |p: &super::ParamInfo| arg.label.as_ref().is_none_or(|label| label.node == p.name);
-        params.iter().zip(nested).find_map(|(p, kind)| kind.clone().filter(|_| fits(p)))
+        let kinds: Vec<&String> =
+            params.iter().zip(nested).filter(|(p, _)| fits(p)).filter_map(|(_, k)| k.as_ref()).collect();
+        let fitting = self.clauses.iter().filter(|c| c.kind.as_ref().is_some_and(|kind| kinds.contains(&kind)));
+        let near = self.nearest(name, fitting.clone().map(|c| c.signature.name.as_str()));
+        let nearest = near.and_then(|near| fitting.clone().find(|c| c.signature.name == near)?.kind.clone());
+        nearest.or_else(|| kinds.first().map(|kind| (*kind).clone()))
     }
 }
