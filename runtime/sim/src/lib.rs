@@ -8,7 +8,8 @@ mod bottom;
 mod computer;
 mod deepest;
 mod fault;
-mod kinematics;
+pub mod hull;
+mod limits;
 mod noise;
 mod normal;
 mod plume;
@@ -17,13 +18,16 @@ mod scenario;
 mod sensors;
 mod simulator;
 mod start;
+mod survey;
 mod water;
 mod world;
 
 pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Pit, Plume,
-    Scenario, ScenarioError, Sounder, Source, UpperFlow,
+    Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander, Navigation, OwnMission,
+    Patch, Pit, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
+    Waves,
 };
 pub use simulator::{Simulator, Truth};
+pub use survey::Survey;

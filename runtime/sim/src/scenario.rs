@@ -5,15 +5,18 @@ mod flow;
 mod objections;
 mod plume;
 mod sensors;
+mod source;
 mod vehicle;
 
 pub use bottom::{Bottom, Pit};
-pub use flow::{Flow, Meander, UpperFlow};
+pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
-pub use plume::{Plume, Source};
+pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
-pub use vehicle::{Handover, KinematicVehicle, OwnMission};
+pub(crate) use source::SPIN_UP_MAX_S;
+pub use source::{Patch, Source, Times};
+pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
 use crate::fault::{self, Fault};
 use albacore_geometry::Area;
@@ -35,8 +38,12 @@ pub struct Scenario {
     pub plume: Option<Plume>,
     /// What releases chemical.
     pub sources: Vec<Source>,
+    /// What was left in the water before the run.
+    pub patches: Vec<Patch>,
     /// The vehicle.
-    pub vehicle: KinematicVehicle,
+    pub vehicle: VehicleSetup,
+    /// The vehicle's own limits; none: its hull's alone.
+    pub limits: Option<Limits>,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
     pub own_mission: Option<OwnMission>,
     /// How it answers who asks to drive; none: it gives way at once.
@@ -67,7 +74,7 @@ impl Scenario {
         if objections.0.is_empty() {
             flow::check_meander(self, &mut objections);
             plume::check(self, &mut objections);
-            plume::check_sources(self, &mut objections);
+            source::check(self, &mut objections);
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);
