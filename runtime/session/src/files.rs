@@ -85,10 +85,11 @@ pub fn load_text(source: Source) -> Script {
     albacore_lang::load(source, &files, None, &[])
 }
 
-/// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it.
-pub fn load_library() -> Script {
+/// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it. `set`
+/// changes their parameters.
+pub fn load_library(set: &[String]) -> Script {
     let nothing = Source { name: "the standard library".into(), text: "".into() };
-    albacore_lang::load(nothing, &Files::around(Path::new("")), None, &[])
+    albacore_lang::load(nothing, &Files::around(Path::new("")), None, set)
 }
 
 /// Reads a source file as text.
@@ -143,7 +144,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
 }
 
 /// An error of the system without its number.
-fn plain(error: &std::io::Error) -> String {
+pub(crate) fn plain(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_lowercase()
 }
@@ -173,6 +174,17 @@ impl Files {
             }
         }
         Files { root }
+    }
+
+    /// The project that a script was read from.
+    pub(crate) fn of(script: &Script) -> Self {
+        let name = script.sources.iter().next().map(|source| source.name.to_string());
+        Files::around(Path::new(&name.unwrap_or_default()))
+    }
+
+    /// The project's folder.
+    pub(crate) fn root(&self) -> &Path {
+        &self.root
     }
 
     /// The names that `use` can give.

@@ -1,10 +1,12 @@
 //! A simulated world with a vehicle in it that is served to others: the far end of a link.
 
+use crate::files::Files;
 use crate::plan::PlanError;
+use crate::scenario::Understood;
 use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
 use albacore_link::recon::{FrontSeat, Rows};
-use albacore_sim::{Scenario, Simulator};
+use albacore_sim::{Scenario, ScenarioError, Simulator};
 use albacore_vehicle::Vertical;
 
 /// A vehicle at the surface swims its rows this far above the bottom, m.
@@ -32,7 +34,7 @@ impl World {
             let help = format!("name it: `{file}#NAME`; there is {}", known.join(", "));
             return Err(PlanError::Asked(format!("which scenario of `{file}` is to be served?"), Some(help)));
         };
-        let (lowered, scenario) = self::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let (lowered, understood) = self::scenario(script, &wanted, place_of(script, &wanted)?)?;
         let Some(origin) = lowered.origin else {
             let help =
                 "give its `start:` as latitude and longitude, or serve it from a script with a mission that runs in it";
@@ -41,15 +43,13 @@ impl World {
                 Some(help.into()),
             ));
         };
-        Ok(World { name: lowered.name, scenario, frame: TangentFrame { origin } })
+        Ok(World { name: lowered.name, scenario: understood.world, frame: TangentFrame { origin } })
     }
 
     /// The vehicle in it, with rows to swim, else those of the scenario: the first from where it starts and along its heading, at the depth at which it
     /// starts, or near the bottom if that is the surface.
     pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
-        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| {
-            PlanError::Asked(format!("the scenario `{}` cannot be", self.name), Some(error.faults.join("; ")))
-        })?;
+        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| cannot_be(&self.name, &error))?;
         let vehicle = &self.scenario.vehicle;
         let own = self.scenario.own_mission;
         let vertical = match (own, vehicle.depth) {
@@ -74,12 +74,13 @@ pub(crate) fn place_of(script: &Script, scenario: &str) -> Result<Option<Geodeti
     }
 }
 
-/// A scenario of a script by its name, and its numbers in the frame about `origin`.
+/// A scenario of a script by its name, and its numbers in the frame about `origin`; files that it names lie in the script's
+/// project.
 pub(crate) fn scenario(
     script: &Script,
     wanted: &str,
     origin: Option<Geodetic>,
-) -> Result<(ScenarioProgram, Scenario), PlanError> {
+) -> Result<(ScenarioProgram, Understood), PlanError> {
     let lowered = match script.scenario(wanted, origin) {
         Some(Ok(lowered)) => lowered,
         Some(Err(findings)) => return Err(PlanError::Script(findings)),
@@ -89,10 +90,12 @@ pub(crate) fn scenario(
             return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
         }
     };
-    let world = crate::scenario::scenario(&lowered).map_err(|finding| PlanError::Script(vec![finding]))?;
-    world.validate().map_err(|error| {
-        let message = format!("the scenario `{}` cannot be", lowered.name);
-        PlanError::Asked(message, Some(error.faults.join("; ")))
-    })?;
-    Ok((lowered, world))
+    let understood = crate::scenario::scenario(&lowered, &Files::of(script)).map_err(PlanError::Script)?;
+    understood.world.validate().map_err(|error| cannot_be(&lowered.name, &error))?;
+    Ok((lowered, understood))
+}
+
+/// What is said of a scenario with impossible physics.
+pub(crate) fn cannot_be(name: &str, error: &ScenarioError) -> PlanError {
+    PlanError::Asked(format!("the scenario `{name}` cannot be"), Some(error.faults.join("; ")))
 }

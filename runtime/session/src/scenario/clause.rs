@@ -12,7 +12,7 @@ pub struct Clause<'a> {
 
 impl<'a> Clause<'a> {
     fn value(&self, name: &str) -> Option<&'a ScenarioValue> {
-        self.clause.args.iter().find(|(n, _)| n == name).map(|(_, value)| value)
+        self.clause.args.iter().find(|arg| arg.name == name).map(|arg| &arg.value)
     }
 
     fn slot(&self, name: &str) -> Result<Slot, String> {
@@ -37,6 +37,12 @@ impl<'a> Clause<'a> {
     pub fn point(&self, name: &str) -> Result<Point, String> {
         let at = self.slot(name)?;
         Ok(Point::new(self.word(at), self.word(at + 1)))
+    }
+
+    /// A point that may be absent.
+    pub fn optional_point(&self, name: &str) -> Result<Option<Point>, String> {
+        let at = self.slot(name)?;
+        Ok((self.word(at) != 0.0).then(|| Point::new(self.word(at + 1), self.word(at + 2))))
     }
 
     pub fn vector(&self, name: &str) -> Result<Vector, String> {
