@@ -241,7 +241,7 @@ fn impossible_hulls_and_limits_are_refused() {
     let said = bad.validate().unwrap_err();
     assert_eq!(said.faults.len(), 5, "{said}");
     for expected in
-        ["1525 rpm, its `rpm_max`, give 2.55 m/s", "must be a whole number of steps", "`limits.depth` is -1"]
+        ["its `turns_max` of 25.42 Hz gives 2.55 m/s at most", "must be a whole number of steps", "`limits.depth` is -1"]
     {
         assert!(said.to_string().contains(expected), "{said}");
     }
