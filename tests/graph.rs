@@ -78,7 +78,9 @@ fn graph_in(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) 
 /// What it draws, where there is no file.
 #[track_caller]
 fn drawn(arguments: &[&str]) -> String {
-    let (code, printed, said) = graph_in(&folder("nothing", &[]), arguments);
+    // Tests run side by side, and each empties its folder first: one of its own for each.
+    let test = std::thread::current().name().unwrap_or("main").to_string();
+    let (code, printed, said) = graph_in(&folder(&test, &[]), arguments);
     assert_eq!((code, said.as_str()), (Some(0), ""));
     printed
 }

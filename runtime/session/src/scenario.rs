@@ -84,12 +84,18 @@ impl Fault {
 fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
     match c.clause.name.as_str() {
         "flow" => flow::flow(scenario, c),
+        "turning" => flow::turning(scenario, c),
+        "tide" => flow::tide(scenario, c),
+        "waves" => flow::waves(scenario, c),
+        "upper_layer" => flow::upper_layer(scenario, c),
         "region" => flow::region(scenario, c),
         "bottom" => bottom::bottom(scenario, c),
         "pit" => bottom::pit(scenario, c),
         "no_go" => bottom::no_go(scenario, c),
         "plume" => plume::plume(scenario, c),
         "source" => plume::source(scenario, c),
+        "leak" => plume::leak(scenario, c),
+        "patch" => plume::patch(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "handover" => vehicle::handover(scenario, c),

@@ -43,13 +43,21 @@ fn filament_step(bencher: Bencher, duck: Duck) {
     bencher.counter(ItemsCount::new(simulator.filaments().count())).bench_local(|| simulator.sense(&mut snapshot));
 }
 
-/// One look at a place anywhere in the plume, which searches all of it.
-#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 50)]
+/// One look at a place anywhere in the plume, in an index made before.
+#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 1000)]
 fn concentration_anywhere(bencher: Bencher, duck: Duck) {
     let simulator = Simulator::new(&duck.scenario(), 1).unwrap();
     let places: Vec<_> = simulator.filaments().map(|(place, _)| place).step_by(PLACES_EVERY).collect();
+    let survey = simulator.survey();
     let mut next = places.iter().cycle();
-    bencher.bench_local(|| next.next().map(|&place| simulator.concentration(black_box(place), 2.0)));
+    bencher.bench_local(|| next.next().map(|&place| survey.concentration(black_box(place), 2.0)));
+}
+
+/// The index itself. The items are filaments.
+#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 20)]
+fn index(bencher: Bencher, duck: Duck) {
+    let simulator = Simulator::new(&duck.scenario(), 1).unwrap();
+    bencher.counter(ItemsCount::new(simulator.filaments().count())).bench_local(|| simulator.survey());
 }
 
 /// A tick of samples on the way down the middle of the plume, which share a search. The items are samples, noise included.

@@ -17,12 +17,14 @@ mod scenario;
 mod sensors;
 mod simulator;
 mod start;
+mod survey;
 mod water;
 mod world;
 
 pub use noise::{Noise, Stream};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Grid, Ground, Handover, KinematicVehicle, Lbl, Meander, Navigation, NoGo,
-    OwnMission, Pit, Plane, Plume, Scenario, ScenarioError, Sounder, Source, UpperFlow,
+    OwnMission, Patch, Pit, Plane, Plume, Scenario, ScenarioError, Sounder, Source, Tide, Times, UpperFlow, Waves,
 };
 pub use simulator::{Simulator, Truth};
+pub use survey::Survey;

@@ -35,6 +35,12 @@ pub enum Stream {
     Sounder = 11,
     /// Where the vehicle starts.
     Start = 12,
+    /// Phases of surface waves.
+    Waves = 20,
+    /// Where along a leak its filaments are released; one sub-stream a source.
+    Leak = 21,
+    /// Where the filaments of a patch are; one sub-stream a patch.
+    Patch = 22,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.

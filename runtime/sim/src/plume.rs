@@ -1,22 +1,24 @@
 //! The plume: filaments released at the sources that drift with the water, diffuse, and grow (Farrell et al. 2002).
 
+mod index;
 mod kernel;
 mod nearby;
 mod release;
+mod spin_up;
 
+pub use index::Index;
 pub use nearby::Nearby;
+pub use spin_up::{LONGEST_STEP_S, begin as spin_up_begin, stays_in_layer};
 
 use crate::noise::{Noise, Stream};
-use crate::scenario::{self, Scenario};
+use crate::scenario::{self, Patch, Scenario};
 use crate::water::{Cells, FlowFrame, Water};
 use albacore_vehicle::TICK_S;
 use kernel::Kernel;
 use release::Release;
 
-/// The plume is spun up in steps of this, s: its law does not depend on the step, so a coarse one will do.
-pub const SPIN_UP_STEP_S: f64 = 5.0;
-/// The spin-up lasts this many times the mean flow's time from the farthest source to the down-flow end.
-const SPIN_UP_TRANSITS: f64 = 1.15;
+/// The number of the first patch's streams: sources have those below.
+const PATCH_STREAMS: u32 = 1 << 31;
 
 /// The birth of a filament that has left the plume: later than any time.
 const GONE: f64 = f64::INFINITY;
@@ -49,26 +51,32 @@ pub struct Filament {
     velocity: [f64; 3],
 }
 
-/// What a source needs for its filaments.
+/// What a source or a patch needs for its filaments.
 #[derive(Clone, Debug)]
 struct Origin {
     place: [f64; 3],
-    release: Release,
+    /// The way to the other end of a leak, and what tells where along it.
+    leak: Option<([f64; 2], Noise)>,
+    /// None of a patch: it has released all.
+    release: Option<Release>,
     kernel: Kernel,
+    /// Horizontal and vertical diffusion of its filaments.
+    noises: (Noise, Noise),
 }
 
 /// All filaments of a run.
 #[derive(Clone, Debug)]
 pub struct Plume {
     settings: scenario::Plume,
+    /// The sources, and after them the patches.
     origins: Vec<Origin>,
-    /// Horizontal and vertical diffusion of each source's filaments.
-    noises: Vec<(Noise, Noise)>,
     filaments: Vec<Filament>,
     /// Where each [`BLOCK`] of filaments is along the flow during the step: what was released together stays together.
     blocks: Vec<Reach>,
     /// How many have left and still stand in the ranks.
     gone: usize,
+    /// The birth of the oldest patch, s; 0 without any.
+    oldest_patch: f64,
     /// Filaments leave the plume where they leave this box, m.
     length: f64,
     width: f64,
@@ -87,27 +95,43 @@ impl Plume {
     /// The plume of a scenario, empty at `begin` seconds; none if the scenario has none.
     pub fn new(scenario: &Scenario, frame: &FlowFrame, begin: f64, seed: u64) -> Option<Self> {
         let settings = scenario.plume.clone()?;
-        let origins = scenario.sources.iter().zip(0..).map(|(source, number)| {
+        let diffusion =
+            |number| (Noise::sub(seed, Stream::Diffusion, number), Noise::sub(seed, Stream::VerticalDiffusion, number));
+        let sources = scenario.sources.iter().zip(0..).map(|(source, number)| {
             let (x, y) = frame.to_local(source.at);
+            let noise = Noise::sub(seed, Stream::Release, number);
+            let leak = source.to.map(|to| {
+                let (u, v) = frame.of_vector(to - source.at);
+                ([u, v], Noise::sub(seed, Stream::Leak, number))
+            });
             Origin {
                 place: [x, y, source.height],
-                release: Release::new(Noise::sub(seed, Stream::Release, number), source.rate, begin),
-                kernel: Kernel::new(source, &settings),
+                leak,
+                release: Some(Release::new(noise, source.rate, source.when, begin)),
+                kernel: Kernel::new(source.peak, source.reference_age, &settings),
+                noises: diffusion(number),
             }
         });
-        let noises = (0..).take(scenario.sources.len()).map(|number| {
-            (Noise::sub(seed, Stream::Diffusion, number), Noise::sub(seed, Stream::VerticalDiffusion, number))
+        let patches = scenario.patches.iter().zip(PATCH_STREAMS..).map(|(patch, number)| {
+            let (x, y) = frame.to_local(patch.at);
+            Origin {
+                place: [x, y, patch.height],
+                leak: None,
+                release: None,
+                kernel: Kernel::new(patch.peak, patch.reference_age, &settings),
+                noises: diffusion(number),
+            }
         });
         Some(Plume {
-            origins: origins.collect(),
-            noises: noises.collect(),
+            origins: sources.chain(patches).collect(),
             filaments: Vec::new(),
             blocks: Vec::new(),
             gone: 0,
+            oldest_patch: scenario.patches.iter().map(|patch| -patch.age).fold(0.0, f64::min),
             length: frame.length,
             width: frame.width,
             end: begin,
-            step: SPIN_UP_STEP_S,
+            step: spin_up::step(scenario),
             end_tick: 0,
             step_ticks: (settings.step / TICK_S).round() as u64,
             steps: 0,
@@ -116,12 +140,40 @@ impl Plume {
         })
     }
 
-    /// Fills the region: everything that was released before time 0.
-    pub fn spin_up(&mut self, water: &mut Water) {
-        let steps = (-self.end / SPIN_UP_STEP_S).round() as u64;
+    /// Fills the region: everything that was released before time 0, and the patches.
+    pub fn spin_up(&mut self, water: &mut Water, patches: &[Patch], seed: u64) {
+        let step = self.step;
+        let steps = (-self.end / step).round() as u64;
         for left in (0..steps).rev() {
-            self.advance(-(left as f64) * SPIN_UP_STEP_S, water);
+            self.advance(-(left as f64) * step, water);
         }
+        let first = self.origins.len() - patches.len();
+        for ((patch, source), number) in patches.iter().zip(first..).zip(0..) {
+            self.scatter(patch, source, Noise::sub(seed, Stream::Patch, number));
+        }
+    }
+
+    /// Adds the filaments of a patch.
+    fn scatter(&mut self, patch: &Patch, source: usize, noise: Noise) {
+        let [x, y, z] = self.origins[source].place;
+        for number in 0..patch.filaments {
+            let draw = |axis: u64| patch.radius * noise.gaussian(2 * u64::from(number) + axis);
+            let (x, y) = (x + draw(0), y + draw(1));
+            let birth = -patch.age;
+            self.add(Filament { source: source as u32, number, birth, x, y, z, velocity: [0.0; 3] }, x);
+        }
+    }
+
+    /// Takes a filament into the ranks, that was at `x` along the flow when the step began.
+    fn add(&mut self, filament: Filament, x: f64) {
+        if self.filaments.len().is_multiple_of(BLOCK) {
+            self.blocks.push(Reach::default());
+        }
+        if let Some(block) = self.blocks.last_mut() {
+            block.extend(x);
+            block.extend(filament.x);
+        }
+        self.filaments.push(filament);
     }
 
     /// Computes steps until the plume is known up to a tick, and with it the water.
@@ -140,21 +192,27 @@ impl Plume {
         })
     }
 
-    /// A bound of the largest squared radius, m2. Filaments stand in the order of the steps of their release, so that none is
-    /// older than the first alive by more than one step.
+    /// A bound of the largest squared radius, m2. Filaments of sources stand in the order of the steps of their release, so that
+    /// none is older than the first alive by more than one step; those of patches are as old as they were said to be.
     fn largest_squared_radius(&self) -> f64 {
-        let first = self.filaments.iter().find(|f| f.birth < GONE).map_or(self.end, |f| f.birth - SPIN_UP_STEP_S);
-        self.settings.initial_radius * self.settings.initial_radius + self.settings.growth * (self.end - first)
+        let first = self
+            .filaments
+            .iter()
+            .find(|f| f.birth < GONE)
+            .map_or(self.end, |f| f.birth - spin_up::LONGEST_SPIN_UP_STEP_S);
+        let oldest = first.min(self.oldest_patch);
+        self.settings.initial_radius * self.settings.initial_radius + self.settings.growth * (self.end - oldest)
     }
 
     /// One step, to a time.
     ///
-    /// x += u dt + sqrt(2 K dt) N, Euler: at 1 s and 0.125 m/s a step is shorter than a filament is wide. (pompy multiplies
-    /// the noise by dt, which makes the diffusivity depend on the time step.)
+    /// x += u dt + sqrt(2 K dt) N, Euler, with the flow in the middle of the step: a step is short beside what the flow changes
+    /// over. (pompy multiplies the noise by dt, which makes the diffusivity depend on the time step.)
     fn advance(&mut self, end: f64, water: &mut Water) {
         (self.step, self.end) = (end - self.end, end);
-        water.advance_to(end);
-        water.frozen(end - 0.5 * self.step, &mut self.cells);
+        let middle = end - 0.5 * self.step;
+        water.advance_to(middle);
+        water.frozen(middle, &mut self.cells);
         self.steps += 1;
         self.drift();
         self.release();
@@ -176,7 +234,7 @@ impl Plume {
         for block in self.filaments.chunks_mut(BLOCK) {
             let mut reach = Reach::default();
             for f in block {
-                let (horizontal, vertical) = self.noises[f.source as usize];
+                let (horizontal, vertical) = self.origins[f.source as usize].noises;
                 let index = f.noise_index(steps);
                 let (u, v) = self.cells.velocity(f.x, f.y);
                 let (nx, ny) = horizontal.nearly_gaussian_pair(index);
@@ -202,12 +260,19 @@ impl Plume {
 
     /// Adds what was released during the step, each filament moved from its own moment of release on.
     fn release(&mut self) {
-        for ((source, origin), &(horizontal, vertical)) in (0..).zip(&mut self.origins).zip(&self.noises) {
-            let [x, y, z] = origin.place;
-            let (u, v) = self.cells.velocity(x, y);
-            while let Some((number, birth)) = origin.release.before(self.end) {
+        for source in 0..self.origins.len() {
+            let Origin { place: [x, y, z], leak, noises: (horizontal, vertical), .. } = self.origins[source];
+            while let Some((number, birth)) = self.origins[source].release.as_mut().and_then(|r| r.before(self.end)) {
+                let (x, y) = match leak {
+                    None => (x, y),
+                    Some(([along, aside], noise)) => {
+                        let share = noise.uniform(u64::from(number));
+                        (x + share * along, y + share * aside)
+                    }
+                };
+                let (u, v) = self.cells.velocity(x, y);
                 let age = (self.end - birth).max(f64::MIN_POSITIVE);
-                let mut f = Filament { source, number, birth, x, y, z, velocity: [0.0; 3] };
+                let mut f = Filament { source: source as u32, number, birth, x, y, z, velocity: [0.0; 3] };
                 let index = f.noise_index(self.steps);
                 let (nx, ny) = horizontal.nearly_gaussian_pair(index);
                 let spread = (2.0 * self.settings.diffusivity * age).sqrt();
@@ -218,14 +283,7 @@ impl Plume {
                     f.z = reflected(z + rise * vertical.nearly_gaussian_pair(index).0, ceiling);
                 }
                 f.velocity = [(f.x - x) / age, (f.y - y) / age, (f.z - z) / age];
-                if self.filaments.len().is_multiple_of(BLOCK) {
-                    self.blocks.push(Reach::default());
-                }
-                if let Some(block) = self.blocks.last_mut() {
-                    block.extend(x);
-                    block.extend(f.x);
-                }
-                self.filaments.push(f);
+                self.add(f, x);
             }
         }
     }
@@ -258,17 +316,6 @@ impl Filament {
         let [u, v, w] = self.velocity;
         [self.x - before * u, self.y - before * v, self.z - before * w]
     }
-}
-
-/// When the spin-up begins, s: so long before 0 that the plume spans its box at 0.
-pub fn spin_up_begin(scenario: &Scenario) -> f64 {
-    if scenario.plume.is_none() {
-        return 0.0;
-    }
-    let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
-    let farthest = scenario.sources.iter().map(|s| frame.length - frame.to_local(s.at).0).fold(0.0, f64::max);
-    let transit = farthest / scenario.flow.mean.length();
-    -(SPIN_UP_TRANSITS * transit / SPIN_UP_STEP_S).ceil() * SPIN_UP_STEP_S
 }
 
 /// A height mirrored at the bottom and at the ceiling of the layer.

@@ -5,14 +5,17 @@ mod flow;
 mod objections;
 mod plume;
 mod sensors;
+mod source;
 mod vehicle;
 
 pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
-pub use flow::{Flow, Meander, UpperFlow};
+pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
-pub use plume::{Plume, Source};
+pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
+pub(crate) use source::SPIN_UP_MAX_S;
+pub use source::{Patch, Source, Times};
 pub use vehicle::{Handover, KinematicVehicle, OwnMission};
 
 use albacore_geometry::Area;
@@ -36,6 +39,8 @@ pub struct Scenario {
     pub plume: Option<Plume>,
     /// What releases chemical.
     pub sources: Vec<Source>,
+    /// What was left in the water before the run.
+    pub patches: Vec<Patch>,
     /// The vehicle.
     pub vehicle: KinematicVehicle,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
@@ -71,7 +76,7 @@ impl Scenario {
         if objections.0.is_empty() {
             flow::check_meander(self, &mut objections);
             plume::check(self, &mut objections);
-            plume::check_sources(self, &mut objections);
+            source::check(self, &mut objections);
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);

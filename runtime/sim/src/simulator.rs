@@ -5,6 +5,7 @@ use crate::incidents::Incidents;
 use crate::kinematics::Kinematics;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
+use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{
@@ -125,9 +126,15 @@ impl Simulator {
     }
 
     /// What a perfect chemical sensor without saturation would read now at a point and a height above the bottom (m): a ratio
-    /// of full scale. For pictures and statistics; the vehicle's own is in [`Simulator::truth`].
+    /// of full scale; the vehicle's own is in [`Simulator::truth`]. It searches the whole plume: for more than a few places take
+    /// [`Simulator::survey`].
     pub fn concentration(&self, p: Point, height: f64) -> f64 {
         self.world.look_up(p, height, self.time_s())
+    }
+
+    /// The chemical now, for looks at many places.
+    pub fn survey(&self) -> Survey {
+        self.world.survey(self.time_s())
     }
 
     /// Moves the world from the last tick to this one.
@@ -206,9 +213,10 @@ impl Simulator {
         snapshot.push(COURSE, &[truth.course.radians()]);
         snapshot.push(HEADING, &[truth.heading.radians()]);
         snapshot.push(SPEED, &[truth.speed_over_ground]);
-        snapshot.push(DEPTH, &[truth.depth]);
+        let depth = (truth.depth + self.world.wave_head(truth.position, truth.altitude, self.time_s())).max(0.0);
+        snapshot.push(DEPTH, &[depth]);
         snapshot.push(ALTITUDE, &[echo]);
-        snapshot.push(WATER_DEPTH, &[truth.depth + echo]);
+        snapshot.push(WATER_DEPTH, &[depth + echo]);
         let view = View {
             ground_velocity: self.vehicle.ground_velocity,
             flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),

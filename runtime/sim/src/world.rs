@@ -1,8 +1,9 @@
 //! All that is there without the vehicle: water, plume and bottom, in time.
 
-use crate::plume::{Nearby, Plume, spin_up_begin};
+use crate::plume::{Index, Nearby, Plume, spin_up_begin};
 use crate::scenario::{Bottom, Scenario, UpperFlow};
-use crate::water::Water;
+use crate::survey::Survey;
+use crate::water::{Sea, Water};
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::TICK_S;
 
@@ -13,6 +14,7 @@ pub struct World {
     plume: Option<Plume>,
     nearby: Nearby,
     upper: Option<UpperFlow>,
+    sea: Option<Sea>,
     bottom: Bottom,
 }
 
@@ -23,10 +25,12 @@ impl World {
         let mut water = Water::new(&scenario.flow, scenario.region.as_ref(), begin, seed);
         let mut plume = Plume::new(scenario, water.frame(), begin, seed);
         if let Some(plume) = &mut plume {
-            plume.spin_up(&mut water);
+            plume.spin_up(&mut water, &scenario.patches, seed);
         }
         let (upper, bottom) = (scenario.flow.upper.clone(), scenario.bottom.clone());
-        World { water, plume, nearby: Nearby::default(), upper, bottom }
+        let depth = bottom.depth_at(scenario.vehicle.start);
+        let sea = scenario.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
+        World { water, plume, nearby: Nearby::default(), upper, sea, bottom }
     }
 
     /// Makes the world known up to a tick.
@@ -37,12 +41,19 @@ impl World {
         }
     }
 
-    /// The water's velocity, m/s toward, at a point, a height above the bottom (m) and a time within the last tick.
+    /// The water's velocity, m/s toward, at a point, a height above the bottom (m) and a time within the last tick: the flow,
+    /// and the orbital motion of the waves.
     pub fn flow(&self, p: Point, height: f64, time: f64) -> Vector {
-        match &self.upper {
-            Some(upper) if height > upper.above => upper.mean,
+        let flow = match &self.upper {
+            Some(upper) if height > upper.begins(time) => upper.mean,
             _ => self.water.velocity(p, time),
-        }
+        };
+        self.sea.as_ref().map_or(flow, |sea| flow + sea.velocity(p, height, time))
+    }
+
+    /// What waves make a pressure sensor read too deep, m, at a point, a height above the bottom (m) and a time.
+    pub fn wave_head(&self, p: Point, height: f64, time: f64) -> f64 {
+        self.sea.as_ref().map_or(0.0, |sea| sea.head(p, height, time))
     }
 
     /// The water's depth, m.
@@ -58,7 +69,13 @@ impl World {
         self.nearby.reading(plume, [x, y, height], time)
     }
 
-    /// The same from no particular place: searches the whole plume for each look-up.
+    /// The chemical at a time within the last tick, for looks at many places.
+    pub fn survey(&self, time: f64) -> Survey {
+        let index = self.plume.as_ref().map(|plume| Index::new(plume, time));
+        Survey { frame: self.water.frame().clone(), index }
+    }
+
+    /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
     pub fn look_up(&self, p: Point, height: f64, time: f64) -> f64 {
         let (x, y) = self.water.frame().to_local(p);
         self.plume.as_ref().map_or(0.0, |plume| Nearby::default().reading(plume, [x, y, height], time))

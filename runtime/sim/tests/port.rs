@@ -104,10 +104,10 @@ fn the_flow_is_estimated_once_the_vehicle_moves() {
 #[test]
 fn a_low_boundary_deceives_the_profiler() {
     let mut layered = scenario();
-    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5 });
+    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() });
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!((last[0] - 0.2).abs() < 0.02 && last[1].abs() < 0.02, "{last:?}");
-    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 3.5 });
+    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 3.5, ..UpperFlow::default() });
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
 }

@@ -1,7 +1,7 @@
 //! What a scenario says of the water's motion and of where it is computed.
 
 use super::clause::Clause;
-use albacore_sim::{Meander, Scenario};
+use albacore_sim::{Meander, Scenario, Tide, UpperFlow, Waves};
 
 /// `flow(…)`: where the water goes, and how that wanders.
 pub fn flow(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -26,5 +26,40 @@ pub fn flow(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
 /// `region(…)`: where flow and plume are computed.
 pub fn region(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
     scenario.region = Some(c.area("area")?);
+    Ok(())
+}
+
+/// `turning(…)`: the mean flow turns.
+pub fn turning(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.flow.turning = c.number("rate")?;
+    Ok(())
+}
+
+/// `tide(…)`: a flow to and fro.
+pub fn tide(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.flow.tides.push(Tide {
+        name: c.text("name")?,
+        amplitude: c.vector("flood")?,
+        period: c.number("period")?,
+        high: c.number("high")?,
+    });
+    Ok(())
+}
+
+/// `waves(…)`: a sea.
+pub fn waves(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.flow.waves =
+        Some(Waves { height: c.number("height")?, period: c.number("period")?, toward: c.heading("toward")? });
+    Ok(())
+}
+
+/// `upper_layer(…)`: another current above.
+pub fn upper_layer(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.flow.upper = Some(UpperFlow {
+        mean: c.vector("flow")?,
+        above: c.number("above")?,
+        moves: c.number("moves")?,
+        period: c.number("period")?,
+    });
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! What one filament adds to the reading at a point.
 
 use crate::plume::Filament;
-use crate::scenario::{self, Source};
+use crate::scenario;
 use albacore_geometry::math::exp;
 
 /// A filament ends at this many radii: what is cut off is below 4e-6 of its peak.
@@ -20,11 +20,11 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The kernel of a source in a plume.
-    pub fn new(source: &Source, plume: &scenario::Plume) -> Self {
+    /// The kernel of filaments that read `peak` in their middle at an age (s), in a plume.
+    pub fn new(peak: f64, reference_age: f64, plume: &scenario::Plume) -> Self {
         let initial = plume.initial_radius * plume.initial_radius;
-        let reference = initial + plume.growth * source.reference_age;
-        Kernel { peak: source.peak, initial, growth: plume.growth, reference, layer: plume.layer }
+        let reference = initial + plume.growth * reference_age;
+        Kernel { peak, initial, growth: plume.growth, reference, layer: plume.layer }
     }
 
     /// Squared radius at an age, m2: r2 = R0^2 + gamma age.
@@ -32,33 +32,45 @@ impl Kernel {
         self.initial + self.growth * age
     }
 
-    /// The reading of a filament at a place (m), `before` seconds before the end of its step and at an age.
+    /// The reading in the middle of a filament of a squared radius, m2, that no wall is near.
     ///
-    /// Flat: peak (r2_ref / r2) exp(-d2 / 2 r2). In a layer of height H: peak (r2_ref / r2)^1.5 times the horizontal Gaussian
-    /// times the sum of the vertical ones of the filament and its mirror images at -z and 2H - z, and theirs in turn.
+    /// Flat: peak r2_ref / r2. In a layer: peak (r2_ref / r2)^1.5.
+    pub fn strength(&self, r2: f64) -> f64 {
+        let thinning = self.reference / r2;
+        if self.layer.is_some() { self.peak * thinning * thinning.sqrt() } else { self.peak * thinning }
+    }
+
+    /// The reading of a filament at a place (m), `before` seconds before the end of its step and at an age.
     pub fn reading(&self, filament: &Filament, before: f64, age: f64, place: [f64; 3]) -> f64 {
         let r2 = self.squared_radius(age);
-        let [x, y, z] = filament.at(before);
-        let (dx, dy) = (x - place[0], y - place[1]);
-        let d2 = dx * dx + dy * dy;
-        let far = CUT_RADII * CUT_RADII * r2;
-        if d2 > far {
-            return 0.0;
-        }
-        let thinning = self.reference / r2;
-        let Some(ceiling) = self.layer else {
-            return self.peak * thinning * exp(-d2 / (2.0 * r2));
-        };
-        let mut sum = 0.0;
-        for image in [z, -z, 2.0 * ceiling - z, 2.0 * ceiling + z, z - 2.0 * ceiling] {
-            let dz = image - place[2];
-            let squared = d2 + dz * dz;
-            if squared <= far {
-                sum += exp(-squared / (2.0 * r2));
-            }
-        }
-        self.peak * thinning * thinning.sqrt() * sum
+        let share = share(filament.at(before), r2, self.layer, place);
+        if share > 0.0 { self.strength(r2) * share } else { 0.0 }
     }
+}
+
+/// What share of its strength a filament at `center`, of squared radius `r2`, reads at a place.
+///
+/// Flat: exp(-d2 / 2 r2). In a layer of height H: the sum of that over the filament and its mirror images at -z and 2H - z, and
+/// theirs in turn.
+#[inline]
+pub fn share(center: [f64; 3], r2: f64, layer: Option<f64>, place: [f64; 3]) -> f64 {
+    let [x, y, z] = center;
+    let (dx, dy) = (x - place[0], y - place[1]);
+    let d2 = dx * dx + dy * dy;
+    let far = CUT_RADII * CUT_RADII * r2;
+    if d2 > far {
+        return 0.0;
+    }
+    let Some(ceiling) = layer else { return exp(-d2 / (2.0 * r2)) };
+    let mut sum = 0.0;
+    for image in [z, -z, 2.0 * ceiling - z, 2.0 * ceiling + z, z - 2.0 * ceiling] {
+        let dz = image - place[2];
+        let squared = d2 + dz * dz;
+        if squared <= far {
+            sum += exp(-squared / (2.0 * r2));
+        }
+    }
+    sum
 }
 
 #[cfg(test)]
@@ -71,7 +83,7 @@ mod tests {
 
     #[test]
     fn a_far_end_filament_peaks_at_twice_the_threshold() {
-        let kernel = Kernel::new(&Source::default(), &scenario::Plume::default());
+        let kernel = Kernel::new(0.08, 8752.0, &scenario::Plume::default());
         let at = |place, age| kernel.reading(&filament(0.2), 0.0, age, place);
         assert!((at([10.0, 20.0, 0.0], 8752.0) - 0.08).abs() < 1e-12);
         let radius = (0.04_f64 + 1e-4 * 8752.0).sqrt();
@@ -85,7 +97,7 @@ mod tests {
     #[test]
     fn images_conserve_the_amount() {
         let plume = scenario::Plume { layer: Some(3.5), ..scenario::Plume::default() };
-        let kernel = Kernel::new(&Source::default(), &plume);
+        let kernel = Kernel::new(0.08, 8752.0, &plume);
         for age in [0.0, 2000.0, 9000.0] {
             let amount = |z: f64| {
                 let steps = 700;

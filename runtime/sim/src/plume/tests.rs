@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::presets;
-use crate::scenario::{Flow, Meander};
+use crate::scenario::{Flow, Meander, Tide};
 use albacore_geometry::{Area, Heading, Point, Vector};
 
 /// A wide uniform flow with one source near its up-flow end.
@@ -57,7 +57,7 @@ fn as_many_are_alive_as_are_released_in_a_transit() {
     let mut counts = Vec::new();
     for seed in 0..4 {
         let (mut plume, mut water) = begun(&scenario, begin, seed);
-        plume.spin_up(&mut water);
+        plume.spin_up(&mut water, &[], 0);
         counts.push(plume.alive(plume.end).count() as f64);
         plume.advance_to(10_000, &mut water);
         counts.push(plume.alive(plume.end).count() as f64);
@@ -85,7 +85,7 @@ fn one_search_for_a_neighbourhood_reads_the_same_bits_as_one_for_each_place() {
     let scenario = presets::duck_2003();
     let begin = spin_up_begin(&scenario);
     let (mut plume, mut water) = begun(&scenario, begin, 4);
-    plume.spin_up(&mut water);
+    plume.spin_up(&mut water, &[], 0);
     plume.advance_to(10, &mut water);
     let mut shared = Nearby::default();
     let mut read = 0;
@@ -99,6 +99,28 @@ fn one_search_for_a_neighbourhood_reads_the_same_bits_as_one_for_each_place() {
         }
     }
     assert!(read > 500, "{read} places with chemical");
+}
+
+/// The index leaves out what reads exactly zero, and sums the rest in another order.
+#[test]
+fn an_index_reads_what_a_search_of_the_whole_plume_does() {
+    for scenario in [presets::duck_2003(), presets::duck_2003_flat()] {
+        let (mut plume, mut water) = begun(&scenario, spin_up_begin(&scenario), 4);
+        plume.spin_up(&mut water, &[], 0);
+        plume.advance_to(10, &mut water);
+        let index = Index::new(&plume, 0.7);
+        assert_eq!(index.len(), plume.alive(0.7).count());
+        let (mut read, mut nothing) = (0, 0);
+        for place in plume.alive(0.7).map(|(place, _)| place).step_by(31).collect::<Vec<_>>() {
+            for aside in [0.0, 3.0, 60.0, 1000.0] {
+                let place = [place[0] - 0.3 * aside, place[1] + aside, 1.5];
+                let (searched, indexed) = (Nearby::default().reading(&plume, place, 0.7), index.reading(place));
+                assert!((searched - indexed).abs() <= 1e-12 * searched, "{searched} {indexed}");
+                *(if searched > 0.0 { &mut read } else { &mut nothing }) += 1;
+            }
+        }
+        assert!(read > 300 && nothing > 300, "{read} places with chemical, {nothing} without");
+    }
 }
 
 /// Between steps a filament moves on a line: it ends a step where it begins the next.
@@ -117,4 +139,87 @@ fn nothing_jumps_between_steps() {
     for (a, b) in before.iter().zip(&after) {
         assert!((0..3).all(|i| (a.0[i] - b.0[i]).abs() < 1e-9) && (a.1 - b.1).abs() < 1e-12, "{a:?} {b:?}");
     }
+}
+
+/// What was released in one tide is carried back by the next: the plume lies on both sides of its source.
+#[test]
+fn a_tide_carries_the_plume_to_both_sides() {
+    let tide = Tide { amplitude: Vector::new(0.15, 0.0), period: 8000.0, ..Tide::default() };
+    let scenario = Scenario {
+        flow: Flow { mean: Vector::new(0.04, 0.0), tides: vec![tide], ..Flow::default() },
+        sources: vec![scenario::Source { at: Point::new(-300.0, 0.0), ..Default::default() }],
+        ..uniform(1.0, scenario::Plume::default())
+    };
+    let begin = spin_up_begin(&scenario);
+    assert!((-70_000.0..-40_000.0).contains(&begin), "some 50,000 s at 4 cm/s for 2120 m: {begin}");
+    let (mut plume, mut water) = begun(&scenario, begin, 3);
+    plume.spin_up(&mut water, &[], 0);
+    let [source, ..] = plume.origins[0].place;
+    // To and fro by 0.15 T / 2 pi = 191 m: at tick 0, in mid flood, 191 m up-flow of the mean path.
+    let fresh: Vec<f64> =
+        plume.filaments.iter().filter(|f| (-2000.0..0.0).contains(&f.birth)).map(|f| f.x - source).collect();
+    assert!(fresh.iter().all(|x| (-40.0..330.0).contains(x)));
+    plume.advance_to(40_000, &mut water);
+    let young = |f: &&Filament| f.birth > 0.0 && f.birth < 4000.0;
+    let sides: Vec<bool> = plume.filaments.iter().filter(young).map(|f| f.x < source).collect();
+    assert!(sides.iter().any(|up| *up) && sides.iter().any(|up| !up), "on both sides after half a tide");
+    assert_eq!(water.velocity(Point::ORIGIN, 4000.0).north, 0.04 - 0.15);
+}
+
+/// A patch is there at the start, drifts away and is followed by nothing.
+#[test]
+fn a_patch_is_as_wide_as_asked_and_drifts() {
+    let patch =
+        Patch { at: Point::new(-500.0, 20.0), radius: 15.0, filaments: 2000, age: 30_000.0, ..Patch::default() };
+    let scenario = Scenario {
+        sources: Vec::new(),
+        patches: vec![patch.clone()],
+        ..uniform(1.0, scenario::Plume { diffusivity: 0.0, ..Default::default() })
+    };
+    let (mut plume, mut water) = begun(&scenario, spin_up_begin(&scenario), 3);
+    plume.spin_up(&mut water, &scenario.patches, 3);
+    let [x, y, _] = plume.origins[0].place;
+    let centre = |plume: &Plume| {
+        let n = plume.filaments.len() as f64;
+        (plume.filaments.iter().map(|f| f.x).sum::<f64>() / n, plume.filaments.iter().map(|f| f.y).sum::<f64>() / n)
+    };
+    let (cx, cy) = centre(&plume);
+    assert!((cx - x).abs() < 1.5 && (cy - y).abs() < 1.5);
+    let variance = plume.filaments.iter().map(|f| squared(f.x - cx)).sum::<f64>() / 2000.0;
+    assert!((variance.sqrt() - 15.0).abs() < 0.8);
+    let radius = plume.largest_squared_radius().sqrt();
+    assert!((0.0..0.01).contains(&(radius - 3.04_f64.sqrt())), "as wide as 30,000 s make it: {radius}");
+    plume.advance_to(10_000, &mut water);
+    let gone = centre(&plume).0 - cx;
+    assert!((gone - 200.0).abs() < 1e-6 && plume.filaments.len() == 2000, "{gone} {}", plume.filaments.len());
+    // The look-ups know how wide it is.
+    let place = [centre(&plume).0 + 60.0, cy, 0.2];
+    let read = Nearby::default().reading(&plume, place, 1000.0);
+    let whole: f64 = plume
+        .alive(1000.0)
+        .map(|(at, r)| {
+            let d2 = squared(at[0] - place[0]) + squared(at[1] - place[1]);
+            if d2 <= 25.0 * r * r {
+                plume.origins[0].kernel.strength(r * r) * albacore_geometry::math::exp(-d2 / (2.0 * r * r))
+            } else {
+                0.0
+            }
+        })
+        .sum();
+    assert!((read - whole).abs() < 1e-9 && read > 0.0, "{read} {whole}");
+}
+
+/// A leak releases evenly along its line.
+#[test]
+fn a_leak_is_a_line() {
+    let mut scenario = uniform(2.0, scenario::Plume { diffusivity: 0.0, ..Default::default() });
+    scenario.sources[0].to = Some(Point::new(-900.0, 100.0));
+    let (mut plume, mut water) = begun(&scenario, 0.0, 3);
+    plume.advance_to(20_000, &mut water);
+    let [_, y, _] = plume.origins[0].place;
+    let mut aside: Vec<f64> = plume.filaments.iter().map(|f| f.y - y).collect();
+    aside.sort_by(f64::total_cmp);
+    let quantile = |share: f64| aside[(share * aside.len() as f64) as usize];
+    assert!(aside[0] >= -1e-9 && quantile(0.999) <= 100.0);
+    assert!((quantile(0.25) - 25.0).abs() < 3.0 && (quantile(0.75) - 75.0).abs() < 3.0);
 }

@@ -1,10 +1,10 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
-use crate::plume::SPIN_UP_STEP_S;
+use crate::plume::LONGEST_STEP_S;
 use crate::scenario::{Objections, Scenario};
 use crate::water::{FlowFrame, mesh_fault};
-use albacore_geometry::Vector;
-use albacore_geometry::math::PI;
+use albacore_geometry::math::{PI, TAU, sin};
+use albacore_geometry::{Heading, Vector};
 use serde::{Deserialize, Serialize};
 
 /// The water's motion.
@@ -15,8 +15,59 @@ pub struct Flow {
     pub mean: Vector,
     /// Its wandering; none: uniform and steady.
     pub meander: Option<Meander>,
+    /// Rate at which the mean turns, clockwise, rad/s; at tick 0 it is `mean`. Default 0.
+    pub turning: f64,
+    /// Tides, which add up. Default none.
+    pub tides: Vec<Tide>,
+    /// Surface waves. Default none.
+    pub waves: Option<Waves>,
     /// Another current above this one, as in the 2003 trial; none: the same at every height.
     pub upper: Option<UpperFlow>,
+}
+
+impl Flow {
+    /// The greatest speed of what the whole water does alike, m/s.
+    pub fn speed(&self) -> f64 {
+        self.tides.iter().fold(self.mean.length(), |speed, tide| speed + tide.amplitude.length())
+    }
+}
+
+/// A tide that runs to and fro on a line: one constituent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tide {
+    /// What it is called.
+    pub name: String,
+    /// Its velocity where it runs strongest, m/s toward. Default none.
+    pub amplitude: Vector,
+    /// Its period, s. Default 12.42 h: the principal lunar one, M2.
+    pub period: f64,
+    /// When it runs strongest that way, s after tick 0. Default 0.
+    pub high: f64,
+}
+
+impl Default for Tide {
+    fn default() -> Self {
+        Tide { name: String::from("tide"), amplitude: Vector::ZERO, period: 12.42 * 3600.0, high: 0.0 }
+    }
+}
+
+/// Surface waves that run one way: a sea of Bretschneider's spectrum.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Waves {
+    /// Significant height, m. Default 0.5.
+    pub height: f64,
+    /// Period of the peak of the spectrum, s. Default 8.
+    pub period: f64,
+    /// Where they run to. Default north.
+    pub toward: Heading,
+}
+
+impl Default for Waves {
+    fn default() -> Self {
+        Waves { height: 0.5, period: 8.0, toward: Heading::NORTH }
+    }
 }
 
 /// A uniform current that lies over the flow that carries the plume.
@@ -28,20 +79,31 @@ pub struct Flow {
 pub struct UpperFlow {
     /// Its velocity, m/s toward. Default 0.225 m/s northward.
     pub mean: Vector,
-    /// Height above the bottom where it begins, m. Default 3.5.
+    /// Height above the bottom where it begins, m, on average. Default 3.5.
     pub above: f64,
+    /// Its lower boundary moves up and down by this, m. Default 0.
+    pub moves: f64,
+    /// In this time, s. Default 20 min.
+    pub period: f64,
+}
+
+impl UpperFlow {
+    /// Height above the bottom where it begins at a time (s), m.
+    pub fn begins(&self, time: f64) -> f64 {
+        if self.moves > 0.0 { self.above + self.moves * sin(TAU * time / self.period) } else { self.above }
+    }
 }
 
 impl Default for UpperFlow {
     fn default() -> Self {
-        UpperFlow { mean: Vector::new(0.225, 0.0), above: 3.5 }
+        UpperFlow { mean: Vector::new(0.225, 0.0), above: 3.5, moves: 0.0, period: 1200.0 }
     }
 }
 
 /// A flow field that wanders: the advection field of Farrell et al. 2002 on a grid along the mean flow.
 ///
 /// Each velocity component at the four corners is the mean plus coloured noise of standard deviation
-/// `direction_sd` times the mean speed; inside, du/dt = -(u . grad) u + `viscosity`/2 lap u.
+/// `direction_sd` times the greatest speed of mean and tides; inside, du/dt = -(u . grad) u + `viscosity`/2 lap u.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Meander {
@@ -78,10 +140,37 @@ impl Default for Meander {
 /// The mean and the upper flow.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     objections.flow("flow.mean", scenario.flow.mean);
+    check_current(&scenario.flow, objections);
     if let Some(upper) = &scenario.flow.upper {
         objections.flow("flow.upper.mean", upper.mean);
         objections.not_negative("flow.upper.above", upper.above);
+        objections.not_negative("flow.upper.moves", upper.moves);
+        objections.positive("flow.upper.period", upper.period);
     }
+}
+
+/// What the whole water does alike.
+fn check_current(flow: &Flow, objections: &mut Objections) {
+    objections.unless(
+        flow.turning.abs() <= TURNING_MAX,
+        format!("`flow.turning` is {} rad/s: it must be {TURNING_MAX} at most", flow.turning),
+    );
+    for tide in &flow.tides {
+        let name = &tide.name;
+        objections.flow(&format!("tide {name}: amplitude"), tide.amplitude);
+        objections.positive(&format!("tide {name}: period"), tide.period);
+        objections.finite(&format!("tide {name}: high"), [tide.high, 0.0]);
+    }
+    let Some(waves) = &flow.waves else { return };
+    objections.positive("flow.waves.period", waves.period);
+    objections.finite("flow.waves.toward", [waves.toward.radians(), 0.0]);
+    // Steeper waves than one in ten break; their length is at most that in deep water.
+    let steepest = 0.1 * 9.81 * waves.period * waves.period / TAU;
+    objections.not_negative("flow.waves.height", waves.height);
+    objections.unless(
+        waves.height <= steepest || steepest.is_nan(),
+        format!("`flow.waves.height` is {} m: waves of {} s break above {steepest:.2} m", waves.height, waves.period),
+    );
 }
 
 /// The meander, once region and mean flow are sound.
@@ -102,18 +191,20 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
     objections.positive("flow.meander.viscosity", meander.viscosity);
     objections.positive("flow.meander.cell", meander.cell);
     objections.not_negative("flow.meander.margin", meander.margin);
-    let least = scenario.plume.as_ref().map_or(0.0, |plume| plume.step).max(SPIN_UP_STEP_S / 2.0);
+    let least = scenario.plume.as_ref().map_or(0.0, |plume| plume.step).max(LONGEST_STEP_S / 2.0);
     objections.unless(
         meander.step >= least && meander.step <= FLOW_STEP_MAX_S,
         format!("`flow.meander.step` is {} s: it must be {least} to {FLOW_STEP_MAX_S}", meander.step),
     );
     if objections.0.len() == before {
         let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
-        objections.0.extend(mesh_fault(meander, &frame, scenario.flow.mean.length()));
+        objections.0.extend(mesh_fault(meander, &frame, scenario.flow.speed()));
     }
 }
 
 /// The widest meander, rad: beyond it the flow turns round, and the plume with it.
 const DIRECTION_SD_MAX: f64 = 1.0;
+/// The fastest turning of the mean flow, rad/s: once round in a quarter of an hour.
+const TURNING_MAX: f64 = 0.007;
 /// The longest step of the flow field, s.
 const FLOW_STEP_MAX_S: f64 = 60.0;

@@ -45,6 +45,14 @@ impl Cells {
         }
     }
 
+    /// Adds the same velocity everywhere to what was frozen last.
+    pub fn shift(&mut self, (u, v): (f64, f64)) {
+        for c in &mut self.coefficients {
+            c[0] += u;
+            c[4] += v;
+        }
+    }
+
     /// Velocity along and to the right of the mean flow, m/s, at a place within the grid.
     #[inline]
     pub fn velocity(&self, x: f64, y: f64) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! The advection field of Farrell et al. 2002: velocities on a grid, driven by coloured noise at its four corners.
 
 use crate::noise::{Noise, Stream};
-use crate::scenario::Meander;
+use crate::scenario::{Flow, Meander};
 use crate::water::cells::Cells;
 use crate::water::coloured_noise::{ColouredNoise, SIGNALS};
 use crate::water::frame::FlowFrame;
@@ -25,14 +25,16 @@ pub struct Field {
 }
 
 impl Field {
-    /// The field of a meander in a box, at `begin` seconds. It has had one advective time to forget its start.
-    pub fn new(meander: &Meander, frame: &FlowFrame, begin: f64, mean_speed: f64, seed: u64) -> Self {
-        let mesh = Mesh::new(meander, frame, mean_speed);
+    /// The field of a meander in a box, one advective time before `begin` seconds: [`Field::advance_to`] that time, and it has
+    /// forgotten its start.
+    pub fn new(meander: &Meander, frame: &FlowFrame, begin: f64, flow: &Flow, seed: u64) -> Self {
+        let (mean_speed, speed) = (flow.mean.length(), flow.speed());
+        let mesh = Mesh::new(meander, frame, speed);
         let noise = Noise::new(seed, Stream::FlowCorners);
-        let sigma = meander.direction_sd * mean_speed;
+        let sigma = meander.direction_sd * speed;
         let corners = ColouredNoise::new(noise, sigma, TAU / meander.period, meander.damping, meander.step);
         let blank = Nodes { u: vec![0.0; mesh.nodes()], v: vec![0.0; mesh.nodes()] };
-        let spin_up = (frame.length / mean_speed / meander.step).ceil();
+        let spin_up = (frame.length / speed / meander.step).ceil();
         let mut field = Field {
             mesh,
             mean: mean_speed,
@@ -44,14 +46,14 @@ impl Field {
         };
         let start = field.boundary();
         field.frames.iter_mut().for_each(|nodes| fill(nodes, &field.mesh, &start, Part::All));
-        field.advance_to(begin);
         field
     }
 
-    /// Computes steps until the newest state is at `time` or later.
-    pub fn advance_to(&mut self, time: f64) {
+    /// Computes steps until the newest state is at `time` or later. `carried` is what the whole water does at a time, along the
+    /// mean flow and to its right, m/s: it carries the field with it.
+    pub fn advance_to(&mut self, time: f64, carried: impl Fn(f64) -> (f64, f64)) {
         while (self.newest as f64) * self.step < time {
-            self.advance();
+            self.advance(carried((self.newest as f64) * self.step));
         }
     }
 
@@ -97,17 +99,17 @@ impl Field {
         corners
     }
 
-    fn advance(&mut self) {
+    fn advance(&mut self, carried: (f64, f64)) {
         self.corners.step();
         let boundary = self.boundary();
         self.frames.rotate_left(1);
         let [_, old, new] = &mut self.frames;
         fill(new, &self.mesh, &boundary, Part::Edges);
         let time = self.step / self.mesh.substeps;
-        euler(old, new, &self.mesh, self.half_viscosity, time);
+        euler(old, new, &self.mesh, self.half_viscosity, time, carried);
         for _ in 1..self.mesh.substeps as usize {
             let from = new.clone();
-            euler(&from, new, &self.mesh, self.half_viscosity, time);
+            euler(&from, new, &self.mesh, self.half_viscosity, time, carried);
         }
         self.newest += 1;
     }
@@ -141,14 +143,14 @@ fn fill(nodes: &mut Nodes, mesh: &Mesh, corners: &[f64; SIGNALS], part: Part) {
 }
 
 /// One explicit step of the inner nodes.
-fn euler(old: &Nodes, new: &mut Nodes, mesh: &Mesh, half_viscosity: f64, time: f64) {
+fn euler(old: &Nodes, new: &mut Nodes, mesh: &Mesh, half_viscosity: f64, time: f64, carried: (f64, f64)) {
     let (along, across) = (time / (2.0 * mesh.dx), time / (2.0 * mesh.dy));
     let (diffuse_x, diffuse_y) =
         (time * half_viscosity / (mesh.dx * mesh.dx), time * half_viscosity / (mesh.dy * mesh.dy));
     let n = mesh.columns;
     for row in 1..mesh.rows - 1 {
         for node in row * n + 1..row * n + n - 1 {
-            let (u, v) = (old.u[node], old.v[node]);
+            let (u, v) = (old.u[node] + carried.0, old.v[node] + carried.1);
             let step = |f: &[f64]| {
                 let (here, west, east, north, south) = (f[node], f[node - 1], f[node + 1], f[node - n], f[node + n]);
                 here - (u * along * (east - west) + v * across * (south - north))
@@ -170,15 +172,18 @@ fn cell_of(position: f64, cells: usize) -> (usize, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Flow;
     use albacore_geometry::{Area, Heading, Point};
 
     fn duck(meander: &Meander, seed: u64) -> Field {
         let direction = Heading::from_degrees(140.0);
         let flow = Flow { mean: 0.125 * direction.unit(), meander: Some(meander.clone()), ..Flow::default() };
         let region = Area::rectangle(Point::ORIGIN, direction, 1094.0, 367.0).unwrap();
-        Field::new(meander, &FlowFrame::new(&flow, Some(&region)), 0.0, 0.125, seed)
+        let mut field = Field::new(meander, &FlowFrame::new(&flow, Some(&region)), 0.0, &flow, seed);
+        field.advance_to(0.0, STILL);
+        field
     }
+
+    const STILL: fn(f64) -> (f64, f64) = |_| (0.0, 0.0);
 
     fn squared(x: f64) -> f64 {
         x * x
@@ -187,7 +192,7 @@ mod tests {
     #[test]
     fn frozen_cells_and_direct_look_up_agree() {
         let mut field = duck(&Meander::default(), 5);
-        field.advance_to(12.0);
+        field.advance_to(12.0, STILL);
         let mut cells = Cells::default();
         for time in [6.5, 12.0, 14.9] {
             field.frozen(time, &mut cells);
@@ -207,7 +212,7 @@ mod tests {
             let mut field = duck(&Meander::default(), seed);
             for k in 1..=30 {
                 let time = f64::from(k) * 400.0;
-                field.advance_to(time);
+                field.advance_to(time, STILL);
                 corner += squared(field.velocity(0.0, 0.0, time).1);
                 for (x, y) in (0..60).map(|i| (60.0 + 120.0 * f64::from(i % 10), 60.0 + 73.0 * f64::from(i / 10))) {
                     let (u, v) = field.velocity(x, y, time);
@@ -229,8 +234,8 @@ mod tests {
         let (mut coarse, mut fine) =
             (duck(&Meander::default(), 3), duck(&Meander { cell: 10.0, ..Meander::default() }, 3));
         assert!(fine.mesh.substeps > coarse.mesh.substeps);
-        coarse.advance_to(1000.0);
-        fine.advance_to(1000.0);
+        coarse.advance_to(1000.0, STILL);
+        fine.advance_to(1000.0, STILL);
         for (x, y) in [(607.0, 243.0), (300.0, 100.0), (900.0, 400.0)] {
             let (a, b) = (coarse.velocity(x, y, 1000.0), fine.velocity(x, y, 1000.0));
             assert!((a.0 - b.0).abs() < 2e-4 && (a.1 - b.1).abs() < 2e-4, "{a:?} {b:?}");

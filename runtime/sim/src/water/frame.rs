@@ -36,7 +36,11 @@ impl FlowFrame {
 
     /// Metres down-flow and to the right of the box's corner.
     pub fn to_local(&self, p: Point) -> (f64, f64) {
-        let d = p - self.corner;
+        self.of_vector(p - self.corner)
+    }
+
+    /// The components of a vector along the flow and to its right.
+    pub fn of_vector(&self, d: Vector) -> (f64, f64) {
         (d.dot(self.along), d.east * self.along.north - d.north * self.along.east)
     }
 
