@@ -21,6 +21,20 @@ pub fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
     if script.is_sound() { Ok(script) } else { Err(Exit::Script) }
 }
 
+/// The script that holds a scenario, named as `NAME`, `FILE.alb` or `FILE.alb#NAME`; with the file and the name.
+pub fn scenario_script<'a>(named: &'a str, set: &[String]) -> Result<(Script, &'a str, Option<&'a str>), Exit> {
+    let (file, name) = match named.split_once('#') {
+        Some((file, name)) => (Some(file), Some(name)),
+        None if named.ends_with(".alb") => (Some(named), None),
+        None => (None, Some(named)),
+    };
+    let script = match file {
+        Some(file) => sound(albacore_session::load(Path::new(file), None, set))?,
+        None => sound(Ok(albacore_session::load_library(set)))?,
+    };
+    Ok((script, file.unwrap_or_default(), name))
+}
+
 /// Which mission of a script, in which world, with what changed: what every verb that drives takes.
 #[derive(clap::Args)]
 pub struct Choice {

@@ -2,10 +2,9 @@
 
 use crate::clock::{self, Pace};
 use crate::exit::Exit;
-use crate::plan::{refused, sound};
+use crate::plan::{refused, scenario_script};
 use crate::{interruption, message};
 use albacore_session::{FarEnd, LinkError, Rows, Transport, Url, World};
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -64,16 +63,8 @@ impl Vehicle {
     }
 
     fn far_end(&self) -> Result<FarEnd, Exit> {
-        let (file, name) = match self.scenario.split_once('#') {
-            Some((file, name)) => (Some(file), Some(name)),
-            None if self.scenario.ends_with(".alb") => (Some(self.scenario.as_str()), None),
-            None => (None, Some(self.scenario.as_str())),
-        };
-        let script = match file {
-            Some(file) => sound(albacore_session::load(Path::new(file), None, &self.set))?,
-            None => sound(Ok(albacore_session::load_library()))?,
-        };
-        let world = World::new(&script, file.unwrap_or_default(), name);
+        let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
+        let world = World::new(&script, file, name);
         world.and_then(|world| world.far_end(self.seed, self.rows)).map_err(|error| refused(&error, &script))
     }
 

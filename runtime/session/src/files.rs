@@ -85,10 +85,11 @@ pub fn load_text(source: Source) -> Script {
     albacore_lang::load(source, &files, None, &[])
 }
 
-/// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it.
-pub fn load_library() -> Script {
+/// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it. `set`
+/// changes their parameters.
+pub fn load_library(set: &[String]) -> Script {
     let nothing = Source { name: "the standard library".into(), text: "".into() };
-    albacore_lang::load(nothing, &Files::around(Path::new("")), None, &[])
+    albacore_lang::load(nothing, &Files::around(Path::new("")), None, set)
 }
 
 /// Reads a source file as text.

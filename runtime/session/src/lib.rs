@@ -12,6 +12,7 @@ mod plan;
 pub mod prompt;
 mod run;
 mod scenario;
+mod shown;
 mod summary;
 mod tests;
 mod world;
@@ -35,6 +36,7 @@ pub use files::{
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
 pub use run::{Run, Running};
+pub use shown::{Shown, ShownClause};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, run_test};
 pub use world::{FarEnd, World};

@@ -18,13 +18,11 @@ use clause::Clause;
 
 /// The simulator's scenario; else what of it cannot be understood, and where.
 pub(crate) fn scenario(program: &ScenarioProgram, sources: &Sources) -> Result<Scenario, Diagnostic> {
-    let mut evaluation = Evaluation::new(&program.program);
-    evaluation.run(&program.program, program.program.mission.activity);
-    let words = evaluation.words(0, program.program.words);
+    let words = words(program);
     let mut scenario = Scenario::default();
     for clause in &program.clauses {
         let file = &sources.get(clause.span.file).name;
-        let clause = Clause { clause, words, file };
+        let clause = Clause { clause, words: &words, file };
         apply(&mut scenario, &clause).map_err(|what| {
             let message = format!("this clause cannot be: {what}");
             Diagnostic::error(Code::ScenariosClause, clause.clause.span, message)
@@ -38,6 +36,13 @@ pub(crate) fn scenario(program: &ScenarioProgram, sources: &Sources) -> Result<S
         }
         _ => Ok(scenario),
     }
+}
+
+/// The words that the clauses' arguments point into.
+pub(crate) fn words(program: &ScenarioProgram) -> Vec<f64> {
+    let mut evaluation = Evaluation::new(&program.program);
+    evaluation.run(&program.program, program.program.mission.activity);
+    evaluation.words(0, program.program.words).to_vec()
 }
 
 fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -56,6 +61,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "patch" => plume::patch(scenario, c),
         "recorded_plume" => recorded::recorded_plume(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
+        "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "handover" => vehicle::handover(scenario, c),
         "navigation" => sensors::navigation(scenario, c),

@@ -7,7 +7,8 @@
 mod bottom;
 mod computer;
 mod deepest;
-mod kinematics;
+pub mod hull;
+mod limits;
 mod noise;
 mod normal;
 mod plume;
@@ -26,8 +27,9 @@ mod world;
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, KinematicVehicle, Lbl, Meander, Navigation, OwnMission, Patch, Pit,
-    Plume, Scenario, ScenarioError, Sounder, Source, Tide, Times, UpperFlow, Waves,
+    Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander, Navigation, OwnMission,
+    Patch, Pit, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
+    Waves,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

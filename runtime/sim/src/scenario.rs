@@ -16,7 +16,7 @@ pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
-pub use vehicle::{Handover, KinematicVehicle, OwnMission};
+pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
 use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
@@ -44,7 +44,9 @@ pub struct Scenario {
     #[serde(skip)]
     pub recording: Option<RecordedPlume>,
     /// The vehicle.
-    pub vehicle: KinematicVehicle,
+    pub vehicle: VehicleSetup,
+    /// The vehicle's own limits; none: its hull's alone.
+    pub limits: Option<Limits>,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
     pub own_mission: Option<OwnMission>,
     /// How it answers who asks to drive; none: it gives way at once.

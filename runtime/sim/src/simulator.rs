@@ -1,7 +1,8 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
 use crate::computer::{Computer, Known, seconds};
-use crate::kinematics::Kinematics;
+use crate::hull::Hull;
+use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
 use crate::survey::Survey;
@@ -28,6 +29,10 @@ pub struct Truth {
     pub position: Point,
     /// Where its nose points.
     pub heading: Heading,
+    /// Nose up, rad.
+    pub pitch: f64,
+    /// Starboard side down, rad.
+    pub roll: f64,
     /// Its direction over ground.
     pub course: Heading,
     /// Its speed over ground, m/s.
@@ -47,7 +52,7 @@ pub struct Truth {
 pub struct Simulator {
     channels: Vec<Channel>,
     world: World,
-    vehicle: Kinematics,
+    vehicle: Hull,
     /// Where the chemical sensor's intake was a tick ago, and its height above the bottom (m).
     intake: (Point, f64),
     intake_ahead: f64,
@@ -57,6 +62,7 @@ pub struct Simulator {
     sounder: EchoSounder,
     endurance: f64,
     computer: Computer,
+    watch: Watch,
     /// The latest estimate of the current, for the computer.
     flow: Vector,
     control: Control,
@@ -76,7 +82,7 @@ impl Simulator {
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
             channels: channels::all(),
-            vehicle: Kinematics::new(&vehicle, world.flow(start, altitude, 0.0), seed),
+            vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),
             intake_ahead: scenario.fluorometer.ahead,
@@ -89,8 +95,9 @@ impl Simulator {
                 scenario.own_mission.as_ref(),
                 scenario.handover.as_ref(),
                 (start, vehicle.heading),
-                vehicle.speed_max,
+                vehicle.hull.speed_max(),
             ),
+            watch: Watch::new(scenario.limits.as_ref(), vehicle.hull.speed_max()),
             flow: Vector::ZERO,
             control: Control::Disconnected,
             command: None,
@@ -142,16 +149,19 @@ impl Simulator {
     /// Moves the world from the last tick to this one.
     fn advance(&mut self, tick: u64) {
         self.world.advance_to(tick);
-        let flow = self.world.flow(self.vehicle.position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
+        let flow = self.world.flow(self.vehicle.motion().position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
         let command = match self.control {
             Control::InControl => self.command,
             // A fix, or a fault: it stays where it is.
             Control::Suspended => None,
             _ => self.computer.steer(self.known()),
         };
+        let water_depth = self.truth.depth + self.truth.altitude;
+        let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
         self.intake = self.intake_now();
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
-        self.positioning.step(tick, self.vehicle.ground_velocity, self.vehicle.position);
+        let motion = self.vehicle.motion();
+        self.positioning.step(tick, motion.ground_velocity, motion.position);
     }
 
     /// What the vehicle's computer knows.
@@ -162,13 +172,15 @@ impl Simulator {
 
     /// Notes what is so now.
     fn observe(&mut self) {
-        let v = &self.vehicle;
+        let v = self.vehicle.motion();
         let time = self.time_s();
         let altitude = self.world.water_depth(v.position) - v.depth;
         let (intake, height) = self.intake_now();
         self.truth = Truth {
             position: v.position,
             heading: v.heading,
+            pitch: v.pitch,
+            roll: v.roll,
             course: v.ground_velocity.toward(),
             speed_over_ground: v.ground_velocity.length(),
             depth: v.depth,
@@ -180,7 +192,7 @@ impl Simulator {
 
     /// Where the chemical sensor's intake is, and its height above the bottom (m).
     fn intake_now(&self) -> (Point, f64) {
-        let v = &self.vehicle;
+        let v = self.vehicle.motion();
         let intake = v.position + self.intake_ahead * v.heading.unit();
         (intake, (self.world.water_depth(intake) - v.depth).max(0.0))
     }
@@ -214,7 +226,7 @@ impl Simulator {
         snapshot.push(ALTITUDE, &[echo]);
         snapshot.push(WATER_DEPTH, &[depth + echo]);
         let view = View {
-            ground_velocity: self.vehicle.ground_velocity,
+            ground_velocity: self.vehicle.motion().ground_velocity,
             flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),
             heading: truth.heading,
             depth: truth.depth,
@@ -291,5 +303,9 @@ impl Vehicle for Simulator {
         self.control = Control::Released;
         self.command = None;
         Ok(())
+    }
+
+    fn notices(&mut self) -> Vec<String> {
+        self.watch.take_notices()
     }
 }

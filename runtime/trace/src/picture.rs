@@ -33,6 +33,8 @@ pub struct Picture {
     pub subtitle: Vec<String>,
     /// The corners of the operating area.
     pub area: Vec<Point>,
+    /// What the legend calls it; empty: the operating area.
+    pub area_name: String,
     /// Filaments of the plume: where, and how wide (radius in metres).
     pub plume: Vec<(Point, f64)>,
     /// Where the vehicle went, each with an index into `behaviors`.

@@ -14,7 +14,7 @@ pub struct Clause<'a> {
 
 impl<'a> Clause<'a> {
     fn value(&self, name: &str) -> Option<&'a ScenarioValue> {
-        self.clause.args.iter().find(|(n, _)| n == name).map(|(_, value)| value)
+        self.clause.args.iter().find(|arg| arg.name == name).map(|arg| &arg.value)
     }
 
     fn slot(&self, name: &str) -> Result<Slot, String> {
