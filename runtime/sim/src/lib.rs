@@ -25,9 +25,9 @@ mod world;
 pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander, Navigation, OwnMission,
-    Patch, Pit, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
-    Waves,
+    Adcp, Bottom, Compass, Dvl, Flow, Fluorometer, Gps, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander,
+    Navigation, OwnMission, Patch, Pit, Plume, Pressure, Scenario, ScenarioError, Sounder, Source, SubmersibleHull,
+    Tide, Times, UpperFlow, VehicleSetup, Waves,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;
