@@ -129,8 +129,8 @@ impl Run {
                 bar.suspend(|| kept.journal_failed(&error));
             }
             for notice in run.take_notices() {
-                let from = if self.link.is_some() { "link" } else { "vehicle" };
-                bar.suspend(|| message::write(&format!("{from}: {notice}\n")));
+                let teller = if self.link.is_some() { "link" } else { "vehicle" };
+                bar.suspend(|| message::write(&format!("{teller}: {notice}\n")));
             }
             if let Running::Over(outcome) = running {
                 bar.finish_and_clear();

@@ -1,7 +1,8 @@
 //! Faults from the command line: clauses as in a scenario, read and checked as one.
 
+use crate::files::{self, Files};
 use crate::plan::{Plan, PlanError};
-use crate::{files, scenario};
+use crate::scenario;
 use albacore_lang::Script;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
@@ -35,7 +36,8 @@ pub(crate) fn faults(script: &Script) -> Result<Vec<Fault>, PlanError> {
         let message = format!("`--fault` takes `fault(…)`, not `{}`", other.name);
         return Err(PlanError::Script(vec![Diagnostic::error(Code::ScenariosClause, other.span, message)]));
     }
-    scenario::scenario(&lowered).map(|scenario| scenario.faults).map_err(|finding| PlanError::Script(vec![finding]))
+    let understood = scenario::scenario(&lowered, &Files::of(script)).map_err(PlanError::Script)?;
+    Ok(understood.world.faults)
 }
 
 impl Plan {

@@ -145,7 +145,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
 }
 
 /// An error of the system without its number.
-fn plain(error: &std::io::Error) -> String {
+pub(crate) fn plain(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_lowercase()
 }
@@ -175,6 +175,17 @@ impl Files {
             }
         }
         Files { root }
+    }
+
+    /// The project that a script was read from.
+    pub(crate) fn of(script: &Script) -> Self {
+        let name = script.sources.iter().next().map(|source| source.name.to_string());
+        Files::around(Path::new(&name.unwrap_or_default()))
+    }
+
+    /// The project's folder.
+    pub(crate) fn root(&self) -> &Path {
+        &self.root
     }
 
     /// The names that `use` can give.

@@ -3,6 +3,7 @@
 pub mod campaign;
 mod check;
 mod craft;
+mod data;
 mod faults;
 mod files;
 mod journal;

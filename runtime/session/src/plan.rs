@@ -78,9 +78,10 @@ impl Plan {
 
     /// A mission that is lowered already, in a scenario of the script.
     pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
-        let (lowered, world) = world::scenario(script, wanted, program.mission.origin)?;
-        let (scenario, scenario_name) = (Arc::new(world), lowered.name);
-        Ok(Plan { program, scenario, scenario_name, sources: sources(script) })
+        let (lowered, understood) = world::scenario(script, wanted, program.mission.origin)?;
+        let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
+        let sources = sources(script).into_iter().chain(understood.files).collect();
+        Ok(Plan { program, scenario, scenario_name, sources })
     }
 }
 

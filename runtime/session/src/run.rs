@@ -180,10 +180,10 @@ impl Run {
         self.deepest
     }
 
-    /// The deepest point, where that is what is sought: there are pits to be found, and no sources.
+    /// The deepest point, where that is what is sought: there are hollows to be found, and no sources.
     fn deepest_sought(&self) -> Option<Point> {
         let world = &self.plan.scenario;
-        self.deepest.filter(|_| world.sources.is_empty() && !world.bottom.pits.is_empty())
+        self.deepest.filter(|_| world.sources.is_empty() && world.bottom.has_hollows())
     }
 
     /// The corners of the mission's area, once it has one.
@@ -287,6 +287,7 @@ impl Run {
     fn finish(&mut self, outcome: Outcome, events: Vec<Event>) -> Running {
         if matches!(outcome, Outcome::Refused | Outcome::ReleasedByVehicle | Outcome::LinkLost)
             && self.reason.is_empty()
+            && self.vehicle.truth().is_none()
         {
             self.reason.clone_from(&self.last_notice);
         }
@@ -365,7 +366,7 @@ impl Run {
             self.snapshot.samples.iter().any(|s| Some(s.channel as usize) == chemical && s.reading[0] >= DETECTION);
         // A simulated world without a plume has nothing to detect; of a real one we know no better.
         if detected
-            && (truth.is_none() || self.plan.scenario.plume.is_some())
+            && (truth.is_none() || self.plan.scenario.has_plume())
             && let Some(at) = believed.or(here)
         {
             self.picture.detection(at);
@@ -462,6 +463,7 @@ impl Run {
             depths: Depths::sound(sounded, |p| self.water_depth(p)),
             area,
             plume: self.vehicle.filaments(),
+            no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
             sources: scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect(),
             deepest,
             start: self.start,

@@ -5,28 +5,97 @@ mod clause;
 mod fault;
 mod flow;
 mod plume;
+mod recorded;
 mod sensors;
 mod vehicle;
 
+use crate::files::{FileError, Files};
+use albacore_geometry::TangentFrame;
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
+use albacore_trace::journal::SourceDigest;
 use clause::Clause;
 
+/// A scenario that was understood.
+pub(crate) struct Understood {
+    /// The simulator's own.
+    pub world: Scenario,
+    /// The files of numbers that it was read from.
+    pub files: Vec<SourceDigest>,
+}
+
 /// The simulator's scenario; else what of it cannot be understood, and where.
-pub(crate) fn scenario(program: &ScenarioProgram) -> Result<Scenario, Diagnostic> {
+pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
-    let mut scenario = Scenario::default();
+    let mut understood = Understood { world: Scenario::default(), files: Vec::new() };
+    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().chain(two_plumes(program)).collect();
     for clause in &program.clauses {
         let clause = Clause { clause, words: &words };
-        apply(&mut scenario, &clause).map_err(|what| {
-            let message = format!("this clause cannot be: {what}");
-            Diagnostic::error(Code::ScenariosClause, clause.clause.span, message)
-        })?;
+        let read = match clause.clause.name.as_str() {
+            "bottom_grid" => {
+                let frame = program.origin.map(|origin| TangentFrame { origin });
+                bottom::grid(&mut understood, &clause, files, frame)
+            }
+            "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
+            _ => apply(&mut understood.world, &clause).map_err(Into::into),
+        };
+        if let Err(Wrong(faults)) = read {
+            findings.extend(faults.into_iter().map(|fault| fault.at(&clause)));
+        }
     }
-    Ok(scenario)
+    if findings.is_empty() { Ok(understood) } else { Err(findings) }
+}
+
+/// The ground is a plane or a survey: of two that are said, neither can be the one that is meant.
+fn two_grounds(program: &ScenarioProgram) -> Option<Diagnostic> {
+    let mut grounds = program.clauses.iter().filter(|c| matches!(c.name.as_str(), "bottom" | "bottom_grid"));
+    let (first, second) = (grounds.next()?, grounds.next()?);
+    let message = "a scenario has one `bottom` or one `bottom_grid`";
+    let finding = Diagnostic::error(Code::ScenariosTwice, second.span, message);
+    Some(finding.label(first.span, "the first").help("leave one of them out"))
+}
+
+/// A record brings its own water.
+fn two_plumes(program: &ScenarioProgram) -> Option<Diagnostic> {
+    let record = program.clauses.iter().find(|c| c.name == "recorded_plume")?;
+    let second = program.clauses.iter().find(|c| recorded::BROUGHT.contains(&c.name.as_str()))?;
+    let message = format!("the record brings its own `{}`", second.name);
+    let finding = Diagnostic::error(Code::ScenariosClause, second.span, message);
+    Some(finding.label(record.span, "the record").help("leave it out, or `recorded_plume`"))
+}
+
+/// All that is wrong with a clause.
+struct Wrong(Vec<Fault>);
+
+/// What is wrong, and its mend if that is known.
+struct Fault {
+    message: String,
+    help: Option<String>,
+}
+
+impl From<FileError> for Wrong {
+    fn from(error: FileError) -> Wrong {
+        Wrong(vec![Fault { message: error.message, help: error.help }])
+    }
+}
+
+impl From<String> for Wrong {
+    fn from(what: String) -> Wrong {
+        Wrong(vec![Fault { message: format!("this clause cannot be: {what}"), help: None }])
+    }
+}
+
+impl Fault {
+    fn at(self, clause: &Clause) -> Diagnostic {
+        let finding = Diagnostic::error(Code::ScenariosClause, clause.clause.span, self.message);
+        match self.help {
+            Some(help) => finding.help(help),
+            None => finding,
+        }
+    }
 }
 
 /// The words that the clauses' arguments point into.
@@ -46,6 +115,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "region" => flow::region(scenario, c),
         "bottom" => bottom::bottom(scenario, c),
         "pit" => bottom::pit(scenario, c),
+        "no_go" => bottom::no_go(scenario, c),
         "plume" => plume::plume(scenario, c),
         "source" => plume::source(scenario, c),
         "leak" => plume::leak(scenario, c),

@@ -1,5 +1,6 @@
 //! A scenario as a person looks at it: every number in force, those of the library's defaults too, and a picture.
 
+use crate::files::Files;
 use crate::plan::PlanError;
 use crate::scenario;
 use crate::world::{self, place_of};
@@ -9,6 +10,7 @@ use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue, Script, doc}
 use albacore_program::{AREA_CORNER_WORDS, Shape, number};
 use albacore_sim::{Scenario, Simulator};
 use albacore_trace::{Depths, Picture};
+use std::path::Path;
 
 /// A picture without a region shows so much water around the vehicle, m to each side.
 const AROUND_M: f64 = 100.0;
@@ -44,7 +46,8 @@ impl Shown {
     /// picture is that of a seed.
     pub fn new(script: &Script, file: &str, wanted: Option<&str>, seed: u64) -> Result<Self, PlanError> {
         let wanted = chosen(script, file, wanted)?;
-        let (lowered, world) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let (lowered, understood) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let world = understood.world;
         let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&lowered.name, &error))?;
         let defaults = Defaults::read();
         let mut clauses = Vec::new();
@@ -91,10 +94,10 @@ struct Defaults {
 impl Defaults {
     /// Asks the library's own words, through the same steps as any scenario.
     fn read() -> Self {
-        let page = crate::load_or_module("world".as_ref())
-            .ok()
-            .and_then(|script| script.sources.iter().next().and_then(doc::page));
-        let declared = page.map(|page| page.declarations).unwrap_or_default();
+        let everywhere = crate::standard_modules().filter(|module| crate::is_known_everywhere(module));
+        let scripts = everywhere.filter_map(|module| crate::load_or_module(module.as_ref()).ok());
+        let pages = scripts.filter_map(|script| script.sources.iter().next().and_then(doc::page));
+        let declared: Vec<doc::Declaration> = pages.flat_map(|page| page.declarations).collect();
         let clauses = || declared.iter().filter(|d| d.word == "clause");
         // What needs no number can be left to itself; the kinds of other clauses may be left out.
         let kinds: Vec<&String> = clauses().filter_map(|d| d.result.as_ref()).collect();
@@ -117,7 +120,8 @@ impl Defaults {
         let probe = self.probe.as_ref()?;
         let clause = probe.clauses.iter().find(|clause| clause.name == name)?;
         let alone = ScenarioProgram { clauses: vec![clause.clone()], ..probe.clone() };
-        scenario::scenario(&alone).is_ok_and(|world| world == Scenario::default()).then_some(clause)
+        let understood = scenario::scenario(&alone, &Files::around(Path::new("")));
+        understood.is_ok_and(|understood| understood.world == Scenario::default()).then_some(clause)
     }
 }
 
@@ -194,6 +198,7 @@ fn picture(lowered: &ScenarioProgram, scenario: &Scenario, simulator: &Simulator
         depths: Depths::sound(&shown, |p| simulator.water_depth(p)),
         area: area.unwrap_or_default(),
         area_name: String::from("region"),
+        no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
         plume: simulator.filaments().collect(),
         sources: scenario.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),
         start: Some(start),

@@ -9,13 +9,17 @@ mod computer;
 mod deepest;
 mod fault;
 pub mod hull;
+mod incidents;
 mod limits;
 mod noise;
 mod normal;
 mod plume;
 pub mod presets;
+pub mod probe;
+mod recorded;
 mod scenario;
 mod sensors;
+mod simulated;
 mod simulator;
 mod start;
 mod survey;
@@ -24,10 +28,11 @@ mod world;
 
 pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
+pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Bottom, Compass, Dvl, Flow, Fluorometer, Gps, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander,
-    Navigation, OwnMission, Patch, Pit, Plume, Pressure, Scenario, ScenarioError, Sounder, Source, SubmersibleHull,
-    Tide, Times, UpperFlow, VehicleSetup, Waves,
+    Adcp, Bottom, Compass, Dvl, Flow, Fluorometer, Gps, Grid, Ground, Handover, HullSetup, KinematicHull, Lbl, Limits,
+    Meander, Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario, ScenarioError, Sounder,
+    Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

@@ -57,6 +57,8 @@ pub enum Stream {
     Gps = 66,
     /// Noise of the Doppler log.
     Dvl = 67,
+    /// The moment at which a recorded plume is begun.
+    RecordStart = 80,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.

@@ -9,7 +9,7 @@ mod sensors;
 mod source;
 mod vehicle;
 
-pub use bottom::{Bottom, Pit};
+pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub use instruments::{Compass, Dvl, Gps, Pressure};
 pub(crate) use objections::Objections;
@@ -21,6 +21,7 @@ pub use source::{Patch, Source, Times};
 pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
 use crate::fault::{self, Fault};
+use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
 
@@ -36,12 +37,17 @@ pub struct Scenario {
     pub flow: Flow,
     /// The water's depth.
     pub bottom: Bottom,
+    /// Where the vehicle must not be.
+    pub no_go: Vec<NoGo>,
     /// How the chemical spreads; none: the chemical sensor reads only its noise.
     pub plume: Option<Plume>,
     /// What releases chemical.
     pub sources: Vec<Source>,
     /// What was left in the water before the run.
     pub patches: Vec<Patch>,
+    /// A plume that was computed elsewhere, and the flow that carries it, instead of those of our own.
+    #[serde(skip)]
+    pub recording: Option<RecordedPlume>,
     /// The vehicle.
     pub vehicle: VehicleSetup,
     /// The vehicle's own limits; none: its hull's alone.
@@ -71,6 +77,11 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// Whether there is any chemical to be sensed.
+    pub fn has_plume(&self) -> bool {
+        self.plume.is_some() || self.recording.is_some()
+    }
+
     /// Lists impossible physics, all of it at once.
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let mut objections = Objections::default();
@@ -80,11 +91,17 @@ impl Scenario {
         if let Some(Err(error)) = self.region.as_ref().map(|region| Area::polygon(region.corners())) {
             objections.0.push(format!("`region`: {error}"));
         }
+        for zone in &self.no_go {
+            if let Err(error) = Area::polygon(zone.area.corners()) {
+                objections.0.push(format!("`no_go` {}: {error}", zone.name));
+            }
+        }
         // What follows looks at the region and the flow's direction.
         if objections.0.is_empty() {
             flow::check_meander(self, &mut objections);
             plume::check(self, &mut objections);
             source::check(self, &mut objections);
+            recorded::check(self, &mut objections);
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);

@@ -3,6 +3,7 @@
 use crate::computer::{Computer, Known, seconds};
 use crate::fault::Faults;
 use crate::hull::Hull;
+use crate::incidents::Incidents;
 use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{Compass, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
@@ -72,6 +73,7 @@ pub struct Simulator {
     control: Control,
     command: Option<Command>,
     truth: Truth,
+    incidents: Incidents,
     faults: Faults,
     /// The tick last sensed; none before the first.
     tick: Option<u64>,
@@ -110,6 +112,7 @@ impl Simulator {
             control: Control::Disconnected,
             command: None,
             truth: Truth::default(),
+            incidents: Incidents::new(&scenario.no_go),
             faults: Faults::new(&scenario.faults, seed),
             tick: None,
         };
@@ -131,6 +134,11 @@ impl Simulator {
     /// The water's true depth at a point, m.
     pub fn water_depth(&self, p: Point) -> f64 {
         self.world.water_depth(p)
+    }
+
+    /// The water's velocity now at a point and a height above the bottom (m), m/s toward.
+    pub fn flow(&self, p: Point, height: f64) -> Vector {
+        self.world.flow(p, height, self.time_s())
     }
 
     /// The plume's filaments now: where they are, and their radii (standard deviations of Gaussians) in metres.
@@ -213,6 +221,12 @@ impl Simulator {
             flow: self.world.flow(v.position, altitude, time) + self.faults.ailing().current,
             concentration: self.world.concentration(intake, height, time),
         };
+    }
+
+    /// Notes what befell the vehicle.
+    fn note_incidents(&mut self) {
+        let Truth { position, depth, altitude, .. } = self.truth;
+        self.incidents.observe(position, depth + altitude, self.vehicle.motion().aground || altitude <= 0.0);
     }
 
     /// Where the chemical sensor's intake is, and its height above the bottom (m).
@@ -302,12 +316,16 @@ impl Vehicle for Simulator {
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         let tick = self.tick.map_or(0, |tick| tick + 1);
+        if let Some(why) = self.world.end_before(tick) {
+            return Err(VehicleError(why));
+        }
         self.faults.advance_to(tick);
         if tick > 0 {
             self.advance(tick);
         }
         self.tick = Some(tick);
         self.observe();
+        self.note_incidents();
         if self.faults.ailing().leaks {
             self.control = Control::Released;
         }
@@ -362,6 +380,7 @@ impl Vehicle for Simulator {
     fn notices(&mut self) -> Vec<String> {
         let mut notices = self.faults.take_notices();
         notices.extend(self.watch.take_notices());
+        notices.append(&mut self.incidents.take());
         notices
     }
 }

@@ -39,6 +39,12 @@ impl<'a> Clause<'a> {
         Ok(Point::new(self.word(at), self.word(at + 1)))
     }
 
+    /// A point that may be absent.
+    pub fn optional_point(&self, name: &str) -> Result<Option<Point>, String> {
+        let at = self.slot(name)?;
+        Ok((self.word(at) != 0.0).then(|| Point::new(self.word(at + 1), self.word(at + 2))))
+    }
+
     pub fn vector(&self, name: &str) -> Result<Vector, String> {
         let at = self.slot(name)?;
         Ok(Vector::new(self.word(at), self.word(at + 1)))
@@ -62,7 +68,7 @@ impl<'a> Clause<'a> {
 
     pub fn clause(&self, name: &str) -> Option<Clause<'a>> {
         match self.value(name) {
-            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, words: self.words }),
+            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, ..*self }),
             _ => None,
         }
     }
