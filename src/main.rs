@@ -17,6 +17,7 @@ mod output;
 mod plan;
 mod repl;
 mod run;
+mod scenario;
 mod test;
 mod vehicle;
 
@@ -57,6 +58,8 @@ enum Verb {
     Doc(doc::Doc),
     /// Explain the code of an error or a warning.
     Explain(explain::Explain),
+    /// Look at a scenario: every number in force, and a picture.
+    Scenario(scenario::Scenario),
     /// Serve a simulated vehicle at the far end of a link.
     Vehicle(vehicle::Vehicle),
     /// Print a script with which a shell completes verbs and options.
@@ -86,6 +89,7 @@ fn main() -> ExitCode {
         Verb::Graph(graph) => graph.run(),
         Verb::Doc(doc) => doc.run(),
         Verb::Explain(explain) => explain.run(),
+        Verb::Scenario(scenario) => scenario.run(),
         Verb::Vehicle(vehicle) => vehicle.run(),
         Verb::Completions(completions) => completions.run(Arguments::command()),
     };

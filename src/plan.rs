@@ -21,6 +21,20 @@ pub fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
     if script.is_sound() { Ok(script) } else { Err(Exit::Script) }
 }
 
+/// The script that holds a scenario, named as `NAME`, `FILE.alb` or `FILE.alb#NAME`; with the file and the name.
+pub fn scenario_script<'a>(named: &'a str, set: &[String]) -> Result<(Script, &'a str, Option<&'a str>), Exit> {
+    let (file, name) = match named.split_once('#') {
+        Some((file, name)) => (Some(file), Some(name)),
+        None if named.ends_with(".alb") => (Some(named), None),
+        None => (None, Some(named)),
+    };
+    let script = match file {
+        Some(file) => sound(albacore_session::load(Path::new(file), None, set))?,
+        None => sound(Ok(albacore_session::load_library(set)))?,
+    };
+    Ok((script, file.unwrap_or_default(), name))
+}
+
 /// Which mission of a script, in which world, with what changed: what every verb that drives takes.
 #[derive(clap::Args)]
 pub struct Choice {
@@ -46,6 +60,22 @@ impl Choice {
         let file = path.display().to_string();
         let plan = Plan::new(script, &file, self.mission.as_deref(), self.scenario.as_deref());
         plan.map_err(|error| refused(&error, script))
+    }
+}
+
+/// What goes wrong in a simulated world, beside what its scenario says.
+#[derive(clap::Args)]
+pub struct Faults {
+    /// Let something go wrong, as a clause of the scenario does: `fault(position, off, from: 120 s, to: 180 s)`.
+    #[arg(long = "fault", value_name = "CLAUSE")]
+    pub texts: Vec<String>,
+}
+
+impl Faults {
+    /// Adds what they say to a plan or a world, or tells what is wrong with them.
+    pub fn add<T>(&self, add: impl FnOnce(&Script) -> Result<T, PlanError>) -> Result<T, Exit> {
+        let faults = sound(Ok(albacore_session::load_faults(&self.texts)))?;
+        add(&faults).map_err(|error| refused(&error, &faults))
     }
 }
 

@@ -64,6 +64,7 @@ impl Dimension {
             d if d == Self::ANGLE => shown("deg", std::f64::consts::PI / 180.0, 1),
             d if d == Self::SPEED => shown("m/s", 1.0, 2),
             d if d == Self::ANGLE / Self::TIME => shown("deg/s", std::f64::consts::PI / 180.0, 1),
+            d if d == Self::NONE / Self::TIME => shown("Hz", 1.0, 4),
             d => shown(&d.symbol(), 1.0, 4),
         }
     }

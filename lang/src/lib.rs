@@ -24,7 +24,7 @@ mod suggest;
 pub mod syntax;
 pub mod types;
 
-pub use lower::{ExpectProgram, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots};
+pub use lower::{ExpectProgram, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots};
 pub use suggest::{help as suggestion, nearest};
 
 use crate::code::Code;

@@ -19,7 +19,7 @@ mod watch;
 
 pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 
-pub use scenario::{ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
+pub use scenario::{ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;

@@ -34,11 +34,22 @@ pub struct ScenarioClause {
     pub place: String,
     /// Where it stands.
     pub span: Span,
-    /// Its arguments by the names of its parameters, defaults included.
-    pub args: Vec<(String, ScenarioValue)>,
+    /// Its arguments, defaults included.
+    pub args: Vec<ScenarioArg>,
 }
 
 /// An argument of a clause.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScenarioArg {
+    /// The name of its parameter.
+    pub name: String,
+    /// What it is.
+    pub value: ScenarioValue,
+    /// Whether the scenario says nothing of it.
+    pub is_default: bool,
+}
+
+/// What an argument of a clause is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ScenarioValue {
     /// Words in a slot.
@@ -115,7 +126,9 @@ impl<'a> Lowering<'a> {
                     }
                 },
             };
-            args.push((name.clone(), value));
+            // A default stands where the clause is declared.
+            let is_default = matches!(arg, ClauseArg::Value(e) if e.span.file != clause.span.file);
+            args.push(ScenarioArg { name: name.clone(), value, is_default });
         }
         ScenarioClause { name: clause.name.clone(), place: self.sources.place(clause.span), span: clause.span, args }
     }

@@ -35,6 +35,22 @@ impl Geodetic {
     }
 }
 
+/// As scripts write it, to a thousandth of a minute: `36°11.035'N 75°44.621'W`.
+impl std::fmt::Display for Geodetic {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let halves = [(self.latitude_deg(), 'N', 'S'), (self.longitude_deg(), 'E', 'W')];
+        for (i, (angle_deg, positive, negative)) in halves.into_iter().enumerate() {
+            // Rounded as a whole, so that no minutes are 60.
+            let thousandths = (angle_deg.abs() * 60_000.0).round() as u64;
+            let (whole, minutes) = (thousandths / 60_000, thousandths % 60_000);
+            let half = if angle_deg < 0.0 { negative } else { positive };
+            let blank = if i == 0 { "" } else { " " };
+            write!(f, "{blank}{whole}°{}.{:03}'{half}", minutes / 1000, minutes % 1000)?;
+        }
+        Ok(())
+    }
+}
+
 /// The plane that touches the ellipsoid at `origin`: north and east scale with the two radii of curvature there.
 ///
 /// Over the few kilometres of an operating area the error against the geodesic is below a millimetre a kilometre.
@@ -78,6 +94,13 @@ mod tests {
     use super::*;
 
     /// The 2005 paper's Duck mission: it prints positions both ways (Sec. IV, Fig. 6).
+    #[test]
+    fn a_position_is_written_as_scripts_write_it() {
+        let written = |latitude, longitude| Geodetic::from_degrees(latitude, longitude).to_string();
+        assert_eq!(written(36.0 + 11.035 / 60.0, -(75.0 + 44.621 / 60.0)), "36°11.035'N 75°44.621'W");
+        assert_eq!(written(-0.999_999_999, 12.05), "1°0.000'S 12°3.000'E");
+    }
+
     #[test]
     fn declared_and_true_source_of_the_2003_trial() {
         let declared = Geodetic::from_degrees(36.0 + 11.028 / 60.0, -(75.0 + 44.620 / 60.0));

@@ -4,7 +4,7 @@
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{Controller, FrontSeat, Happening, Milestone, Rows};
-use albacore_sim::{KinematicVehicle, Scenario, Simulator};
+use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 
 /// A generator for tests (SplitMix64): what goes wrong is the same in every run.
@@ -65,7 +65,7 @@ fn frame() -> TangentFrame {
 }
 
 fn still_water() -> Scenario {
-    Scenario { vehicle: KinematicVehicle { depth: 3.0, ..KinematicVehicle::default() }, ..Scenario::default() }
+    Scenario { vehicle: VehicleSetup { depth: 3.0, ..VehicleSetup::default() }, ..Scenario::default() }
 }
 
 struct Pair {

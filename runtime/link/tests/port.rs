@@ -5,7 +5,7 @@
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{FrontSeat, ReconVehicle, Rows};
 use albacore_link::{LinkError, Transport, Url};
-use albacore_sim::{KinematicVehicle, Scenario, Simulator};
+use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -53,7 +53,7 @@ impl Transport for Desk {
 
 fn vehicle() -> (ReconVehicle, Rc<Wire>) {
     let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
-    let hull = KinematicVehicle { depth: 3.0, ..KinematicVehicle::default() };
+    let hull = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
     let far_end = FrontSeat::new(simulator, frame, Rows::default(), start, Vertical::Depth(3.0));

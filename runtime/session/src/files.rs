@@ -5,9 +5,10 @@ use albacore_lang::{Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 8] = [
+const STDLIB: [(&str, &str); 9] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
+    ("faults", include_str!("../../../stdlib/faults.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
@@ -17,7 +18,7 @@ const STDLIB: [(&str, &str); 8] = [
 ];
 
 /// Modules whose names every script knows.
-const PRELUDE: [&str; 3] = ["inputs", "scenarios", "world"];
+const PRELUDE: [&str; 4] = ["inputs", "scenarios", "world", "faults"];
 
 /// So many names are listed in a message at most.
 const LISTED_MAX: usize = 12;
@@ -85,10 +86,11 @@ pub fn load_text(source: Source) -> Script {
     albacore_lang::load(source, &files, None, &[])
 }
 
-/// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it.
-pub fn load_library() -> Script {
+/// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it. `set`
+/// changes their parameters.
+pub fn load_library(set: &[String]) -> Script {
     let nothing = Source { name: "the standard library".into(), text: "".into() };
-    albacore_lang::load(nothing, &Files::around(Path::new("")), None, &[])
+    albacore_lang::load(nothing, &Files::around(Path::new("")), None, set)
 }
 
 /// Reads a source file as text.

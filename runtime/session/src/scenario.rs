@@ -2,12 +2,14 @@
 
 mod bottom;
 mod clause;
+mod fault;
 mod flow;
 mod plume;
+mod recorded;
 mod sensors;
 mod vehicle;
 
-use crate::files::Files;
+use crate::files::{FileError, Files};
 use albacore_geometry::TangentFrame;
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
@@ -27,18 +29,18 @@ pub(crate) struct Understood {
 
 /// The simulator's scenario; else what of it cannot be understood, and where.
 pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
-    let mut evaluation = Evaluation::new(&program.program);
-    evaluation.run(&program.program, program.program.mission.activity);
-    let words = evaluation.words(0, program.program.words);
+    let words = words(program);
     let mut understood = Understood { world: Scenario::default(), files: Vec::new() };
-    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().collect();
+    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().chain(two_plumes(program)).collect();
     for clause in &program.clauses {
-        let clause = Clause { clause, words };
-        let read = if clause.clause.name == "bottom_grid" {
-            let frame = program.origin.map(|origin| TangentFrame { origin });
-            bottom::grid(&mut understood, &clause, files, frame)
-        } else {
-            apply(&mut understood.world, &clause).map_err(Into::into)
+        let clause = Clause { clause, words: &words };
+        let read = match clause.clause.name.as_str() {
+            "bottom_grid" => {
+                let frame = program.origin.map(|origin| TangentFrame { origin });
+                bottom::grid(&mut understood, &clause, files, frame)
+            }
+            "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
+            _ => apply(&mut understood.world, &clause).map_err(Into::into),
         };
         if let Err(Wrong(faults)) = read {
             findings.extend(faults.into_iter().map(|fault| fault.at(&clause)));
@@ -56,6 +58,15 @@ fn two_grounds(program: &ScenarioProgram) -> Option<Diagnostic> {
     Some(finding.label(first.span, "the first").help("leave one of them out"))
 }
 
+/// A record brings its own water.
+fn two_plumes(program: &ScenarioProgram) -> Option<Diagnostic> {
+    let record = program.clauses.iter().find(|c| c.name == "recorded_plume")?;
+    let second = program.clauses.iter().find(|c| recorded::BROUGHT.contains(&c.name.as_str()))?;
+    let message = format!("the record brings its own `{}`", second.name);
+    let finding = Diagnostic::error(Code::ScenariosClause, second.span, message);
+    Some(finding.label(record.span, "the record").help("leave it out, or `recorded_plume`"))
+}
+
 /// All that is wrong with a clause.
 struct Wrong(Vec<Fault>);
 
@@ -63,6 +74,12 @@ struct Wrong(Vec<Fault>);
 struct Fault {
     message: String,
     help: Option<String>,
+}
+
+impl From<FileError> for Wrong {
+    fn from(error: FileError) -> Wrong {
+        Wrong(vec![Fault { message: error.message, help: error.help }])
+    }
 }
 
 impl From<String> for Wrong {
@@ -81,6 +98,13 @@ impl Fault {
     }
 }
 
+/// The words that the clauses' arguments point into.
+pub(crate) fn words(program: &ScenarioProgram) -> Vec<f64> {
+    let mut evaluation = Evaluation::new(&program.program);
+    evaluation.run(&program.program, program.program.mission.activity);
+    evaluation.words(0, program.program.words).to_vec()
+}
+
 fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
     match c.clause.name.as_str() {
         "flow" => flow::flow(scenario, c),
@@ -97,11 +121,13 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "leak" => plume::leak(scenario, c),
         "patch" => plume::patch(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
+        "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "handover" => vehicle::handover(scenario, c),
         "navigation" => sensors::navigation(scenario, c),
         "fluorometer" => sensors::fluorometer(scenario, c),
         "adcp" => sensors::adcp(scenario, c),
+        "fault" => fault::fault(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
         other => Err(format!("the simulator knows no `{other}`")),
     }

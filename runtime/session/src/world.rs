@@ -6,7 +6,7 @@ use crate::scenario::Understood;
 use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
 use albacore_link::recon::{FrontSeat, Rows};
-use albacore_sim::{Scenario, Simulator};
+use albacore_sim::{Scenario, ScenarioError, Simulator};
 use albacore_vehicle::Vertical;
 
 /// A vehicle at the surface swims its rows this far above the bottom, m.
@@ -46,12 +46,16 @@ impl World {
         Ok(World { name: lowered.name, scenario: understood.world, frame: TangentFrame { origin } })
     }
 
+    /// The same with the faults of a script of [`crate::load_faults`] added to those of the scenario.
+    pub fn with_faults(mut self, script: &Script) -> Result<Self, PlanError> {
+        self.scenario.faults.extend(crate::faults::faults(script)?);
+        Ok(self)
+    }
+
     /// The vehicle in it, with rows to swim, else those of the scenario: the first from where it starts and along its heading, at the depth at which it
     /// starts, or near the bottom if that is the surface.
     pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
-        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| {
-            PlanError::Asked(format!("the scenario `{}` cannot be", self.name), Some(error.faults.join("; ")))
-        })?;
+        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| cannot_be(&self.name, &error))?;
         let vehicle = &self.scenario.vehicle;
         let own = self.scenario.own_mission;
         let vertical = match (own, vehicle.depth) {
@@ -93,9 +97,11 @@ pub(crate) fn scenario(
         }
     };
     let understood = crate::scenario::scenario(&lowered, &Files::of(script)).map_err(PlanError::Script)?;
-    understood.world.validate().map_err(|error| {
-        let message = format!("the scenario `{}` cannot be", lowered.name);
-        PlanError::Asked(message, Some(error.faults.join("; ")))
-    })?;
+    understood.world.validate().map_err(|error| cannot_be(&lowered.name, &error))?;
     Ok((lowered, understood))
+}
+
+/// What is said of a scenario with impossible physics.
+pub(crate) fn cannot_be(name: &str, error: &ScenarioError) -> PlanError {
+    PlanError::Asked(format!("the scenario `{name}` cannot be"), Some(error.faults.join("; ")))
 }

@@ -7,24 +7,32 @@
 mod bottom;
 mod computer;
 mod deepest;
+mod fault;
+pub mod hull;
 mod incidents;
-mod kinematics;
+mod limits;
 mod noise;
 mod normal;
 mod plume;
 pub mod presets;
+pub mod probe;
+mod recorded;
 mod scenario;
 mod sensors;
+mod simulated;
 mod simulator;
 mod start;
 mod survey;
 mod water;
 mod world;
 
+pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
+pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Grid, Ground, Handover, KinematicVehicle, Lbl, Meander, Navigation, NoGo,
-    OwnMission, Patch, Pit, Plane, Plume, Scenario, ScenarioError, Sounder, Source, Tide, Times, UpperFlow, Waves,
+    Adcp, Bottom, Flow, Fluorometer, Grid, Ground, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander,
+    Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull,
+    Tide, Times, UpperFlow, VehicleSetup, Waves,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

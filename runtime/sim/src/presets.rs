@@ -1,7 +1,8 @@
 //! Two worlds for tests and benchmarks: the June 2003 trial at Duck, with and without its vertical part.
 
 use crate::scenario::{
-    Bottom, Flow, Ground, KinematicVehicle, Lbl, Meander, Navigation, Plane, Plume, Scenario, Source,
+    Bottom, Flow, Ground, HullSetup, KinematicHull, Lbl, Meander, Navigation, Plane, Plume, Scenario, Source,
+    VehicleSetup,
 };
 use albacore_geometry::{Area, Heading, Point};
 
@@ -24,7 +25,7 @@ pub fn duck_2003_flat() -> Scenario {
         },
         plume: Some(Plume::default()),
         sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
-        vehicle: KinematicVehicle { start: place(527.0, -163.5), ..KinematicVehicle::default() },
+        vehicle: VehicleSetup { start: place(527.0, -163.5), ..VehicleSetup::default() },
         navigation: Some(Navigation { walk: 0.05, lbl: Some(Lbl { every: 120.0, sigma: 2.0, gate: 0.0 }) }),
         ..Scenario::default()
     }
@@ -35,7 +36,10 @@ pub fn duck_2003() -> Scenario {
     let flat = duck_2003_flat();
     Scenario {
         plume: Some(Plume { vertical: 1e-3, layer: Some(3.5), ..Plume::default() }),
-        vehicle: KinematicVehicle { altitude_jitter: 0.3, ..flat.vehicle },
+        vehicle: VehicleSetup {
+            hull: HullSetup::Kinematic(KinematicHull { altitude_jitter: 0.3, ..KinematicHull::default() }),
+            ..flat.vehicle
+        },
         ..flat
     }
 }

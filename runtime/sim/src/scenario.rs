@@ -16,8 +16,10 @@ pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
-pub use vehicle::{Handover, KinematicVehicle, OwnMission};
+pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
+use crate::fault::{self, Fault};
+use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
 
@@ -41,8 +43,13 @@ pub struct Scenario {
     pub sources: Vec<Source>,
     /// What was left in the water before the run.
     pub patches: Vec<Patch>,
+    /// A plume that was computed elsewhere, and the flow that carries it, instead of those of our own.
+    #[serde(skip)]
+    pub recording: Option<RecordedPlume>,
     /// The vehicle.
-    pub vehicle: KinematicVehicle,
+    pub vehicle: VehicleSetup,
+    /// The vehicle's own limits; none: its hull's alone.
+    pub limits: Option<Limits>,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
     pub own_mission: Option<OwnMission>,
     /// How it answers who asks to drive; none: it gives way at once.
@@ -55,9 +62,16 @@ pub struct Scenario {
     pub adcp: Adcp,
     /// The echo sounder.
     pub sounder: Sounder,
+    /// What goes wrong. Default nothing.
+    pub faults: Vec<Fault>,
 }
 
 impl Scenario {
+    /// Whether there is any chemical to be sensed.
+    pub fn has_plume(&self) -> bool {
+        self.plume.is_some() || self.recording.is_some()
+    }
+
     /// Lists impossible physics, all of it at once.
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let mut objections = Objections::default();
@@ -77,9 +91,11 @@ impl Scenario {
             flow::check_meander(self, &mut objections);
             plume::check(self, &mut objections);
             source::check(self, &mut objections);
+            recorded::check(self, &mut objections);
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);
+        fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }
     }
 }

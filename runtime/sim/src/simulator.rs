@@ -1,8 +1,10 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
 use crate::computer::{Computer, Known, seconds};
+use crate::fault::Faults;
+use crate::hull::Hull;
 use crate::incidents::Incidents;
-use crate::kinematics::Kinematics;
+use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
 use crate::survey::Survey;
@@ -29,6 +31,10 @@ pub struct Truth {
     pub position: Point,
     /// Where its nose points.
     pub heading: Heading,
+    /// Nose up, rad.
+    pub pitch: f64,
+    /// Starboard side down, rad.
+    pub roll: f64,
     /// Its direction over ground.
     pub course: Heading,
     /// Its speed over ground, m/s.
@@ -48,7 +54,7 @@ pub struct Truth {
 pub struct Simulator {
     channels: Vec<Channel>,
     world: World,
-    vehicle: Kinematics,
+    vehicle: Hull,
     /// Where the chemical sensor's intake was a tick ago, and its height above the bottom (m).
     intake: (Point, f64),
     intake_ahead: f64,
@@ -58,12 +64,14 @@ pub struct Simulator {
     sounder: EchoSounder,
     endurance: f64,
     computer: Computer,
+    watch: Watch,
     /// The latest estimate of the current, for the computer.
     flow: Vector,
     control: Control,
     command: Option<Command>,
     truth: Truth,
     incidents: Incidents,
+    faults: Faults,
     /// The tick last sensed; none before the first.
     tick: Option<u64>,
 }
@@ -78,7 +86,7 @@ impl Simulator {
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
             channels: channels::all(),
-            vehicle: Kinematics::new(&vehicle, world.flow(start, altitude, 0.0), seed),
+            vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),
             intake_ahead: scenario.fluorometer.ahead,
@@ -91,13 +99,15 @@ impl Simulator {
                 scenario.own_mission.as_ref(),
                 scenario.handover.as_ref(),
                 (start, vehicle.heading),
-                vehicle.speed_max,
+                vehicle.hull.speed_max(),
             ),
+            watch: Watch::new(scenario.limits.as_ref(), vehicle.hull.speed_max()),
             flow: Vector::ZERO,
             control: Control::Disconnected,
             command: None,
             truth: Truth::default(),
             incidents: Incidents::new(&scenario.no_go),
+            faults: Faults::new(&scenario.faults, seed),
             tick: None,
         };
         simulator.observe();
@@ -120,6 +130,11 @@ impl Simulator {
         self.world.water_depth(p)
     }
 
+    /// The water's velocity now at a point and a height above the bottom (m), m/s toward.
+    pub fn flow(&self, p: Point, height: f64) -> Vector {
+        self.world.flow(p, height, self.time_s())
+    }
+
     /// The plume's filaments now: where they are, and their radii (standard deviations of Gaussians) in metres.
     pub fn filaments(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         self.world.filaments(self.time_s())
@@ -140,16 +155,28 @@ impl Simulator {
     /// Moves the world from the last tick to this one.
     fn advance(&mut self, tick: u64) {
         self.world.advance_to(tick);
-        let flow = self.world.flow(self.vehicle.position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
+        let ailing = *self.faults.ailing();
+        let flow = self.world.flow(self.vehicle.motion().position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
+        let flow = flow + ailing.current;
         let command = match self.control {
+            _ if ailing.leaks => Some(self.float_up()),
             Control::InControl => self.command,
             // A fix, or a fault: it stays where it is.
             Control::Suspended => None,
             _ => self.computer.steer(self.known()),
         };
+        let water_depth = self.truth.depth + self.truth.altitude;
+        let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
         self.intake = self.intake_now();
+        self.vehicle.stick_rudder(ailing.rudder);
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
-        self.positioning.step(tick, self.vehicle.ground_velocity, self.vehicle.position);
+        let motion = self.vehicle.motion();
+        self.positioning.step(tick, motion.ground_velocity, motion.position);
+    }
+
+    /// What a vehicle does that gives up.
+    fn float_up(&self) -> Command {
+        Command { heading: self.truth.heading, speed: 0.0, vertical: Vertical::Depth(0.0) }
     }
 
     /// What the vehicle's computer knows.
@@ -160,18 +187,20 @@ impl Simulator {
 
     /// Notes what is so now.
     fn observe(&mut self) {
-        let v = &self.vehicle;
+        let v = self.vehicle.motion();
         let time = self.time_s();
         let altitude = self.world.water_depth(v.position) - v.depth;
         let (intake, height) = self.intake_now();
         self.truth = Truth {
             position: v.position,
             heading: v.heading,
+            pitch: v.pitch,
+            roll: v.roll,
             course: v.ground_velocity.toward(),
             speed_over_ground: v.ground_velocity.length(),
             depth: v.depth,
             altitude,
-            flow: self.world.flow(v.position, altitude, time),
+            flow: self.world.flow(v.position, altitude, time) + self.faults.ailing().current,
             concentration: self.world.concentration(intake, height, time),
         };
     }
@@ -179,12 +208,12 @@ impl Simulator {
     /// Notes what befell the vehicle.
     fn note_incidents(&mut self) {
         let Truth { position, depth, altitude, .. } = self.truth;
-        self.incidents.observe(position, depth + altitude, self.vehicle.aground || altitude <= 0.0);
+        self.incidents.observe(position, depth + altitude, self.vehicle.motion().aground || altitude <= 0.0);
     }
 
     /// Where the chemical sensor's intake is, and its height above the bottom (m).
     fn intake_now(&self) -> (Point, f64) {
-        let v = &self.vehicle;
+        let v = self.vehicle.motion();
         let intake = v.position + self.intake_ahead * v.heading.unit();
         (intake, (self.world.water_depth(intake) - v.depth).max(0.0))
     }
@@ -218,8 +247,9 @@ impl Simulator {
         snapshot.push(ALTITUDE, &[echo]);
         snapshot.push(WATER_DEPTH, &[depth + echo]);
         let view = View {
-            ground_velocity: self.vehicle.ground_velocity,
-            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),
+            ground_velocity: self.vehicle.motion().ground_velocity,
+            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s())
+                + self.faults.ailing().current,
             heading: truth.heading,
             depth: truth.depth,
             altitude: truth.altitude,
@@ -248,24 +278,36 @@ impl Vehicle for Simulator {
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         let tick = self.tick.map_or(0, |tick| tick + 1);
+        if let Some(why) = self.world.end_before(tick) {
+            return Err(VehicleError(why));
+        }
+        self.faults.advance_to(tick);
         if tick > 0 {
             self.advance(tick);
         }
         self.tick = Some(tick);
         self.observe();
         self.note_incidents();
+        if self.faults.ailing().leaks {
+            self.control = Control::Released;
+        }
         if self.control != Control::Released {
             self.control = self.computer.answer(seconds(tick), self.known().position);
         }
         snapshot.samples.clear();
         snapshot.control = self.control;
         self.measure(tick, snapshot);
+        self.faults.filter(tick, &mut snapshot.samples);
         Ok(())
     }
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
-        self.control = self.computer.ask(self.time_s(), self.known().position);
         self.command = None;
+        if self.faults.ailing().leaks {
+            self.control = Control::Refused;
+            return Ok(());
+        }
+        self.control = self.computer.ask(self.time_s(), self.known().position);
         Ok(())
     }
 
@@ -277,7 +319,9 @@ impl Vehicle for Simulator {
         if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
             return Err(VehicleError(String::from("the vehicle was given a command that is not a finite number")));
         }
-        self.command = Some(*command);
+        if !self.faults.ailing().deaf {
+            self.command = Some(*command);
+        }
         Ok(())
     }
 
@@ -296,6 +340,9 @@ impl Vehicle for Simulator {
     }
 
     fn notices(&mut self) -> Vec<String> {
-        self.incidents.take()
+        let mut notices = self.faults.take_notices();
+        notices.extend(self.watch.take_notices());
+        notices.append(&mut self.incidents.take());
+        notices
     }
 }

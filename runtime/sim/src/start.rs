@@ -1,13 +1,13 @@
 //! Where a run begins: a scenario may scatter its starts over the seeds.
 
 use crate::noise::{Noise, Stream};
-use crate::scenario::KinematicVehicle;
+use crate::scenario::VehicleSetup;
 use albacore_geometry::Heading;
 use albacore_geometry::math::TAU;
 
-impl KinematicVehicle {
+impl VehicleSetup {
     /// The same vehicle where this seed starts it: evenly anywhere in its disc.
-    pub fn placed(&self, seed: u64) -> KinematicVehicle {
+    pub fn placed(&self, seed: u64) -> VehicleSetup {
         let mut placed = self.clone();
         if self.start_spread > 0.0 {
             let noise = Noise::new(seed, Stream::Start);
@@ -27,14 +27,14 @@ mod tests {
     #[test]
     fn starts_fill_their_disc_evenly_and_stay_without_one() {
         let start = Point::new(40.0, -30.0);
-        let vehicle = KinematicVehicle { start, start_spread: 60.0, ..KinematicVehicle::default() };
+        let vehicle = VehicleSetup { start, start_spread: 60.0, ..VehicleSetup::default() };
         let ranges: Vec<f64> = (0..4000).map(|seed| vehicle.placed(seed).start.distance(start)).collect();
         assert!(ranges.iter().all(|range| *range <= 60.0));
         // A quarter of the disc lies within half its radius.
         let near = ranges.iter().filter(|range| **range < 30.0).count();
         assert!((900..1100).contains(&near), "{near}");
         assert_eq!(vehicle.placed(3), vehicle.placed(3));
-        let fixed = KinematicVehicle { start, ..KinematicVehicle::default() };
+        let fixed = VehicleSetup { start, ..VehicleSetup::default() };
         assert_eq!(fixed.placed(3), fixed);
     }
 }

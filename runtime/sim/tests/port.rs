@@ -1,9 +1,10 @@
 //! The simulator as a machine sees it: through the port alone.
 
 use albacore_geometry::{Heading, Point, Vector};
+use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Bottom, Flow, Fluorometer, Grid, Ground, Lbl, Navigation, Pit, Plane, Scenario, Simulator, Sounder, UpperFlow,
-    presets,
+    Bottom, Flow, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Navigation, Pit, Plane, Scenario,
+    Simulator, Sounder, SubmersibleHull, UpperFlow, VehicleSetup, presets,
 };
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::error::Error;
@@ -83,7 +84,7 @@ fn each_channel_at_its_own_rate() {
 #[test]
 fn impossible_scenarios_are_refused_with_every_reason() {
     let mut bad = scenario();
-    bad.vehicle.turn_rate = 0.0;
+    bad.vehicle.hull = HullSetup::Kinematic(KinematicHull { turn_rate: 0.0, ..KinematicHull::default() });
     bad.vehicle.depth = 11.0;
     bad.fluorometer.noise = f64::NAN;
     let error = Simulator::new(&bad, 1).unwrap_err();
@@ -175,6 +176,85 @@ fn over_a_pit_the_water_is_deeper_and_echoes_are_as_noisy_as_told() {
         .collect();
     let deviation = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
     assert!((deviation - 0.05).abs() < 0.005, "{deviation}");
+}
+
+#[test]
+fn its_own_limits_hold_whatever_it_is_told_and_the_refusals_are_told_once() {
+    let limits = Limits { depth: Some(6.0), altitude: 3.0, speed: Some(1.2) };
+    let limited = Scenario { limits: Some(limits), ..scenario() };
+    let mut simulator = Simulator::new(&limited, 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    simulator.take_over().unwrap();
+    let mut told = Vec::new();
+    for (speed, vertical) in [(2.0, Vertical::Depth(9.0)), (1.0, Vertical::Altitude(1.0))] {
+        simulator.command(&Command { heading: Heading::NORTH, speed, vertical }).unwrap();
+        for _ in 0..600 {
+            simulator.sense(&mut snapshot).unwrap();
+            let truth = simulator.truth();
+            assert!(truth.depth <= 6.0 + 1e-9 && truth.altitude >= 3.0 && truth.speed_over_ground < 1.21, "{truth:?}");
+            told.extend(simulator.notices());
+        }
+    }
+    // Altitude 1 m is both too deep and too low, but too deep it was asked to go all along.
+    assert_eq!(
+        told,
+        ["is asked to go deeper than 6.00 m: it stays there", "is asked to go faster than 1.20 m/s: it goes no faster",]
+    );
+    assert!((simulator.truth().depth - 6.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_least_altitude_lifts_it_over_a_rise() {
+    let plane = Plane { from: 12.0, to: 4.0, toward: Heading::NORTH, across: 200.0 };
+    let bottom = Bottom { ground: Ground::Plane(plane), ..Bottom::default() };
+    let limits = Limits { altitude: 2.0, ..Limits::default() };
+    for hull in [
+        HullSetup::default(),
+        HullSetup::Fossen(SubmersibleHull::fossen()),
+        HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected),
+    ] {
+        let vehicle = VehicleSetup { hull, start: Point::new(-250.0, 0.0), ..VehicleSetup::default() };
+        let rising = Scenario { bottom: bottom.clone(), limits: Some(limits.clone()), vehicle, ..scenario() };
+        let mut simulator = Simulator::new(&rising, 1).unwrap();
+        let mut snapshot = Snapshot::default();
+        simulator.take_over().unwrap();
+        simulator.command(&Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(8.0) }).unwrap();
+        let mut lowest = f64::INFINITY;
+        for _ in 0..2500 {
+            simulator.sense(&mut snapshot).unwrap();
+            lowest = lowest.min(simulator.truth().altitude);
+        }
+        // A hull with forces may come a little nearer as the rise begins.
+        assert!(lowest > 1.7, "{:?}: {lowest}", rising.vehicle.hull);
+        assert!((simulator.truth().altitude - 2.0).abs() < 0.05);
+        let told = simulator.notices();
+        assert!(told.len() == 1 && told[0].contains("nearer to the bottom than 2.00 m"), "{told:?}");
+    }
+}
+
+#[test]
+fn impossible_hulls_and_limits_are_refused() {
+    let mut bad = scenario();
+    let hull = SubmersibleHull { speed_max: 2.6, fin_max: 2.0, step: 0.03, ..SubmersibleHull::fossen() };
+    bad.vehicle.hull = HullSetup::Fossen(hull);
+    bad.limits = Some(Limits { depth: Some(-1.0), altitude: f64::NAN, speed: None });
+    let said = bad.validate().unwrap_err();
+    assert_eq!(said.faults.len(), 5, "{said}");
+    for expected in [
+        "its `turns_max` of 25.42 Hz gives 2.55 m/s at most",
+        "must be a whole number of steps",
+        "`limits.depth` is -1",
+    ] {
+        assert!(said.to_string().contains(expected), "{said}");
+    }
+    for hull in [
+        HullSetup::Fossen(SubmersibleHull::fossen()),
+        HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::AsPrinted),
+    ] {
+        bad.vehicle.hull = hull;
+        bad.limits = None;
+        assert_eq!(bad.validate(), Ok(()));
+    }
 }
 
 #[test]

@@ -33,6 +33,8 @@ pub struct Picture {
     pub subtitle: Vec<String>,
     /// The corners of the operating area.
     pub area: Vec<Point>,
+    /// What the legend calls it; empty: the operating area.
+    pub area_name: String,
     /// Where the vehicle must not be: names and corners. They may leave the chart.
     pub no_go: Vec<(String, Vec<Point>)>,
     /// Filaments of the plume: where, and how wide (radius in metres).

@@ -12,7 +12,7 @@ pub struct Clause<'a> {
 
 impl<'a> Clause<'a> {
     fn value(&self, name: &str) -> Option<&'a ScenarioValue> {
-        self.clause.args.iter().find(|(n, _)| n == name).map(|(_, value)| value)
+        self.clause.args.iter().find(|arg| arg.name == name).map(|arg| &arg.value)
     }
 
     fn slot(&self, name: &str) -> Result<Slot, String> {
@@ -68,7 +68,7 @@ impl<'a> Clause<'a> {
 
     pub fn clause(&self, name: &str) -> Option<Clause<'a>> {
         match self.value(name) {
-            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, words: self.words }),
+            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, ..*self }),
             _ => None,
         }
     }

@@ -2,27 +2,60 @@
 
 use super::clause::Clause;
 use albacore_guidance::Rows;
-use albacore_sim::{Handover, KinematicVehicle, OwnMission, Scenario};
+use albacore_sim::hull::Crossflow;
+use albacore_sim::{Handover, HullSetup, KinematicHull, Limits, OwnMission, Scenario, SubmersibleHull, VehicleSetup};
 use albacore_vehicle::Vertical;
 
 /// `vehicle(…)`: how it moves and where it starts.
 pub fn vehicle(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
     let model = c.clause("model").ok_or("a vehicle needs a model: write `vehicle(kinematic, start: …)`")?;
-    scenario.vehicle = KinematicVehicle {
+    scenario.vehicle = VehicleSetup {
+        hull: hull(&model)?,
         start: c.point("start")?,
         start_spread: c.number("spread")?,
         heading: c.heading("heading")?,
         depth: c.number("depth")?,
-        speed_max: model.number("speed_max")?,
-        turn_rate: model.number("turn_rate")?,
-        acceleration: model.number("acceleration")?,
-        depth_rate: model.number("depth_rate")?,
-        altitude_jitter: model.number("wobble")?,
-        altitude_jitter_max: model.number("wobble_max")?,
-        altitude_jitter_time: model.number("wobble_time")?,
         endurance: model.number("endurance")?,
-        ..KinematicVehicle::default()
     };
+    Ok(())
+}
+
+/// `kinematic(…)`, `fossen(…)` or `prestero(…)`: how it moves.
+fn hull(c: &Clause) -> Result<HullSetup, String> {
+    Ok(match c.clause.name.as_str() {
+        "fossen" => HullSetup::Fossen(submersible(c)?),
+        "prestero" => {
+            let crossflow = if c.number("as_printed")? != 0.0 { Crossflow::AsPrinted } else { Crossflow::Corrected };
+            HullSetup::Prestero(submersible(c)?, crossflow)
+        }
+        "kinematic" => HullSetup::Kinematic(KinematicHull {
+            speed_max: c.number("speed_max")?,
+            turn_rate: c.number("turn_rate")?,
+            acceleration: c.number("acceleration")?,
+            depth_rate: c.number("depth_rate")?,
+            altitude_jitter: c.number("wobble")?,
+            altitude_jitter_max: c.number("wobble_max")?,
+            altitude_jitter_time: c.number("wobble_time")?,
+            ..KinematicHull::default()
+        }),
+        other => return Err(format!("the simulator knows no hull `{other}`")),
+    })
+}
+
+fn submersible(c: &Clause) -> Result<SubmersibleHull, String> {
+    Ok(SubmersibleHull {
+        speed_max: c.number("speed_max")?,
+        fin_max: c.number("fin_max")?,
+        turns_max: c.number("turns_max")?,
+        step: c.number("step")?,
+    })
+}
+
+/// `limits(…)`: the vehicle's own, apart from the mission's.
+pub fn limits(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    // 0 is no limit.
+    let limit = |name: &str| Ok::<_, String>(Some(c.number(name)?).filter(|limit| *limit != 0.0));
+    scenario.limits = Some(Limits { depth: limit("depth")?, altitude: c.number("altitude")?, speed: limit("speed")? });
     Ok(())
 }
 

@@ -8,6 +8,8 @@ use albacore_program::number::fixed;
 const POINTS: u32 = 96;
 /// There are about so many lines.
 const LINES: f64 = 15.0;
+/// Lines so near to the greatest and the least depth, in parts of what they are apart, are left out.
+const EDGE: f64 = 1e-3;
 /// The colour of the lines.
 pub(super) const COLOUR: &str = "#5b7f95";
 
@@ -70,6 +72,10 @@ impl Depths {
         svg.raw(&format!("<g fill=\"none\" stroke=\"{COLOUR}\" stroke-width=\"1\">"));
         for i in 0..count {
             let level = (first + f64::from(i)) * apart;
+            // The edge of a plain is no line of equal depth: all of the plain is.
+            if (high - level).min(level - low) < EDGE * apart {
+                continue;
+            }
             let lines: Vec<_> = self.crossings(level).map(|line| line.map(|p| frame.place(p))).collect();
             let share = (level - low) / (high - low);
             let opacity = fixed(0.35 + 0.65 * share, 2);

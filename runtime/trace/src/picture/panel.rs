@@ -39,9 +39,10 @@ impl<'a> Panel<'a> {
     pub fn new(picture: &'a Picture, frame: &Frame) -> Self {
         let seen: std::collections::BTreeSet<u16> = picture.track.iter().map(|(_, behavior)| *behavior).collect();
         let depths = picture.depths.legend();
+        let area = if picture.area_name.is_empty() { "operating area" } else { &picture.area_name };
         let there = [
             (picture.start.is_some(), "start", chart::start_mark as Mark),
-            (!picture.area.is_empty(), "operating area", area_mark),
+            (!picture.area.is_empty(), area, area_mark),
             (!picture.no_go.is_empty(), "no-go zone", no_go_mark),
             (!picture.plume.is_empty(), "plume", plume_mark),
             (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),

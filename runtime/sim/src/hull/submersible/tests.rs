@@ -1,0 +1,243 @@
+//! How both hulls answer their autopilots, and what becomes of them when something fails.
+
+use crate::hull::{Crossflow, Hull, Motion, Stuck};
+use crate::scenario::{HullSetup, SubmersibleHull, VehicleSetup};
+use albacore_geometry::math::{degrees, radians};
+use albacore_geometry::{Heading, Point, Vector};
+use albacore_vehicle::{Command, TICK_S, Vertical};
+
+/// The hull after Fossen.
+fn fossen() -> HullSetup {
+    HullSetup::Fossen(SubmersibleHull::fossen())
+}
+
+/// The hull after Prestero.
+fn prestero() -> HullSetup {
+    HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected)
+}
+
+/// A hull by its name.
+type Named = (&'static str, fn() -> HullSetup);
+const HULLS: [Named; 2] = [("fossen", fossen), ("prestero", prestero)];
+
+/// A hull under way, and what is asked of it.
+struct Trial {
+    hull: Hull,
+    flow: Vector,
+    bottom: fn(Point) -> f64,
+}
+
+impl Trial {
+    /// At rest, 5 m deep in water of 50 m.
+    fn new(hull: HullSetup) -> Self {
+        Trial::at(hull, 5.0)
+    }
+
+    fn at(hull: HullSetup, depth: f64) -> Self {
+        let setup = VehicleSetup { hull, depth, ..VehicleSetup::default() };
+        Trial { hull: Hull::new(&setup, Vector::ZERO, 1), flow: Vector::ZERO, bottom: |_| 50.0 }
+    }
+
+    fn obey(&mut self, command: Option<Command>, seconds: f64) -> Vec<Motion> {
+        (0..(seconds / TICK_S).round() as u64)
+            .map(|tick| {
+                self.hull.step(tick, command.as_ref(), self.flow, self.bottom);
+                *self.hull.motion()
+            })
+            .collect()
+    }
+
+    fn go(&mut self, heading_deg: f64, speed: f64, vertical: Vertical, seconds: f64) -> Vec<Motion> {
+        self.obey(Some(Command { heading: Heading::from_degrees(heading_deg), speed, vertical }), seconds)
+    }
+
+    /// Running north at 2 m/s and 5 m depth.
+    fn cruising(hull: HullSetup) -> Self {
+        let mut trial = Trial::new(hull);
+        trial.go(0.0, 2.0, Vertical::Depth(5.0), 90.0);
+        trial
+    }
+}
+
+/// When the last of the values was further than `band` from the goal, s; and how far beyond it any of them went.
+fn response(values: impl Iterator<Item = f64> + Clone, goal: f64, band: f64) -> (f64, f64) {
+    let outside = values.clone().enumerate().filter(|(_, value)| (value - goal).abs() > band).last();
+    let settled = outside.map_or(0.0, |(tick, _)| (tick + 1) as f64 * TICK_S);
+    (settled, values.map(|value| value - goal).fold(0.0, f64::max))
+}
+
+#[test]
+fn a_quarter_turn_settles_without_much_overshoot() {
+    for ((name, hull), within) in HULLS.into_iter().zip([20.0, 10.0]) {
+        let way = Trial::cruising(hull()).go(90.0, 2.0, Vertical::Depth(5.0), 60.0);
+        let (settled, over) = response(way.iter().map(|m| m.heading.degrees()), 90.0, 2.0);
+        let astray = way.iter().map(|m| (m.depth - 5.0).abs()).fold(0.0, f64::max);
+        println!("{name}: 90 deg to 2 deg in {settled:.1} s, {over:.2} deg over; depth off by {astray:.2} m");
+        assert!(settled < within && over < 9.0 && astray < 0.5, "{name}: {settled} s, {over} deg, {astray} m");
+    }
+}
+
+#[test]
+fn a_turn_to_port_is_as_good() {
+    for (name, hull) in HULLS {
+        let end = *Trial::cruising(hull()).go(270.0, 2.0, Vertical::Depth(5.0), 60.0).last().unwrap();
+        assert!((end.heading.degrees() - 270.0).abs() < 1.0, "{name}: {end:?}");
+    }
+}
+
+#[test]
+fn ten_metres_deeper_settles_without_much_overshoot() {
+    for ((name, hull), within) in HULLS.into_iter().zip([20.0, 20.0]) {
+        let way = Trial::cruising(hull()).go(0.0, 2.0, Vertical::Depth(15.0), 120.0);
+        let (settled, over) = response(way.iter().map(|m| m.depth), 15.0, 0.3);
+        println!("{name}: 10 m deeper to 0.3 m in {settled:.1} s, {over:.2} m over");
+        assert!(settled < within && over < 1.0, "{name}: {settled} s, {over} m");
+    }
+}
+
+#[test]
+fn two_metres_above_a_slope_are_kept() {
+    for (name, hull) in HULLS {
+        let mut trial = Trial::new(hull());
+        // 3 m in 100 m, downward and, coming back, upward.
+        trial.bottom = |p| 20.0 + 0.03 * p.north;
+        trial.go(0.0, 2.0, Vertical::Altitude(2.0), 120.0);
+        for heading in [0.0, 180.0] {
+            trial.go(heading, 2.0, Vertical::Altitude(2.0), 60.0);
+            let way = trial.go(heading, 2.0, Vertical::Altitude(2.0), 60.0);
+            let off = way.iter().map(|m| ((trial.bottom)(m.position) - m.depth - 2.0).abs()).fold(0.0, f64::max);
+            println!("{name}, {heading}: {off:.3} m off");
+            assert!(off < 0.1, "{name}, {heading}: {off} m");
+        }
+    }
+}
+
+#[test]
+fn speed_is_reached_and_kept_in_a_turn() {
+    for ((name, hull), within) in HULLS.into_iter().zip([5.0, 20.0]) {
+        let mut trial = Trial::cruising(hull());
+        let way = trial.go(0.0, 1.5, Vertical::Depth(5.0), 60.0);
+        let (settled, _) = response(way.iter().map(|m| m.speed), 1.5, 0.05);
+        println!("{name}: from 2 to 1.5 m/s in {settled:.1} s");
+        assert!(settled < within, "{name}: {settled} s");
+        let end = way.last().unwrap();
+        assert!((end.speed - 1.5).abs() < 0.01, "{name}: {}", end.speed);
+        let circling: Vec<Motion> = (0..600)
+            .map(|_| {
+                let ahead = trial.hull.motion().heading.degrees() + 10.0;
+                trial.go(ahead, 1.5, Vertical::Depth(5.0), TICK_S)[0]
+            })
+            .collect();
+        let slowest = circling[300..].iter().map(|m| m.speed).fold(f64::INFINITY, f64::min);
+        assert!(slowest > 1.4, "{name}: {slowest}");
+    }
+}
+
+#[test]
+fn it_dives_from_the_surface_and_comes_back_to_it() {
+    for (name, hull) in HULLS {
+        let mut trial = Trial::at(hull(), 0.0);
+        let dived = *trial.go(0.0, 2.0, Vertical::Depth(3.0), 90.0).last().unwrap();
+        assert!((dived.depth - 3.0).abs() < 0.1, "{name}: {dived:?}");
+        let back = *trial.go(0.0, 2.0, Vertical::Depth(0.0), 90.0).last().unwrap();
+        assert!(back.depth < 0.2 && back.pitch.abs() < radians(15.0), "{name}: {back:?}");
+    }
+}
+
+#[test]
+fn the_buoyant_hull_needs_some_speed_to_stay_down() {
+    let mut trial = Trial::cruising(prestero());
+    for (speed, stays) in [(1.2, true), (1.0, false)] {
+        let way = trial.go(0.0, speed, Vertical::Depth(5.0), 300.0);
+        let off = way[1500..].iter().map(|m| (m.depth - 5.0).abs()).fold(0.0, f64::max);
+        assert_eq!(off < 0.3, stays, "{speed} m/s: {off} m");
+    }
+}
+
+#[test]
+fn a_current_is_no_matter_to_its_way_through_the_water() {
+    for (name, hull) in HULLS {
+        let mut trial = Trial::new(hull());
+        trial.flow = Vector::new(0.0, 0.4);
+        let way = trial.go(0.0, 2.0, Vertical::Depth(5.0), 120.0);
+        let end = way.last().unwrap();
+        assert!((end.heading - Heading::NORTH).abs() < radians(0.5), "{name}: {}", end.heading.degrees());
+        assert!((end.speed - 2.0).abs() < 0.01, "{name}: {}", end.speed);
+        assert!((end.ground_velocity.east - 0.4).abs() < 0.05, "{name}: {:?}", end.ground_velocity);
+    }
+}
+
+#[test]
+fn without_a_command_it_comes_to_rest() {
+    for (name, hull) in HULLS {
+        let mut trial = Trial::cruising(hull());
+        let end = *trial.obey(None, 120.0).last().unwrap();
+        assert!(end.speed.abs() < 0.2, "{name}: {end:?}");
+        let now = trial.hull.actuators_mut().unwrap().now;
+        assert!(now.rudder.abs() + now.stern.abs() + now.rpm.abs() < 1e-6, "{name}: {now:?}");
+    }
+}
+
+#[test]
+fn a_stuck_rudder_turns_it_in_circles_whatever_it_is_told() {
+    for (name, hull) in HULLS {
+        let mut trial = Trial::cruising(hull());
+        trial.hull.stick_rudder(Some(0.5));
+        let way = trial.go(0.0, 2.0, Vertical::Depth(5.0), 60.0);
+        let turned: f64 = way.windows(2).map(|m| m[1].heading - m[0].heading).sum();
+        assert!(degrees(turned) > 180.0, "{name}: {} deg to starboard", degrees(turned));
+        trial.hull.stick_rudder(None);
+        let end = *trial.go(0.0, 2.0, Vertical::Depth(5.0), 60.0).last().unwrap();
+        assert!((end.heading - Heading::NORTH).abs() < radians(2.0), "{name}: free again, {}", end.heading.degrees());
+    }
+}
+
+#[test]
+fn a_stuck_propeller_and_stern_plane_stay_where_they_are() {
+    let mut trial = Trial::cruising(fossen());
+    let actuators = trial.hull.actuators_mut().unwrap();
+    actuators.stuck = Stuck { rpm: Some(actuators.now.rpm), stern: Some(radians(5.0)), ..Stuck::default() };
+    let end = *trial.go(0.0, 0.5, Vertical::Depth(5.0), 20.0).last().unwrap();
+    assert!(end.speed > 1.8 && end.depth > 10.0, "neither slower nor held: {end:?}");
+}
+
+#[test]
+fn a_leak_sinks_it_to_the_bottom_where_it_lies() {
+    for (name, hull) in HULLS {
+        let mut trial = Trial::new(hull());
+        trial.hull.lose_buoyancy(30.0);
+        let way = trial.obey(None, 300.0);
+        let end = way.last().unwrap();
+        assert_eq!(end.depth, 50.0, "{name}");
+        assert!(way.iter().all(|m| m.depth <= 50.0), "{name}");
+        assert!(end.ground_velocity.length() < 0.05, "{name}: {end:?}");
+    }
+}
+
+#[test]
+fn the_state_of_a_hull_is_small() {
+    assert!(size_of::<super::Submersible<crate::hull::Fossen>>() < 1024);
+    assert!(size_of::<super::Submersible<crate::hull::Prestero>>() < 1024);
+}
+
+#[test]
+fn nothing_that_is_asked_makes_a_number_none() {
+    for (name, hull) in HULLS {
+        for (speed, vertical) in [
+            (0.0, Vertical::Depth(40.0)),
+            (-5.0, Vertical::Depth(-40.0)),
+            (1e9, Vertical::Altitude(1e9)),
+            (0.3, Vertical::Altitude(-1e9)),
+        ] {
+            let mut trial = Trial::at(hull(), 0.0);
+            trial.flow = Vector::new(-3.0, 2.0);
+            for heading in [10.0, 170.0, 300.0] {
+                for m in trial.go(heading, speed, vertical, 60.0) {
+                    let numbers = [m.position.north, m.position.east, m.depth, m.pitch, m.roll, m.speed];
+                    assert!(numbers.iter().all(|n| n.is_finite()), "{name}, {speed}, {vertical:?}: {m:?}");
+                    assert!((0.0..=50.0).contains(&m.depth));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! `albacore scenario show`: a scenario laid open.
+
+use crate::exit::Exit;
+use crate::plan::{refused, scenario_script};
+use crate::{kept, message, output};
+use albacore_session::Shown;
+use std::path::{Path, PathBuf};
+
+/// Look at a scenario.
+#[derive(clap::Args)]
+pub struct Scenario {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(clap::Subcommand)]
+enum Action {
+    /// Draw it as it is when a run begins, and list every number in force, those of the defaults too.
+    Show(Show),
+}
+
+#[derive(clap::Args)]
+struct Show {
+    /// The scenario: one that every script knows, or one of a script.
+    #[arg(value_name = "SCENARIO | SCRIPT.alb[#SCENARIO]")]
+    scenario: String,
+    /// The seed of the picture.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Change a parameter: `duck_2003.step=2s`.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The picture's file [default: albacore-runs/SCENARIO-SEED/scenario.svg].
+    #[arg(long, value_name = "FILE.svg", conflicts_with = "no_out")]
+    out: Option<PathBuf>,
+    /// Write no picture.
+    #[arg(long)]
+    no_out: bool,
+}
+
+/// Columns of a listing: the parameter's name, and its value.
+const NAME: usize = 18;
+const VALUE: usize = 40;
+
+impl Scenario {
+    /// Does what is asked.
+    pub fn run(&self) -> Exit {
+        match &self.action {
+            Action::Show(show) => show.run(),
+        }
+    }
+}
+
+impl Show {
+    fn run(&self) -> Exit {
+        let shown = scenario_script(&self.scenario, &self.set).and_then(|(script, file, name)| {
+            Shown::new(&script, file, name, self.seed).map_err(|error| refused(&error, &script))
+        });
+        let shown = match shown {
+            Ok(shown) => shown,
+            Err(exit) => return exit,
+        };
+        output::print(&listing(&shown));
+        if self.no_out { Exit::Well } else { self.write(&shown) }
+    }
+
+    fn write(&self, shown: &Shown) -> Exit {
+        let usual = || Path::new("albacore-runs").join(format!("{}-{}", shown.name, self.seed)).join("scenario.svg");
+        let path = self.out.clone().unwrap_or_else(usual);
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let made = folder.map_or(Ok(()), std::fs::create_dir_all);
+        match made.and_then(|()| kept::whole(&path, &shown.svg)) {
+            Ok(()) => {
+                output::print(&format!("picture {}\n", path.display()));
+                Exit::Well
+            }
+            Err(error) => {
+                message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
+                Exit::Failed
+            }
+        }
+    }
+}
+
+/// All numbers, clause by clause.
+fn listing(shown: &Shown) -> String {
+    let mut text = format!("scenario {}\n", shown.name);
+    for clause in &shown.clauses {
+        let unsaid = if clause.is_said { "" } else { "  (not said)" };
+        text.push_str(&format!("\n{}{unsaid}\n", clause.name));
+        for (name, value, is_default) in &clause.values {
+            let mark = if *is_default { "default" } else { "" };
+            for (i, line) in value.lines().enumerate() {
+                let name = if i == 0 { name } else { "" };
+                text.push_str(format!("  {name:NAME$}{line:VALUE$}{mark}").trim_end());
+                text.push('\n');
+            }
+        }
+    }
+    text.push_str(&format!("\nnone of: {}\n", shown.absent.join(", ")));
+    if let Some(filaments) = shown.filaments {
+        text.push_str(&format!("{filaments} filaments when the run begins\n"));
+    }
+    text
+}
