@@ -158,3 +158,23 @@ fn a_text_cut_anywhere_is_refused_or_ends_within_its_last_number() {
     }
     assert_eq!(read(SMALL.trim_end().as_bytes()).unwrap(), whole);
 }
+
+/// Every byte replaced by every other: what was read of it is whole.
+#[test]
+fn a_text_with_any_byte_changed_is_read_or_refused_without_harm() {
+    for at in 0..SMALL.len() {
+        for flip in 1..=255 {
+            let mut changed = SMALL.as_bytes().to_vec();
+            changed[at] ^= flip;
+            match read(&changed) {
+                Ok(survey) => {
+                    assert_eq!(survey.depths.len() as u32, survey.north.count * survey.east.count);
+                    assert!(survey.depths.iter().all(|depth| depth.is_finite()));
+                }
+                Err(unreadable) => {
+                    assert!(unreadable.faults.iter().all(|f| !f.message.is_empty() && !f.help.is_empty()))
+                }
+            }
+        }
+    }
+}
