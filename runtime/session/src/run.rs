@@ -351,7 +351,7 @@ impl Run {
             self.snapshot.samples.iter().any(|s| Some(s.channel as usize) == chemical && s.reading[0] >= DETECTION);
         // A simulated world without a plume has nothing to detect; of a real one we know no better.
         if detected
-            && (truth.is_none() || self.plan.scenario.plume.is_some())
+            && (truth.is_none() || self.plan.scenario.has_plume())
             && let Some(at) = believed.or(here)
         {
             self.picture.detection(at);

@@ -42,7 +42,7 @@ fn plan(folder: &Path, clauses: &str) -> Result<Plan, PlanError> {
 fn refused(folder: &Path, clauses: &str) -> Vec<Diagnostic> {
     match plan(folder, clauses) {
         Err(PlanError::Script(findings)) => findings,
-        other => panic!("{other:?}"),
+        other => unreachable!("{other:?}"),
     }
 }
 

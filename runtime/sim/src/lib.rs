@@ -14,8 +14,11 @@ mod noise;
 mod normal;
 mod plume;
 pub mod presets;
+pub mod probe;
+mod recorded;
 mod scenario;
 mod sensors;
+mod simulated;
 mod simulator;
 mod start;
 mod survey;
@@ -23,6 +26,7 @@ mod water;
 mod world;
 
 pub use noise::{Noise, Stream};
+pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
     Adcp, Bottom, Flow, Fluorometer, Grid, Ground, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander,
     Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull,

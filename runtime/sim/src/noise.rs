@@ -41,6 +41,8 @@ pub enum Stream {
     Leak = 21,
     /// Where the filaments of a patch are; one sub-stream a patch.
     Patch = 22,
+    /// The moment at which a recorded plume is begun.
+    RecordStart = 80,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.

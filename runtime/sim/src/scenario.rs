@@ -18,6 +18,7 @@ pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
 pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
+use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +42,9 @@ pub struct Scenario {
     pub sources: Vec<Source>,
     /// What was left in the water before the run.
     pub patches: Vec<Patch>,
+    /// A plume that was computed elsewhere, and the flow that carries it, instead of those of our own.
+    #[serde(skip)]
+    pub recording: Option<RecordedPlume>,
     /// The vehicle.
     pub vehicle: VehicleSetup,
     /// The vehicle's own limits; none: its hull's alone.
@@ -60,6 +64,11 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// Whether there is any chemical to be sensed.
+    pub fn has_plume(&self) -> bool {
+        self.plume.is_some() || self.recording.is_some()
+    }
+
     /// Lists impossible physics, all of it at once.
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let mut objections = Objections::default();
@@ -79,6 +88,7 @@ impl Scenario {
             flow::check_meander(self, &mut objections);
             plume::check(self, &mut objections);
             source::check(self, &mut objections);
+            recorded::check(self, &mut objections);
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);

@@ -127,6 +127,11 @@ impl Simulator {
         self.world.water_depth(p)
     }
 
+    /// The water's velocity now at a point and a height above the bottom (m), m/s toward.
+    pub fn flow(&self, p: Point, height: f64) -> Vector {
+        self.world.flow(p, height, self.time_s())
+    }
+
     /// The plume's filaments now: where they are, and their radii (standard deviations of Gaussians) in metres.
     pub fn filaments(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         self.world.filaments(self.time_s())
@@ -260,6 +265,9 @@ impl Vehicle for Simulator {
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         let tick = self.tick.map_or(0, |tick| tick + 1);
+        if let Some(why) = self.world.end_before(tick) {
+            return Err(VehicleError(why));
+        }
         if tick > 0 {
             self.advance(tick);
         }

@@ -1,52 +1,66 @@
 //! All that is there without the vehicle: water, plume and bottom, in time.
 
-use crate::plume::{Index, Nearby, Plume, spin_up_begin};
+use crate::recorded::Playback;
 use crate::scenario::{Bottom, Scenario, UpperFlow};
+use crate::simulated::Simulated;
 use crate::survey::Survey;
-use crate::water::{Sea, Water};
+use crate::water::Sea;
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::TICK_S;
 
 /// The world of a run.
 #[derive(Clone, Debug)]
 pub struct World {
-    water: Water,
-    plume: Option<Plume>,
-    nearby: Nearby,
+    carrier: Carrier,
     upper: Option<UpperFlow>,
     sea: Option<Sea>,
     bottom: Bottom,
 }
 
+/// The flow and the plume that it carries.
+#[derive(Clone, Debug)]
+enum Carrier {
+    /// Computed as the run goes on.
+    Simulated(Box<Simulated>),
+    /// Computed elsewhere. It knows no heights.
+    Recorded(Box<Playback>),
+}
+
 impl World {
     /// The world of a valid scenario at tick 0, with its flow wandering and its plume spread.
     pub fn new(scenario: &Scenario, seed: u64) -> Self {
-        let begin = spin_up_begin(scenario);
-        let mut water = Water::new(&scenario.flow, scenario.region.as_ref(), begin, seed);
-        let mut plume = Plume::new(scenario, water.frame(), begin, seed);
-        if let Some(plume) = &mut plume {
-            plume.spin_up(&mut water, &scenario.patches, seed);
-        }
+        let carrier = match &scenario.recording {
+            Some(recording) => Carrier::Recorded(Box::new(Playback::new(recording, seed))),
+            None => Carrier::Simulated(Box::new(Simulated::new(scenario, seed))),
+        };
         let (upper, bottom) = (scenario.flow.upper.clone(), scenario.bottom.clone());
         let depth = bottom.depth_at(scenario.vehicle.start);
         let sea = scenario.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
-        World { water, plume, nearby: Nearby::default(), upper, sea, bottom }
+        World { carrier, upper, sea, bottom }
+    }
+
+    /// Why the world cannot go on to a tick, if it cannot.
+    pub fn end_before(&self, tick: u64) -> Option<String> {
+        match &self.carrier {
+            Carrier::Simulated(_) => None,
+            Carrier::Recorded(playback) => playback.end_before(tick as f64 * TICK_S),
+        }
     }
 
     /// Makes the world known up to a tick.
     pub fn advance_to(&mut self, tick: u64) {
-        self.water.advance_to(tick as f64 * TICK_S);
-        if let Some(plume) = &mut self.plume {
-            plume.advance_to(tick, &mut self.water);
+        if let Carrier::Simulated(own) = &mut self.carrier {
+            own.advance_to(tick);
         }
     }
 
     /// The water's velocity, m/s toward, at a point, a height above the bottom (m) and a time within the last tick: the flow,
     /// and the orbital motion of the waves.
     pub fn flow(&self, p: Point, height: f64, time: f64) -> Vector {
-        let flow = match &self.upper {
-            Some(upper) if height > upper.begins(time) => upper.mean,
-            _ => self.water.velocity(p, time),
+        let flow = match (&self.upper, &self.carrier) {
+            (Some(upper), _) if height > upper.begins(time) => upper.mean,
+            (_, Carrier::Simulated(own)) => own.flow(p, time),
+            (_, Carrier::Recorded(playback)) => playback.flow(p, time),
         };
         self.sea.as_ref().map_or(flow, |sea| flow + sea.velocity(p, height, time))
     }
@@ -64,27 +78,33 @@ impl World {
     /// The concentration, as a ratio of the chemical sensor's full scale, at a point, a height above the bottom (m) and a
     /// time within the last tick.
     pub fn concentration(&mut self, p: Point, height: f64, time: f64) -> f64 {
-        let Some(plume) = &self.plume else { return 0.0 };
-        let (x, y) = self.water.frame().to_local(p);
-        self.nearby.reading(plume, [x, y, height], time)
+        match &mut self.carrier {
+            Carrier::Simulated(own) => own.concentration(p, height, time),
+            Carrier::Recorded(playback) => playback.reading(p, time),
+        }
     }
 
     /// The chemical at a time within the last tick, for looks at many places.
     pub fn survey(&self, time: f64) -> Survey {
-        let index = self.plume.as_ref().map(|plume| Index::new(plume, time));
-        Survey { frame: self.water.frame().clone(), index }
+        match &self.carrier {
+            Carrier::Simulated(own) => own.survey(time),
+            Carrier::Recorded(playback) => Survey::recorded(playback.still(time)),
+        }
     }
 
     /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
     pub fn look_up(&self, p: Point, height: f64, time: f64) -> f64 {
-        let (x, y) = self.water.frame().to_local(p);
-        self.plume.as_ref().map_or(0.0, |plume| Nearby::default().reading(plume, [x, y, height], time))
+        match &self.carrier {
+            Carrier::Simulated(own) => own.look_up(p, height, time),
+            Carrier::Recorded(playback) => playback.look_up(p, time),
+        }
     }
 
     /// The filaments alive at a time within the last tick: where they are and their radii, m.
-    pub fn filaments(&self, time: f64) -> impl Iterator<Item = (Point, f64)> + '_ {
-        let frame = self.water.frame();
-        let alive = self.plume.iter().flat_map(move |plume| plume.alive(time));
-        alive.map(|([x, y, _], radius)| (frame.to_point(x, y), radius))
+    pub fn filaments(&self, time: f64) -> Box<dyn Iterator<Item = (Point, f64)> + '_> {
+        match &self.carrier {
+            Carrier::Simulated(own) => Box::new(own.filaments(time)),
+            Carrier::Recorded(playback) => Box::new(playback.filaments(time)),
+        }
     }
 }

@@ -103,7 +103,9 @@ impl Default for Source {
 
 /// What of the sources cannot be, once region and flow are sound.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    for (some, what) in [(!scenario.sources.is_empty(), "sources"), (!scenario.patches.is_empty(), "patches")] {
+    // A record's source is there to be told of.
+    let sources = !scenario.sources.is_empty() && scenario.recording.is_none();
+    for (some, what) in [(sources, "sources"), (!scenario.patches.is_empty(), "patches")] {
         objections
             .unless(!some || scenario.plume.is_some(), format!("`{what}` need a `plume`: without one nothing spreads"));
     }

@@ -1,0 +1,52 @@
+//! What a scenario says of a plume that was computed elsewhere.
+
+use super::clause::Clause;
+use super::{Understood, Wrong};
+use crate::files::Files;
+use albacore_sim::{RecordedKernel, RecordedPlume, RecordingError, RecordingHeader};
+use albacore_trace::Digest;
+use albacore_trace::journal::SourceDigest;
+use std::sync::Arc;
+
+/// A header is no larger than this, bytes.
+const HEADER_BYTES_MAX: u64 = 4 * 1024 * 1024;
+
+/// The clauses that a record takes the place of.
+pub const BROUGHT: [&str; 8] = ["flow", "turning", "tide", "region", "plume", "source", "leak", "patch"];
+
+/// `recorded_plume(…)`: the record, and all that it brings.
+pub fn recorded_plume(understood: &mut Understood, c: &Clause, files: &Files) -> Result<(), Wrong> {
+    let path = c.text("file")?;
+    let header = files.data(&path, HEADER_BYTES_MAX)?;
+    let header = String::from_utf8(header).map_err(|_| format!("`{path}` is no text in UTF-8"))?;
+    let header = RecordingHeader::read(&header).map_err(|e| told(&path, &e))?;
+    // The binary lies beside its header.
+    let folder = path.rfind('/').map_or("", |slash| &path[..=slash]);
+    let binary = format!("{folder}{}", header.binary());
+    let bytes = files.data(&binary, header.bytes() as u64)?;
+    let recording = header.decode(&bytes).map_err(|error| told(&path, &error))?;
+    let kernel = match c.clause("kernel").map(|kernel| kernel.clause.name.as_str()) {
+        Some("flat") => RecordedKernel::Flat,
+        _ => RecordedKernel::Pompy,
+    };
+    let recorded = RecordedPlume {
+        recording: Arc::new(recording),
+        kernel,
+        start: c.number("start")?,
+        start_spread: c.number("start_spread")?,
+        threshold: c.number("threshold")?,
+    };
+    let mut digest = Digest::new();
+    digest.text(recorded.recording.sha256());
+    understood.files.push(SourceDigest { name: path, digest: digest.value() });
+    let scenario = &mut understood.world;
+    scenario.region = Some(recorded.recording.area().clone());
+    scenario.flow.mean = recorded.recording.mean_flow();
+    scenario.sources = vec![recorded.source()];
+    scenario.recording = Some(recorded);
+    Ok(())
+}
+
+fn told(path: &str, error: &RecordingError) -> String {
+    format!("`{path}`: {error}")
+}

@@ -1,0 +1,350 @@
+//! What a record says of itself, and whether its parts fit together.
+
+use super::{RecordedKernel, RecordingError};
+use albacore_geometry::math::exp;
+use albacore_geometry::{Area, Heading, Point};
+use serde::Deserialize;
+use std::ops::Range;
+
+/// What a header of ours begins with.
+const FORMAT: &str = "recorded filament plume";
+/// The version of the format that is read.
+const VERSION: u32 = 1;
+/// A binary is no larger than this, bytes; in memory it takes about four times as much.
+const BINARY_BYTES_MAX: u64 = 256 * 1024 * 1024;
+/// A header is no larger than this, bytes.
+const HEADER_BYTES_MAX: usize = 4 * 1024 * 1024;
+/// A record has no more frames than this.
+const FRAMES_MAX: usize = 1_000_000;
+
+/// The header of a record whose parts fit together.
+#[derive(Clone, Debug)]
+pub struct RecordingHeader {
+    name: String,
+    binary: String,
+    sha256: String,
+    pub(super) record: Record,
+    pub(super) source: Source,
+    pub(super) kernel: Kernel,
+    pub(super) release_rate: f64,
+    pub(super) grid: Grid,
+    pub(super) area: Area,
+    pub(super) layout: Layout,
+}
+
+/// Where each section lies in the binary.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layout {
+    pub id: Range<usize>,
+    pub birth_s: Range<usize>,
+    pub first_frame: Range<usize>,
+    pub n_frames: Range<usize>,
+    pub north0: Range<usize>,
+    pub east0: Range<usize>,
+    pub step: Range<usize>,
+    pub flow: Range<usize>,
+    /// Bytes of the whole binary.
+    pub bytes: usize,
+}
+
+/// How a filament reads: c = q (r2_far / r2)^p exp(-d2 / 2 r2), where r2 = r0^2 + growth age.
+#[derive(Clone, Debug)]
+pub(super) struct Kernel {
+    peak: f64,
+    far: f64,
+    initial: f64,
+    growth: f64,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Record {
+    pub frame_interval_s: f64,
+    pub n_frames: usize,
+    pub quantum_m: f64,
+    pub filaments: usize,
+    pub filament_frames: usize,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Source {
+    north_m: f64,
+    east_m: f64,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Grid {
+    pub north_m: Vec<f64>,
+    pub east_m: Vec<f64>,
+}
+
+/// Which format a file is, whatever else is in it.
+#[derive(Deserialize)]
+struct Mark {
+    format: String,
+    version: u32,
+}
+
+#[derive(Deserialize)]
+struct Raw {
+    case: String,
+    binary: String,
+    byte_order: String,
+    sha256: String,
+    frame: Frame,
+    record: Record,
+    source: Source,
+    concentration: Concentration,
+    parameters: Parameters,
+    flow_grid: Grid,
+    sections: Vec<Section>,
+}
+
+#[derive(Deserialize)]
+struct Frame {
+    operation_area_m: Extent,
+}
+
+#[derive(Deserialize)]
+struct Extent {
+    north: [f64; 2],
+    east: [f64; 2],
+}
+
+#[derive(Deserialize)]
+struct Concentration {
+    r2_far: f64,
+    q: f64,
+}
+
+#[derive(Deserialize)]
+struct Parameters {
+    r0_m: f64,
+    growth_m2_s: f64,
+    release_per_s: f64,
+}
+
+#[derive(Deserialize)]
+struct Section {
+    name: String,
+    dtype: String,
+    shape: Vec<u64>,
+    offset: u64,
+    bytes: u64,
+}
+
+impl RecordingHeader {
+    /// Reads a header; else all that is wrong with it.
+    pub fn read(text: &str) -> Result<Self, RecordingError> {
+        let alone = |fault: String| RecordingError { faults: vec![fault] };
+        if text.len() > HEADER_BYTES_MAX {
+            return Err(alone(format!("the header is larger than {HEADER_BYTES_MAX} bytes")));
+        }
+        let mark: Mark = serde_json::from_str(text)
+            .map_err(|error| alone(format!("the header is not one of a recorded plume: {error}")))?;
+        if mark.format != FORMAT {
+            return Err(alone(format!("the header's format is `{}`, not `{FORMAT}`", mark.format)));
+        }
+        if mark.version != VERSION {
+            return Err(alone(format!("the record is of version {}; version {VERSION} is read", mark.version)));
+        }
+        let raw: Raw =
+            serde_json::from_str(text).map_err(|error| alone(format!("the header lacks something: {error}")))?;
+        raw.checked()
+    }
+
+    /// What the record is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The file of the binary, in the folder of the header.
+    pub fn binary(&self) -> &str {
+        &self.binary
+    }
+
+    /// How large the binary is, bytes.
+    pub fn bytes(&self) -> usize {
+        self.layout.bytes
+    }
+
+    /// The SHA-256 of the binary, in lower-case hexadecimal digits.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+}
+
+impl Raw {
+    fn checked(self) -> Result<RecordingHeader, RecordingError> {
+        let mut faults = Vec::new();
+        let mut unless = |holds: bool, fault: String| {
+            if !holds {
+                faults.push(fault);
+            }
+        };
+        let plain = !self.binary.is_empty() && !self.binary.starts_with('.') && !self.binary.contains(['/', '\\']);
+        unless(plain, format!("`binary` is `{}`: it must be the name of a file beside the header", self.binary));
+        unless(self.byte_order == "little", format!("`byte_order` is `{}`: it must be `little`", self.byte_order));
+        let hexadecimal = self.sha256.len() == 64 && self.sha256.bytes().all(|b| b.is_ascii_hexdigit());
+        unless(hexadecimal, format!("`sha256` is `{}`: it must be 64 hexadecimal digits", self.sha256));
+        let r = &self.record;
+        for (name, value) in [
+            ("record.frame_interval_s", r.frame_interval_s),
+            ("record.quantum_m", r.quantum_m),
+            ("concentration.r2_far", self.concentration.r2_far),
+            ("concentration.q", self.concentration.q),
+            ("parameters.r0_m", self.parameters.r0_m),
+            ("parameters.release_per_s", self.parameters.release_per_s),
+        ] {
+            unless(value > 0.0 && value.is_finite(), format!("`{name}` is {value}: it must be above 0"));
+        }
+        let growth = self.parameters.growth_m2_s;
+        unless(
+            growth >= 0.0 && growth.is_finite(),
+            format!("`parameters.growth_m2_s` is {growth}: it must be 0 or more"),
+        );
+        unless(
+            (2..=FRAMES_MAX).contains(&r.n_frames),
+            format!("`record.n_frames` is {}: it must be 2 to {FRAMES_MAX}", r.n_frames),
+        );
+        unless(r.filaments > 0, String::from("`record.filaments` is 0: there is no plume"));
+        unless(
+            r.filament_frames >= r.filaments,
+            format!(
+                "`record.filament_frames` is {}: each of {} filaments has a frame at least",
+                r.filament_frames, r.filaments
+            ),
+        );
+        unless(
+            self.source.north_m.is_finite() && self.source.east_m.is_finite(),
+            String::from("`source` is not a finite number"),
+        );
+        unless(
+            self.flow_grid.north_m.len() >= 2 && self.flow_grid.north_m.windows(2).all(|w| w[0] > w[1]),
+            String::from("`flow_grid.north_m` must be two or more numbers that fall"),
+        );
+        unless(
+            self.flow_grid.east_m.len() >= 2 && self.flow_grid.east_m.windows(2).all(|w| w[0] < w[1]),
+            String::from("`flow_grid.east_m` must be two or more numbers that rise"),
+        );
+        let area = self.frame.operation_area_m.area();
+        unless(area.is_some(), String::from("`frame.operation_area_m` is no area: each pair must rise"));
+        let layout = if faults.is_empty() { self.layout(&mut faults) } else { Layout::default() };
+        let Some(area) = area.filter(|_| faults.is_empty()) else { return Err(RecordingError { faults }) };
+        Ok(RecordingHeader {
+            name: self.case,
+            binary: self.binary,
+            sha256: self.sha256.to_ascii_lowercase(),
+            kernel: Kernel {
+                peak: self.concentration.q,
+                far: self.concentration.r2_far,
+                initial: self.parameters.r0_m * self.parameters.r0_m,
+                growth,
+            },
+            release_rate: self.parameters.release_per_s,
+            record: self.record,
+            source: self.source,
+            grid: self.flow_grid,
+            area,
+            layout,
+        })
+    }
+
+    /// Where each section lies, if each is there once, of the type and shape that the counts ask for.
+    fn layout(&self, faults: &mut Vec<String>) -> Layout {
+        let (each, all) = (self.record.filaments as u64, self.record.filament_frames as u64);
+        let grid = [self.flow_grid.north_m.len() as u64, self.flow_grid.east_m.len() as u64];
+        let mut section =
+            |name: &str, dtype: &str, width: u64, shape: &[u64]| match self.section(name, dtype, width, shape) {
+                Ok(range) => range,
+                Err(fault) => {
+                    faults.push(fault);
+                    0..0
+                }
+            };
+        let mut layout = Layout {
+            id: section("id", "<i4", 4, &[each]),
+            birth_s: section("birth_s", "<f4", 4, &[each]),
+            first_frame: section("first_frame", "<i4", 4, &[each]),
+            n_frames: section("n_frames", "<i4", 4, &[each]),
+            north0: section("north0", "<i4", 4, &[each]),
+            east0: section("east0", "<i4", 4, &[each]),
+            step: section("step", "|i1", 1, &[all - each, 2]),
+            flow: section("flow", "<f4", 4, &[self.record.n_frames as u64, grid[0], grid[1], 2]),
+            bytes: 0,
+        };
+        layout.bytes = layout.ranges().iter().map(|range| range.end).max().unwrap_or(0);
+        layout
+    }
+
+    fn section(&self, name: &str, dtype: &str, width: u64, shape: &[u64]) -> Result<Range<usize>, String> {
+        let mut named = self.sections.iter().filter(|section| section.name == name);
+        let (Some(section), None) = (named.next(), named.next()) else {
+            return Err(format!("the header must describe the section `{name}` once"));
+        };
+        if section.dtype != dtype {
+            return Err(format!("the section `{name}` is of type `{}`: it must be `{dtype}`", section.dtype));
+        }
+        if section.shape != shape {
+            return Err(format!(
+                "the section `{name}` has the shape {:?}: the counts ask for {shape:?}",
+                section.shape
+            ));
+        }
+        let bytes = shape.iter().try_fold(width, |bytes, n| bytes.checked_mul(*n));
+        if bytes != Some(section.bytes) {
+            return Err(format!("the section `{name}` has {} bytes, which do not hold its shape", section.bytes));
+        }
+        let end = section.offset.checked_add(section.bytes).filter(|end| *end <= BINARY_BYTES_MAX);
+        let (Ok(begin), Some(Ok(end))) = (usize::try_from(section.offset), end.map(usize::try_from)) else {
+            return Err(format!("the section `{name}` ends beyond {BINARY_BYTES_MAX} bytes, the most that is read"));
+        };
+        Ok(begin..end)
+    }
+}
+
+impl Layout {
+    fn ranges(&self) -> [&Range<usize>; 8] {
+        let Layout { id, birth_s, first_frame, n_frames, north0, east0, step, flow, .. } = self;
+        [id, birth_s, first_frame, n_frames, north0, east0, step, flow]
+    }
+}
+
+impl Extent {
+    fn area(&self) -> Option<Area> {
+        let ([south, north], [west, east]) = (self.north, self.east);
+        let center = Point::new(0.5 * (south + north), 0.5 * (west + east));
+        if !(north > south && east > west) {
+            return None;
+        }
+        Area::rectangle(center, Heading::NORTH, north - south, east - west).ok()
+    }
+}
+
+impl Source {
+    pub fn place(&self) -> Point {
+        Point::new(self.north_m, self.east_m)
+    }
+}
+
+impl Kernel {
+    /// Squared radius at an age (s), m2.
+    pub fn squared_radius(&self, age: f64) -> f64 {
+        self.initial + self.growth * age
+    }
+
+    /// The peak that the record is scaled by, in thresholds of detection, and the age (s) of a filament that has it.
+    pub fn far_peak(&self) -> (f64, f64) {
+        let age = if self.growth > 0.0 { (self.far - self.initial) / self.growth } else { 0.0 };
+        (self.peak, age.max(0.0))
+    }
+
+    /// What a filament of a squared radius (m2) reads at a squared distance (m2), in thresholds of detection.
+    pub fn reading(&self, kernel: RecordedKernel, d2: f64, r2: f64) -> f64 {
+        let thinning = self.far / r2;
+        let peak = match kernel {
+            RecordedKernel::Pompy => self.peak * thinning * thinning.sqrt(),
+            RecordedKernel::Flat => self.peak * thinning,
+        };
+        peak * exp(-d2 / (2.0 * r2))
+    }
+}

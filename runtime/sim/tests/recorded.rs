@@ -1,0 +1,94 @@
+//! A vehicle in a recorded plume, through the port alone.
+
+use albacore_geometry::{Heading, Point, Vector};
+use albacore_sim::{Adcp, RecordedPlume, Recording, RecordingHeader, Scenario, Simulator, Tide, presets};
+use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
+use std::error::Error;
+use std::sync::Arc;
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../missions/recorded");
+
+fn recording() -> Result<Arc<Recording>, Box<dyn Error>> {
+    let header = RecordingHeader::read(&std::fs::read_to_string(format!("{FOLDER}/case_a.json"))?)?;
+    Ok(Arc::new(header.decode(&std::fs::read(format!("{FOLDER}/case_a.bin"))?)?))
+}
+
+/// In the record from a moment on, at a place.
+fn scenario(start: f64, place: Point) -> Result<Scenario, Box<dyn Error>> {
+    let recording = Some(RecordedPlume { start, ..RecordedPlume::new(recording()?) });
+    let mut scenario = Scenario { recording, adcp: Adcp { noise: 0.0 }, ..Scenario::default() };
+    (scenario.vehicle.start, scenario.vehicle.depth) = (place, 5.0);
+    Ok(scenario)
+}
+
+/// It drifts with the recorded flow, its profiler reads that flow and its nose the recorded chemical, all at the record's time.
+#[test]
+fn sensors_read_the_record() {
+    let (start, place) = (1200.0, Point::new(400.0, -25.0));
+    let record = recording().unwrap();
+    let mut simulator = Simulator::new(&scenario(start, place).unwrap(), 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    (0..100).for_each(|_| simulator.sense(&mut snapshot).unwrap());
+    let truth = simulator.truth();
+    let carried = 9.9 * record.flow(place, start + 5.0);
+    assert!((truth.position - (place + carried)).length() < 0.01, "{truth:?} {carried:?}");
+
+    simulator.take_over().unwrap();
+    simulator.command(&Command { heading: Heading::NORTH, speed: 1.0, vertical: Vertical::Depth(5.0) }).unwrap();
+    let channel = |name: &str| simulator.channels().iter().position(|c| c.name == name).unwrap() as u16;
+    let (flow, chemical) = (channel("flow"), channel("chemical"));
+    let (mut flows, mut detections, mut saturated) = (Vec::new(), 0, 0);
+    for _ in 0..400 {
+        simulator.sense(&mut snapshot).unwrap();
+        let (truth, time) = (simulator.truth(), start + simulator.time_s());
+        let nose = truth.position + 0.8 * truth.heading.unit();
+        let wanted = 0.04 * record.concentration(Default::default(), nose, time);
+        assert!((truth.concentration - wanted).abs() < 1e-9 * wanted.max(1.0), "{} not {wanted}", truth.concentration);
+        for sample in &snapshot.samples {
+            if sample.channel == flow {
+                flows.push(Vector::new(sample.reading[0], sample.reading[1]));
+            }
+            if sample.channel == chemical {
+                detections += u32::from(sample.reading[0] > 0.04);
+                saturated += u32::from(sample.reading[0] >= 1.0);
+                assert!(sample.reading[0] <= 1.0);
+            }
+        }
+    }
+    let last = *flows.last().unwrap();
+    assert!((last - record.flow(place, start + 20.0)).length() < 0.01, "{last:?}");
+    assert!(detections > 40 && saturated > 3, "{detections} detections, {saturated} at full scale");
+}
+
+#[test]
+fn a_run_ends_with_its_record() {
+    let mut simulator = Simulator::new(&scenario(5390.0, Point::ORIGIN).unwrap(), 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    let sensed = (0..200).take_while(|_| simulator.sense(&mut snapshot).is_ok()).count();
+    assert_eq!(sensed, 101, "ticks 0 to 100");
+    let why = simulator.sense(&mut snapshot).unwrap_err().to_string();
+    assert!(why.contains("the recorded plume ends after 5400 s"), "{why}");
+}
+
+#[test]
+fn impossible_playbacks_are_refused() {
+    let fault = |change: &dyn Fn(&mut Scenario, &mut RecordedPlume)| {
+        let mut scenario = scenario(0.0, Point::ORIGIN).unwrap();
+        let mut recorded = scenario.recording.take().unwrap();
+        change(&mut scenario, &mut recorded);
+        scenario.recording = Some(recorded);
+        scenario.validate().map_or_else(|error| error.to_string(), |()| String::from("sound"))
+    };
+    assert_eq!(fault(&|_, _| ()), "sound");
+    let own = presets::duck_2003_flat();
+    for (said, expected) in [
+        (fault(&|_, r| r.start = 5400.0), "it must be before the record ends, at 5400 s"),
+        (fault(&|_, r| (r.start, r.start_spread) = (3000.0, 2500.0)), "is up to 5500 s"),
+        (fault(&|_, r| r.start_spread = -1.0), "`recorded_plume.start_spread` is -1"),
+        (fault(&|_, r| r.threshold = 0.0), "`recorded_plume.threshold` is 0"),
+        (fault(&|s, _| s.flow.tides = vec![Tide::default()]), "brings its own plume and its own flow"),
+        (fault(&|s, _| (s.plume, s.region) = (own.plume.clone(), own.region.clone())), "brings its own plume"),
+    ] {
+        assert!(said.contains(expected), "{said}, not {expected}");
+    }
+}
