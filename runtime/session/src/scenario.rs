@@ -2,6 +2,7 @@
 
 mod bottom;
 mod clause;
+mod fault;
 mod flow;
 mod plume;
 mod recorded;
@@ -126,6 +127,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "navigation" => sensors::navigation(scenario, c),
         "fluorometer" => sensors::fluorometer(scenario, c),
         "adcp" => sensors::adcp(scenario, c),
+        "fault" => fault::fault(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
         other => Err(format!("the simulator knows no `{other}`")),
     }

@@ -240,9 +240,11 @@ fn impossible_hulls_and_limits_are_refused() {
     bad.limits = Some(Limits { depth: Some(-1.0), altitude: f64::NAN, speed: None });
     let said = bad.validate().unwrap_err();
     assert_eq!(said.faults.len(), 5, "{said}");
-    for expected in
-        ["its `turns_max` of 25.42 Hz gives 2.55 m/s at most", "must be a whole number of steps", "`limits.depth` is -1"]
-    {
+    for expected in [
+        "its `turns_max` of 25.42 Hz gives 2.55 m/s at most",
+        "must be a whole number of steps",
+        "`limits.depth` is -1",
+    ] {
         assert!(said.to_string().contains(expected), "{said}");
     }
     for hull in [
