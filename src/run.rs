@@ -120,7 +120,8 @@ impl Run {
                 bar.suspend(|| kept.journal_failed(&error));
             }
             for notice in run.take_notices() {
-                bar.suspend(|| message::write(&format!("link: {notice}\n")));
+                let teller = if self.link.is_some() { "link" } else { "vehicle" };
+                bar.suspend(|| message::write(&format!("{teller}: {notice}\n")));
             }
             if let Running::Over(outcome) = running {
                 bar.finish_and_clear();

@@ -1,5 +1,6 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
+use crate::files::Files;
 use crate::world;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
@@ -29,9 +30,9 @@ fn scenario(script: &Script, name: &str) -> Vec<Diagnostic> {
         Some(Err(findings)) => return findings,
         None => return Vec::new(),
     };
-    match crate::scenario::scenario(&lowered, &script.sources) {
-        Err(finding) => vec![finding],
-        Ok(world) => match world.validate() {
+    match crate::scenario::scenario(&lowered, &Files::of(script)) {
+        Err(findings) => findings,
+        Ok(understood) => match understood.world.validate() {
             Err(error) => error.faults.iter().map(|fault| of_fault(&lowered, fault)).collect(),
             Ok(()) => Vec::new(),
         },

@@ -176,6 +176,12 @@ impl Files {
         Files { root }
     }
 
+    /// The project that a script was read from.
+    pub(crate) fn of(script: &Script) -> Self {
+        let name = script.sources.iter().next().map(|source| source.name.to_string());
+        Files::around(Path::new(&name.unwrap_or_default()))
+    }
+
     /// The project's folder.
     pub(crate) fn root(&self) -> &Path {
         &self.root

@@ -3,7 +3,7 @@
 pub mod campaign;
 mod check;
 mod craft;
-mod data_files;
+mod data;
 mod files;
 mod journal;
 mod link;

@@ -78,9 +78,9 @@ impl Plan {
 
     /// A mission that is lowered already, in a scenario of the script.
     pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
-        let (lowered, world) = world::scenario(script, wanted, program.mission.origin)?;
-        let sources = sources(script).into_iter().chain(record(&world)).collect();
-        let (scenario, scenario_name) = (Arc::new(world), lowered.name);
+        let (lowered, understood) = world::scenario(script, wanted, program.mission.origin)?;
+        let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
+        let sources = sources(script).into_iter().chain(understood.files).collect();
         Ok(Plan { program, scenario, scenario_name, sources })
     }
 }
@@ -131,17 +131,10 @@ fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String,
 
 /// What a script was made from.
 fn sources(script: &Script) -> Vec<SourceDigest> {
-    script.sources.iter().map(|source: &Source| source_digest(&source.name, &source.text)).collect()
-}
-
-/// The record that a world plays back, if it does.
-fn record(world: &Scenario) -> Option<SourceDigest> {
-    let recording = &world.recording.as_ref()?.recording;
-    Some(source_digest(recording.name(), recording.sha256()))
-}
-
-fn source_digest(name: &str, text: &str) -> SourceDigest {
-    let mut digest = Digest::new();
-    digest.text(text);
-    SourceDigest { name: name.to_string(), digest: digest.value() }
+    let digest = |source: &Source| {
+        let mut digest = Digest::new();
+        digest.text(&source.text);
+        SourceDigest { name: source.name.to_string(), digest: digest.value() }
+    };
+    script.sources.iter().map(digest).collect()
 }

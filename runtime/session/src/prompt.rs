@@ -118,8 +118,8 @@ impl Prompt {
             (Some(plan.program), plan.scenario_name, plan.scenario)
         } else {
             let wanted = opening.scenario.unwrap_or(SCENARIO_AT_FIRST);
-            let (lowered, scenario) = world::scenario(&script, wanted, None).map_err(refused)?;
-            (None, lowered.name, Arc::new(scenario))
+            let (lowered, understood) = world::scenario(&script, wanted, None).map_err(refused)?;
+            (None, lowered.name, Arc::new(understood.world))
         };
         let now = Moment::first(vehicle(&scenario, opening.seed)?)
             .map_err(|error| OpenError::Asked(error.to_string(), None))?;

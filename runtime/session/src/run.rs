@@ -174,10 +174,10 @@ impl Run {
         self.deepest
     }
 
-    /// The deepest point, where that is what is sought: there are pits to be found, and no sources.
+    /// The deepest point, where that is what is sought: there are hollows to be found, and no sources.
     fn deepest_sought(&self) -> Option<Point> {
         let world = &self.plan.scenario;
-        self.deepest.filter(|_| world.sources.is_empty() && !world.bottom.pits.is_empty())
+        self.deepest.filter(|_| world.sources.is_empty() && world.bottom.has_hollows())
     }
 
     /// The corners of the mission's area, once it has one.
@@ -277,6 +277,7 @@ impl Run {
     fn finish(&mut self, outcome: Outcome, events: Vec<Event>) -> Running {
         if matches!(outcome, Outcome::Refused | Outcome::ReleasedByVehicle | Outcome::LinkLost)
             && self.reason.is_empty()
+            && self.vehicle.truth().is_none()
         {
             self.reason = self.notices.last().cloned().unwrap_or_default();
         }
@@ -447,6 +448,7 @@ impl Run {
             depths: Depths::sound(sounded, |p| self.water_depth(p)),
             area,
             plume: self.vehicle.filaments(),
+            no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
             sources: scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect(),
             deepest,
             start: self.start,

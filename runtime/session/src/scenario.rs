@@ -8,33 +8,77 @@ mod recorded;
 mod sensors;
 mod vehicle;
 
+use crate::files::Files;
+use albacore_geometry::TangentFrame;
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::source::Sources;
 use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
+use albacore_trace::journal::SourceDigest;
 use clause::Clause;
 
+/// A scenario that was understood.
+pub(crate) struct Understood {
+    /// The simulator's own.
+    pub world: Scenario,
+    /// The files of numbers that it was read from.
+    pub files: Vec<SourceDigest>,
+}
+
 /// The simulator's scenario; else what of it cannot be understood, and where.
-pub(crate) fn scenario(program: &ScenarioProgram, sources: &Sources) -> Result<Scenario, Diagnostic> {
+pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
-    let mut scenario = Scenario::default();
+    let mut understood = Understood { world: Scenario::default(), files: Vec::new() };
+    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().chain(recorded::brought(program)).collect();
     for clause in &program.clauses {
-        let file = &sources.get(clause.span.file).name;
-        let clause = Clause { clause, words: &words, file };
-        apply(&mut scenario, &clause).map_err(|what| {
-            let message = format!("this clause cannot be: {what}");
-            Diagnostic::error(Code::ScenariosClause, clause.clause.span, message)
-        })?;
-    }
-    match program.clauses.iter().find(|clause| recorded::BROUGHT.contains(&clause.name.as_str())) {
-        Some(clause) if scenario.recording.is_some() => {
-            let message = format!("the record brings its own `{}`", clause.name);
-            Err(Diagnostic::error(Code::ScenariosClause, clause.span, message)
-                .help("leave it out, or `recorded_plume`"))
+        let clause = Clause { clause, words: &words };
+        let read = match clause.clause.name.as_str() {
+            "bottom_grid" => {
+                let frame = program.origin.map(|origin| TangentFrame { origin });
+                bottom::grid(&mut understood, &clause, files, frame)
+            }
+            "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
+            _ => apply(&mut understood.world, &clause).map_err(Into::into),
+        };
+        if let Err(Wrong(faults)) = read {
+            findings.extend(faults.into_iter().map(|fault| fault.at(&clause)));
         }
-        _ => Ok(scenario),
+    }
+    if findings.is_empty() { Ok(understood) } else { Err(findings) }
+}
+
+/// The ground is a plane or a survey: of two that are said, neither can be the one that is meant.
+fn two_grounds(program: &ScenarioProgram) -> Option<Diagnostic> {
+    let mut grounds = program.clauses.iter().filter(|c| matches!(c.name.as_str(), "bottom" | "bottom_grid"));
+    let (first, second) = (grounds.next()?, grounds.next()?);
+    let message = "a scenario has one `bottom` or one `bottom_grid`";
+    let finding = Diagnostic::error(Code::ScenariosTwice, second.span, message);
+    Some(finding.label(first.span, "the first").help("leave one of them out"))
+}
+
+/// All that is wrong with a clause.
+struct Wrong(Vec<Fault>);
+
+/// What is wrong, and its mend if that is known.
+struct Fault {
+    message: String,
+    help: Option<String>,
+}
+
+impl From<String> for Wrong {
+    fn from(what: String) -> Wrong {
+        Wrong(vec![Fault { message: format!("this clause cannot be: {what}"), help: None }])
+    }
+}
+
+impl Fault {
+    fn at(self, clause: &Clause) -> Diagnostic {
+        let finding = Diagnostic::error(Code::ScenariosClause, clause.clause.span, self.message);
+        match self.help {
+            Some(help) => finding.help(help),
+            None => finding,
+        }
     }
 }
 
@@ -55,11 +99,11 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "region" => flow::region(scenario, c),
         "bottom" => bottom::bottom(scenario, c),
         "pit" => bottom::pit(scenario, c),
+        "no_go" => bottom::no_go(scenario, c),
         "plume" => plume::plume(scenario, c),
         "source" => plume::source(scenario, c),
         "leak" => plume::leak(scenario, c),
         "patch" => plume::patch(scenario, c),
-        "recorded_plume" => recorded::recorded_plume(scenario, c),
         "vehicle" => vehicle::vehicle(scenario, c),
         "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),

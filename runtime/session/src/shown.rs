@@ -1,14 +1,16 @@
 //! A scenario as a person looks at it: every number in force, those of the library's defaults too, and a picture.
 
+use crate::files::Files;
 use crate::plan::PlanError;
 use crate::scenario;
 use crate::world::{self, place_of};
 use albacore_geometry::{Point, TangentFrame, Vector};
-use albacore_lang::source::{Source, Sources};
+use albacore_lang::source::Source;
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue, Script, doc};
 use albacore_program::{AREA_CORNER_WORDS, Shape, number};
 use albacore_sim::{Scenario, Simulator};
 use albacore_trace::{Depths, Picture};
+use std::path::Path;
 
 /// A picture without a region shows so much water around the vehicle, m to each side.
 const AROUND_M: f64 = 100.0;
@@ -44,7 +46,8 @@ impl Shown {
     /// picture is that of a seed.
     pub fn new(script: &Script, file: &str, wanted: Option<&str>, seed: u64) -> Result<Self, PlanError> {
         let wanted = chosen(script, file, wanted)?;
-        let (lowered, world) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let (lowered, understood) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let world = understood.world;
         let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&lowered.name, &error))?;
         let defaults = Defaults::read();
         let mut clauses = Vec::new();
@@ -86,7 +89,6 @@ struct Defaults {
     /// Each as it is when it is given nothing, where it needs nothing.
     probe: Option<ScenarioProgram>,
     words: Vec<f64>,
-    sources: Sources,
 }
 
 impl Defaults {
@@ -106,8 +108,7 @@ impl Defaults {
         let script = crate::load_text(Source { name: "defaults.alb".into(), text: text.into() });
         let probe = script.scenario("defaults", None).and_then(Result::ok);
         let words = probe.as_ref().map_or_else(Vec::new, scenario::words);
-        let names = clauses().filter(|d| d.result.is_none()).map(|d| d.name.clone()).collect();
-        Defaults { names, probe, words, sources: script.sources }
+        Defaults { names: clauses().filter(|d| d.result.is_none()).map(|d| d.name.clone()).collect(), probe, words }
     }
 
     fn teller(&self) -> Teller<'_> {
@@ -119,7 +120,8 @@ impl Defaults {
         let probe = self.probe.as_ref()?;
         let clause = probe.clauses.iter().find(|clause| clause.name == name)?;
         let alone = ScenarioProgram { clauses: vec![clause.clone()], ..probe.clone() };
-        scenario::scenario(&alone, &self.sources).is_ok_and(|world| world == Scenario::default()).then_some(clause)
+        let understood = scenario::scenario(&alone, &Files::around(Path::new("")));
+        understood.is_ok_and(|understood| understood.world == Scenario::default()).then_some(clause)
     }
 }
 
@@ -196,6 +198,7 @@ fn picture(lowered: &ScenarioProgram, scenario: &Scenario, simulator: &Simulator
         depths: Depths::sound(&shown, |p| simulator.water_depth(p)),
         area: area.unwrap_or_default(),
         area_name: String::from("region"),
+        no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
         plume: simulator.filaments().collect(),
         sources: scenario.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),
         start: Some(start),

@@ -1,6 +1,8 @@
 //! A simulated world with a vehicle in it that is served to others: the far end of a link.
 
+use crate::files::Files;
 use crate::plan::PlanError;
+use crate::scenario::Understood;
 use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
 use albacore_link::recon::{FrontSeat, Rows};
@@ -32,7 +34,7 @@ impl World {
             let help = format!("name it: `{file}#NAME`; there is {}", known.join(", "));
             return Err(PlanError::Asked(format!("which scenario of `{file}` is to be served?"), Some(help)));
         };
-        let (lowered, scenario) = self::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let (lowered, understood) = self::scenario(script, &wanted, place_of(script, &wanted)?)?;
         let Some(origin) = lowered.origin else {
             let help =
                 "give its `start:` as latitude and longitude, or serve it from a script with a mission that runs in it";
@@ -41,7 +43,7 @@ impl World {
                 Some(help.into()),
             ));
         };
-        Ok(World { name: lowered.name, scenario, frame: TangentFrame { origin } })
+        Ok(World { name: lowered.name, scenario: understood.world, frame: TangentFrame { origin } })
     }
 
     /// The vehicle in it, with rows to swim, else those of the scenario: the first from where it starts and along its heading, at the depth at which it
@@ -72,12 +74,13 @@ pub(crate) fn place_of(script: &Script, scenario: &str) -> Result<Option<Geodeti
     }
 }
 
-/// A scenario of a script by its name, and its numbers in the frame about `origin`.
+/// A scenario of a script by its name, and its numbers in the frame about `origin`; files that it names lie in the script's
+/// project.
 pub(crate) fn scenario(
     script: &Script,
     wanted: &str,
     origin: Option<Geodetic>,
-) -> Result<(ScenarioProgram, Scenario), PlanError> {
+) -> Result<(ScenarioProgram, Understood), PlanError> {
     let lowered = match script.scenario(wanted, origin) {
         Some(Ok(lowered)) => lowered,
         Some(Err(findings)) => return Err(PlanError::Script(findings)),
@@ -87,10 +90,9 @@ pub(crate) fn scenario(
             return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
         }
     };
-    let world =
-        crate::scenario::scenario(&lowered, &script.sources).map_err(|finding| PlanError::Script(vec![finding]))?;
-    world.validate().map_err(|error| cannot_be(&lowered.name, &error))?;
-    Ok((lowered, world))
+    let understood = crate::scenario::scenario(&lowered, &Files::of(script)).map_err(PlanError::Script)?;
+    understood.world.validate().map_err(|error| cannot_be(&lowered.name, &error))?;
+    Ok((lowered, understood))
 }
 
 /// What is said of a scenario with impossible physics.

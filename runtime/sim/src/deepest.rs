@@ -1,6 +1,6 @@
 //! The deepest point of an area: what a search for it is measured against.
 
-use crate::scenario::Bottom;
+use crate::scenario::{Bottom, Ground};
 use albacore_geometry::{Area, Edge, Point, Vector};
 
 /// The first look is at so many points a side of the area's bounding box: of a pit a hundredth as wide some are seen.
@@ -21,6 +21,14 @@ impl Bottom {
         }
         let mut half = 0.5 * (high - low);
         let mut deepest = self.deepest_of_grid(&edges, inside(&edges, low + half), half, GRID);
+        if let Ground::Grid(grid) = &self.ground {
+            // Between its cells a survey is nowhere deeper than at one of them.
+            for (cell, _) in grid.cells_between(low, high) {
+                if self.depth_at(cell) > self.depth_at(deepest) && edges.iter().all(|edge| edge.gap(cell) >= 0.0) {
+                    deepest = cell;
+                }
+            }
+        }
         while half.length() > FINE_M {
             half = 0.5 * half;
             deepest = self.deepest_of_grid(&edges, deepest, half, CLOSER);
@@ -58,8 +66,9 @@ fn inside(area: &[Edge], mut p: Point) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Pit;
+    use crate::scenario::{Grid, Pit, Plane};
     use albacore_geometry::Heading;
+    use std::sync::Arc;
 
     fn pit(north: f64, east: f64, depth: f64, radius: f64) -> Pit {
         Pit { at: Point::new(north, east), depth, radius, ..Pit::default() }
@@ -69,7 +78,7 @@ mod tests {
     fn the_deepest_of_several_pits_is_found_to_the_millimetre() {
         let area = Area::rectangle(Point::new(20.0, -10.0), Heading::from_degrees(30.0), 400.0, 240.0).unwrap();
         let pits = vec![pit(80.0, 20.0, 1.4, 45.0), pit(-60.0, -31.7, 2.0, 12.0), pit(-500.0, 0.0, 9.0, 20.0)];
-        let bottom = Bottom { from: 3.0, to: 3.0, pits, ..Bottom::default() };
+        let bottom = Bottom { pits, ..Bottom::flat(3.0) };
         let deepest = bottom.deepest(&area);
         // The broad pit's flank pulls it aside by less than a metre; beyond the area a deeper one does not count.
         assert!(deepest.distance(Point::new(-60.0, -31.7)) < 1.0, "{deepest:?}");
@@ -80,7 +89,7 @@ mod tests {
     #[test]
     fn of_a_slope_it_is_the_corner_and_of_a_pit_outside_the_edge() {
         let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(30.0), 200.0, 100.0).unwrap();
-        let slope = Bottom { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), ..Bottom::default() };
+        let slope = Bottom::plane(Plane { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 1000.0 });
         let corner = *area.corners().iter().max_by(|a, b| slope.depth_at(**a).total_cmp(&slope.depth_at(**b))).unwrap();
         assert!(slope.deepest(&area).distance(corner) < 0.01, "{:?}", slope.deepest(&area));
 
@@ -88,5 +97,21 @@ mod tests {
         let bottom = Bottom { pits: vec![pit(outside.north, outside.east, 2.0, 30.0)], ..Bottom::flat(4.0) };
         let middle_of_edge = Point::ORIGIN + 100.0 * Heading::from_degrees(30.0).unit();
         assert!(bottom.deepest(&area).distance(middle_of_edge) < 0.1, "{:?}", bottom.deepest(&area));
+    }
+
+    /// Single cells of two equally deep but for a millimetre, among 500 by 500: no look at 100 a side meets either.
+    #[test]
+    fn of_a_survey_the_deepest_cell_within_the_area_is_found() {
+        let mut depths = vec![5.0; 500 * 500];
+        let mut deepen = |row: usize, column: usize, depth: f64| depths[row * 500 + column] = depth;
+        deepen(123, 77, 9.0);
+        deepen(311, 402, 9.001);
+        deepen(498, 2, 11.0);
+        let corner = Point::new(499.0, 499.0);
+        let grid = Grid { south_west: Point::ORIGIN, north_east: corner, rows: 500, columns: 500, depths };
+        let bottom = Bottom { ground: Ground::Grid(Arc::new(grid)), pits: Vec::new() };
+        let area = Area::rectangle(Point::new(250.0, 250.0), Heading::NORTH, 480.0, 480.0).unwrap();
+        assert!(bottom.deepest(&area).distance(Point::new(311.0, 402.0)) < 1e-3, "{:?}", bottom.deepest(&area));
+        assert!(bottom.depth_at(Point::new(498.0, 2.0)) > 10.99, "and a deeper one lies outside");
     }
 }

@@ -42,6 +42,8 @@ pub struct Motion {
     pub speed: f64,
     /// Velocity over ground in the last tick, m/s.
     pub ground_velocity: Vector,
+    /// Whether the bottom held it in the last tick.
+    pub aground: bool,
 }
 
 /// Where a hull is before its first tick, at rest in the water.

@@ -8,6 +8,7 @@ mod bottom;
 mod computer;
 mod deepest;
 pub mod hull;
+mod incidents;
 mod limits;
 mod noise;
 mod normal;
@@ -27,9 +28,9 @@ mod world;
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Bottom, Flow, Fluorometer, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander, Navigation, OwnMission,
-    Patch, Pit, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
-    Waves,
+    Adcp, Bottom, Flow, Fluorometer, Grid, Ground, Handover, HullSetup, KinematicHull, Lbl, Limits, Meander,
+    Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Scenario, ScenarioError, Sounder, Source, SubmersibleHull,
+    Tide, Times, UpperFlow, VehicleSetup, Waves,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

@@ -1,7 +1,8 @@
 //! Two worlds for tests and benchmarks: the June 2003 trial at Duck, with and without its vertical part.
 
 use crate::scenario::{
-    Bottom, Flow, HullSetup, KinematicHull, Lbl, Meander, Navigation, Plume, Scenario, Source, VehicleSetup,
+    Bottom, Flow, Ground, HullSetup, KinematicHull, Lbl, Meander, Navigation, Plane, Plume, Scenario, Source,
+    VehicleSetup,
 };
 use albacore_geometry::{Area, Heading, Point};
 
@@ -18,7 +19,10 @@ pub fn duck_2003_flat() -> Scenario {
     Scenario {
         region: Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0).ok(),
         flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), ..Flow::default() },
-        bottom: Bottom { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0, pits: Vec::new() },
+        bottom: Bottom {
+            ground: Ground::Plane(Plane { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0 }),
+            pits: Vec::new(),
+        },
         plume: Some(Plume::default()),
         sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
         vehicle: VehicleSetup { start: place(527.0, -163.5), ..VehicleSetup::default() },

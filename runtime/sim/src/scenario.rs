@@ -8,7 +8,7 @@ mod sensors;
 mod source;
 mod vehicle;
 
-pub use bottom::{Bottom, Pit};
+pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
@@ -34,6 +34,8 @@ pub struct Scenario {
     pub flow: Flow,
     /// The water's depth.
     pub bottom: Bottom,
+    /// Where the vehicle must not be.
+    pub no_go: Vec<NoGo>,
     /// How the chemical spreads; none: the chemical sensor reads only its noise.
     pub plume: Option<Plume>,
     /// What releases chemical.
@@ -75,6 +77,11 @@ impl Scenario {
         // An area that was read from a file has not met its constructor.
         if let Some(Err(error)) = self.region.as_ref().map(|region| Area::polygon(region.corners())) {
             objections.0.push(format!("`region`: {error}"));
+        }
+        for zone in &self.no_go {
+            if let Err(error) = Area::polygon(zone.area.corners()) {
+                objections.0.push(format!("`no_go` {}: {error}", zone.name));
+            }
         }
         // What follows looks at the region and the flow's direction.
         if objections.0.is_empty() {

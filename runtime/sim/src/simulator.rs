@@ -2,6 +2,7 @@
 
 use crate::computer::{Computer, Known, seconds};
 use crate::hull::Hull;
+use crate::incidents::Incidents;
 use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
@@ -68,6 +69,7 @@ pub struct Simulator {
     control: Control,
     command: Option<Command>,
     truth: Truth,
+    incidents: Incidents,
     /// The tick last sensed; none before the first.
     tick: Option<u64>,
 }
@@ -102,6 +104,7 @@ impl Simulator {
             control: Control::Disconnected,
             command: None,
             truth: Truth::default(),
+            incidents: Incidents::new(&scenario.no_go),
             tick: None,
         };
         simulator.observe();
@@ -190,6 +193,12 @@ impl Simulator {
         };
     }
 
+    /// Notes what befell the vehicle.
+    fn note_incidents(&mut self) {
+        let Truth { position, depth, altitude, .. } = self.truth;
+        self.incidents.observe(position, depth + altitude, self.vehicle.motion().aground || altitude <= 0.0);
+    }
+
     /// Where the chemical sensor's intake is, and its height above the bottom (m).
     fn intake_now(&self) -> (Point, f64) {
         let v = self.vehicle.motion();
@@ -264,6 +273,7 @@ impl Vehicle for Simulator {
         }
         self.tick = Some(tick);
         self.observe();
+        self.note_incidents();
         if self.control != Control::Released {
             self.control = self.computer.answer(seconds(tick), self.known().position);
         }
@@ -306,6 +316,8 @@ impl Vehicle for Simulator {
     }
 
     fn notices(&mut self) -> Vec<String> {
-        self.watch.take_notices()
+        let mut notices = self.watch.take_notices();
+        notices.append(&mut self.incidents.take());
+        notices
     }
 }

@@ -3,11 +3,12 @@
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Bottom, Flow, Fluorometer, HullSetup, KinematicHull, Lbl, Limits, Navigation, Pit, Scenario, Simulator, Sounder,
-    SubmersibleHull, UpperFlow, VehicleSetup, presets,
+    Bottom, Flow, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Navigation, Pit, Plane, Scenario,
+    Simulator, Sounder, SubmersibleHull, UpperFlow, VehicleSetup, presets,
 };
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::error::Error;
+use std::sync::Arc;
 
 fn scenario() -> Scenario {
     Scenario {
@@ -207,7 +208,8 @@ fn its_own_limits_hold_whatever_it_is_told_and_the_refusals_are_told_once() {
 
 #[test]
 fn the_least_altitude_lifts_it_over_a_rise() {
-    let bottom = Bottom { from: 12.0, to: 4.0, toward: Heading::NORTH, across: 200.0, ..Bottom::default() };
+    let plane = Plane { from: 12.0, to: 4.0, toward: Heading::NORTH, across: 200.0 };
+    let bottom = Bottom { ground: Ground::Plane(plane), ..Bottom::default() };
     let limits = Limits { altitude: 2.0, ..Limits::default() };
     for hull in [
         HullSetup::default(),
@@ -260,7 +262,7 @@ fn impossible_hulls_and_limits_are_refused() {
 fn impossible_pits_and_starts_are_refused() {
     let mut bad = scenario();
     bad.bottom.pits = vec![Pit { depth: -1.0, radius: 0.0, ..Pit::default() }];
-    bad.bottom.to = 4.0;
+    bad.bottom.ground = Ground::Plane(Plane { from: 10.0, to: 4.0, ..Plane::default() });
     bad.vehicle.depth = 5.0;
     assert!(!bad.validate().unwrap_err().to_string().contains("below the bottom"), "it starts where the water is 7 m");
     bad.vehicle.start_spread = 50.0;
@@ -268,4 +270,61 @@ fn impossible_pits_and_starts_are_refused() {
     let said = bad.validate().unwrap_err();
     assert_eq!(said.faults.len(), 4, "{said}");
     assert!(said.to_string().contains("`pit pit: depth` is -1") && said.to_string().contains("below the bottom"));
+}
+
+/// Four cells of a bottom that rises northward out of the water.
+fn shoal() -> Grid {
+    let corners = (Point::new(-100.0, -100.0), Point::new(100.0, 100.0));
+    Grid { south_west: corners.0, north_east: corners.1, rows: 2, columns: 2, depths: vec![20.0, 20.0, -10.0, -10.0] }
+}
+
+#[test]
+fn over_a_surveyed_shoal_it_grounds_and_says_so_once() {
+    let bottom = Bottom { ground: Ground::Grid(Arc::new(shoal())), pits: Vec::new() };
+    let still = Flow::default();
+    let scenario = Scenario { bottom, flow: still, ..Scenario::default() };
+    let mut simulator = Simulator::new(&scenario, 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    simulator.take_over().unwrap();
+    let mut told = Vec::new();
+    for (heading, vertical) in [(0.0, Vertical::Depth(2.0)), (180.0, Vertical::Depth(0.5))] {
+        let command = Command { heading: Heading::from_degrees(heading), speed: 2.0, vertical };
+        simulator.command(&command).unwrap();
+        for _ in 0..600 {
+            simulator.sense(&mut snapshot).unwrap();
+            let time = simulator.time_s();
+            told.extend(simulator.notices().into_iter().map(|notice| (time, notice)));
+        }
+    }
+    // 5 m of water at the origin, 15 cm less each metre northward: 2 m of it 20 m away, which 2 m/s come to in 14 s.
+    let times: Vec<f64> = told.iter().map(|(time, _)| *time).collect();
+    assert!(matches!(times.as_slice(), [13.5..14.5, 60.0..60.2]), "{told:?}");
+    assert_eq!(told[0].1, "grounded at 20.0 m north, 0.0 m east, in 2.0 m of water");
+    assert_eq!(told[1].1, "came free of the bottom at 20.0 m north, 0.0 m east, in 2.0 m of water");
+    assert!(simulator.truth().position.north < -70.0);
+}
+
+#[test]
+fn grids_that_cannot_be_and_starts_on_land_are_refused() {
+    let on = |grid: Grid| Bottom { ground: Ground::Grid(Arc::new(grid)), pits: Vec::new() };
+    let said = |bad: &Scenario| bad.validate().unwrap_err().to_string();
+    let mut bad = Scenario { bottom: on(shoal()), ..Scenario::default() };
+    assert_eq!(bad.validate(), Ok(()));
+    bad.vehicle.start = Point::new(60.0, 0.0);
+    assert!(said(&bad).contains("on land"), "{}", said(&bad));
+    bad.vehicle.start = Point::ORIGIN;
+    bad.vehicle.start_spread = 10.0;
+    assert!(said(&bad).contains("on land"), "a cell of land has a part in the depths about it: {}", said(&bad));
+    bad.vehicle.start_spread = 0.0;
+    bad.vehicle.depth = 6.0;
+    assert!(said(&bad).contains("below the bottom"));
+    for wrong in [
+        Grid { depths: vec![20.0; 3], ..shoal() },
+        Grid { rows: 1, columns: 4, ..shoal() },
+        Grid { depths: vec![20.0, f64::NAN, 1.0, 1.0], ..shoal() },
+        Grid { north_east: Point::new(-100.0, 100.0), ..shoal() },
+    ] {
+        let bad = Scenario { bottom: on(wrong), ..Scenario::default() };
+        assert!(said(&bad).contains("`bottom_grid"), "{}", said(&bad));
+    }
 }

@@ -55,8 +55,13 @@ impl Digest {
 
     /// Takes a text in: its length in bytes, then its bytes, eight to a word.
     pub fn text(&mut self, text: &str) {
-        self.word(text.len() as u64);
-        for chunk in text.as_bytes().chunks(8) {
+        self.bytes(text.as_bytes());
+    }
+
+    /// Takes bytes in, as those of a text.
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.word(bytes.len() as u64);
+        for chunk in bytes.chunks(8) {
             self.word(chunk.iter().rev().fold(0, |word, &byte| (word << 8) | u64::from(byte)));
         }
     }

@@ -35,6 +35,8 @@ pub struct Picture {
     pub area: Vec<Point>,
     /// What the legend calls it; empty: the operating area.
     pub area_name: String,
+    /// Where the vehicle must not be: names and corners. They may leave the chart.
+    pub no_go: Vec<(String, Vec<Point>)>,
     /// Filaments of the plume: where, and how wide (radius in metres).
     pub plume: Vec<(Point, f64)>,
     /// Where the vehicle went, each with an index into `behaviors`.

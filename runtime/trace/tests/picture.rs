@@ -130,3 +130,15 @@ fn a_searched_bottom_is_drawn_as_lines_of_equal_depth() {
     assert!(svg.contains("depth, every 0.2 m") && svg.contains("truly deepest"));
     assert!(svg.matches("stroke-opacity").count() > 6 && svg.len() < 100_000, "{} bytes", svg.len());
 }
+
+#[test]
+fn places_where_the_vehicle_must_not_be_are_drawn_and_named() {
+    let zone = |north| vec![Point::new(north, 0.0), Point::new(north + 50.0, 0.0), Point::new(north, 50.0)];
+    let no_go = vec![("wreck".into(), zone(0.0)), ("far away".into(), zone(1e5))];
+    let without = full().svg();
+    let svg = Picture { no_go, ..full() }.svg();
+    check(&svg);
+    let outlines = |svg: &str| svg.matches("stroke=\"#b3001b\"").count();
+    assert_eq!((outlines(&without), outlines(&svg)), (0, 3), "two zones, and the legend");
+    assert!(svg.contains(">wreck</text>") && svg.contains(">no-go zone</text>") && !svg.contains(">far away</text>"));
+}

@@ -8,8 +8,6 @@ use albacore_program::{AREA_CORNER_WORDS, Slot};
 pub struct Clause<'a> {
     pub clause: &'a ScenarioClause,
     pub words: &'a [f64],
-    /// The script that it stands in.
-    pub file: &'a str,
 }
 
 impl<'a> Clause<'a> {
@@ -41,6 +39,12 @@ impl<'a> Clause<'a> {
         Ok(Point::new(self.word(at), self.word(at + 1)))
     }
 
+    /// A point that may be absent.
+    pub fn optional_point(&self, name: &str) -> Result<Option<Point>, String> {
+        let at = self.slot(name)?;
+        Ok((self.word(at) != 0.0).then(|| Point::new(self.word(at + 1), self.word(at + 2))))
+    }
+
     pub fn vector(&self, name: &str) -> Result<Vector, String> {
         let at = self.slot(name)?;
         Ok(Vector::new(self.word(at), self.word(at + 1)))
@@ -64,7 +68,7 @@ impl<'a> Clause<'a> {
 
     pub fn clause(&self, name: &str) -> Option<Clause<'a>> {
         match self.value(name) {
-            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, ..*self }),
+            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, words: self.words }),
             _ => None,
         }
     }

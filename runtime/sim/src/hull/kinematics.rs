@@ -31,6 +31,9 @@ impl Kinematics {
 
     /// Lets one tick go by, in water that moves with `flow`. Without a command the propeller stops and the vehicle drifts at
     /// its depth. `water_depth` tells the depth of the water at a point.
+    ///
+    /// Where it would come to lie on the bottom, or in it, it is aground: it stays where it was, at rest, until what is
+    /// commanded leads up or away.
     pub fn step(&mut self, tick: u64, command: Option<&Command>, flow: Vector, water_depth: impl Fn(Point) -> f64) {
         let v = self.motion;
         let wanted_heading = command.map_or(v.heading, |c| c.heading);
@@ -40,18 +43,24 @@ impl Kinematics {
         let middle = self.turned(v.heading, wanted_heading, TICK_S / 2.0);
         self.motion.speed = approached(v.speed, wanted_speed, self.settings.acceleration * TICK_S);
         let ground_velocity = 0.5 * (v.speed + self.motion.speed) * middle.unit() + flow;
-        self.motion.position += TICK_S * ground_velocity;
-        self.motion.ground_velocity = ground_velocity;
+        let reached = v.position + TICK_S * ground_velocity;
         self.motion.heading = self.turned(middle, wanted_heading, TICK_S / 2.0);
 
-        let water = water_depth(self.motion.position);
+        let water = water_depth(reached);
         let wobble = self.jitter.step(tick);
         let wanted_depth = match command.map(|c| c.vertical) {
             Some(Vertical::Depth(depth)) => depth,
             Some(Vertical::Altitude(altitude)) => water - altitude + wobble,
             None => v.depth,
         };
-        self.motion.depth = approached(v.depth, wanted_depth, self.settings.depth_rate * TICK_S).clamp(0.0, water);
+        let depth = approached(v.depth, wanted_depth, self.settings.depth_rate * TICK_S).max(0.0);
+        let aground = depth >= water;
+        self.motion = if aground {
+            let depth = depth.min(water_depth(v.position));
+            Motion { speed: 0.0, ground_velocity: Vector::ZERO, depth, aground, ..self.motion }
+        } else {
+            Motion { position: reached, ground_velocity, depth, aground, ..self.motion }
+        };
     }
 
     /// The heading after `time` seconds. A stuck rudder turns at its share of the greatest rate at full speed, and at slower
@@ -176,6 +185,70 @@ mod tests {
         run(&mut v, 100, Some(&command(90.0, 1.3, Vertical::Depth(0.0))), Vector::ZERO);
         let now = v.motion.heading.degrees();
         assert!((now - 335.0).abs() < 1e-9, "a quarter of 10 deg/s for 10 s: {now}");
+    }
+
+    /// A bottom that rises by a metre every ten to the north, from 20 m at the origin to a shore at 200 m.
+    fn beach(p: Point) -> f64 {
+        (20.0 - 0.1 * p.north).max(0.0)
+    }
+
+    #[test]
+    fn a_slope_stops_it_and_it_comes_free_upward_or_away() {
+        let aground = || {
+            let mut v = at_rest(&KinematicHull::default(), 15.0, Vector::ZERO);
+            for tick in 1..=600 {
+                v.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(15.0))), Vector::new(0.1, 0.0), beach);
+            }
+            v
+        };
+        let stuck = aground();
+        assert!(stuck.motion.aground && stuck.motion.speed == 0.0 && stuck.motion.ground_velocity == Vector::ZERO);
+        assert!(
+            (49.7..50.0).contains(&stuck.motion.position.north) && stuck.motion.depth == 15.0,
+            "{:?}",
+            stuck.motion.position
+        );
+
+        let mut up = aground();
+        for tick in 601..=700 {
+            up.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(12.0))), Vector::ZERO, beach);
+        }
+        assert!(
+            !up.motion.aground && up.motion.depth == 12.0 && up.motion.position.north > 52.0,
+            "{:?}",
+            up.motion.position
+        );
+
+        let mut away = aground();
+        for tick in 601..=900 {
+            away.step(tick, Some(&command(180.0, 2.0, Vertical::Depth(15.0))), Vector::ZERO, beach);
+        }
+        assert!(
+            !away.motion.aground && away.motion.speed == 2.0 && away.motion.position.north < 45.0,
+            "{:?}",
+            away.motion.position
+        );
+    }
+
+    #[test]
+    fn it_lies_on_a_level_bottom_and_does_not_drive_ashore() {
+        let mut v = at_rest(&KinematicHull::default(), 0.0, Vector::ZERO);
+        run(&mut v, 600, Some(&command(0.0, 2.0, Vertical::Depth(30.0))), Vector::ZERO);
+        assert!(v.motion.aground && v.motion.depth == 20.0 && v.motion.ground_velocity == Vector::ZERO);
+        let lain = v.motion.position;
+        run(&mut v, 100, Some(&command(90.0, 2.0, Vertical::Depth(30.0))), Vector::new(0.2, 0.0));
+        assert_eq!(v.motion.position, lain, "who pushes in is not carried off");
+
+        // An altitude that the water does not have is the surface: there the shore stops it.
+        let mut v = at_rest(&KinematicHull::default(), 0.0, Vector::ZERO);
+        for tick in 1..=2000 {
+            v.step(tick, Some(&command(0.0, 2.0, Vertical::Altitude(3.0))), Vector::ZERO, beach);
+        }
+        assert!(
+            v.motion.aground && v.motion.depth == 0.0 && (199.7..=200.0).contains(&v.motion.position.north),
+            "{:?}",
+            v.motion.position
+        );
     }
 
     #[test]

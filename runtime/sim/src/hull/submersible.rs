@@ -89,14 +89,14 @@ impl<P: Plant> Submersible<P> {
             self.state = runge_kutta(&self.plant, &self.state, &controls, &around, h);
         }
         self.state.pose[5] = wrap_angle(self.state.pose[5]);
-        self.rest_on(water_depth(Point::new(self.state.pose[0], self.state.pose[1])));
-        self.observe(before, flow);
+        let aground = self.rest_on(water_depth(Point::new(self.state.pose[0], self.state.pose[1])));
+        self.observe(before, flow, aground);
     }
 
-    /// The bottom stops it and holds it: it can only rise from there.
-    fn rest_on(&mut self, bottom: f64) {
+    /// The bottom stops it and holds it: it can only rise from there. Whether it does.
+    fn rest_on(&mut self, bottom: f64) -> bool {
         if self.state.pose[2] <= bottom {
-            return;
+            return false;
         }
         self.state.pose[2] = bottom;
         let attitude = Attitude::of(&self.state.pose);
@@ -104,9 +104,10 @@ impl<P: Plant> Submersible<P> {
         let [_, _, down] = attitude.to_ned([u, v, w]);
         let [u, v, w] = attitude.to_body([0.0, 0.0, down.min(0.0)]);
         self.state.velocity[..3].copy_from_slice(&[u, v, w]);
+        true
     }
 
-    fn observe(&mut self, before: Point, flow: Vector) {
+    fn observe(&mut self, before: Point, flow: Vector, aground: bool) {
         let [north, east, depth, roll, pitch, yaw] = self.state.pose;
         let position = Point::new(north, east);
         let [ahead, ..] = Attitude::of(&self.state.pose).to_body([flow.north, flow.east, 0.0]);
@@ -119,6 +120,7 @@ impl<P: Plant> Submersible<P> {
             depth: depth.max(0.0),
             speed: self.state.velocity[0] - ahead,
             ground_velocity: (1.0 / TICK_S) * (position - before),
+            aground,
         };
     }
 }

@@ -1,13 +1,39 @@
 //! The water's depth: what a scenario says of it, and what of that cannot be.
 
 use crate::scenario::{Objections, Scenario};
-use albacore_geometry::{Heading, Point};
+use albacore_geometry::{Area, Heading, Point};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
-/// A plane bottom, level beyond either end of its slope, with pits in it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The bottom: its ground, with pits in it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bottom {
+    /// Its shape at large. Default a level plane.
+    pub ground: Ground,
+    /// Where it is deeper than that. Default none.
+    pub pits: Vec<Pit>,
+}
+
+/// The shape of a bottom at large.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Ground {
+    /// A plane.
+    Plane(Plane),
+    /// What was surveyed.
+    Grid(Arc<Grid>),
+}
+
+impl Default for Ground {
+    fn default() -> Self {
+        Ground::Plane(Plane::default())
+    }
+}
+
+/// A plane bottom, level beyond either end of its slope.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Plane {
     /// Water depth where the slope begins, m. Default 20.
     pub from: f64,
     /// Water depth where it ends, m. Default 20.
@@ -16,14 +42,28 @@ pub struct Bottom {
     pub toward: Heading,
     /// The length of the slope, m, centred on the frame's origin. Default 1000.
     pub across: f64,
-    /// Where it is deeper than the plane. Default none.
-    pub pits: Vec<Pit>,
 }
 
-impl Default for Bottom {
+impl Default for Plane {
     fn default() -> Self {
-        Bottom { from: 20.0, to: 20.0, toward: Heading::NORTH, across: 1000.0, pits: Vec::new() }
+        Plane { from: 20.0, to: 20.0, toward: Heading::NORTH, across: 1000.0 }
     }
+}
+
+/// Depths of the water on an even grid; beyond it each is that of the nearest edge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// The place of the first depth.
+    pub south_west: Point,
+    /// The place of the last.
+    pub north_east: Point,
+    /// So many rows run from south to north: two or more.
+    pub rows: u32,
+    /// So many depths make a row, from west to east: two or more.
+    pub columns: u32,
+    /// Depths of the water, m, row after row. Of land they are 0 or less.
+    pub depths: Vec<f64>,
 }
 
 /// A smooth round hollow in the bottom: a Gaussian.
@@ -34,7 +74,7 @@ pub struct Pit {
     pub name: String,
     /// Its middle. Default the frame's origin.
     pub at: Point,
-    /// How much deeper than the plane it is in its middle, m. Default 1.
+    /// How much deeper than the ground it is in its middle, m. Default 1.
     pub depth: f64,
     /// The standard deviation of its Gaussian, m: there it is 61 % as deep as in its middle. Default 20.
     pub radius: f64,
@@ -46,17 +86,53 @@ impl Default for Pit {
     }
 }
 
+/// A place where the vehicle must not be: a wreck, a mooring, a shipping lane. The water does not know of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NoGo {
+    /// What it is called.
+    pub name: String,
+    /// Where it is.
+    pub area: Area,
+}
+
 /// What of the bottom cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    objections.positive("bottom.from", scenario.bottom.from);
-    objections.positive("bottom.to", scenario.bottom.to);
-    objections.positive("bottom.across", scenario.bottom.across);
-    objections.finite("bottom.toward", [scenario.bottom.toward.radians(), 0.0]);
+    match &scenario.bottom.ground {
+        Ground::Plane(plane) => {
+            objections.positive("bottom.from", plane.from);
+            objections.positive("bottom.to", plane.to);
+            objections.positive("bottom.across", plane.across);
+            objections.finite("bottom.toward", [plane.toward.radians(), 0.0]);
+        }
+        Ground::Grid(grid) => check_grid(grid, objections),
+    }
     for pit in &scenario.bottom.pits {
         let name = &pit.name;
         objections.finite(&format!("pit {name}: at"), [pit.at.north, pit.at.east]);
-        // A pit only deepens, so that the water is nowhere shallower than the plane.
+        // A pit only deepens, so that the water is nowhere shallower than the ground lets it be.
         objections.positive(&format!("pit {name}: depth"), pit.depth);
         objections.positive(&format!("pit {name}: radius"), pit.radius);
     }
+}
+
+fn check_grid(grid: &Grid, objections: &mut Objections) {
+    let (south_west, size) = (grid.south_west, grid.north_east - grid.south_west);
+    objections.finite("bottom_grid: its south-western corner", [south_west.north, south_west.east]);
+    objections.positive("bottom_grid: its extent northward", size.north);
+    objections.positive("bottom_grid: its extent eastward", size.east);
+    let cells = u64::from(grid.rows) * u64::from(grid.columns);
+    objections.unless(
+        grid.rows >= 2 && grid.columns >= 2 && cells == grid.depths.len() as u64,
+        format!(
+            "`bottom_grid` has {} depths in {} rows of {}: it must have two rows of two at least, and all of them",
+            grid.depths.len(),
+            grid.rows,
+            grid.columns
+        ),
+    );
+    objections.unless(
+        grid.depths.iter().all(|depth| depth.is_finite()),
+        "`bottom_grid` has a depth that is not a finite number",
+    );
 }

@@ -214,12 +214,13 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     objections.finite("vehicle.heading", [v.heading.radians(), 0.0]);
     objections.not_negative("vehicle.start_spread", v.start_spread);
     objections.not_negative("vehicle.depth", v.depth);
-    // Where the start is scattered it may be anywhere: as shallow as the plane ever is.
+    // Where the start is scattered it may be anywhere: as shallow as the ground is there.
     let water = if v.start_spread > 0.0 {
-        scenario.bottom.from.min(scenario.bottom.to)
+        scenario.bottom.shallowest_within(v.start_spread, v.start)
     } else {
         scenario.bottom.depth_at(v.start)
     };
+    objections.unless(water != 0.0, "`vehicle.start` is, or may be, on land: the vehicle starts aground");
     objections.unless(
         v.depth <= water || !water.is_finite(),
         format!(

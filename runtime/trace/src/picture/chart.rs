@@ -16,6 +16,8 @@ const DETECTIONS_MAX: usize = 2_000;
 pub const PLUME: &str = "#b08d2f";
 /// The colour of detections.
 pub const DETECTION: &str = "#333";
+/// The colour of places where the vehicle must not be.
+const NO_GO: &str = "#b3001b";
 /// The colour of true sources.
 const SOURCE: &str = "#7a0019";
 /// The radius of the ring round a true source, in pixels.
@@ -32,6 +34,9 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     picture.depths.draw(svg, frame);
     plume(svg, picture, frame);
     area(svg, picture, frame, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"8 5\"");
+    for (_, corners) in &picture.no_go {
+        no_go(svg, &outline(corners, frame));
+    }
     detections(svg, picture, frame);
     track(svg, runs);
     marks(svg, picture, frame, runs);
@@ -42,8 +47,20 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     axes(svg, frame);
 }
 
+fn outline(corners: &[Point], frame: &Frame) -> Vec<(f64, f64)> {
+    corners.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect()
+}
+
+/// A filled outline.
+pub fn no_go(svg: &mut Svg, corners: &[(f64, f64)]) {
+    if corners.len() > 2 {
+        let attributes = format!("fill=\"{NO_GO}\" fill-opacity=\"0.12\" stroke=\"{NO_GO}\" stroke-width=\"1.3\"");
+        svg.path(corners, true, &attributes);
+    }
+}
+
 fn area(svg: &mut Svg, picture: &Picture, frame: &Frame, attributes: &str) {
-    let corners: Vec<_> = picture.area.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect();
+    let corners = outline(&picture.area, frame);
     if corners.len() > 2 {
         svg.path(&corners, true, attributes);
     }
@@ -141,14 +158,22 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
     taken.extend(deepest.map(|at| (at, RING)));
     taken.extend(declared.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
-    let mut outline: Vec<_> = picture.area.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect();
-    outline.extend(outline.first().copied());
-    let lines = runs.iter().map(|run| run.points.as_slice()).chain([outline.as_slice()]);
+    let mut around = outline(&picture.area, frame);
+    around.extend(around.first().copied());
+    let lines = runs.iter().map(|run| run.points.as_slice()).chain([around.as_slice()]);
     let mut labels = Labels::new(lines, &taken);
 
     start.into_iter().for_each(|at| start_mark(svg, at));
     sources.iter().map(|(_, at)| *at).chain(deepest).for_each(|at| source_mark(svg, at));
     declared.iter().for_each(|(_, at)| declared_mark(svg, *at));
+    for (name, corners) in &picture.no_go {
+        let corners = outline(corners, frame);
+        let share = 1.0 / corners.len().max(1) as f64;
+        let middle = corners.iter().fold((0.0, 0.0), |(x, y), corner| (x + share * corner.0, y + share * corner.1));
+        if frame.shows(middle) {
+            labels.put(svg, frame, middle, name, NO_GO);
+        }
+    }
     for (name, at) in &declared {
         labels.put(svg, frame, *at, name, "#111");
     }

@@ -1,0 +1,79 @@
+//! One side of a grid: evenly spaced places, ascending.
+
+use crate::fault::Fault;
+
+/// A place is off its even spacing by at most this share of a step. Degrees in single precision are: steps of 15 seconds
+/// of arc about 290 degrees by 0.4 %.
+const UNEVEN_MAX: f64 = 0.01;
+
+/// Evenly spaced places, ascending: metres, or radians of latitude or longitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// The first place: the southern or western edge.
+    pub first: f64,
+    /// The last place.
+    pub last: f64,
+    /// How many there are, both ends included: two or more.
+    pub count: u32,
+}
+
+impl Axis {
+    /// Between two ends. `name` is what the file calls the axis.
+    pub(crate) fn between(name: &str, first: f64, last: f64, count: u64) -> Result<Axis, Fault> {
+        if !(first.is_finite() && last.is_finite()) {
+            return Err(Fault::new(format!("`{name}` runs from {first} to {last}"), "give finite numbers"));
+        }
+        if first >= last {
+            let message = format!("`{name}` runs from {first} to {last}: it must ascend");
+            return Err(Fault::new(message, turn_round(name)));
+        }
+        match u32::try_from(count) {
+            Ok(count) if count >= 2 => Ok(Axis { first, last, count }),
+            _ => Err(Fault::new(format!("`{name}` has {count} places: a grid has two or more"), "widen the cut")),
+        }
+    }
+
+    /// Through places as a file lists them.
+    pub(crate) fn through(name: &str, places: &[f64]) -> Result<Axis, Fault> {
+        let (Some(first), Some(last)) = (places.first(), places.last()) else {
+            return Axis::between(name, 0.0, 1.0, 0);
+        };
+        if let Some((i, place)) = places.iter().enumerate().find(|(_, place)| !place.is_finite()) {
+            return Err(Fault::new(format!("`{name}({i})` is {place}"), "give finite numbers"));
+        }
+        if let Some(i) = (1..places.len()).find(|&i| places[i] <= places[i - 1]) {
+            let message = format!("`{name}({i})` is {} after {}: it must ascend", places[i], places[i - 1]);
+            return Err(Fault::new(message, turn_round(name)));
+        }
+        let axis = Axis::between(name, *first, *last, places.len() as u64)?;
+        let step = axis.step();
+        let off = |(i, place): &(usize, &f64)| (*place - (first + *i as f64 * step)).abs() > UNEVEN_MAX * step;
+        match places.iter().enumerate().find(off) {
+            None => Ok(axis),
+            Some((i, place)) => {
+                let even = first + i as f64 * step;
+                let message = format!("`{name}` is not evenly spaced: `{name}({i})` is {place}, evenly it were {even}");
+                Err(Fault::new(message, "lay it onto an even grid, such as with `cdo remapbil` or `gmt surface`"))
+            }
+        }
+    }
+
+    /// From one place to the next.
+    pub fn step(&self) -> f64 {
+        (self.last - self.first) / f64::from(self.count - 1)
+    }
+
+    /// The place that divides the axis in this share.
+    pub fn at_share(&self, share: f64) -> f64 {
+        self.first + share * (self.last - self.first)
+    }
+
+    /// The same in another unit.
+    pub(crate) fn times(self, factor: f64) -> Axis {
+        Axis { first: self.first * factor, last: self.last * factor, ..self }
+    }
+}
+
+fn turn_round(name: &str) -> String {
+    format!("turn it round, rows and all: `ncpdq -a -{name} IN.nc OUT.nc`, or write the rows in the other order")
+}

@@ -1,0 +1,222 @@
+//! NetCDF classic, CDF-1 and CDF-2: dimensions, attributes and variables, as its format specification lays them out.
+//!
+//! Unidata, "The NetCDF Classic Format Specification": a header of big-endian numbers and padded names, then the values of
+//! each variable at the place that the header tells. Names and values stay in the file's bytes until they are asked for, so
+//! that no header can announce more than it has.
+
+mod bytes;
+
+use crate::CELLS_MAX;
+use crate::fault::{self, Fault};
+use bytes::Bytes;
+
+/// The marks that begin a list.
+const DIMENSIONS: u32 = 0x0A;
+const VARIABLES: u32 = 0x0B;
+const ATTRIBUTES: u32 = 0x0C;
+/// A count of records that was not known when the file was begun.
+const STREAMING: u32 = u32::MAX;
+/// A variable has at most this many dimensions: NC_MAX_VAR_DIMS.
+const VARIABLE_DIMENSIONS_MAX: u64 = 1024;
+
+/// A file that was understood; its values are not read yet.
+#[derive(Debug)]
+pub(crate) struct Classic<'a> {
+    bytes: &'a [u8],
+    pub dimensions: Vec<Dimension<'a>>,
+    pub variables: Vec<Variable<'a>>,
+}
+
+#[derive(Debug)]
+pub(crate) struct Dimension<'a> {
+    pub name: &'a str,
+    /// None: it grows with the file's records.
+    pub length: Option<u64>,
+}
+
+#[derive(Debug)]
+pub(crate) struct Variable<'a> {
+    pub name: &'a str,
+    /// Indices into the file's dimensions, the slowest first.
+    pub dimensions: Vec<usize>,
+    attributes: Vec<Attribute<'a>>,
+    pub kind: Kind,
+    begin: u64,
+}
+
+#[derive(Debug)]
+struct Attribute<'a> {
+    name: &'a str,
+    kind: Kind,
+    bytes: &'a [u8],
+}
+
+/// What a value is, by its number in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Byte,
+    Char,
+    Short,
+    Int,
+    Float,
+    Double,
+}
+
+impl Kind {
+    fn of(number: u32) -> Option<Kind> {
+        use Kind::{Byte, Char, Double, Float, Int, Short};
+        [Byte, Char, Short, Int, Float, Double].get((number as usize).checked_sub(1)?).copied()
+    }
+
+    fn size(self) -> u64 {
+        match self {
+            Kind::Byte | Kind::Char => 1,
+            Kind::Short => 2,
+            Kind::Int | Kind::Float => 4,
+            Kind::Double => 8,
+        }
+    }
+
+    /// What stands where nothing was written, unless the variable says otherwise: NC_FILL_SHORT and its like. Bytes have none
+    /// that is not also a value.
+    pub fn fill(self) -> Option<f64> {
+        match self {
+            Kind::Byte | Kind::Char => None,
+            Kind::Short => Some(-32_767.0),
+            Kind::Int => Some(-2_147_483_647.0),
+            Kind::Float => Some(f64::from(9.969_21e36_f32)),
+            Kind::Double => Some(9.969_209_968_386_869e36),
+        }
+    }
+
+    fn values(self, bytes: &[u8]) -> Vec<f64> {
+        match self {
+            Kind::Byte | Kind::Char => bytes.iter().map(|&b| f64::from(b as i8)).collect(),
+            Kind::Short => each(bytes, |b| f64::from(i16::from_be_bytes(b))),
+            Kind::Int => each(bytes, |b| f64::from(i32::from_be_bytes(b))),
+            Kind::Float => each(bytes, |b| f64::from(f32::from_be_bytes(b))),
+            Kind::Double => each(bytes, f64::from_be_bytes),
+        }
+    }
+}
+
+fn each<const SIZE: usize>(bytes: &[u8], value: impl Fn([u8; SIZE]) -> f64) -> Vec<f64> {
+    bytes.as_chunks().0.iter().map(|chunk| value(*chunk)).collect()
+}
+
+impl<'a> Classic<'a> {
+    /// Understands the header.
+    pub fn read(file: &'a [u8]) -> Result<Classic<'a>, Fault> {
+        let mut bytes = Bytes::new(file);
+        let magic = bytes.take(4, "the magic number")?;
+        let wide = match magic {
+            b"CDF\x01" => false,
+            b"CDF\x02" => true,
+            _ => {
+                let message = format!("byte 3: NetCDF of version {} is none that is read", magic[3]);
+                return Err(Fault::new(message, "convert it with `nccopy -k classic IN.nc OUT.nc`"));
+            }
+        };
+        let records = bytes.word("the number of records")?;
+        if records != STREAMING && records > i32::MAX as u32 {
+            return Err(bytes.wrong(format!("the number of records is {records}")));
+        }
+        let dimensions = bytes.list(DIMENSIONS, "dimensions", |bytes| {
+            let name = bytes.name("a dimension")?;
+            let length = bytes.count("the length of a dimension")?;
+            Ok(Dimension { name, length: (length > 0).then_some(length) })
+        })?;
+        attributes(&mut bytes)?;
+        let variables = bytes.list(VARIABLES, "variables", |bytes| Variable::read(bytes, dimensions.len(), wide))?;
+        Ok(Classic { bytes: file, dimensions, variables })
+    }
+
+    pub fn variable(&self, name: &str) -> Option<&Variable<'a>> {
+        self.variables.iter().find(|variable| variable.name == name)
+    }
+
+    /// The names of a variable's dimensions.
+    pub fn dimension_names(&self, variable: &Variable) -> Vec<&'a str> {
+        variable.dimensions.iter().filter_map(|&i| self.dimensions.get(i)).map(|d| d.name).collect()
+    }
+
+    /// All values of a variable, as they are stored; its dimensions are of fixed length.
+    pub fn values(&self, variable: &Variable) -> Result<Vec<f64>, Fault> {
+        let mut count: u64 = 1;
+        for dimension in variable.dimensions.iter().filter_map(|&i| self.dimensions.get(i)) {
+            let Some(length) = dimension.length else {
+                let message =
+                    format!("`{}` has `{}`, a dimension without a fixed length", variable.name, dimension.name);
+                return Err(Fault::new(message, "fix it with `nccopy -u -k classic IN.nc OUT.nc`"));
+            };
+            count = count.saturating_mul(length);
+        }
+        if count > CELLS_MAX {
+            let message = format!("`{}` has {count} values: {CELLS_MAX} are read at most", variable.name);
+            return Err(Fault::new(message, fault::CUT_IT));
+        }
+        let end = count.saturating_mul(variable.kind.size()).saturating_add(variable.begin);
+        let held = self.bytes.len() as u64;
+        match self.bytes.get(variable.begin as usize..end as usize) {
+            Some(bytes) if end <= held => Ok(variable.kind.values(bytes)),
+            _ => {
+                let (name, begin) = (variable.name, variable.begin);
+                let message = format!(
+                    "the file is cut off: the {count} values of `{name}` are bytes {begin} to {end}, and it has {held}"
+                );
+                Err(Fault::new(message, bytes::FETCH_AGAIN))
+            }
+        }
+    }
+}
+
+impl<'a> Variable<'a> {
+    fn read(bytes: &mut Bytes<'a>, dimensions_known: usize, wide: bool) -> Result<Variable<'a>, Fault> {
+        let name = bytes.name("a variable")?;
+        let count = bytes.count("the number of a variable's dimensions")?;
+        if count > VARIABLE_DIMENSIONS_MAX {
+            return Err(bytes.wrong(format!("the variable `{name}` has {count} dimensions")));
+        }
+        let mut dimensions = Vec::new();
+        for _ in 0..count {
+            let index = bytes.count("a variable's dimension")? as usize;
+            if index >= dimensions_known {
+                return Err(bytes.wrong(format!("the variable `{name}` has dimension {index} of {dimensions_known}")));
+            }
+            dimensions.push(index);
+        }
+        let attributes = attributes(bytes)?;
+        let kind = kind(bytes)?;
+        // Its size follows from its dimensions; where it does not fit into a word the file says something else.
+        bytes.word("the size of a variable")?;
+        let begin =
+            if wide { bytes.long("the place of a variable")? } else { bytes.count("the place of a variable")? };
+        Ok(Variable { name, dimensions, attributes, kind, begin })
+    }
+
+    /// An attribute that is a text, without the blanks and zeros that pad it.
+    pub fn text(&self, name: &str) -> Option<&'a str> {
+        let attribute = self.attributes.iter().find(|a| a.name == name && a.kind == Kind::Char)?;
+        Some(std::str::from_utf8(attribute.bytes).ok()?.trim_matches(['\0', ' ', '\n', '\t']))
+    }
+
+    /// An attribute that is one number or several; none where there is no such attribute or it is a text.
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        let attribute = self.attributes.iter().find(|a| a.name == name && a.kind != Kind::Char);
+        attribute.map(|a| a.kind.values(a.bytes)).unwrap_or_default()
+    }
+}
+
+fn attributes<'a>(bytes: &mut Bytes<'a>) -> Result<Vec<Attribute<'a>>, Fault> {
+    bytes.list(ATTRIBUTES, "attributes", |bytes| {
+        let name = bytes.name("an attribute")?;
+        let kind = kind(bytes)?;
+        let count = bytes.count("the number of an attribute's values")?;
+        Ok(Attribute { name, kind, bytes: bytes.padded(count * kind.size(), "an attribute")? })
+    })
+}
+
+fn kind(bytes: &mut Bytes) -> Result<Kind, Fault> {
+    let number = bytes.word("a type")?;
+    Kind::of(number).ok_or_else(|| bytes.wrong(format!("there is no type {number}")))
+}

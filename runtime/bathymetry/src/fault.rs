@@ -1,0 +1,73 @@
+//! What is wrong with a file: all of it, each with its place and its mend.
+
+/// So many faults of one file are told; of the others their number.
+const TOLD_MAX: usize = 12;
+
+/// The mend of a grid that is too large.
+pub(crate) const CUT_IT: &str =
+    "cut out the part that is needed, such as with `ncks -d lat,10.,12. -d lon,140.,143. IN.nc OUT.nc`";
+
+/// One fault of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// What is wrong and where: a line, a cell or a byte.
+    pub message: String,
+    /// How to mend it.
+    pub help: String,
+}
+
+impl Fault {
+    /// A fault and its mend.
+    pub fn new(message: impl Into<String>, help: impl Into<String>) -> Fault {
+        Fault { message: message.into(), help: help.into() }
+    }
+}
+
+/// Why no survey could be made of a file: one fault or more.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", faults.iter().map(|f| format!("{}: {}", f.message, f.help)).collect::<Vec<_>>().join("; "))]
+pub struct Unreadable {
+    /// All that was found, in the order of the file.
+    pub faults: Vec<Fault>,
+}
+
+impl Unreadable {
+    pub(crate) fn of(fault: Fault) -> Unreadable {
+        Unreadable { faults: vec![fault] }
+    }
+}
+
+/// Collects faults while a file is read.
+#[derive(Debug, Default)]
+pub(crate) struct Faults {
+    told: Vec<Fault>,
+    untold: u64,
+}
+
+impl Faults {
+    pub fn add(&mut self, message: impl Into<String>, help: impl Into<String>) {
+        self.push(Fault::new(message, help));
+    }
+
+    pub fn push(&mut self, fault: Fault) {
+        if self.told.len() < TOLD_MAX { self.told.push(fault) } else { self.untold += 1 }
+    }
+
+    /// The value, else its fault is noted.
+    pub fn take<T>(&mut self, result: Result<T, Fault>) -> Option<T> {
+        result.map_err(|fault| self.push(fault)).ok()
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        self.told.len() as u64 + self.untold
+    }
+
+    pub fn into_unreadable(mut self) -> Option<Unreadable> {
+        if let (Some(last), 1..) = (self.told.last(), self.untold) {
+            let help = last.help.clone();
+            self.told.push(Fault::new(format!("and {} more faults such as these", self.untold), help));
+        }
+        (!self.told.is_empty()).then_some(Unreadable { faults: self.told })
+    }
+}

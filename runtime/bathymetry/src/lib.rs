@@ -1,0 +1,61 @@
+//! Surveys of the bottom: from the bytes of a file to depths on an even grid, on the globe or in local metres.
+//!
+//! Two formats are read: text, as [`mod@csv`] tells, and NetCDF classic by the COARDS and CF conventions, as
+//! [`mod@conventions`] tells. The classic format is read by hand: it is small, and the only crate for it that is alive
+//! (`netcdf3`) makes room for as many dimensions and attributes as a header announces before it has looked whether the bytes
+//! are there. Whatever the bytes are, reading them ends, allocates a small multiple of their number at most, and gives a
+//! whole survey or all that is wrong with it.
+
+mod axis;
+mod classic;
+mod conventions;
+mod csv;
+mod fault;
+mod survey;
+
+pub use axis::Axis;
+pub use fault::{Fault, Unreadable};
+pub use survey::{Extent, Kind, Placing, Survey};
+
+use fault::Faults;
+
+/// A file has at most this many bytes: a survey of [`CELLS_MAX`] cells as numbers of eight bytes, and a little more.
+pub const FILE_BYTES_MAX: u64 = 40_000_000;
+/// A grid has at most this many cells: 2000 a side.
+pub const CELLS_MAX: u64 = 4_000_000;
+
+/// Files that are neither text nor NetCDF classic by how they begin, what they are, and what makes a file of them that is.
+const FOREIGN: [(&[u8], &str, &str); 7] = [
+    (b"\x89HDF\r\n\x1a\n", "a NetCDF-4 (HDF5) file", "convert it with `nccopy -k classic IN.nc OUT.nc`"),
+    (b"CDF\x05", "a NetCDF file with 64-bit data (CDF-5)", "convert it with `nccopy -k classic IN.nc OUT.nc`"),
+    (b"II*\0", "a TIFF file", "convert it with `gdal_translate -of netCDF -co FORMAT=NC IN.tif OUT.nc`"),
+    (b"MM\0*", "a TIFF file", "convert it with `gdal_translate -of netCDF -co FORMAT=NC IN.tif OUT.nc`"),
+    (b"ncols", "an Esri ASCII grid", "convert it with `gdal_translate -of netCDF -co FORMAT=NC IN.asc OUT.nc`"),
+    (b"\x1f\x8b", "a compressed file", "unpack it with `gunzip`"),
+    (b"PK\x03\x04", "an archive", "unpack it with `unzip`"),
+];
+
+/// Reads a survey, else tells all that is wrong with it.
+pub fn read(bytes: &[u8]) -> Result<Survey, Unreadable> {
+    let mut faults = Faults::default();
+    let survey = read_into(bytes, &mut faults);
+    match (survey, faults.into_unreadable()) {
+        (Some(survey), None) => Ok(survey),
+        (_, Some(unreadable)) => Err(unreadable),
+        (None, None) => Err(Unreadable::of(Fault::new("the file holds no survey", "see the reference, section 12"))),
+    }
+}
+
+fn read_into(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
+    if bytes.len() as u64 > FILE_BYTES_MAX {
+        let megabytes = bytes.len() as f64 / 1e6;
+        let most = FILE_BYTES_MAX as f64 / 1e6;
+        faults.add(format!("the file has {megabytes:.1} MB: {most} MB are read at most"), fault::CUT_IT);
+        return None;
+    }
+    if let Some((_, what, mend)) = FOREIGN.iter().find(|(magic, ..)| bytes.starts_with(magic)) {
+        faults.add(format!("this is {what}: only CSV and NetCDF classic are read"), *mend);
+        return None;
+    }
+    if bytes.starts_with(b"CDF") { conventions::read(bytes, faults) } else { csv::read(bytes, faults) }
+}

@@ -1,0 +1,131 @@
+//! A survey that was read: depths on a grid, and where that comes to lie in a mission's plane.
+
+use crate::axis::Axis;
+use crate::fault::{Fault, Faults};
+use crate::{CELLS_MAX, fault};
+use albacore_geometry::math::{PI, TAU, radians};
+use albacore_geometry::{Geodetic, Point, TangentFrame};
+
+/// Nothing on earth is deeper, m: the Challenger Deep has 10,935.
+const DEEPEST_M: f64 = 11_500.0;
+/// And no land higher, m: Everest has 8,849.
+const HIGHEST_M: f64 = 9_000.0;
+
+/// What the axes of a survey are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Latitude and longitude, rad.
+    Geodetic,
+    /// Metres north and east of a point that only the survey knows.
+    Local,
+}
+
+/// Depths on an even grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey {
+    /// What its axes are.
+    pub kind: Kind,
+    /// From south to north.
+    pub north: Axis,
+    /// From west to east.
+    pub east: Axis,
+    /// Depths of the water, m, positive down, land negative: row after row from the south, each from the west.
+    pub depths: Vec<f64>,
+}
+
+/// Where a survey is to lie in a mission's plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placing {
+    /// Where its chosen point comes to lie; none: the survey lies where it was made.
+    pub at: Option<Point>,
+    /// Which point that is: its share of the way from the southern edge to the northern, and from the western to the eastern.
+    pub share: (f64, f64),
+    /// By how much its sides are scaled.
+    pub scale: f64,
+}
+
+/// The part of the plane that a survey covers: the places of its south-western and north-eastern cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Its south-western cell.
+    pub south_west: Point,
+    /// Its north-eastern cell.
+    pub north_east: Point,
+}
+
+impl Survey {
+    /// The part of a mission's plane that the survey covers; `frame` ties that plane to the globe, if anything does.
+    ///
+    /// A geodetic grid becomes an even one in metres with the radii of curvature at the point that is placed, or at the
+    /// frame's origin: true near it, and off by the convergence of the meridians away from it.
+    pub fn extent(&self, placing: &Placing, frame: Option<TangentFrame>) -> Result<Extent, Fault> {
+        let Some(at) = placing.at else { return self.where_it_was_made(placing.scale, frame) };
+        let (north, east) = (self.north.at_share(placing.share.0), self.east.at_share(placing.share.1));
+        let place = |n: f64, e: f64| match self.kind {
+            Kind::Local => Point::new(n - north, e - east),
+            Kind::Geodetic => TangentFrame { origin: globe(north, east) }.to_point(globe(n, e)),
+        };
+        let laid = |p: Point| at + placing.scale * (p - Point::ORIGIN);
+        Ok(Extent {
+            south_west: laid(place(self.north.first, self.east.first)),
+            north_east: laid(place(self.north.last, self.east.last)),
+        })
+    }
+
+    fn where_it_was_made(&self, scale: f64, frame: Option<TangentFrame>) -> Result<Extent, Fault> {
+        if scale != 1.0 {
+            let message = format!("a survey scaled by {scale} lies nowhere by itself");
+            return Err(Fault::new(message, "say where its middle is to lie: `at: point(north: 0 m, east: 0 m)`"));
+        }
+        let corners = [(self.north.first, self.east.first), (self.north.last, self.east.last)];
+        let [south_west, north_east] = match (self.kind, frame) {
+            (Kind::Local, _) => corners.map(|(north, east)| Point::new(north, east)),
+            (Kind::Geodetic, Some(frame)) => {
+                // Longitudes may be counted from 0 to 360 or from -180 to 180: the turn that is nearest is meant.
+                let turns = ((frame.origin.longitude_rad - self.east.at_share(0.5)) / TAU).round();
+                corners.map(|(north, east)| frame.to_point(globe(north, east + turns * TAU)))
+            }
+            (Kind::Geodetic, None) => {
+                let message = "the survey lies on the globe, and the scenario has no place there";
+                let help = "say where its middle is to lie: `at: point(north: 0 m, east: 0 m)`";
+                return Err(Fault::new(message, help));
+            }
+        };
+        Ok(Extent { south_west, north_east })
+    }
+}
+
+fn globe(latitude_rad: f64, longitude_rad: f64) -> Geodetic {
+    Geodetic { latitude_rad, longitude_rad }
+}
+
+/// The axes of a geodetic survey from those in degrees.
+pub(crate) fn on_the_globe(latitude: Axis, longitude: Axis, faults: &mut Faults) -> Option<(Axis, Axis)> {
+    let (north, east) = (latitude.times(PI / 180.0), longitude.times(PI / 180.0));
+    let before = faults.count();
+    if north.first < -radians(90.0) || north.last > radians(90.0) {
+        let message = format!("latitudes run from {} to {} degrees", latitude.first, latitude.last);
+        faults.add(message, "they lie between -90 and 90: are the axes exchanged, or in metres?");
+    }
+    if east.first < -TAU || east.last > TAU || east.last - east.first > TAU {
+        let message = format!("longitudes run from {} to {} degrees", longitude.first, longitude.last);
+        faults.add(message, "they lie between -360 and 360, once round at most: are they in metres?");
+    }
+    (faults.count() == before).then_some((north, east))
+}
+
+/// Whether a grid of this size may be read.
+pub(crate) fn check_size(rows: u64, columns: u64) -> Result<u64, Fault> {
+    match rows.checked_mul(columns) {
+        Some(cells) if cells <= CELLS_MAX => Ok(cells),
+        _ => {
+            let message = format!("the grid has {rows} rows of {columns} cells: {CELLS_MAX} cells are read at most");
+            Err(Fault::new(message, fault::CUT_IT))
+        }
+    }
+}
+
+/// Whether a depth, m, is one that water on earth can have, or a height of land.
+pub(crate) fn is_on_earth(depth: f64) -> bool {
+    (-HIGHEST_M..=DEEPEST_M).contains(&depth)
+}

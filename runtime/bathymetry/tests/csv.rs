@@ -1,0 +1,160 @@
+//! Surveys as text: the two cuts of ETOPO5, local metres, and everything that can be wrong with a file.
+
+#![expect(clippy::unwrap_used, reason = "a test whose survey cannot be read has failed")]
+
+use albacore_bathymetry::{CELLS_MAX, FILE_BYTES_MAX, Fault, Kind, Survey, read};
+use albacore_geometry::math::degrees;
+
+/// Two rows of three cells in metres.
+const SMALL: &str = "# east 0..20 n=3 north -5..5 n=2 metres\n-1,-2,-3\n-4,-5.5,6\n";
+
+fn faults(text: &str) -> Vec<Fault> {
+    read(text.as_bytes()).unwrap_err().faults
+}
+
+/// A file that has one fault, which says this and offers a mend.
+#[track_caller]
+fn wrong(text: &str, expected: &str) {
+    let faults = faults(text);
+    assert!(matches!(faults.as_slice(), [only] if only.message == expected && !only.help.is_empty()), "{faults:#?}");
+}
+
+fn cut(name: &str) -> Survey {
+    let path = format!("{}/../../missions/bathymetry/{name}", env!("CARGO_MANIFEST_DIR"));
+    read(&std::fs::read(path).unwrap()).unwrap()
+}
+
+fn deepest(survey: &Survey) -> f64 {
+    survey.depths.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A cell under water is a local minimum of the bottom if none of its eight neighbours is as deep.
+fn hollows(survey: &Survey) -> usize {
+    let (rows, columns) = (survey.north.count as usize, survey.east.count as usize);
+    let at = |row: usize, column: usize| survey.depths[row * columns + column];
+    let is_hollow = |row: usize, column: usize| {
+        let around = (row - 1..=row + 1).flat_map(|r| (column - 1..=column + 1).map(move |c| (r, c)));
+        at(row, column) > 0.0 && around.filter(|cell| *cell != (row, column)).all(|(r, c)| at(r, c) < at(row, column))
+    };
+    (1..rows - 1).flat_map(|row| (1..columns - 1).map(move |c| (row, c))).filter(|(r, c)| is_hollow(*r, *c)).count()
+}
+
+#[test]
+fn the_cuts_of_etopo5_are_what_their_origin_says() {
+    let mariana = cut("mariana.csv");
+    assert_eq!((mariana.kind, mariana.north.count, mariana.east.count), (Kind::Geodetic, 49, 60));
+    assert_eq!((deepest(&mariana), hollows(&mariana)), (10_376.0, 31));
+    assert!((degrees(mariana.north.last) - 14.0).abs() < 1e-12);
+    let maine = cut("gulf_of_maine.csv");
+    assert_eq!((maine.north.count, maine.east.count, hollows(&maine)), (43, 60, 49));
+    assert_eq!((maine.depths[0], maine.depths[59], maine.depths[60]), (49.0, 2302.0, 46.0));
+}
+
+#[test]
+fn a_survey_in_metres_keeps_its_places_and_turns_elevations_into_depths() {
+    let survey = read(SMALL.as_bytes()).unwrap();
+    assert_eq!(
+        (survey.kind, survey.north.first, survey.north.last, survey.east.step()),
+        (Kind::Local, -5.0, 5.0, 10.0)
+    );
+    assert_eq!(survey.depths, [1.0, 2.0, 3.0, 4.0, 5.5, -6.0]);
+    let depths = read(SMALL.replace("metres", "depth in metres").as_bytes()).unwrap().depths;
+    assert_eq!(depths, [-1.0, -2.0, -3.0, -4.0, -5.5, 6.0]);
+}
+
+#[test]
+fn remarks_blank_lines_and_the_line_ends_of_others_count_for_nothing() {
+    let dressed = SMALL.replace("\n-4", "\n\n# a remark\n -4 ").replace('\n', "\r\n");
+    assert_eq!(read(format!("\u{feff}{dressed}\r\n").as_bytes()), read(SMALL.as_bytes()));
+}
+
+#[test]
+fn rows_and_cells_that_are_too_many_or_too_few_are_counted() {
+    wrong(&SMALL.replace("-1,-2,-3", "-1,-2"), "line 2 has 2 cells, and the head says n=3");
+    wrong(&SMALL.replace("5.5,6", "5.5,6,7"), "line 3 has 4 cells, and the head says n=3");
+    wrong(&SMALL.replace("-4,-5.5,6\n", ""), "there are 1 rows, and the head says n=2");
+    wrong(&format!("{SMALL}1,2,3\n4,5,6"), "there are 4 rows, and the head says n=2");
+}
+
+#[test]
+fn cells_that_hold_nothing_or_no_number_are_named() {
+    wrong(&SMALL.replace("-5.5", "NaN"), "line 3, cell 2: `NaN` is no data");
+    wrong(&SMALL.replace("-5.5", "inf"), "line 3, cell 2: `inf` is no data");
+    wrong(&SMALL.replace("-5.5", ""), "line 3, cell 2 is empty");
+    wrong(&SMALL.replace("-5.5", "-99999"), "line 3, cell 2: -99999 m is neither water nor land on earth");
+    wrong(&SMALL.replace("-5.5", "5m"), "line 3, cell 2: `5m` is no number");
+    wrong(
+        &SMALL.replace("metres", "metres nodata=-999").replace("-5.5", "-999.0"),
+        "line 3, cell 2: `-999.0` is no data",
+    );
+}
+
+#[test]
+fn all_faults_are_told_at_once_but_not_without_end() {
+    let found = faults(&SMALL.replace("-2", "two").replace("-5.5", "nan").replace("n=2", "n=3"));
+    let found: Vec<&str> = found.iter().map(|fault| fault.message.as_str()).collect();
+    assert_eq!(
+        found,
+        [
+            "line 2, cell 2: `two` is no number",
+            "line 3, cell 2: `nan` is no data",
+            "there are 2 rows, and the head says n=3"
+        ]
+    );
+    let many = format!("# east 0..1 n=2 north 0..99 n=100 metres\n{}", "a,b\n".repeat(100));
+    let found = faults(&many);
+    assert_eq!((found.len(), found[12].message.as_str()), (13, "and 188 more faults such as these"));
+}
+
+#[test]
+fn heads_that_say_too_little_or_what_cannot_be() {
+    wrong("1,2\n3,4\n", "line 1 is no head line: nothing tells where the cells lie");
+    wrong("", "the file is empty");
+    wrong("# metres\n1,2\n", "line 1 gives no `lat` or `north`");
+    wrong(&SMALL.replace(" metres", ""), "line 1 does not say in which unit the depths are");
+    wrong(&SMALL.replace("metres", "feet"), "line 1 says `feet`: depths are read in metres");
+    wrong(&SMALL.replace("n=3 ", "n=x "), "line 1: `east` is not followed by its ends and its count");
+    wrong(&SMALL.replace("0..20", "20..0"), "`east` runs from 20 to 0: it must ascend");
+    wrong(&SMALL.replace("0..20", "0..inf"), "`east` runs from 0 to inf");
+    wrong(&SMALL.replace("0..20 n=3", "0..20 n=1"), "`east` has 1 places: a grid has two or more");
+    wrong(&SMALL.replace("east", "lon"), "line 1 mixes degrees and metres: `north` and `lon`");
+    wrong(&SMALL.replace("metres", "metres east 0..9 n=2"), "line 1 gives two axes such as `east`");
+    wrong(
+        &SMALL.replace("metres", "metres, rows north->south"),
+        "line 1 says `north->south`: rows run from south to north",
+    );
+    wrong("# lon 0..20 n=3 lat 80..95 n=2 metres\n1,2,3\n4,5,6\n", "latitudes run from 80 to 95 degrees");
+    wrong("# lon 0..2000 n=3 lat 80..85 n=2 metres\n1,2,3\n4,5,6\n", "longitudes run from 0 to 2000 degrees");
+}
+
+#[test]
+fn sizes_beyond_the_limits_are_refused_before_anything_is_made() {
+    wrong(
+        "# east 0..9 n=4000000000 north 0..9 n=4000000000 metres\n1,2\n",
+        &format!("the grid has 4000000000 rows of 4000000000 cells: {CELLS_MAX} cells are read at most"),
+    );
+    let large = vec![b' '; FILE_BYTES_MAX as usize + 1];
+    assert_eq!(read(&large).unwrap_err().faults[0].message, "the file has 40.0 MB: 40 MB are read at most");
+    // What the head promises and the file does not hold takes no room.
+    wrong("# east 0..9 n=2000 north 0..9 n=2000 metres\n", "there are 0 rows, and the head says n=2000");
+}
+
+#[test]
+fn files_of_other_kinds_are_told_by_their_name() {
+    let of = |bytes: &[u8]| read(bytes).unwrap_err().faults.remove(0);
+    let hdf = of(b"\x89HDF\r\n\x1a\n\0\0\0");
+    assert!(hdf.message.contains("HDF5") && hdf.help.contains("nccopy -k classic"), "{hdf:?}");
+    assert!(of(b"CDF\x05\0\0\0\0").help.contains("nccopy -k classic"));
+    assert!(of(b"II*\0rest").message.contains("TIFF"));
+    assert!(of(b"ncols 4\nnrows 3\n").message.contains("Esri ASCII"));
+    assert_eq!(of(b"# a\n\xff\xfe\n").message, "byte 4, on line 2, is no text in UTF-8: neither CSV nor NetCDF");
+}
+
+#[test]
+fn a_text_cut_anywhere_is_refused_or_ends_within_its_last_number() {
+    let whole = read(SMALL.as_bytes()).unwrap();
+    for end in 0..SMALL.len() - 2 {
+        assert!(read(&SMALL.as_bytes()[..end]).is_err(), "cut at byte {end}");
+    }
+    assert_eq!(read(SMALL.trim_end().as_bytes()).unwrap(), whole);
+}

@@ -1,0 +1,202 @@
+//! Surveys in NetCDF classic: files that other software made, every fault that they may have, and bytes at random.
+
+#![expect(clippy::unwrap_used, reason = "a test whose survey cannot be read has failed")]
+
+mod writer;
+
+use albacore_bathymetry::{CELLS_MAX, Fault, Kind, Survey, Unreadable, read};
+use writer::File;
+use writer::Values::{Doubles, Shorts, Text};
+
+fn data(name: &str) -> Vec<u8> {
+    std::fs::read(format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+fn csv_cut() -> Survey {
+    let path = format!("{}/../../missions/bathymetry/gulf_of_maine.csv", env!("CARGO_MANIFEST_DIR"));
+    read(&std::fs::read(path).unwrap()).unwrap()
+}
+
+fn faults(file: &File) -> Vec<Fault> {
+    read(&file.bytes(1)).unwrap_err().faults
+}
+
+/// A file that has one fault, which says this and offers a mend.
+#[track_caller]
+fn wrong(file: File, expected: &str) {
+    let faults = faults(&file);
+    assert!(matches!(faults.as_slice(), [only] if only.message == expected && !only.help.is_empty()), "{faults:#?}");
+}
+
+/// What scipy and the netCDF library wrote (tests/data/make.py) is what the CSV says.
+#[test]
+fn files_that_other_software_made_are_read() {
+    let cut = csv_cut();
+    for name in ["gulf_of_maine.nc", "gulf_of_maine_packed.nc"] {
+        let survey = read(&data(name)).unwrap();
+        assert_eq!((survey.kind, &survey.depths), (Kind::Geodetic, &cut.depths), "{name}");
+        assert_eq!((survey.north.count, survey.east.count), (43, 60));
+        let off = [survey.north.first - cut.north.first, survey.east.last - cut.east.last];
+        assert!(
+            off.iter().all(|off| off.abs() < 2.7e-7),
+            "{name}: half a unit of single precision about 290 degrees: {off:?}"
+        );
+    }
+    let metres = read(&data("metres.nc")).unwrap();
+    assert_eq!((metres.kind, metres.north.first, metres.east.last), (Kind::Local, -15.0, 40.0));
+    assert_eq!(metres.depths, (0..20).map(f64::from).collect::<Vec<_>>());
+    let hdf5 = read(&data("metres_hdf5.nc")).unwrap_err().faults.remove(0);
+    assert!(hdf5.message.contains("HDF5") && hdf5.help.contains("nccopy -k classic"), "{hdf5:?}");
+}
+
+#[test]
+fn both_versions_of_the_format_say_the_same() {
+    let survey = read(&File::small().bytes(1)).unwrap();
+    assert_eq!(survey.depths, [1.0, 2.0, 3.0, 4.0, 5.5, -6.0]);
+    assert_eq!(read(&File::small().bytes(2)), Ok(survey));
+}
+
+#[test]
+fn scale_offset_and_sense_are_honoured() {
+    let packed = |attributes: &[(&'static str, writer::Values)]| {
+        let file = File::small().with("elevation", |v| {
+            v.values = Shorts(vec![2, 4, 6, 8, 10, -2]);
+            v.attributes.extend_from_slice(attributes);
+        });
+        read(&file.bytes(1)).unwrap().depths
+    };
+    assert_eq!(packed(&[]), [-2.0, -4.0, -6.0, -8.0, -10.0, 2.0]);
+    let scale = ("scale_factor", Doubles(vec![0.5]));
+    let offset = ("add_offset", Doubles(vec![-100.0]));
+    assert_eq!(packed(&[scale.clone(), offset]), [99.0, 98.0, 97.0, 96.0, 95.0, 101.0]);
+    assert_eq!(packed(&[scale, ("positive", Text("down"))]), [1.0, 2.0, 3.0, 4.0, 5.0, -1.0]);
+    assert_eq!(packed(&[("standard_name", Text("sea_floor_depth_below_sea_surface"))])[0], 2.0);
+}
+
+#[test]
+fn no_data_is_named_whatever_stands_for_it() {
+    let shorts = |fill: &[(&'static str, writer::Values)], cell: i16| {
+        File::small().with("elevation", |v| {
+            v.values = Shorts(vec![-1, -2, -3, -4, cell, -6]);
+            v.attributes.extend_from_slice(fill);
+        })
+    };
+    let filled = |value| ("_FillValue", Shorts(vec![value]));
+    wrong(shorts(&[filled(-999)], -999), "`elevation(1, 1)` is no data (-999)");
+    wrong(shorts(&[("missing_value", Doubles(vec![-998.0, -999.0]))], -998), "`elevation(1, 1)` is no data (-998)");
+    wrong(shorts(&[], -32_767), "`elevation(1, 1)` is no data (-32767)");
+    wrong(shorts(&[], 9_999), "`elevation(1, 1)` is 9999: neither water nor land on earth");
+    let not_a_number =
+        File::small().with("elevation", |v| v.values = Doubles(vec![-1.0, f64::NAN, -3.0, 0.0, 0.0, 0.0]));
+    wrong(not_a_number, "`elevation(0, 1)` is no data (NaN)");
+}
+
+#[test]
+fn units_and_sense_that_are_not_known() {
+    let units = |variable, units| File::small().with(variable, |v| v.attributes = vec![("units", Text(units))]);
+    wrong(units("elevation", "feet"), "`elevation` is in `feet`: depths are read in metres");
+    wrong(
+        File::small().with("elevation", |v| v.attributes.clear()),
+        "`elevation` has no units: depths are read in metres",
+    );
+    wrong(units("x", "km"), "`x` is in `km`: it is neither latitude, longitude, nor metres of `y` or `x`");
+    wrong(units("x", "degrees_east"), "`elevation(y, x)` runs over northing and longitude");
+    wrong(
+        File::small().with("elevation", |v| v.attributes.push(("positive", Text("sideways")))),
+        "`elevation:positive` is `sideways`",
+    );
+    wrong(
+        File::small().with("elevation", |v| v.attributes.push(("scale_factor", Doubles(vec![0.0])))),
+        "`elevation:scale_factor` is [0.0]",
+    );
+}
+
+#[test]
+fn axes_that_do_not_ascend_evenly_or_are_not_there() {
+    let places = |places: &[f64]| File::small().with("x", |v| v.values = Doubles(places.to_vec()));
+    wrong(places(&[20.0, 10.0, 0.0]), "`x(1)` is 10 after 20: it must ascend");
+    wrong(places(&[0.0, 10.0, 21.0]), "`x` is not evenly spaced: `x(1)` is 10, evenly it were 10.5");
+    wrong(places(&[0.0, f64::NAN, 20.0]), "`x(1)` is NaN");
+    assert!(read(&places(&[0.0, 10.02, 20.0]).bytes(1)).is_ok(), "the rounding of single precision");
+    let mut without = File::small();
+    without.variables.remove(1);
+    wrong(without, "the dimension `x` of `elevation` has no variable `x(x)`");
+    let mut exchanged = File::small().with("elevation", |v| v.dimensions = vec![1, 0]);
+    wrong(exchanged.clone(), "`elevation(x, y)` runs over easting and northing");
+    exchanged.variables[2].dimensions = vec![0];
+    exchanged.variables[2].values = Doubles(vec![1.0, 2.0]);
+    wrong(exchanged, "no variable has two dimensions: the file holds `y(y)`, `x(x)`, `elevation(y)`");
+    let mut two = File::small();
+    two.variables.push(writer::Variable { name: "roughness", ..two.variables[2].clone() });
+    assert!(read(&two.bytes(1)).is_ok(), "one of them has a name for it");
+    wrong(
+        two.with("elevation", |v| v.name = "smoothness"),
+        "which variable is the bottom? There is `smoothness`, `roughness`",
+    );
+}
+
+#[test]
+fn lengths_that_no_file_holds_take_no_room() {
+    let mut file = File::small();
+    file.dimensions = vec![("y", 2_000_000_000), ("x", 2_000_000_000)];
+    let found = faults(&file);
+    assert_eq!(found[0].message, format!("`y` has 2000000000 values: {CELLS_MAX} are read at most"));
+    assert_eq!(found.len(), 2, "both axes are told: {found:#?}");
+    file.dimensions = vec![("y", 3_000_000), ("x", 3)];
+    let begin = file.bytes(1).len() as u64 - (2 + 3 + 6) * 8;
+    let (end, held) = (begin + 24_000_000, file.bytes(1).len());
+    assert_eq!(
+        faults(&file)[0].message,
+        format!("the file is cut off: the 3000000 values of `y` are bytes {begin} to {end}, and it has {held}")
+    );
+    file.dimensions = vec![("y", 0), ("x", 3)];
+    wrong(file, "`y` has `y`, a dimension without a fixed length");
+}
+
+/// The header tells that the values come last: without their last byte there is no survey.
+#[test]
+fn a_file_cut_at_any_byte_is_refused_and_the_place_is_told() {
+    for version in [1, 2] {
+        let whole = File::small().bytes(version);
+        for end in 4..whole.len() {
+            let found = read(&whole[..end]).unwrap_err().faults;
+            assert!(found.iter().all(|f| f.message.starts_with("the file is cut off: ")), "cut at {end}: {found:?}");
+            assert!(found[0].message.ends_with(&format!("and it has {end}")), "{found:?}");
+        }
+    }
+    let whole = data("gulf_of_maine.nc");
+    assert!((0..whole.len()).all(|end| read(&whole[..end]).is_err()), "scipy's begins with an even more padded header");
+}
+
+/// The room that a survey takes, in numbers.
+fn room(read: &Result<Survey, Unreadable>) -> usize {
+    read.as_ref().map_or(0, |survey| survey.depths.capacity())
+}
+
+/// Every byte replaced by every other: what was read of it is whole, and takes no more room than the file has.
+#[test]
+fn a_file_with_any_byte_changed_is_read_or_refused_without_harm() {
+    for version in [1, 2] {
+        let whole = File::small().bytes(version);
+        let mut refused = 0;
+        for at in 0..whole.len() {
+            for flip in 1..=255 {
+                let mut changed = whole.clone();
+                changed[at] ^= flip;
+                let found = read(&changed);
+                assert!(room(&found) <= changed.len());
+                match found {
+                    Ok(survey) => {
+                        assert_eq!(survey.depths.len() as u32, survey.north.count * survey.east.count);
+                        assert!(survey.depths.iter().all(|depth| depth.is_finite()));
+                    }
+                    Err(unreadable) => {
+                        assert!(unreadable.faults.iter().all(|f| !f.message.is_empty() && !f.help.is_empty()));
+                        refused += 1;
+                    }
+                }
+            }
+        }
+        assert!(refused > whole.len() * 255 / 4, "most changes of a header are noticed: {refused}");
+    }
+}

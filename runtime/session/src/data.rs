@@ -1,0 +1,118 @@
+//! Files of numbers that a script names: they lie in the project's folder, as what `use` imports does.
+
+use crate::files::{FileError, Files, plain};
+use albacore_lang::nearest;
+use std::io::Read;
+use std::path::{Component, Path};
+
+impl Files {
+    /// The bytes of a file of the project, `bytes_max` of them at most. Its path counts from the project's folder and does not
+    /// lead out of it, neither by itself nor by a link.
+    pub(crate) fn data(&self, path: &str, bytes_max: u64) -> Result<Vec<u8>, FileError> {
+        let error = |what: &str, help: &str| FileError { message: format!("`{path}` {what}"), help: Some(help.into()) };
+        let parts = Path::new(path).components();
+        if path.is_empty() || !parts.into_iter().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+            return Err(error(
+                "does not lie in the project's folder",
+                "copy the file there, and name it from there, such as `bathymetry/bay.csv`",
+            ));
+        }
+        let file = self.root().join(path);
+        if !file.exists() {
+            return Err(self.missing(path, &file));
+        }
+        let inside = match (file.canonicalize(), self.root().canonicalize()) {
+            (Ok(file), Ok(root)) => file.starts_with(root),
+            _ => false,
+        };
+        if !inside {
+            return Err(error("is a link that leads out of the project", "copy the file into the project's folder"));
+        }
+        let unreadable =
+            |e: std::io::Error| error(&format!("cannot be read: {}", plain(&e)), "look at its permissions");
+        let metadata = std::fs::metadata(&file).map_err(unreadable)?;
+        // A device or a pipe would answer without end, or never.
+        if !metadata.is_file() {
+            let what = if metadata.is_dir() { "is a folder" } else { "is no ordinary file" };
+            return Err(error(what, "name a file"));
+        }
+        let mut bytes = Vec::new();
+        let open = std::fs::File::open(&file).map_err(unreadable)?;
+        // A file may grow after it was measured.
+        open.take(bytes_max + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        if bytes.len() as u64 > bytes_max {
+            let (megabytes, most) = (metadata.len() as f64 / 1e6, bytes_max as f64 / 1e6);
+            return Err(error(
+                &format!("has {megabytes:.1} MB: {most} MB are read at most"),
+                "cut out the part that is needed",
+            ));
+        }
+        Ok(bytes)
+    }
+
+    /// There is no such file; one of its folder may be meant.
+    fn missing(&self, path: &str, file: &Path) -> FileError {
+        let folder = file.parent().unwrap_or(Path::new("."));
+        let named = |entry: std::fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
+        let mut near: Vec<String> = std::fs::read_dir(folder).into_iter().flatten().flatten().map(named).collect();
+        near.sort();
+        let wanted = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let help = match nearest(&wanted, near.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{}`?", Path::new(path).with_file_name(near).display()),
+            None => format!("paths count from the project's folder, `{}`", self.root().display()),
+        };
+        FileError { message: format!("there is no file `{path}`"), help: Some(help) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::PathBuf;
+
+    /// A project of its own with a file in it, and one beside it.
+    fn project(name: &str) -> (PathBuf, Files) {
+        let folder = std::env::temp_dir().join(format!("albacore-data-{}-{name}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(folder.join("project/sub")).unwrap();
+        std::fs::write(folder.join("secret.csv"), "secret").unwrap();
+        std::fs::write(folder.join("project/albacore.toml"), "").unwrap();
+        std::fs::write(folder.join("project/sub/bay.csv"), "depths").unwrap();
+        (folder.clone(), Files::around(&folder.join("project/sub/mission.alb")))
+    }
+
+    #[track_caller]
+    fn refused(files: &Files, path: &str, expected: &str) {
+        let error = files.data(path, 100).unwrap_err();
+        assert!(error.message.contains(expected) && error.help.is_some(), "{error:?}");
+    }
+
+    #[test]
+    fn a_file_is_named_from_the_folder_of_the_project() {
+        let (folder, files) = project("named");
+        assert_eq!(files.data("sub/bay.csv", 100).unwrap(), b"depths");
+        assert_eq!(files.data("./sub/bay.csv", 6).unwrap(), b"depths");
+        refused(&files, "bay.csv", "there is no file `bay.csv`");
+        assert_eq!(files.data("sub/bya.csv", 9).unwrap_err().help.unwrap(), "did you mean `sub/bay.csv`?");
+        refused(&files, "sub", "is a folder");
+        std::fs::write(folder.join("project/large.csv"), [b'1'; 101]).unwrap();
+        refused(&files, "large.csv", "are read at most");
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn no_path_leads_out_and_nothing_is_read_but_files() {
+        let (folder, files) = project("out");
+        for path in ["../secret.csv", "sub/../../secret.csv", "/etc/passwd", "/dev/zero", ""] {
+            refused(&files, path, "does not lie in the project's folder");
+        }
+        std::os::unix::fs::symlink(folder.join("secret.csv"), folder.join("project/link.csv")).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", folder.join("project/zero.csv")).unwrap();
+        refused(&files, "link.csv", "is a link that leads out of the project");
+        refused(&files, "zero.csv", "is a link that leads out of the project");
+        assert!(std::process::Command::new("mkfifo").arg(folder.join("project/pipe.csv")).status().unwrap().success());
+        refused(&files, "pipe.csv", "is no ordinary file");
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}
