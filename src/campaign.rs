@@ -6,7 +6,7 @@ mod table;
 mod told;
 
 use crate::exit::Exit;
-use crate::plan::{Choice, refused};
+use crate::plan::{Choice, Faults, refused};
 use crate::{interruption, message, output};
 use albacore_session::campaign::{Campaign as MissionCampaign, Tally};
 use albacore_session::{Plan, Run};
@@ -33,6 +33,8 @@ pub struct Campaign {
     script: PathBuf,
     #[command(flatten)]
     choice: Choice,
+    #[command(flatten)]
+    faults: Faults,
     /// The seeds: `1..100` with both ends, `1..<100` without the last, or one.
     #[arg(long, value_name = "A..B")]
     seeds: Seeds,
@@ -58,6 +60,7 @@ impl Campaign {
     pub fn run(&self) -> Exit {
         let planned = self.choice.script(&self.script).and_then(|script| {
             let plan = self.choice.plan(&script, &self.script)?;
+            let plan = self.faults.add(|faults| plan.with_faults(faults))?;
             Ok((script, plan))
         });
         let (script, plan) = match planned {
@@ -76,7 +79,7 @@ impl Campaign {
 
     fn carry_out(&self, plan: &Plan) -> Result<Exit, Trouble> {
         let campaign = MissionCampaign::new(plan.clone(), self.reports);
-        let (columns, origin) = (campaign.columns(), Origin::new(plan, &self.choice.set));
+        let (columns, origin) = (campaign.columns(), Origin::new(plan, &self.choice.set, &self.faults.texts));
         let mut table = if self.resume {
             Table::resume(&self.out, columns, &origin, self.seeds)?
         } else {

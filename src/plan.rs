@@ -63,6 +63,22 @@ impl Choice {
     }
 }
 
+/// What goes wrong in a simulated world, beside what its scenario says.
+#[derive(clap::Args)]
+pub struct Faults {
+    /// Let something go wrong, as a clause of the scenario does: `fault(position, off, from: 120 s, to: 180 s)`.
+    #[arg(long = "fault", value_name = "CLAUSE")]
+    pub texts: Vec<String>,
+}
+
+impl Faults {
+    /// Adds what they say to a plan or a world, or tells what is wrong with them.
+    pub fn add<T>(&self, add: impl FnOnce(&Script) -> Result<T, PlanError>) -> Result<T, Exit> {
+        let faults = sound(Ok(albacore_session::load_faults(&self.texts)))?;
+        add(&faults).map_err(|error| refused(&error, &faults))
+    }
+}
+
 /// Says why a script cannot be run as asked.
 pub fn refused(error: &PlanError, script: &Script) -> Exit {
     match error {

@@ -3,7 +3,7 @@
 use crate::clock::{self, Pace, now};
 use crate::exit::Exit;
 use crate::kept::Kept;
-use crate::plan::{Choice, refused};
+use crate::plan::{Choice, Faults, refused};
 use crate::vehicle::told;
 use crate::{interruption, message, output};
 use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Summary, Url};
@@ -24,12 +24,14 @@ pub struct Run {
     script: PathBuf,
     #[command(flatten)]
     choice: Choice,
+    #[command(flatten)]
+    faults: Faults,
     /// The seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Drive a vehicle at the end of a link instead of a simulated one: `serial:/dev/ttyUSB0?dialect=recon`,
     /// `udp:HOST:PORT?dialect=recon`.
-    #[arg(long, value_name = "URL", conflicts_with = "scenario")]
+    #[arg(long, value_name = "URL", conflicts_with_all = ["scenario", "texts"])]
     link: Option<String>,
     /// How many times faster than real time; else a simulation runs as fast as it can, and a vehicle in real time.
     #[arg(long, value_name = "N", value_parser = clock::rate)]
@@ -60,7 +62,7 @@ impl Run {
         let interrupted = interruption::flag();
         let mut kept = self.folder(&plan).map_or_else(Kept::nothing, Kept::begin);
         if let Some(journal) = kept.journal() {
-            run.with_journal(Box::new(journal), &self.choice.set);
+            run.with_journal(Box::new(journal), &self.changes());
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(now().duration_since(started).as_secs_f64());
@@ -86,6 +88,7 @@ impl Run {
         let refused = |error| refused(&error, script);
         let Some(link) = &self.link else {
             let plan = self.choice.plan(script, &self.script)?;
+            let plan = self.faults.add(|faults| plan.with_faults(faults))?;
             let run = MissionRun::new(&plan, self.seed).map_err(refused)?;
             return Ok((plan, run));
         };
@@ -97,6 +100,12 @@ impl Run {
         let run = MissionRun::on_link(&plan, self.seed, vehicle).map_err(refused)?;
         message::write(&format!("link open to {url}\n"));
         Ok((plan, run))
+    }
+
+    /// What was changed for this run, as the journal keeps it.
+    fn changes(&self) -> Vec<String> {
+        let faults = self.faults.texts.iter().map(|text| format!("--fault {text}"));
+        self.choice.set.iter().cloned().chain(faults).collect()
     }
 
     /// Where files go, if any are wanted.

@@ -2,7 +2,7 @@
 
 use crate::clock::{self, Pace};
 use crate::exit::Exit;
-use crate::plan::{refused, scenario_script};
+use crate::plan::{Faults, refused, scenario_script};
 use crate::{interruption, message};
 use albacore_session::{FarEnd, LinkError, Rows, Transport, Url, World};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,6 +30,8 @@ pub struct Vehicle {
     /// The seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    #[command(flatten)]
+    faults: Faults,
     /// Change a parameter of the script.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -64,8 +66,10 @@ impl Vehicle {
 
     fn far_end(&self) -> Result<FarEnd, Exit> {
         let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
-        let world = World::new(&script, file, name);
-        world.and_then(|world| world.far_end(self.seed, self.rows)).map_err(|error| refused(&error, &script))
+        let refused = |error| refused(&error, &script);
+        let world = World::new(&script, file, name).map_err(refused)?;
+        let world = self.faults.add(|faults| world.with_faults(faults))?;
+        world.far_end(self.seed, self.rows).map_err(refused)
     }
 
     /// Ticks at the rate that was asked for, but in real time while a guest that drives is silent: it may only be late, and

@@ -13,6 +13,9 @@ pub struct Origin {
     mission: String,
     scenario: String,
     set: Vec<String>,
+    /// None in tables from before there were faults.
+    #[serde(default)]
+    fault: Vec<String>,
     sources: Vec<Source>,
 }
 
@@ -24,8 +27,9 @@ struct Source {
 }
 
 impl Origin {
-    /// The origin of what a plan gives. `set` are the texts of the parameters that were changed.
-    pub fn new(plan: &Plan, set: &[String]) -> Self {
+    /// The origin of what a plan gives. `set` are the texts of the parameters that were changed, `fault`
+    /// those of what was made to go wrong.
+    pub fn new(plan: &Plan, set: &[String], fault: &[String]) -> Self {
         // The texts of `--set` are read as sources too; they have a place of their own here.
         let scripts = plan.sources.iter().filter(|source| !source.name.starts_with("--set "));
         let sources = scripts.map(|s| Source { name: s.name.clone(), digest: format!("{:016x}", s.digest) });
@@ -34,6 +38,7 @@ impl Origin {
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
             set: set.to_vec(),
+            fault: fault.to_vec(),
             sources: sources.collect(),
         }
     }
@@ -61,7 +66,10 @@ impl Origin {
             return changed("the scenario ", &self.scenario, &now.scenario);
         }
         if self.set != now.set {
-            return changed("", &options(&self.set), &options(&now.set));
+            return changed("", &options("--set", &self.set), &options("--set", &now.set));
+        }
+        if self.fault != now.fault {
+            return changed("", &options("--fault", &self.fault), &options("--fault", &now.fault));
         }
         if self.albacore != now.albacore {
             return changed("albacore ", &self.albacore, &now.albacore);
@@ -75,9 +83,9 @@ impl Origin {
     }
 }
 
-fn options(set: &[String]) -> String {
-    let options: Vec<String> = set.iter().map(|text| format!("--set {text}")).collect();
-    if options.is_empty() { "no --set".to_string() } else { options.join(" ") }
+fn options(name: &str, texts: &[String]) -> String {
+    let options: Vec<String> = texts.iter().map(|text| format!("{name} {text}")).collect();
+    if options.is_empty() { format!("no {name}") } else { options.join(" ") }
 }
 
 /// `duck.csv` and `.origin` is `duck.csv.origin`.

@@ -25,7 +25,7 @@ impl<'t> Checker<'t> {
     }
 
     /// The same among the definitions of some kind: a name before `(` is looked up among what can be called.
-    fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
+    pub(super) fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
         let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
         let own = std::iter::successors(Some(module), |&m| self.modules[m].extends);
         own.chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))

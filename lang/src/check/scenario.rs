@@ -5,6 +5,7 @@ use super::names::Found;
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
@@ -102,12 +103,17 @@ impl<'t> Checker<'t> {
         self.hir.scenarios[id].vars = scope.vars;
     }
 
-    /// A clause whose first parameter is a name may stand several times: each is another thing. All others stand once.
+    /// A clause whose first parameter is a name may stand several times: each is another thing. So may one of what happens
+    /// from a time to another. All others stand once.
     fn clauses_once(&mut self, clauses: &[ClauseUse]) {
+        let is_time = |arg: &(String, ClauseArg), name: &str| {
+            arg.0 == name && matches!(&arg.1, ClauseArg::Value(value) if value.ty == Type::Quantity(Dimension::TIME))
+        };
         for (i, clause) in clauses.iter().enumerate() {
             let first = clauses[..i].iter().find(|c| c.name == clause.name);
             let has_name = clause.args.first().is_some_and(|(param, _)| param == "name");
-            if let Some(first) = first.filter(|_| !has_name) {
+            let happens = ["from", "to"].iter().all(|name| clause.args.iter().any(|arg| is_time(arg, name)));
+            if let Some(first) = first.filter(|_| !has_name && !happens) {
                 let message = format!("a scenario has one `{}`", clause.name);
                 let finding = Diagnostic::error(Code::ScenariosTwice, clause.span, message);
                 self.report(finding.label(first.span, "the first").help("leave one of them out"));
@@ -126,7 +132,10 @@ impl<'t> Checker<'t> {
                 return None;
             }
         };
-        let Found::Def(Def::Clause(id)) = self.find(callee) else {
+        let Some(id) = self
+            .clause_of_kind(callee, |kind| kind.is_some() == as_value)
+            .or_else(|| self.clause_of_kind(callee, |_| true))
+        else {
             let name = match &callee.kind {
                 K::Name(name) => name.clone(),
                 _ => "this".to_string(),
@@ -166,7 +175,8 @@ impl<'t> Checker<'t> {
                 K::Call(callee, _) => callee.as_ref(),
                 _ => &arg.value,
             };
-            if let Found::Def(Def::Clause(inner)) = self.find(head) {
+            let takes = |kind: Option<&String>| kind.is_some() && nested.iter().any(|n| n.as_ref() == kind);
+            if let Some(inner) = self.clause_of_kind(head, takes).or_else(|| self.clause_of_kind(head, |_| true)) {
                 let inner_name = self.clauses[inner].signature.name.clone();
                 // Where it goes: the parameter of its label, else the first whose type it is.
                 let kind = self.clauses[inner].kind.clone();
@@ -217,8 +227,23 @@ impl<'t> Checker<'t> {
         Some(ClauseUse { name, span: e.span, args: values })
     }
 
-    /// The kind of clause that a name which nobody has stands for: the one that its parameter takes, else the first of those
-    /// that the clause takes.
+    /// The clause that an expression names, of a kind that fits: `flow` is a clause, and in `fault(flow, off)` a sensor.
+    fn clause_of_kind(&self, e: &tree::Expr, fits: impl Fn(Option<&String>) -> bool) -> Option<usize> {
+        let tree::ExprKind::Name(name) = &e.kind else {
+            return match self.find(e) {
+                Found::Def(Def::Clause(id)) => Some(id),
+                _ => None,
+            };
+        };
+        let is_wanted = |def: &Def| matches!(def, Def::Clause(id) if fits(self.clauses[*id].kind.as_ref()));
+        match self.lookup_if(self.scope.module, name, is_wanted) {
+            Some(Def::Clause(id)) => Some(*id),
+            _ => None,
+        }
+    }
+
+    /// The kind of clause that a name which nobody has stands for: of those that its parameter takes, or that the clause takes
+    /// where it has no label, the one that has a name like it, else the first.
     fn misspelt_clause(
         &self,
         head: &tree::Expr,
@@ -231,6 +256,11 @@ impl<'t> Checker<'t> {
             return None;
         }
         let fits = |p: &super::ParamInfo| arg.label.as_ref().is_none_or(|label| label.node == p.name);
-        params.iter().zip(nested).find_map(|(p, kind)| kind.clone().filter(|_| fits(p)))
+        let kinds: Vec<&String> =
+            params.iter().zip(nested).filter(|(p, _)| fits(p)).filter_map(|(_, k)| k.as_ref()).collect();
+        let fitting = self.clauses.iter().filter(|c| c.kind.as_ref().is_some_and(|kind| kinds.contains(&kind)));
+        let near = self.nearest(name, fitting.clone().map(|c| c.signature.name.as_str()));
+        let nearest = near.and_then(|near| fitting.clone().find(|c| c.signature.name == near)?.kind.clone());
+        nearest.or_else(|| kinds.first().map(|kind| (*kind).clone()))
     }
 }

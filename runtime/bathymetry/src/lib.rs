@@ -42,7 +42,10 @@ pub fn read(bytes: &[u8]) -> Result<Survey, Unreadable> {
     match (survey, faults.into_unreadable()) {
         (Some(survey), None) => Ok(survey),
         (_, Some(unreadable)) => Err(unreadable),
-        (None, None) => Err(Unreadable::of(Fault::new("the file holds no survey", "see the reference, section 12"))),
+        (None, None) => Err(Unreadable::of(Fault::new(
+            "the file holds no survey",
+            "the language's reference tells under scenarios what one looks like",
+        ))),
     }
 }
 

@@ -1,10 +1,12 @@
 //! Where the vehicle is and how the water moves, from what its sensors say.
 //!
 //! [`FlowEstimate`] averages the Doppler profiler's view of the current, [`DeadReckoning`] integrates velocity over ground
-//! between acoustic fixes. Both are the 2005 paper's (App. B, Sec. IV). No noise, no clock: pure functions of what they hear.
+//! between acoustic fixes. Both are the 2005 paper's (App. B, Sec. IV). [`Vigil`] watches whether what is told can be true. No noise, no clock: pure functions of what they hear.
 
 mod dead_reckoning;
 mod flow_estimate;
+mod vigil;
 
 pub use dead_reckoning::DeadReckoning;
 pub use flow_estimate::{AdcpMessage, BodyVelocity, FlowEstimate, Verdict};
+pub use vigil::{Kind, Sight, Sighting, Vigil};

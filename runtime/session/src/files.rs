@@ -5,9 +5,10 @@ use albacore_lang::{Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 8] = [
+const STDLIB: [(&str, &str); 9] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
+    ("faults", include_str!("../../../stdlib/faults.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
@@ -17,7 +18,7 @@ const STDLIB: [(&str, &str); 8] = [
 ];
 
 /// Modules whose names every script knows.
-const PRELUDE: [&str; 3] = ["inputs", "scenarios", "world"];
+const PRELUDE: [&str; 4] = ["inputs", "scenarios", "world", "faults"];
 
 /// So many names are listed in a message at most.
 const LISTED_MAX: usize = 12;

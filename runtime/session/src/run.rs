@@ -7,6 +7,7 @@ use crate::plan::{Plan, PlanError};
 use crate::summary::{Report, Summary};
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_machine::{Event, Machine, Outcome, Wish};
+use albacore_navigation::Vigil;
 use albacore_program::{AREA_WORDS, PROGRAM_VERSION, Shape};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Closing, JournalHeader};
@@ -46,6 +47,9 @@ pub struct Run {
     /// Whether the vehicle has been asked to let us drive, and not been given back since.
     asked_for_control: bool,
     notices: Vec<String>,
+    /// What the vehicle or its link gave notice of last.
+    last_notice: String,
+    vigil: Vigil,
     release_failed: bool,
 }
 
@@ -101,6 +105,8 @@ impl Run {
             start,
             asked_for_control: false,
             notices: Vec::new(),
+            last_notice: String::new(),
+            vigil: Vigil::default(),
             release_failed: false,
         })
     }
@@ -218,11 +224,15 @@ impl Run {
         if let Err(error) = self.follow_wish() {
             return self.end(Outcome::Failed, &error.to_string());
         }
+        let sightings = self.vigil.look(tick, &self.snapshot, self.machine.state().command.as_ref());
         let command = self.machine.step(&self.snapshot);
         let sent = command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
         let sent = sent.and_then(|()| self.follow_wish());
         let events = self.machine.events().to_vec();
         self.hear(tick);
+        for sighting in sightings {
+            self.take_down(tick, sighting.to_string());
+        }
         if self.deepest.is_none() && !self.plan.scenario.bottom.is_level() {
             let area = Area::polygon(&self.area_corners()).ok();
             self.deepest = area.map(|area| self.plan.scenario.bottom.deepest(&area));
@@ -279,7 +289,7 @@ impl Run {
             && self.reason.is_empty()
             && self.vehicle.truth().is_none()
         {
-            self.reason = self.notices.last().cloned().unwrap_or_default();
+            self.reason.clone_from(&self.last_notice);
         }
         let released = self.vehicle.port().release();
         self.hear(self.tick());
@@ -302,9 +312,14 @@ impl Run {
     /// Takes down what the vehicle gave notice of: no part of the digest, for when it comes is no matter of the run.
     fn hear(&mut self, tick: u64) {
         for notice in self.vehicle.port().notices() {
-            self.trace.vehicle(tick, &notice);
-            self.notices.push(notice);
+            self.last_notice.clone_from(&notice);
+            self.take_down(tick, notice);
         }
+    }
+
+    fn take_down(&mut self, tick: u64, notice: String) {
+        self.trace.vehicle(tick, &notice);
+        self.notices.push(notice);
         let surplus = self.notices.len().saturating_sub(NOTICES_MAX);
         self.notices.drain(..surplus);
     }

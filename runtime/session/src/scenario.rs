@@ -2,13 +2,14 @@
 
 mod bottom;
 mod clause;
+mod fault;
 mod flow;
 mod plume;
 mod recorded;
 mod sensors;
 mod vehicle;
 
-use crate::files::Files;
+use crate::files::{FileError, Files};
 use albacore_geometry::TangentFrame;
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
@@ -30,7 +31,7 @@ pub(crate) struct Understood {
 pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
     let mut understood = Understood { world: Scenario::default(), files: Vec::new() };
-    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().chain(recorded::brought(program)).collect();
+    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().chain(two_plumes(program)).collect();
     for clause in &program.clauses {
         let clause = Clause { clause, words: &words };
         let read = match clause.clause.name.as_str() {
@@ -57,6 +58,15 @@ fn two_grounds(program: &ScenarioProgram) -> Option<Diagnostic> {
     Some(finding.label(first.span, "the first").help("leave one of them out"))
 }
 
+/// A record brings its own water.
+fn two_plumes(program: &ScenarioProgram) -> Option<Diagnostic> {
+    let record = program.clauses.iter().find(|c| c.name == "recorded_plume")?;
+    let second = program.clauses.iter().find(|c| recorded::BROUGHT.contains(&c.name.as_str()))?;
+    let message = format!("the record brings its own `{}`", second.name);
+    let finding = Diagnostic::error(Code::ScenariosClause, second.span, message);
+    Some(finding.label(record.span, "the record").help("leave it out, or `recorded_plume`"))
+}
+
 /// All that is wrong with a clause.
 struct Wrong(Vec<Fault>);
 
@@ -64,6 +74,12 @@ struct Wrong(Vec<Fault>);
 struct Fault {
     message: String,
     help: Option<String>,
+}
+
+impl From<FileError> for Wrong {
+    fn from(error: FileError) -> Wrong {
+        Wrong(vec![Fault { message: error.message, help: error.help }])
+    }
 }
 
 impl From<String> for Wrong {
@@ -111,6 +127,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "navigation" => sensors::navigation(scenario, c),
         "fluorometer" => sensors::fluorometer(scenario, c),
         "adcp" => sensors::adcp(scenario, c),
+        "fault" => fault::fault(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
         other => Err(format!("the simulator knows no `{other}`")),
     }

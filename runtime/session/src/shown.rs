@@ -65,7 +65,7 @@ impl Shown {
                 None => absent.push(name.clone()),
             }
         }
-        let filaments = world.has_plume().then(|| simulator.filaments().count());
+        let filaments = world.plume.is_some().then(|| simulator.filaments().count());
         let svg = picture(&lowered, &world, &simulator, seed);
         Ok(Shown { name: lowered.name, clauses, absent, filaments, svg })
     }
@@ -94,10 +94,10 @@ struct Defaults {
 impl Defaults {
     /// Asks the library's own words, through the same steps as any scenario.
     fn read() -> Self {
-        let page = crate::load_or_module("world".as_ref())
-            .ok()
-            .and_then(|script| script.sources.iter().next().and_then(doc::page));
-        let declared = page.map(|page| page.declarations).unwrap_or_default();
+        let everywhere = crate::standard_modules().filter(|module| crate::is_known_everywhere(module));
+        let scripts = everywhere.filter_map(|module| crate::load_or_module(module.as_ref()).ok());
+        let pages = scripts.filter_map(|script| script.sources.iter().next().and_then(doc::page));
+        let declared: Vec<doc::Declaration> = pages.flat_map(|page| page.declarations).collect();
         let clauses = || declared.iter().filter(|d| d.word == "clause");
         // What needs no number can be left to itself; the kinds of other clauses may be left out.
         let kinds: Vec<&String> = clauses().filter_map(|d| d.result.as_ref()).collect();

@@ -46,6 +46,12 @@ impl World {
         Ok(World { name: lowered.name, scenario: understood.world, frame: TangentFrame { origin } })
     }
 
+    /// The same with the faults of a script of [`crate::load_faults`] added to those of the scenario.
+    pub fn with_faults(mut self, script: &Script) -> Result<Self, PlanError> {
+        self.scenario.faults.extend(crate::faults::faults(script)?);
+        Ok(self)
+    }
+
     /// The vehicle in it, with rows to swim, else those of the scenario: the first from where it starts and along its heading, at the depth at which it
     /// starts, or near the bottom if that is the surface.
     pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {

@@ -1,6 +1,6 @@
 //! Surveyed bottoms and no-go zones, from a script to what is told of a run.
 
-#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+#![expect(clippy::panic, clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_session::{Diagnostic, Outcome, Plan, PlanError, Run, Source, findings, load_text};
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ fn plan(folder: &Path, clauses: &str) -> Result<Plan, PlanError> {
 fn refused(folder: &Path, clauses: &str) -> Vec<Diagnostic> {
     match plan(folder, clauses) {
         Err(PlanError::Script(findings)) => findings,
-        other => panic!("{other:?}"),
+        other => unreachable!("{other:?}"),
     }
 }
 

@@ -1,7 +1,5 @@
 //! Scenarios that name a recorded plume: what they bring into the world, and what is said of those that cannot be.
 
-#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
-
 use albacore_session::{Plan, PlanError, Run, Source, findings, load_text};
 
 /// A mission in a scenario of such clauses, as if it lay beside `missions/recorded.alb`.

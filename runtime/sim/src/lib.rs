@@ -7,6 +7,7 @@
 mod bottom;
 mod computer;
 mod deepest;
+mod fault;
 pub mod hull;
 mod incidents;
 mod limits;
@@ -25,6 +26,7 @@ mod survey;
 mod water;
 mod world;
 
+pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{

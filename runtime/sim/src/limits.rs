@@ -41,7 +41,7 @@ impl Watch {
         let speed = command.speed;
         if speed > speed_max + SLACK {
             self.refuse(tick, Kind::Fast, || {
-                format!("is asked for {speed:.2} m/s: it goes {speed_max:.2} m/s, and no faster")
+                format!("is asked to go faster than {speed_max:.2} m/s: it goes no faster")
             });
         }
         Command { speed: speed.min(speed_max), vertical, ..*command }
@@ -57,9 +57,7 @@ impl Watch {
         if let Some(depth_max) = limits.depth
             && depth > depth_max + SLACK
         {
-            self.refuse(tick, Kind::Deep, || {
-                format!("is asked for a depth of {depth:.1} m: it stays at {depth_max:.1} m, and goes no deeper")
-            });
+            self.refuse(tick, Kind::Deep, || format!("is asked to go deeper than {depth_max:.2} m: it stays there"));
             vertical = Vertical::Depth(depth_max);
         }
         let altitude = match vertical {
@@ -69,7 +67,7 @@ impl Watch {
         let least = limits.altitude;
         if least > 0.0 && altitude < least - SLACK {
             self.refuse(tick, Kind::Low, || {
-                format!("is asked for an altitude of {altitude:.1} m: it keeps {least:.1} m, and comes no nearer to the bottom")
+                format!("is asked to come nearer to the bottom than {least:.2} m: it keeps that altitude")
             });
             vertical = Vertical::Altitude(least);
         }
@@ -145,6 +143,6 @@ mod tests {
         }
         let ticks: Vec<u64> = told.iter().map(|(tick, _)| *tick).collect();
         assert_eq!(ticks, [0, 200], "a moment's obedience is no end of it: {told:?}");
-        assert_eq!(told[0].1, "is asked for a depth of 12.0 m: it stays at 10.0 m, and goes no deeper");
+        assert_eq!(told[0].1, "is asked to go deeper than 10.00 m: it stays there");
     }
 }

@@ -41,6 +41,10 @@ pub enum Stream {
     Leak = 21,
     /// Where the filaments of a patch are; one sub-stream a patch.
     Patch = 22,
+    /// What faulty sensors tell; one sub-stream a fault.
+    Fault = 60,
+    /// Where wrong positions and flows are off; one sub-stream a fault.
+    FaultDirection = 61,
     /// The moment at which a recorded plume is begun.
     RecordStart = 80,
 }

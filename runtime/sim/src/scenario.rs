@@ -18,6 +18,7 @@ pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
 pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
+use crate::fault::{self, Fault};
 use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
 use serde::{Deserialize, Serialize};
@@ -61,6 +62,8 @@ pub struct Scenario {
     pub adcp: Adcp,
     /// The echo sounder.
     pub sounder: Sounder,
+    /// What goes wrong. Default nothing.
+    pub faults: Vec<Fault>,
 }
 
 impl Scenario {
@@ -92,6 +95,7 @@ impl Scenario {
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);
+        fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }
     }
 }

@@ -1,6 +1,7 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
 use crate::computer::{Computer, Known, seconds};
+use crate::fault::Faults;
 use crate::hull::Hull;
 use crate::incidents::Incidents;
 use crate::limits::Watch;
@@ -70,6 +71,7 @@ pub struct Simulator {
     command: Option<Command>,
     truth: Truth,
     incidents: Incidents,
+    faults: Faults,
     /// The tick last sensed; none before the first.
     tick: Option<u64>,
 }
@@ -105,6 +107,7 @@ impl Simulator {
             command: None,
             truth: Truth::default(),
             incidents: Incidents::new(&scenario.no_go),
+            faults: Faults::new(&scenario.faults, seed),
             tick: None,
         };
         simulator.observe();
@@ -152,8 +155,11 @@ impl Simulator {
     /// Moves the world from the last tick to this one.
     fn advance(&mut self, tick: u64) {
         self.world.advance_to(tick);
+        let ailing = *self.faults.ailing();
         let flow = self.world.flow(self.vehicle.motion().position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
+        let flow = flow + ailing.current;
         let command = match self.control {
+            _ if ailing.leaks => Some(self.float_up()),
             Control::InControl => self.command,
             // A fix, or a fault: it stays where it is.
             Control::Suspended => None,
@@ -162,9 +168,15 @@ impl Simulator {
         let water_depth = self.truth.depth + self.truth.altitude;
         let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
         self.intake = self.intake_now();
+        self.vehicle.stick_rudder(ailing.rudder);
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
         let motion = self.vehicle.motion();
         self.positioning.step(tick, motion.ground_velocity, motion.position);
+    }
+
+    /// What a vehicle does that gives up.
+    fn float_up(&self) -> Command {
+        Command { heading: self.truth.heading, speed: 0.0, vertical: Vertical::Depth(0.0) }
     }
 
     /// What the vehicle's computer knows.
@@ -188,7 +200,7 @@ impl Simulator {
             speed_over_ground: v.ground_velocity.length(),
             depth: v.depth,
             altitude,
-            flow: self.world.flow(v.position, altitude, time),
+            flow: self.world.flow(v.position, altitude, time) + self.faults.ailing().current,
             concentration: self.world.concentration(intake, height, time),
         };
     }
@@ -236,7 +248,8 @@ impl Simulator {
         snapshot.push(WATER_DEPTH, &[depth + echo]);
         let view = View {
             ground_velocity: self.vehicle.motion().ground_velocity,
-            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s()),
+            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s())
+                + self.faults.ailing().current,
             heading: truth.heading,
             depth: truth.depth,
             altitude: truth.altitude,
@@ -268,24 +281,33 @@ impl Vehicle for Simulator {
         if let Some(why) = self.world.end_before(tick) {
             return Err(VehicleError(why));
         }
+        self.faults.advance_to(tick);
         if tick > 0 {
             self.advance(tick);
         }
         self.tick = Some(tick);
         self.observe();
         self.note_incidents();
+        if self.faults.ailing().leaks {
+            self.control = Control::Released;
+        }
         if self.control != Control::Released {
             self.control = self.computer.answer(seconds(tick), self.known().position);
         }
         snapshot.samples.clear();
         snapshot.control = self.control;
         self.measure(tick, snapshot);
+        self.faults.filter(tick, &mut snapshot.samples);
         Ok(())
     }
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
-        self.control = self.computer.ask(self.time_s(), self.known().position);
         self.command = None;
+        if self.faults.ailing().leaks {
+            self.control = Control::Refused;
+            return Ok(());
+        }
+        self.control = self.computer.ask(self.time_s(), self.known().position);
         Ok(())
     }
 
@@ -297,7 +319,9 @@ impl Vehicle for Simulator {
         if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
             return Err(VehicleError(String::from("the vehicle was given a command that is not a finite number")));
         }
-        self.command = Some(*command);
+        if !self.faults.ailing().deaf {
+            self.command = Some(*command);
+        }
         Ok(())
     }
 
@@ -316,7 +340,8 @@ impl Vehicle for Simulator {
     }
 
     fn notices(&mut self) -> Vec<String> {
-        let mut notices = self.watch.take_notices();
+        let mut notices = self.faults.take_notices();
+        notices.extend(self.watch.take_notices());
         notices.append(&mut self.incidents.take());
         notices
     }

@@ -198,10 +198,7 @@ fn its_own_limits_hold_whatever_it_is_told_and_the_refusals_are_told_once() {
     // Altitude 1 m is both too deep and too low, but too deep it was asked to go all along.
     assert_eq!(
         told,
-        [
-            "is asked for a depth of 9.0 m: it stays at 6.0 m, and goes no deeper",
-            "is asked for 2.00 m/s: it goes 1.20 m/s, and no faster",
-        ]
+        ["is asked to go deeper than 6.00 m: it stays there", "is asked to go faster than 1.20 m/s: it goes no faster",]
     );
     assert!((simulator.truth().depth - 6.0).abs() < 1e-6);
 }
@@ -231,7 +228,7 @@ fn the_least_altitude_lifts_it_over_a_rise() {
         assert!(lowest > 1.7, "{:?}: {lowest}", rising.vehicle.hull);
         assert!((simulator.truth().altitude - 2.0).abs() < 0.05);
         let told = simulator.notices();
-        assert!(told.len() == 1 && told[0].contains("keeps 2.0 m"), "{told:?}");
+        assert!(told.len() == 1 && told[0].contains("nearer to the bottom than 2.00 m"), "{told:?}");
     }
 }
 
@@ -243,9 +240,11 @@ fn impossible_hulls_and_limits_are_refused() {
     bad.limits = Some(Limits { depth: Some(-1.0), altitude: f64::NAN, speed: None });
     let said = bad.validate().unwrap_err();
     assert_eq!(said.faults.len(), 5, "{said}");
-    for expected in
-        ["1525 rpm, its `rpm_max`, give 2.55 m/s", "must be a whole number of steps", "`limits.depth` is -1"]
-    {
+    for expected in [
+        "its `turns_max` of 25.42 Hz gives 2.55 m/s at most",
+        "must be a whole number of steps",
+        "`limits.depth` is -1",
+    ] {
         assert!(said.to_string().contains(expected), "{said}");
     }
     for hull in [

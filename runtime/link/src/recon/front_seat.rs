@@ -12,7 +12,7 @@ use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{Milestone, OwnPlan, Rows, through_water};
-use albacore_vehicle::{Command, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 use std::fmt;
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
@@ -50,6 +50,10 @@ pub enum Happening {
     TimedOut,
     /// Something that was asked for is not done, and why.
     Refused(String, &'static str),
+    /// What the vehicle gave notice of.
+    Notice(String),
+    /// The vehicle has given up: it takes no commands any more, from nobody.
+    GivenUp,
 }
 
 impl fmt::Display for Happening {
@@ -68,6 +72,8 @@ impl fmt::Display for Happening {
                 write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes row {row}", at.north, at.east)
             }
             Happening::Plan(Milestone::Over) => f.write_str("the rows are done: mission over"),
+            Happening::Notice(notice) => f.write_str(notice),
+            Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
             Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
         }
     }
@@ -114,6 +120,8 @@ pub struct FrontSeat<V> {
     senses: Senses,
     command: Option<Command>,
     unreadable: u64,
+    /// The vehicle has taken itself back, from us too: it leaks, say.
+    given_up: bool,
     /// Why something was refused last, and when.
     refused: Option<(&'static str, u64)>,
     out: Vec<u8>,
@@ -139,6 +147,7 @@ impl<V: Vehicle> FrontSeat<V> {
             senses: Senses { position: start.0, heading: start.1, course: start.1, battery: 1.0, ..Senses::default() },
             command: None,
             unreadable: 0,
+            given_up: false,
             refused: None,
             out: Vec::new(),
             happenings,
@@ -187,11 +196,18 @@ impl<V: Vehicle> FrontSeat<V> {
         if self.tick == 0 {
             self.vehicle.take_over()?;
         }
+        self.happenings.extend(self.vehicle.notices().into_iter().map(Happening::Notice));
+        if !self.given_up && matches!(self.snapshot.control, Control::Released | Control::Refused) {
+            (self.given_up, self.goals, self.command) = (true, None, None);
+            self.happenings.push(Happening::GivenUp);
+        }
         self.tell_samples();
         self.hear(bytes);
-        let command = self.steer();
-        self.vehicle.command(&command)?;
-        self.command = Some(command);
+        if !self.given_up {
+            let command = self.steer();
+            self.vehicle.command(&command)?;
+            self.command = Some(command);
+        }
         self.tell_state();
         self.tick += 1;
         Ok(())
@@ -230,7 +246,7 @@ impl<V: Vehicle> FrontSeat<V> {
     }
 
     fn give_over(&mut self) {
-        if !self.plan.leave(self.senses.position) {
+        if self.given_up || !self.plan.leave(self.senses.position) {
             return;
         }
         self.happenings.push(Happening::Taken(self.senses.position, self.plan.row()));
@@ -303,7 +319,8 @@ impl<V: Vehicle> FrontSeat<V> {
     fn tell_samples(&mut self) {
         let snapshot = std::mem::take(&mut self.snapshot);
         let heading = self.senses.heading;
-        for sample in &snapshot.samples {
+        // On the wire there is no number for what is none.
+        for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
             let Some(channel) = self.vehicle.channels().get(sample.channel as usize) else { continue };
             let [a, b, ..] = sample.reading;
             match channel.name.as_str() {
@@ -346,7 +363,9 @@ impl<V: Vehicle> FrontSeat<V> {
 
     fn mode(&self) -> Mode {
         let closest = if self.plan.returns_to_closest_point() { Mode::CLOSEST_POINT } else { 0 };
-        if self.is_driven() {
+        if self.given_up {
+            Mode::new(Phase::Over, Mode::NOT_ALLOWED)
+        } else if self.is_driven() {
             Mode::new(Phase::InMission, closest | Mode::ENABLED | Mode::ACTIVE)
         } else if self.plan.is_over() {
             Mode::new(Phase::Over, 0)

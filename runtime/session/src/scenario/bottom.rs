@@ -30,9 +30,7 @@ pub fn grid(understood: &mut Understood, c: &Clause, files: &Files, frame: Optio
         share: (c.number("northward")?, c.number("eastward")?),
         scale: c.number("scale")?,
     };
-    let bytes = files
-        .data(&path, FILE_BYTES_MAX)
-        .map_err(|error| Wrong(vec![Fault { message: error.message, help: error.help }]))?;
+    let bytes = files.data(&path, FILE_BYTES_MAX)?;
     let in_file = |fault: albacore_bathymetry::Fault| Fault {
         message: format!("`{path}`: {}", fault.message),
         help: Some(fault.help),

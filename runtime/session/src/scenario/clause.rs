@@ -68,7 +68,7 @@ impl<'a> Clause<'a> {
 
     pub fn clause(&self, name: &str) -> Option<Clause<'a>> {
         match self.value(name) {
-            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, words: self.words }),
+            Some(ScenarioValue::Clause(clause)) => Some(Clause { clause, ..*self }),
             _ => None,
         }
     }

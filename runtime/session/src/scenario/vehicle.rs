@@ -46,7 +46,7 @@ fn submersible(c: &Clause) -> Result<SubmersibleHull, String> {
     Ok(SubmersibleHull {
         speed_max: c.number("speed_max")?,
         fin_max: c.number("fin_max")?,
-        rpm_max: 60.0 * c.number("turns_max")?,
+        turns_max: c.number("turns_max")?,
         step: c.number("step")?,
     })
 }

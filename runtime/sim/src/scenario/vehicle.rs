@@ -111,21 +111,22 @@ pub struct SubmersibleHull {
     pub speed_max: f64,
     /// The greatest angle of its fins to either side, rad.
     pub fin_max: f64,
-    /// The greatest turns of its propeller, 1/min.
-    pub rpm_max: f64,
+    /// The greatest turns of its propeller, 1/s.
+    pub turns_max: f64,
     /// Time step of the integration, s: a tick is a whole number of steps.
     pub step: f64,
 }
 
 impl SubmersibleHull {
-    /// The published limits of the plant after Fossen.
+    /// The published limits of the plant after Fossen: 1525 turns a minute.
     pub fn fossen() -> Self {
-        SubmersibleHull { speed_max: 2.5, fin_max: 15.0 * PI / 180.0, rpm_max: 1525.0, step: 0.01 }
+        SubmersibleHull { speed_max: 2.5, fin_max: 15.0 * PI / 180.0, turns_max: 25.42, step: 0.01 }
     }
 
-    /// Those of the plant after Prestero. Its propeller is published at 1500 rpm and 1.54 m/s; more is drawn out from there.
+    /// Those of the plant after Prestero. Its propeller is published at 1500 turns a minute and 1.54 m/s; that it can do 2500 is
+    /// drawn out from there.
     pub fn prestero() -> Self {
-        SubmersibleHull { rpm_max: 2500.0, ..SubmersibleHull::fossen() }
+        SubmersibleHull { turns_max: 41.67, ..SubmersibleHull::fossen() }
     }
 
     /// Steps in a tick.
@@ -133,9 +134,14 @@ impl SubmersibleHull {
         (TICK_S / self.step).round().max(1.0) as u32
     }
 
+    /// The greatest turns of its propeller, 1/min.
+    fn rpm_max(&self) -> f64 {
+        60.0 * self.turns_max
+    }
+
     /// What its fins and its propeller can do.
     pub fn limits(&self) -> ActuatorLimits {
-        ActuatorLimits { fin: self.fin_max, rpm: self.rpm_max, ..ActuatorLimits::default() }
+        ActuatorLimits { fin: self.fin_max, rpm: self.rpm_max(), ..ActuatorLimits::default() }
     }
 
     /// What of it cannot be; `possible` is the speed that its greatest turns give, m/s.
@@ -145,12 +151,12 @@ impl SubmersibleHull {
             self.fin_max > 0.0 && self.fin_max <= FIN_MAX,
             format!("`vehicle.hull.fin_max` is {} rad: it must be above 0 and at most {FIN_MAX}", self.fin_max),
         );
-        objections.positive("vehicle.hull.rpm_max", self.rpm_max);
+        objections.positive("vehicle.hull.turns_max", self.turns_max);
         objections.unless(
             self.speed_max <= possible || !possible.is_finite(),
             format!(
-                "`vehicle.hull.speed_max` is {} m/s: {} rpm, its `rpm_max`, give {possible:.2} m/s",
-                self.speed_max, self.rpm_max
+                "`vehicle.hull.speed_max` is {} m/s: its `turns_max` of {} Hz gives {possible:.2} m/s at most",
+                self.speed_max, self.turns_max
             ),
         );
         let steps = TICK_S / self.step;
@@ -236,9 +242,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
     match &v.hull {
         HullSetup::Kinematic(hull) => check_kinematic(hull, objections),
-        HullSetup::Fossen(hull) => hull.check(hull::speed_possible(&Fossen::new(), hull.rpm_max), objections),
+        HullSetup::Fossen(hull) => hull.check(hull::speed_possible(&Fossen::new(), hull.rpm_max()), objections),
         HullSetup::Prestero(hull, crossflow) => {
-            hull.check(hull::speed_possible(&Prestero::new(*crossflow), hull.rpm_max), objections);
+            hull.check(hull::speed_possible(&Prestero::new(*crossflow), hull.rpm_max()), objections);
         }
     }
 }

@@ -1,0 +1,240 @@
+//! Whether what the sensors tell can be true: a watch over all that comes from the vehicle.
+//!
+//! A [`Vigil`] looks at every snapshot and at what was commanded, knows nothing else, and says what it sees once when it begins
+//! and once when it is over. It changes nothing: what a mission does about a bad sensor is the mission's to say. In simulation
+//! and on a link it is the same. What it cannot see is told in `docs/faults.md`.
+
+mod channel;
+mod commanded;
+mod motion;
+
+use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH};
+use albacore_vehicle::{Command, Control, Reading, Snapshot};
+use channel::Channel;
+use commanded::Commanded;
+use motion::Motion;
+use std::fmt;
+
+pub use channel::Kind;
+
+/// What was seen is over when it was not seen for so many ticks: 15 s.
+const WELL_AFTER_TICKS: u64 = 150;
+/// Depth and altitude add up to the depth of the water, but for this, m, and for a while.
+const SUM_MAX: f64 = 2.0;
+const UNEVEN_TICKS: u64 = 100;
+
+/// The channels that are watched.
+const WATCHED: [(u16, Kind); 8] = [
+    (POSITION, Kind::Position),
+    (COURSE, Kind::Course),
+    (HEADING, Kind::Heading),
+    (SPEED, Kind::Speed),
+    (DEPTH, Kind::Depth),
+    (ALTITUDE, Kind::Altitude),
+    (FLOW, Kind::Flow),
+    (CHEMICAL, Kind::Chemical),
+];
+
+/// Something that is not as it should be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sight {
+    /// No sample for five of its periods, and for 2 s.
+    Silent(Kind),
+    /// A number that is none.
+    NotANumber(Kind),
+    /// A number that cannot be measured.
+    OutOfRange(Kind),
+    /// A change that no vehicle can make.
+    Jumps(Kind),
+    /// The same number again and again, where it must change.
+    Stuck(Kind),
+    /// The positions move otherwise than speed tells.
+    SpeedAgainstPosition,
+    /// The positions move elsewhere than course tells.
+    CourseAgainstPosition,
+    /// The way through the water, as course, speed and flow tell it, is not where the nose points.
+    HeadingAgainstMotion,
+    /// Depth and altitude are not the depth of the water.
+    DepthAgainstWater,
+    /// The heading stays far from the one commanded.
+    HeadingNotAsCommanded,
+    /// The depth stays away from the one commanded.
+    DepthNotAsCommanded,
+    /// The altitude stays away from the one commanded.
+    AltitudeNotAsCommanded,
+}
+
+/// A sight that begins or is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sighting {
+    /// What.
+    pub sight: Sight,
+    /// Whether it begins.
+    pub begins: bool,
+}
+
+impl fmt::Display for Sight {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Sight::Silent(kind) => write!(f, "{} silent", kind.name()),
+            Sight::NotANumber(kind) => write!(f, "{} not a number", kind.name()),
+            Sight::OutOfRange(kind) => write!(f, "{} out of range", kind.name()),
+            Sight::Jumps(kind) => write!(f, "{} jumps", kind.name()),
+            Sight::Stuck(kind) => write!(f, "{} stuck", kind.name()),
+            Sight::SpeedAgainstPosition => f.write_str("speed and position disagree"),
+            Sight::CourseAgainstPosition => f.write_str("course and position disagree"),
+            Sight::HeadingAgainstMotion => f.write_str("heading and motion disagree"),
+            Sight::DepthAgainstWater => f.write_str("depth and altitude disagree with the water's depth"),
+            Sight::HeadingNotAsCommanded => f.write_str("heading not as commanded"),
+            Sight::DepthNotAsCommanded => f.write_str("depth not as commanded"),
+            Sight::AltitudeNotAsCommanded => f.write_str("altitude not as commanded"),
+        }
+    }
+}
+
+impl fmt::Display for Sighting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let what = if self.begins { "detected" } else { "again well" };
+        write!(f, "{what}: {}", self.sight)
+    }
+}
+
+/// The watch of one run.
+#[derive(Clone, Debug)]
+pub struct Vigil {
+    channels: [Channel; WATCHED.len()],
+    motion: Motion,
+    commanded: Commanded,
+    /// For how many ticks depth and altitude have not added up.
+    uneven: u64,
+    sights: Sights,
+}
+
+/// What was told by a channel in a tick, where it can be believed by itself.
+#[derive(Clone, Copy, Debug)]
+struct Told {
+    reading: Reading,
+    /// For how many ticks it has been exactly the same.
+    same: u64,
+    /// Whether the channel has shown that it never stays the same for long.
+    lively: bool,
+}
+
+/// What was told in a tick.
+#[derive(Clone, Copy, Debug, Default)]
+struct Heard {
+    tick: u64,
+    position: Option<Told>,
+    course: Option<Told>,
+    heading: Option<Told>,
+    speed: Option<Told>,
+    depth: Option<Told>,
+    altitude: Option<Told>,
+    flow: Option<Told>,
+}
+
+/// What is seen, and since when not any more.
+#[derive(Clone, Debug, Default)]
+struct Sights {
+    tick: u64,
+    /// What is seen now, and the tick at which it was seen last.
+    seen: Vec<(Sight, u64)>,
+    told: Vec<Sighting>,
+}
+
+impl Default for Vigil {
+    fn default() -> Self {
+        Vigil {
+            channels: WATCHED.map(|(_, kind)| Channel::new(kind)),
+            motion: Motion::default(),
+            commanded: Commanded::default(),
+            uneven: 0,
+            sights: Sights::default(),
+        }
+    }
+}
+
+impl Vigil {
+    /// Looks at what came in a tick. `command` is the last that was sent.
+    pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<Sighting> {
+        self.sights.tick = tick;
+        let mut heard = Heard { tick, ..Heard::default() };
+        let mut water_depth = None;
+        for sample in &snapshot.samples {
+            match WATCHED.iter().position(|(channel, _)| *channel == sample.channel) {
+                Some(index) => {
+                    let told = self.channels[index].hear(tick, sample.reading, &mut self.sights);
+                    heard.take(sample.channel, told);
+                }
+                None if sample.channel == WATER_DEPTH => water_depth = Some(sample.reading[0]),
+                None => {}
+            }
+        }
+        for channel in &mut self.channels {
+            channel.wait(tick, &mut self.sights);
+        }
+        let command = command.filter(|_| snapshot.control == Control::InControl);
+        self.motion.look(&heard, &mut self.sights);
+        self.commanded.look(&heard, command, self.motion.speed(), &mut self.sights);
+        self.add_up(&heard, water_depth);
+        self.sights.settle()
+    }
+
+    /// Depth and altitude add up to the depth of the water.
+    fn add_up(&mut self, heard: &Heard, water_depth: Option<f64>) {
+        let (Some(depth), Some(altitude), Some(water)) = (heard.depth, heard.altitude, water_depth) else { return };
+        let even = (depth.reading[0] + altitude.reading[0] - water).abs() <= SUM_MAX;
+        self.uneven = if even { 0 } else { self.uneven + 1 };
+        if self.uneven > UNEVEN_TICKS {
+            self.sights.see(Sight::DepthAgainstWater);
+        }
+    }
+}
+
+impl Heard {
+    fn take(&mut self, channel: u16, told: Option<Told>) {
+        let place = match channel {
+            POSITION => &mut self.position,
+            COURSE => &mut self.course,
+            HEADING => &mut self.heading,
+            SPEED => &mut self.speed,
+            DEPTH => &mut self.depth,
+            ALTITUDE => &mut self.altitude,
+            FLOW => &mut self.flow,
+            _ => return,
+        };
+        *place = told.or(*place);
+    }
+}
+
+impl Sights {
+    fn see(&mut self, sight: Sight) {
+        match self.seen.iter_mut().find(|(known, _)| *known == sight) {
+            Some((_, last)) => *last = self.tick,
+            None => {
+                self.seen.push((sight, self.tick));
+                self.told.push(Sighting { sight, begins: true });
+            }
+        }
+    }
+
+    fn sees(&self, sight: Sight) -> bool {
+        self.seen.iter().any(|(known, _)| *known == sight)
+    }
+
+    /// What has begun, and what is over.
+    fn settle(&mut self) -> Vec<Sighting> {
+        let (tick, told) = (self.tick, &mut self.told);
+        self.seen.retain(|(sight, last)| {
+            let stays = tick < last + WELL_AFTER_TICKS;
+            if !stays {
+                told.push(Sighting { sight: *sight, begins: false });
+            }
+            stays
+        });
+        std::mem::take(told)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,222 @@
+//! One channel by itself: silence, numbers that are none or cannot be, jumps, and a noisy value that stands still.
+
+use super::{Sight, Sights, Told};
+use albacore_geometry::math::PI;
+use albacore_geometry::{Heading, Point};
+use albacore_vehicle::{Reading, TICK_S};
+
+/// Samples from whose times the period is learnt.
+const PERIOD_SAMPLES: u64 = 10;
+/// Silence is so many periods long, and at least so many ticks: 2 s.
+const SILENT_PERIODS: u64 = 5;
+const SILENT_TICKS: u64 = 20;
+/// Changes from which it is learnt whether a channel is noisy.
+const NOISE_CHANGES: u64 = 300;
+/// A channel is noisy where neighbouring differences correlate by less than this: of white noise it is -1/2, of a random walk 0, of
+/// a smooth motion 1.
+const NOISE_CORRELATION: f64 = -0.25;
+/// A noisy value stands still when so many samples are the same. At an end of its scale a sensor may well rest for a while.
+const STUCK_SAMPLES: u64 = 50;
+const STUCK_AT_END_SAMPLES: u64 = 200;
+/// A mean changes with every sample, but for so many that may be refused in a row.
+const MEAN_SAMPLES: u64 = 60;
+const MEAN_SAME_MAX: u64 = 7;
+
+/// What a channel tells of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Where the vehicle believes to be, and its standard deviation.
+    Position,
+    /// The direction over ground.
+    Course,
+    /// Where the nose points.
+    Heading,
+    /// The speed over ground.
+    Speed,
+    /// The depth.
+    Depth,
+    /// The height above the bottom.
+    Altitude,
+    /// The current.
+    Flow,
+    /// The chemical sensor.
+    Chemical,
+}
+
+impl Kind {
+    /// The channel's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Position => "position",
+            Kind::Course => "course",
+            Kind::Heading => "heading",
+            Kind::Speed => "speed",
+            Kind::Depth => "depth",
+            Kind::Altitude => "altitude",
+            Kind::Flow => "flow",
+            Kind::Chemical => "chemical",
+        }
+    }
+
+    fn width(self) -> usize {
+        match self {
+            Kind::Position => 3,
+            Kind::Flow => 2,
+            _ => 1,
+        }
+    }
+
+    /// Whether a reading can be: the ocean is 11 km deep, no tide runs at 10 m/s, no vehicle of ours at 15.
+    fn can_be(self, reading: Reading) -> bool {
+        let [a, b, c, _] = reading;
+        match self {
+            Kind::Position => a.abs() <= 1e5 && b.abs() <= 1e5 && c >= 0.0,
+            Kind::Course | Kind::Heading => a.abs() <= 2.0 * PI,
+            Kind::Speed => (-1.0..=15.0).contains(&a),
+            Kind::Depth | Kind::Altitude => (-1.0..=11_000.0).contains(&a),
+            Kind::Flow => Point::new(a, b).distance(Point::ORIGIN) <= 10.0,
+            Kind::Chemical => (-0.1..=1.1).contains(&a),
+        }
+    }
+
+    /// Whether one reading can follow another after some seconds.
+    fn can_follow(self, now: Reading, before: Reading, time: f64) -> bool {
+        let change = (now[0] - before[0]).abs();
+        match self {
+            Kind::Position => {
+                // A fix may correct what both expect of their errors: six standard deviations, and 5 m for who tells none.
+                let error = (now[2] * now[2] + before[2] * before[2]).sqrt();
+                let moved = Point::new(now[0], now[1]).distance(Point::new(before[0], before[1]));
+                moved <= 10.0 * time + 6.0 * error + 5.0
+            }
+            Kind::Heading => {
+                let turn = Heading::from_radians(now[0]) - Heading::from_radians(before[0]);
+                turn.abs() <= PI / 3.0 * time + PI / 12.0
+            }
+            Kind::Speed => change <= 2.0 * time + 1.0,
+            Kind::Depth => change <= 3.0 * time + 1.0,
+            Kind::Altitude => change <= 5.0 * time + 1.2,
+            Kind::Flow => Point::new(now[0], now[1]).distance(Point::new(before[0], before[1])) <= 1.0,
+            // At rest the course is any, and the edge of a plume is sharp.
+            Kind::Course | Kind::Chemical => true,
+        }
+    }
+}
+
+/// A channel and what is remembered of it.
+#[derive(Clone, Debug)]
+pub(super) struct Channel {
+    kind: Kind,
+    /// Samples so far, and the ticks of the first and of the last.
+    samples: u64,
+    first: u64,
+    last: u64,
+    /// Ticks between samples, once it is learnt.
+    period: Option<u64>,
+    /// The last reading that could be believed, and when it was first told.
+    reading: Option<(Reading, u64)>,
+    /// So many samples are the same as that, and so many were at most.
+    same: u64,
+    same_most: u64,
+    /// So many samples were another than the one before.
+    changes: u64,
+    /// Means of the squared differences of neighbours, and of their products.
+    difference: f64,
+    variance: f64,
+    covariance: f64,
+}
+
+impl Channel {
+    pub fn new(kind: Kind) -> Self {
+        Channel {
+            kind,
+            samples: 0,
+            first: 0,
+            last: 0,
+            period: None,
+            reading: None,
+            same: 0,
+            same_most: 0,
+            changes: 0,
+            difference: 0.0,
+            variance: 0.0,
+            covariance: 0.0,
+        }
+    }
+
+    /// A sample has come; given on when it can be believed by itself.
+    pub fn hear(&mut self, tick: u64, reading: Reading, sights: &mut Sights) -> Option<Told> {
+        let gap = tick - self.last.min(tick);
+        if self.samples == 0 {
+            self.first = tick;
+        }
+        (self.samples, self.last) = (self.samples + 1, tick);
+        if self.samples == PERIOD_SAMPLES + 1 {
+            self.period = Some((tick - self.first) / PERIOD_SAMPLES);
+        }
+        let numbers = &reading[..self.kind.width()];
+        if numbers.iter().any(|x| !x.is_finite()) {
+            sights.see(Sight::NotANumber(self.kind));
+            return None;
+        }
+        if !self.kind.can_be(reading) {
+            sights.see(Sight::OutOfRange(self.kind));
+            return None;
+        }
+        let Some((before, since)) = self.reading else {
+            self.reading = Some((reading, tick));
+            return Some(Told { reading, same: 0, lively: false });
+        };
+        if before == reading {
+            self.same += 1;
+        } else {
+            self.same_most = self.same_most.max(self.same);
+            self.same = 0;
+            self.learn(reading[0] - before[0]);
+        }
+        let since = if self.same > 0 { since } else { tick };
+        self.reading = Some((reading, since));
+        let lively = self.is_lively();
+        if lively && self.kind != Kind::Flow && self.same >= self.stuck_samples(reading[0]) {
+            sights.see(Sight::Stuck(self.kind));
+        }
+        if !self.kind.can_follow(reading, before, gap as f64 * TICK_S) {
+            sights.see(Sight::Jumps(self.kind));
+            return None;
+        }
+        Some(Told { reading, same: tick - since, lively })
+    }
+
+    /// A tick has gone by.
+    pub fn wait(&self, tick: u64, sights: &mut Sights) {
+        let Some(period) = self.period else { return };
+        if tick > self.last + (SILENT_PERIODS * period).max(SILENT_TICKS) {
+            sights.see(Sight::Silent(self.kind));
+        }
+    }
+
+    fn learn(&mut self, difference: f64) {
+        self.changes += 1;
+        let share = 1.0 / self.changes.min(NOISE_CHANGES) as f64;
+        self.variance += share * (difference * difference - self.variance);
+        self.covariance += share * (difference * self.difference - self.covariance);
+        self.difference = difference;
+    }
+
+    /// Whether the channel has shown that it never stays the same for long.
+    fn is_lively(&self) -> bool {
+        match self.kind {
+            Kind::Flow => self.samples >= MEAN_SAMPLES && self.same_most <= MEAN_SAME_MAX,
+            _ => self.changes >= NOISE_CHANGES && self.covariance < NOISE_CORRELATION * self.variance,
+        }
+    }
+
+    fn stuck_samples(&self, value: f64) -> u64 {
+        match self.kind {
+            // At full scale it may rest as long as the water is full of it.
+            Kind::Chemical if value >= 1.0 => u64::MAX,
+            Kind::Chemical | Kind::Altitude | Kind::Depth if value <= 0.0 => STUCK_AT_END_SAMPLES,
+            _ => STUCK_SAMPLES,
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What was told against what was commanded: a vehicle that does not follow, or a sensor that does not tell that it does.
+
+use super::{Heard, Kind, Sight, Sights, Told};
+use albacore_geometry::Heading;
+use albacore_geometry::math::PI;
+use albacore_vehicle::{Command, Vertical};
+
+/// The heading may be so far from the one commanded, rad, and further for so many ticks: 20 s. A slow hull lags behind in a spiral.
+const HEADING_MAX: f64 = 60.0 * PI / 180.0;
+const HEADING_TICKS: u64 = 200;
+/// It stands still for so many ticks while another is commanded: 10 s.
+const HEADING_SAME: u64 = 100;
+/// Below this speed a vehicle cannot steer, m/s.
+const SPEED_MIN: f64 = 0.5;
+/// Depth and altitude are looked at so many ticks apart: 30 s ...
+const LOOK_TICKS: u64 = 300;
+/// ... in which they come nearer to what is commanded by so much, m, or are as near as this, m.
+const NEARER_MIN: f64 = 0.5;
+const NEAR: f64 = 1.5;
+/// A goal that moves by more than this, m, is another one.
+const GOAL_MOVES: f64 = 0.3;
+/// Above this depth a vehicle may be held down by nothing but the surface, m.
+const SURFACE: f64 = 0.3;
+/// A depth that is exactly the same for so many ticks, 20 s, while another is commanded; an altitude for 10 s while the depth
+/// changes by so much, m.
+const DEPTH_SAME: u64 = 200;
+const ALTITUDE_SAME: u64 = 100;
+const DEPTH_CHANGES: f64 = 1.0;
+
+/// What is remembered of how commands are followed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Commanded {
+    /// For how many ticks the heading has been far off.
+    astray: u64,
+    goal: Option<Goal>,
+    /// The depth when the altitude was first told that is still told.
+    depth_then: Option<f64>,
+    depth: f64,
+}
+
+/// A depth or an altitude that is to be reached.
+#[derive(Clone, Copy, Debug)]
+struct Goal {
+    vertical: Vertical,
+    /// The tick of the last look, and how far off it was then, m.
+    since: u64,
+    off: f64,
+    /// It was no nearer at the last look.
+    missed: bool,
+}
+
+impl Commanded {
+    pub fn look(&mut self, heard: &Heard, command: Option<&Command>, speed: f64, sights: &mut Sights) {
+        self.depth = heard.depth.map_or(self.depth, |told| told.reading[0]);
+        self.look_at_altitude(heard.altitude, command, sights);
+        let Some(command) = command else {
+            *self = Commanded { depth: self.depth, ..Commanded::default() };
+            return;
+        };
+        if let Some(told) = heard.heading {
+            let off = (Heading::from_radians(told.reading[0]) - command.heading).abs();
+            let astray = off > HEADING_MAX && speed > SPEED_MIN && command.speed > SPEED_MIN;
+            self.astray = if astray { self.astray + 1 } else { 0 };
+            if self.astray > HEADING_TICKS {
+                sights.see(Sight::HeadingNotAsCommanded);
+            }
+            if self.astray.min(told.same) > HEADING_SAME {
+                sights.see(Sight::Stuck(Kind::Heading));
+            }
+        }
+        self.look_at_goal(heard, command.vertical, sights);
+    }
+
+    /// Every 30 s: is it nearer?
+    fn look_at_goal(&mut self, heard: &Heard, vertical: Vertical, sights: &mut Sights) {
+        let (told, wanted, sight) = match vertical {
+            Vertical::Depth(depth) => (heard.depth, depth, Sight::DepthNotAsCommanded),
+            Vertical::Altitude(altitude) => (heard.altitude, altitude, Sight::AltitudeNotAsCommanded),
+        };
+        let Some(told) = told else { return };
+        // Where the water is too shallow for an altitude the vehicle swims at the surface.
+        let cannot = matches!(vertical, Vertical::Altitude(_)) && self.depth < SURFACE;
+        let off = if cannot { 0.0 } else { (told.reading[0] - wanted).abs() };
+        let now = Goal { vertical, since: heard.tick, off, missed: false };
+        let goal = self.goal.get_or_insert(now);
+        if !is_same(goal.vertical, vertical) {
+            *goal = now;
+        } else if heard.tick >= goal.since + LOOK_TICKS {
+            *goal = Goal { missed: off > NEAR && off > goal.off - NEARER_MIN, ..now };
+        }
+        if goal.missed {
+            sights.see(sight);
+            let is_depth = matches!(vertical, Vertical::Depth(_));
+            if is_depth && told.same > DEPTH_SAME {
+                sights.see(Sight::Stuck(Kind::Depth));
+            }
+        }
+    }
+
+    /// An altitude that stays the same while the depth changes, and is not what is held.
+    fn look_at_altitude(&mut self, told: Option<Told>, command: Option<&Command>, sights: &mut Sights) {
+        let Some(told) = told else { return };
+        let is_held = !command.is_some_and(|c| matches!(c.vertical, Vertical::Depth(_)));
+        if told.same == 0 || is_held {
+            self.depth_then = None;
+            return;
+        }
+        let then = *self.depth_then.get_or_insert(self.depth);
+        if told.same > ALTITUDE_SAME && (self.depth - then).abs() > DEPTH_CHANGES {
+            sights.see(Sight::Stuck(Kind::Altitude));
+        }
+    }
+}
+
+fn is_same(a: Vertical, b: Vertical) -> bool {
+    match (a, b) {
+        (Vertical::Depth(a), Vertical::Depth(b)) | (Vertical::Altitude(a), Vertical::Altitude(b)) => {
+            (a - b).abs() <= GOAL_MOVES
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,97 @@
+use super::*;
+use albacore_geometry::{Heading, Point};
+use albacore_vehicle::{TICK_S, Vertical};
+
+/// What a healthy vehicle tells that swims a square at 2 m/s, 3 m deep, and what one of them makes of it.
+fn watched(ticks: u64, mut spoil: impl FnMut(u64, &mut Snapshot)) -> Vec<(u64, String)> {
+    let mut vigil = Vigil::default();
+    let mut position = Point::ORIGIN;
+    let mut told = Vec::new();
+    for tick in 0..ticks {
+        let heading = Heading::from_degrees(90.0 * (tick / 300) as f64);
+        position += TICK_S * 2.0 * heading.unit();
+        let wobble = (tick * 7_919 % 101) as f64 / 1000.0;
+        let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
+        snapshot.push(POSITION, &[position.north, position.east, 0.5]);
+        snapshot.push(COURSE, &[heading.radians()]);
+        snapshot.push(HEADING, &[heading.radians()]);
+        snapshot.push(SPEED, &[2.0]);
+        snapshot.push(DEPTH, &[3.0]);
+        snapshot.push(ALTITUDE, &[5.0 + wobble]);
+        snapshot.push(WATER_DEPTH, &[8.0 + wobble]);
+        snapshot.push(CHEMICAL, &[wobble / 10.0]);
+        if tick % 20 == 0 {
+            snapshot.push(FLOW, &[wobble / 10.0, 0.0]);
+        }
+        spoil(tick, &mut snapshot);
+        let command = Command { heading, speed: 2.0, vertical: Vertical::Depth(3.0) };
+        let sightings = vigil.look(tick, &snapshot, Some(&command));
+        told.extend(sightings.iter().map(|s| (tick, s.to_string())));
+    }
+    // A corner is turned at once here, which no vehicle does.
+    told.retain(|(_, what)| !what.ends_with("heading jumps"));
+    told
+}
+
+/// Spoils the readings of a channel from tick 1000 to 1999.
+fn spoilt(channel: u16, mut spoil: impl FnMut(u64, &mut Reading) -> bool) -> Vec<(u64, String)> {
+    watched(4000, |tick, snapshot| {
+        if (1000..2000).contains(&tick) {
+            snapshot.samples.retain_mut(|s| s.channel != channel || spoil(tick, &mut s.reading));
+        }
+    })
+}
+
+#[test]
+fn a_healthy_vehicle_is_left_alone() {
+    assert_eq!(watched(20_000, |_, _| {}), []);
+}
+
+#[test]
+fn silence_is_told_after_five_periods_and_two_seconds() {
+    let told = |tick, what: &str| (tick, what.to_string());
+    let expected = [told(1020, "detected: depth silent"), told(2149, "again well: depth silent")];
+    assert_eq!(spoilt(DEPTH, |_, _| false), expected);
+    let expected = [told(1081, "detected: flow silent"), told(2149, "again well: flow silent")];
+    assert_eq!(spoilt(FLOW, |_, _| false), expected);
+}
+
+#[test]
+fn each_trouble_has_its_name() {
+    let first = |channel, spoil: &mut dyn FnMut(u64, &mut Reading) -> bool| {
+        let told = spoilt(channel, spoil);
+        let over = told.iter().filter(|(_, what)| what.starts_with("again well")).count();
+        assert_eq!(2 * over, told.len(), "{told:?}");
+        told.first().map(|(tick, what)| (*tick, what.clone()))
+    };
+    let set = |value: f64| {
+        move |_: u64, reading: &mut Reading| {
+            reading[0] = value;
+            true
+        }
+    };
+    let told = |tick, what: &str| Some((tick, format!("detected: {what}")));
+    assert_eq!(first(SPEED, &mut set(f64::NAN)), told(1000, "speed not a number"));
+    assert_eq!(first(CHEMICAL, &mut set(1.5)), told(1000, "chemical out of range"));
+    assert_eq!(first(POSITION, &mut set(5000.0)), told(1000, "position jumps"));
+    assert_eq!(first(CHEMICAL, &mut set(0.004)), told(1050, "chemical stuck"));
+    assert_eq!(first(ALTITUDE, &mut set(5.02)), told(1050, "altitude stuck"));
+    assert_eq!(first(SPEED, &mut set(2.6)).map(|(_, what)| what), told(0, "speed and position disagree").map(|t| t.1));
+    assert_eq!(first(DEPTH, &mut set(7.0)), told(1000, "depth jumps"));
+    let slowly = &mut |tick: u64, reading: &mut Reading| {
+        reading[0] = 3.0 + 0.01 * (tick - 1000) as f64;
+        true
+    };
+    assert_eq!(first(DEPTH, slowly).map(|(_, what)| what), told(0, "depth not as commanded").map(|t| t.1));
+    let mut frozen = None;
+    let stuck = &mut |_: u64, reading: &mut Reading| {
+        *reading = *frozen.get_or_insert(*reading);
+        true
+    };
+    assert_eq!(first(POSITION, stuck), told(1050, "position stuck"));
+    let aside = &mut |_: u64, reading: &mut Reading| {
+        reading[0] += 0.35;
+        true
+    };
+    assert_eq!(first(COURSE, aside).map(|(_, what)| what), told(0, "course and position disagree").map(|t| t.1));
+}

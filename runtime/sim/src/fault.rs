@@ -1,0 +1,162 @@
+//! What goes wrong: faults of sensors and of the vehicle, each for a while.
+//!
+//! A fault of a sensor changes its samples on their way to who drives, and nothing else: the vehicle's own autopilot keeps the
+//! sensors that it has. Which channels a sensor has, and what each disorder makes of them, is said at [`Sensor`] and
+//! [`Disorder`]. The kinds are those of PX4's failure injection.
+
+mod filter;
+mod sensor;
+mod under_way;
+
+pub use sensor::Sensor;
+pub(crate) use under_way::Faults;
+
+use crate::scenario::{Objections, Scenario};
+use albacore_geometry::Vector;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Something that goes wrong for a while.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fault {
+    /// What.
+    pub trouble: Trouble,
+    /// When it begins, s after tick 0.
+    pub from: f64,
+    /// When it is over, s after tick 0; none: it lasts to the end.
+    pub to: Option<f64>,
+}
+
+/// What can go wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Trouble {
+    /// A sensor tells something else than what it measures.
+    Sensor(Sensor, Disorder),
+    /// The vehicle does not hear commands: it goes on with the last that it heard.
+    IgnoredCommands,
+    /// Water gets in: the vehicle takes control back for good, and floats up.
+    Leak,
+    /// The rudder stands at a share of its greatest deflection, positive to starboard, whatever the heading asked for.
+    StuckRudder(f64),
+    /// So much current is added to that of the water about the vehicle, m/s toward. The plume is not carried by it.
+    StrongCurrent(Vector),
+}
+
+/// What a sensor's samples become. Where a disorder needs the last sample before it and there was none, it lets the first pass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Disorder {
+    /// No samples come.
+    Off,
+    /// Samples come as ever; each is the last one from before.
+    Stuck,
+    /// Random numbers from far below to far above what the sensor can measure, evenly.
+    Garbage,
+    /// A constant error that could be true, so many times the usual one of [`Sensor`]. It is the same for a whole run.
+    Wrong(f64),
+    /// Samples come so many seconds apart: those between are lost.
+    Slow(f64),
+    /// Samples come so many seconds late; at first therefore none.
+    Delayed(f64),
+    /// Samples come and stay away by turns of random length, exponentially distributed about these means, s. It begins with
+    /// none.
+    Intermittent {
+        /// How long samples come.
+        on: f64,
+        /// How long they stay away.
+        off: f64,
+    },
+    /// Each number is none, or infinite.
+    NotANumber,
+    /// Positions are displaced by so much, m: a bad fix.
+    Jump(Vector),
+    /// The gyroscope turns no faster than this, rad/s: what the vehicle turns faster is missing from heading and course.
+    Saturated(f64),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.trouble.fmt(f)
+    }
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Trouble::Sensor(sensor, disorder) => write!(f, "{} {disorder}", sensor.name()),
+            Trouble::IgnoredCommands => f.write_str("ignored commands"),
+            Trouble::Leak => f.write_str("leak"),
+            Trouble::StuckRudder(_) => f.write_str("stuck rudder"),
+            Trouble::StrongCurrent(_) => f.write_str("strong current"),
+        }
+    }
+}
+
+impl fmt::Display for Disorder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Disorder::Off => "off",
+            Disorder::Stuck => "stuck",
+            Disorder::Garbage => "garbage",
+            Disorder::Wrong(_) => "wrong",
+            Disorder::Slow(_) => "slow",
+            Disorder::Delayed(_) => "delayed",
+            Disorder::Intermittent { .. } => "intermittent",
+            Disorder::NotANumber => "not a number",
+            Disorder::Jump(_) => "jumped",
+            Disorder::Saturated(_) => "saturated",
+        })
+    }
+}
+
+/// What of the faults cannot be.
+pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+    for fault in &scenario.faults {
+        let name = |what: &str| format!("fault {fault}: {what}");
+        objections.not_negative(&name("from"), fault.from);
+        if let Some(to) = fault.to {
+            objections.unless(
+                to > fault.from && to.is_finite(),
+                format!("`{}` is {to} s: it must be after `from`, {} s", name("to"), fault.from),
+            );
+        }
+        match fault.trouble {
+            Trouble::Sensor(sensor, disorder) => disorder.check(sensor, &name, objections),
+            Trouble::StuckRudder(share) => objections.unless(
+                (-1.0..=1.0).contains(&share),
+                format!("`{}` is {share}: a rudder goes from -1 to 1", name("rudder")),
+            ),
+            Trouble::StrongCurrent(current) => objections.flow(&name("current"), current),
+            Trouble::IgnoredCommands | Trouble::Leak => {}
+        }
+    }
+}
+
+impl Disorder {
+    fn check(self, sensor: Sensor, name: &dyn Fn(&str) -> String, objections: &mut Objections) {
+        let mut only_of = |only: Sensor| {
+            objections.unless(
+                sensor == only,
+                format!("the {} cannot be {self}: only the {} can", sensor.name(), only.name()),
+            );
+        };
+        match self {
+            Disorder::Jump(by) => {
+                only_of(Sensor::Position);
+                objections.finite(&name("by"), [by.north, by.east]);
+            }
+            Disorder::Saturated(rate) => {
+                only_of(Sensor::Heading);
+                objections.not_negative(&name("rate"), rate);
+            }
+            Disorder::Wrong(size) => objections.finite(&name("size"), [size, 0.0]),
+            Disorder::Slow(every) => objections.positive(&name("every"), every),
+            Disorder::Delayed(by) => objections.positive(&name("by"), by),
+            Disorder::Intermittent { on, off } => {
+                objections.positive(&name("on"), on);
+                objections.positive(&name("off"), off);
+            }
+            Disorder::Off | Disorder::Stuck | Disorder::Garbage | Disorder::NotANumber => {}
+        }
+    }
+}

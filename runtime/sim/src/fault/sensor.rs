@@ -1,0 +1,112 @@
+//! Which channels each sensor has, what it can measure, and how wrong it is when it is plausibly wrong.
+
+use albacore_geometry::math::PI;
+use albacore_geometry::{Heading, Vector};
+use albacore_vehicle::Reading;
+use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED};
+use serde::{Deserialize, Serialize};
+
+/// A sensor that can fail, with the channels that come from it alone.
+///
+/// `water_depth` is the sum of depth and altitude: it fails with either, and stays away where one of them does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Sensor {
+    /// Dead reckoning and fixes: `position` with its standard deviation. Wrong: 50 m off, somewhere.
+    Position,
+    /// The compass: `heading`, and `course`, for the velocity over ground is measured by the vehicle and turned with the
+    /// compass. Wrong: 20 degrees clockwise.
+    Heading,
+    /// The Doppler log: `speed`. Wrong: 0.5 m/s too fast.
+    Speed,
+    /// The pressure gauge: `depth`. Wrong: 2 m too deep.
+    Depth,
+    /// The echo sounder: `altitude`. Wrong: 2 m too high.
+    Altitude,
+    /// The Doppler profiler: `flow`. Wrong: 0.1 m/s added, toward somewhere.
+    Flow,
+    /// The fluorometer: `chemical`. Wrong: 5 % of full scale added, up to full scale.
+    Chemical,
+}
+
+impl Sensor {
+    /// All of them.
+    pub const ALL: [Sensor; 7] = [
+        Sensor::Position,
+        Sensor::Heading,
+        Sensor::Speed,
+        Sensor::Depth,
+        Sensor::Altitude,
+        Sensor::Flow,
+        Sensor::Chemical,
+    ];
+
+    /// What a scenario calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Sensor::Position => "position",
+            Sensor::Heading => "heading",
+            Sensor::Speed => "speed",
+            Sensor::Depth => "depth",
+            Sensor::Altitude => "altitude",
+            Sensor::Flow => "flow",
+            Sensor::Chemical => "chemical",
+        }
+    }
+
+    /// Whether a channel comes from it.
+    pub(crate) fn has(self, channel: u16) -> bool {
+        match self {
+            Sensor::Position => channel == POSITION,
+            Sensor::Heading => channel == HEADING || channel == COURSE,
+            Sensor::Speed => channel == SPEED,
+            Sensor::Depth => channel == DEPTH,
+            Sensor::Altitude => channel == ALTITUDE,
+            Sensor::Flow => channel == FLOW,
+            Sensor::Chemical => channel == CHEMICAL,
+        }
+    }
+
+    /// How many numbers of a reading it uses.
+    pub(crate) fn width(self) -> usize {
+        match self {
+            Sensor::Position => 3,
+            Sensor::Flow => 2,
+            _ => 1,
+        }
+    }
+
+    /// The greatest size of what comes as garbage: some times what can be.
+    pub(crate) fn garbage(self) -> f64 {
+        match self {
+            Sensor::Position => 1e6,
+            Sensor::Heading => 6.0 * PI,
+            Sensor::Speed => 30.0,
+            Sensor::Depth | Sensor::Altitude => 20_000.0,
+            Sensor::Flow => 20.0,
+            Sensor::Chemical => 3.0,
+        }
+    }
+
+    /// A reading with the usual error, so many times, where an error has a direction in that one.
+    pub(crate) fn wrong(self, reading: Reading, size: f64, toward: Heading) -> Reading {
+        let [a, b, c, d] = reading;
+        let moved = |by: f64| {
+            let off = size * by * toward.unit();
+            let there = Vector::new(a, b) + off;
+            [there.north, there.east, c, d]
+        };
+        match self {
+            Sensor::Position => moved(50.0),
+            Sensor::Flow => moved(0.1),
+            Sensor::Heading => [turned(a, size * 20.0 * PI / 180.0), b, c, d],
+            Sensor::Speed => [(a + size * 0.5).max(0.0), b, c, d],
+            Sensor::Depth | Sensor::Altitude => [(a + size * 2.0).max(0.0), b, c, d],
+            Sensor::Chemical => [(a + size * 0.05).clamp(0.0, 1.0), b, c, d],
+        }
+    }
+}
+
+/// A heading, rad, turned by an angle, rad.
+pub(crate) fn turned(heading: f64, by: f64) -> f64 {
+    (Heading::from_radians(heading) + by).radians()
+}

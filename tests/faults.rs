@@ -1,0 +1,151 @@
+//! Every fault of every sensor, and of the vehicle, on a mission that uses them all: nothing panics or hangs, no command is out of
+//! its limits, and each fault is named in the trace. More seeds, and the page of what was noticed, are made by
+//!
+//! ```text
+//! FAULT_SEEDS=100 FAULT_PAGE=docs/faults.md cargo test --release --test faults
+//! ```
+
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
+mod faults {
+    pub mod guard;
+    pub mod page;
+}
+
+use albacore_session::{Outcome, Plan, Run, Running, load, load_faults};
+use faults::guard::{Guard, Problems};
+use std::path::Path;
+
+const SURVEY: &str = "tests/faults/survey.alb";
+/// A run that lasts longer hangs: the mission's limit of 10 min, its recovery of 3 min, and what a hold may add, in ticks.
+const TICKS_MAX: u64 = 9_000;
+
+const SENSORS: [&str; 7] = ["position", "heading", "speed", "depth", "altitude", "flow", "chemical"];
+const DISORDERS: [&str; 8] = ["off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent", "not_a_number"];
+/// What else can go wrong.
+const OTHERS: [&str; 9] = [
+    "position, jump(10 m)",
+    "position, jump(200 m)",
+    "position, jump(10 km)",
+    "heading, saturated(3 deg/s)",
+    "ignored_commands",
+    "leak",
+    "stuck_rudder(at: 30 %)",
+    "strong_current(1.5 m/s toward 90 deg)",
+    "strong_current(4 m/s toward 30 deg)",
+];
+
+/// What came of a run.
+struct Told {
+    outcome: Outcome,
+    reason: String,
+    /// What was detected while the fault lasted: what, and so many seconds after its begin.
+    detected: Vec<(String, f64)>,
+    /// What was wrong with the run itself.
+    broken: Vec<String>,
+}
+
+/// The fault lasts from here to there, s.
+const FROM: f64 = 120.0;
+const TO: f64 = 360.0;
+
+fn run(plan: &Plan, seed: u64) -> Told {
+    let problems = Problems::default();
+    let vehicle = Guard::new(plan, seed, &problems);
+    let mut run = Run::on_link(plan, seed, Box::new(vehicle)).unwrap();
+    let mut outcome = None;
+    for _ in 0..TICKS_MAX {
+        if let Running::Over(over) = run.step() {
+            outcome = Some(over);
+            break;
+        }
+    }
+    let mut broken = problems.take();
+    if outcome.is_none() {
+        broken.push(format!("it has not ended after {TICKS_MAX} ticks"));
+    }
+    let trace = run.trace().to_string();
+    let line = |line: &str| {
+        let (time, what) = line.trim().split_once(" s  vehicle  ")?;
+        Some((time.trim().parse::<f64>().ok()?, what.to_string()))
+    };
+    let notices: Vec<(f64, String)> = trace.lines().filter_map(line).collect();
+    let ended = run.tick() as f64 / 10.0;
+    for fault in &plan.scenario.faults {
+        let named = |what: &str, at: f64| notices.contains(&(at, format!("{what}: {fault}")));
+        if !named("fault", FROM) || (ended > TO + 0.2 && !named("fault over", TO)) {
+            broken.push(format!("the trace does not name `{fault}`"));
+        }
+    }
+    let detected =
+        notices.iter().filter_map(|(at, what)| Some((what.strip_prefix("detected: ")?.to_string(), at - FROM)));
+    Told {
+        outcome: outcome.unwrap_or(Outcome::Failed),
+        reason: run.summary(0.0).reason,
+        detected: detected.filter(|(_, after)| *after < TO - FROM).collect(),
+        broken,
+    }
+}
+
+fn plan(fault: Option<&str>) -> Plan {
+    let script = load(Path::new(SURVEY), None, &[]).unwrap();
+    assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+    let plan = Plan::new(&script, SURVEY, None, None).unwrap();
+    let text = fault.map(|fault| format!("fault({fault}, from: {FROM} s, to: {TO} s)"));
+    let faults = load_faults(&text.into_iter().collect::<Vec<_>>());
+    assert!(faults.is_sound(), "{fault:?}: {:?}", faults.findings);
+    plan.with_faults(&faults).unwrap()
+}
+
+fn seeds() -> u64 {
+    std::env::var("FAULT_SEEDS").ok().map_or(2, |text| text.parse().unwrap())
+}
+
+/// One clause each; gives what was told, seed by seed.
+fn all_seeds(fault: &str) -> Vec<Told> {
+    let plan = plan(Some(fault));
+    assert_eq!(plan.scenario.faults.len(), 1);
+    (1..=seeds()).map(|seed| run(&plan, seed)).collect()
+}
+
+#[test]
+fn nothing_is_detected_where_nothing_is_wrong() {
+    let plan = plan(None);
+    for seed in 1..=seeds() {
+        let told = run(&plan, seed);
+        assert_eq!((told.outcome, &told.detected, &told.broken), (Outcome::Completed, &vec![], &vec![]), "seed {seed}");
+    }
+}
+
+#[test]
+fn every_fault_is_survived_and_named() {
+    let matrix = SENSORS.iter().flat_map(|sensor| DISORDERS.map(|disorder| format!("{sensor}, {disorder}")));
+    let all: Vec<String> = matrix.chain(OTHERS.map(String::from)).collect();
+    let (mut rows, mut broken) = (Vec::new(), Vec::new());
+    for fault in &all {
+        let told = all_seeds(fault);
+        for (told, seed) in told.iter().zip(1..) {
+            broken.extend(told.broken.iter().map(|what| format!("{fault}, seed {seed}: {what}")));
+        }
+        rows.push(faults::page::row(fault, &told));
+    }
+    assert_eq!(all.len(), 56 + OTHERS.len());
+    assert!(broken.is_empty(), "{} violations:\n{}", broken.len(), broken.join("\n"));
+    if let Ok(page) = std::env::var("FAULT_PAGE") {
+        faults::page::write(Path::new(&page), &rows, seeds());
+    }
+}
+
+/// These must be noticed on every seed: what they change can be seen.
+#[test]
+fn what_can_be_seen_is_detected() {
+    for sensor in SENSORS {
+        for disorder in ["off", "garbage", "slow", "delayed", "intermittent", "not_a_number"] {
+            let fault = format!("{sensor}, {disorder}");
+            for (told, seed) in all_seeds(&fault).iter().zip(1..) {
+                let own = told.detected.iter().find(|(what, _)| what.starts_with(sensor));
+                assert!(own.is_some_and(|(_, after)| *after <= 40.0), "{fault}, seed {seed}: {:?}", told.detected);
+            }
+        }
+    }
+}
