@@ -23,7 +23,9 @@ impl Broken {
         for item in modules.iter().flat_map(|module| &module.tree.items) {
             match item {
                 Item::Activity(a) => whole.push((a.name.span, a.name.span.to(a.body.span))),
-                Item::Scenario { name, body, .. } => whole.push((name.span, name.span.to(body.span))),
+                Item::Scenario { name, body, .. } | Item::Vehicle { name, body } => {
+                    whole.push((name.span, name.span.to(body.span)))
+                }
                 // Nothing is made of a test.
                 Item::Test(test) => apart.push(test.span),
                 _ => {}

@@ -406,7 +406,7 @@ fn declared(item: &tree::Item) -> Vec<String> {
         Enum { name, .. } | Record { name, .. } | Unit { name, .. } | Input { name, .. } | Clause { name, .. } => {
             vec![name.node.clone()]
         }
-        Signal { name, .. } | Scenario { name, .. } => vec![name.node.clone()],
+        Signal { name, .. } | Scenario { name, .. } | Vehicle { name, .. } => vec![name.node.clone()],
         Fn(f) => vec![f.name.node.clone()],
         Activity(a) => vec![a.name.node.clone()],
         Test(_) => Vec::new(),

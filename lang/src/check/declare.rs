@@ -39,6 +39,7 @@ impl<'t> Checker<'t> {
         for i in 0..self.signals.len() {
             self.module_signal(i);
         }
+        self.check_vehicles();
         for (m, module) in modules.iter().enumerate() {
             for item in &module.tree.items {
                 self.check_item(m, item);
@@ -82,7 +83,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn define(&mut self, module: usize, name: &tree::Name, def: Def) {
+    pub(super) fn define(&mut self, module: usize, name: &tree::Name, def: Def) {
         if let Some(earlier) = self.names[module].get(&name.node) {
             let finding = Diagnostic::error(
                 Code::NamesTwice,
@@ -167,6 +168,7 @@ impl<'t> Checker<'t> {
                 });
                 self.define(m, name, Def::Scenario(self.hir.scenarios.len() - 1));
             }
+            Item::Vehicle { name, .. } => self.declare_vehicle(m, name),
         }
     }
 

@@ -39,7 +39,8 @@ impl<'t> Checker<'t> {
             }
             Item::Fn(f) => self.hides_no_function(&f.name),
             // A behavior is called as a statement and a function is a value: `round(area)` and `round(2.5)` differ in sight.
-            Item::Use(_) | Item::Activity(_) | Item::Clause { .. } | Item::Scenario { .. } | Item::Test(_) => {}
+            Item::Use(_) | Item::Activity(_) | Item::Clause { .. } | Item::Test(_) => {}
+            Item::Scenario { .. } | Item::Vehicle { .. } => {}
         }
     }
 

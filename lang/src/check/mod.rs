@@ -27,6 +27,7 @@ mod table;
 mod test;
 mod timed;
 mod unused;
+mod vehicle;
 mod visible;
 mod written;
 
@@ -80,6 +81,7 @@ enum Def {
     Signal(usize),
     Activity(usize),
     Scenario(usize),
+    Vehicle(usize),
 }
 
 impl Def {
@@ -100,6 +102,7 @@ impl Def {
             Def::Signal(_) => "a signal",
             Def::Activity(_) => "a behavior, strategy, overlay or mission",
             Def::Scenario(_) => "a scenario",
+            Def::Vehicle(_) => "a vehicle",
         }
     }
 }
@@ -210,6 +213,9 @@ pub struct Checker<'t> {
     /// How many constants and signals wait for others.
     waiting: usize,
     clauses: Vec<ClauseInfo>,
+    vehicles: Vec<vehicle::VehicleInfo>,
+    /// What vehicles bring into the scenario that is being checked.
+    fitted: Vec<hir::ClauseUse>,
     fn_signatures: Vec<Signature>,
     activity_signatures: Vec<Signature>,
     overlay_ids: BTreeSet<usize>,
@@ -248,6 +254,8 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
         signals: Vec::new(),
         waiting: 0,
         clauses: Vec::new(),
+        vehicles: Vec::new(),
+        fitted: Vec::new(),
         fn_signatures: Vec::new(),
         activity_signatures: Vec::new(),
         overlay_ids: BTreeSet::new(),

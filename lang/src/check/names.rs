@@ -66,8 +66,10 @@ impl<'t> Checker<'t> {
         if let Some(span) = earlier {
             self.report(finding("something").label(span, "declared here"));
         } else if let Some(def) = self.lookup(self.scope.module, &name.node) {
-            let callable =
-                matches!(def, Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_) | Def::Scenario(_));
+            let callable = matches!(
+                def,
+                Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_) | Def::Scenario(_) | Def::Vehicle(_)
+            );
             // A name before `(` is looked up among what can be called, any other among values.
             if !callable {
                 let finding = finding(def.what());
@@ -225,7 +227,9 @@ impl<'t> Checker<'t> {
         let module = self.scope.module;
         let modules = (0..self.modules.len()).filter(move |&m| m == module || self.modules[m].prelude);
         let values = modules.flat_map(|m| {
-            self.names[m].iter().filter(|(_, d)| !matches!(d, Def::Scenario(_) | Def::Clause(_) | Def::Unit(_)))
+            self.names[m]
+                .iter()
+                .filter(|(_, d)| !matches!(d, Def::Scenario(_) | Def::Vehicle(_) | Def::Clause(_) | Def::Unit(_)))
         });
         self.scope.visible.names().chain(values.map(|(n, _)| n.as_str()))
     }

@@ -10,6 +10,17 @@ use crate::hir::{ClauseArg, ClauseUse};
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
 
+/// Where a clause stands.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Standing {
+    /// On a line of a scenario.
+    Line,
+    /// As an argument of another clause.
+    Value,
+    /// On a line of a vehicle.
+    Vehicle,
+}
+
 impl<'t> Checker<'t> {
     pub(super) fn declare_clause(&mut self, m: usize, id: usize, params: &'t [tree::Param]) {
         // A parameter whose type is the kind of other clauses takes one of those as its value.
@@ -78,34 +89,38 @@ impl<'t> Checker<'t> {
             scope.visible.push(var.name.clone(), scope.vars.len());
             scope.vars.push(var);
         }
-        let (clauses, scope) = self.within(scope, |c| {
-            let mut clauses = Vec::new();
-            for clause in &body.clauses {
-                match &clause.kind {
-                    ClauseKind::Timed(timed) if !timed.is_modified() => {
-                        if let Action::Expr(e) = &timed.action {
-                            clauses.extend(c.clause_use(e, false));
-                            continue;
-                        }
-                        c.misplaced(
-                            clause.span,
-                            "a scenario says what the world is, not what is done",
-                            "move this into a mission",
-                        );
-                    }
-                    _ => c.misplaced(clause.span, "a scenario holds clauses such as `flow(…)`", "move this elsewhere"),
-                }
-            }
-            clauses
-        });
+        let (mut clauses, scope) = self.within(scope, |c| c.clause_lines(body, Standing::Line));
         self.clauses_once(&clauses);
+        self.fit_out(&mut clauses);
         self.hir.scenarios[id].clauses = clauses;
         self.hir.scenarios[id].vars = scope.vars;
     }
 
+    /// The clauses of a block, each on a line of its own.
+    pub(super) fn clause_lines(&mut self, body: &'t tree::Block, standing: Standing) -> Vec<ClauseUse> {
+        let mut clauses = Vec::new();
+        for clause in &body.clauses {
+            match &clause.kind {
+                ClauseKind::Timed(timed) if !timed.is_modified() => {
+                    if let Action::Expr(e) = &timed.action {
+                        clauses.extend(self.clause_use(e, standing));
+                        continue;
+                    }
+                    self.misplaced(
+                        clause.span,
+                        "a scenario says what the world is, not what is done",
+                        "move this into a mission",
+                    );
+                }
+                _ => self.misplaced(clause.span, "a scenario holds clauses such as `flow(…)`", "move this elsewhere"),
+            }
+        }
+        clauses
+    }
+
     /// A clause whose first parameter is a name may stand several times: each is another thing. So may one of what happens
     /// from a time to another. All others stand once.
-    fn clauses_once(&mut self, clauses: &[ClauseUse]) {
+    pub(super) fn clauses_once(&mut self, clauses: &[ClauseUse]) {
         let is_time = |arg: &(String, ClauseArg), name: &str| {
             arg.0 == name && matches!(&arg.1, ClauseArg::Value(value) if value.ty == Type::Quantity(Dimension::TIME))
         };
@@ -122,7 +137,8 @@ impl<'t> Checker<'t> {
     }
 
     /// `flow(12 cm/s toward 140 deg, meander: 8 deg)`, or as an argument `lbl(every: 120 s)`.
-    fn clause_use(&mut self, e: &'t tree::Expr, as_value: bool) -> Option<ClauseUse> {
+    fn clause_use(&mut self, e: &'t tree::Expr, standing: Standing) -> Option<ClauseUse> {
+        let as_value = standing == Standing::Value;
         use tree::ExprKind as K;
         let (callee, args): (&'t tree::Expr, &'t [tree::Arg]) = match &e.kind {
             K::Call(callee, args) => (callee, args),
@@ -159,7 +175,10 @@ impl<'t> Checker<'t> {
             let clause = &self.clauses[id];
             (clause.signature.name.clone(), clause.signature.params.clone(), clause.nested.clone())
         };
-        if self.clauses[id].kind.is_some() != as_value {
+        let kind = &self.clauses[id].kind;
+        let is_of_vehicle =
+            standing == Standing::Vehicle && kind.as_ref().is_some_and(|k| self.vehicle_kinds().contains(k));
+        if kind.is_some() != as_value && !is_of_vehicle {
             let help = if as_value { "it stands on a line of its own" } else { "it is a value of another clause" };
             self.report(
                 Diagnostic::error(Code::ScenariosClause, e.span, format!("`{name}` cannot stand here")).help(help),
@@ -175,6 +194,10 @@ impl<'t> Checker<'t> {
                 K::Call(callee, _) => callee.as_ref(),
                 _ => &arg.value,
             };
+            if let Found::Def(Def::Vehicle(vehicle)) = self.find(head) {
+                values.extend(self.of_vehicle(vehicle, head.span, &params, &nested));
+                continue;
+            }
             let takes = |kind: Option<&String>| kind.is_some() && nested.iter().any(|n| n.as_ref() == kind);
             if let Some(inner) = self.clause_of_kind(head, takes).or_else(|| self.clause_of_kind(head, |_| true)) {
                 let inner_name = self.clauses[inner].signature.name.clone();
@@ -187,7 +210,7 @@ impl<'t> Checker<'t> {
                 match place {
                     Some((param, _)) => {
                         let param = param.name.clone();
-                        if let Some(used) = self.clause_use(&arg.value, true) {
+                        if let Some(used) = self.clause_use(&arg.value, Standing::Value) {
                             values.push((param, ClauseArg::Nested(used)));
                         }
                     }

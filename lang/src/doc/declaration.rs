@@ -42,6 +42,10 @@ pub fn declaration(item: &Item, span: Span, written: &Written, comments: &mut Co
             body.clauses.iter().for_each(|clause| drop(comments.above(clause.span.start)));
             Declaration { params: self::params(params, written, comments), ..whole("scenario", name, span, written) }
         }
+        Item::Vehicle { name, body } => {
+            body.clauses.iter().for_each(|clause| drop(comments.above(clause.span.start)));
+            whole("vehicle", name, span, written)
+        }
         Item::Activity(a) => activity(a, span, written, comments),
     };
     told.text = text;

@@ -165,6 +165,7 @@ fn item(b: &mut Builder, pair: P) -> Option<Item> {
             params: take(&mut inner, Rule::params).map(|p| params(b, p)).unwrap_or_default(),
             body: block(b, inner.next()?),
         },
+        Rule::vehicle => Item::Vehicle { name: name(b, inner.next()?), body: block(b, inner.next()?) },
         Rule::test_item => {
             Item::Test(Test { name: text(b, inner.next()?), clauses: test_block(b, inner.next()?), span })
         }

@@ -12,9 +12,9 @@ use pest::Parser;
 use pest::error::{Error, ErrorVariant, InputLocation};
 
 /// Words that may begin an item.
-const ITEM_WORDS: [&str; 15] = [
+const ITEM_WORDS: [&str; 16] = [
     "use", "const", "enum", "record", "unit", "input", "fn", "signal", "behavior", "strategy", "overlay", "mission",
-    "scenario", "test", "clause",
+    "scenario", "vehicle", "test", "clause",
 ];
 
 /// Whether a word begins what stands at the left margin.

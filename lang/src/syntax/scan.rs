@@ -17,9 +17,9 @@ use nesting::Open;
 pub const NESTING_MAX: usize = 64;
 
 /// Words that begin an item of a file. An item stands at the left margin, which is how an unclosed brace is found.
-const ITEM_WORDS: [&str; 13] = [
+const ITEM_WORDS: [&str; 14] = [
     "use", "const", "enum", "record", "unit", "input", "clause", "fn", "strategy", "overlay", "mission", "scenario",
-    "test",
+    "vehicle", "test",
 ];
 
 /// Words after which a line goes on.

@@ -43,6 +43,7 @@ pub enum Item {
     Signal { name: Name, ty: Option<Ty>, value: Expr },
     Activity(Activity),
     Scenario { name: Name, params: Vec<Param>, body: Block },
+    Vehicle { name: Name, body: Block },
     Test(Test),
 }
 

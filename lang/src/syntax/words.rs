@@ -55,6 +55,7 @@ pub(super) fn is_word(rule: Rule) -> bool {
             | w_area
             | w_back
             | w_clause
+            | w_vehicle
             | w_expect
             | w_first
             | w_fresh

@@ -45,6 +45,18 @@ pub enum Stream {
     Fault = 60,
     /// Where wrong positions and flows are off; one sub-stream a fault.
     FaultDirection = 61,
+    /// Noise of the compass.
+    Compass = 62,
+    /// Noise of the pressure gauge.
+    Pressure = 63,
+    /// Which echoes of the sounder are lost.
+    SounderDropout = 64,
+    /// Which acoustic fixes are outliers, and where they lie.
+    LblOutlier = 65,
+    /// Noise of satellite fixes.
+    Gps = 66,
+    /// Noise of the Doppler log.
+    Dvl = 67,
     /// The moment at which a recorded plume is begun.
     RecordStart = 80,
 }

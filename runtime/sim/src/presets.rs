@@ -26,7 +26,7 @@ pub fn duck_2003_flat() -> Scenario {
         plume: Some(Plume::default()),
         sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
         vehicle: VehicleSetup { start: place(527.0, -163.5), ..VehicleSetup::default() },
-        navigation: Some(Navigation { walk: 0.05, lbl: Some(Lbl { every: 120.0, sigma: 2.0, gate: 0.0 }) }),
+        navigation: Some(Navigation { walk: 0.05, lbl: Some(Lbl::default()) }),
         ..Scenario::default()
     }
 }

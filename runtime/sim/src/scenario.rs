@@ -2,6 +2,7 @@
 
 mod bottom;
 mod flow;
+mod instruments;
 mod objections;
 mod plume;
 mod sensors;
@@ -10,6 +11,7 @@ mod vehicle;
 
 pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
+pub use instruments::{Compass, Dvl, Gps, Pressure};
 pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
 pub use plume::Plume;
@@ -62,6 +64,14 @@ pub struct Scenario {
     pub adcp: Adcp,
     /// The echo sounder.
     pub sounder: Sounder,
+    /// The compass.
+    pub compass: Compass,
+    /// The pressure gauge.
+    pub pressure: Pressure,
+    /// The Doppler log.
+    pub dvl: Dvl,
+    /// The receiver of satellite fixes; none: it has none. It needs a [`Navigation`].
+    pub gps: Option<Gps>,
     /// What goes wrong. Default nothing.
     pub faults: Vec<Fault>,
 }
@@ -95,6 +105,7 @@ impl Scenario {
         }
         vehicle::check(self, &mut objections);
         sensors::check(self, &mut objections);
+        instruments::check(self, &mut objections);
         fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }
     }

@@ -1,11 +1,18 @@
 //! What the vehicle's instruments make of the truth.
 
+mod compass;
+mod dvl;
 mod fluorometer;
 mod position;
+mod pressure;
 mod profiler;
+mod rate;
 mod sounder;
 
+pub use compass::Compass;
+pub use dvl::Dvl;
 pub use fluorometer::Fluorometer;
 pub use position::Positioning;
+pub use pressure::Pressure;
 pub use profiler::{Profiler, View};
 pub use sounder::EchoSounder;

@@ -6,7 +6,7 @@ use crate::hull::Hull;
 use crate::incidents::Incidents;
 use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
-use crate::sensors::{EchoSounder, Fluorometer, Positioning, Profiler, View};
+use crate::sensors::{Compass, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
@@ -62,6 +62,9 @@ pub struct Simulator {
     profiler: Profiler,
     fluorometer: Fluorometer,
     sounder: EchoSounder,
+    compass: Compass,
+    pressure: Pressure,
+    dvl: Dvl,
     endurance: f64,
     computer: Computer,
     watch: Watch,
@@ -90,10 +93,13 @@ impl Simulator {
             world,
             intake: (start, 0.0),
             intake_ahead: scenario.fluorometer.ahead,
-            positioning: Positioning::new(scenario.navigation.as_ref(), start, seed),
+            positioning: Positioning::new(scenario.navigation.as_ref(), scenario.gps.as_ref(), start, seed),
             profiler: Profiler::new(scenario.adcp.noise, seed),
             fluorometer: Fluorometer::new(&scenario.fluorometer, seed),
             sounder: EchoSounder::new(&scenario.sounder, seed),
+            compass: Compass::new(&scenario.compass, seed),
+            pressure: Pressure::new(&scenario.pressure, seed),
+            dvl: Dvl::new(&scenario.dvl, seed),
             endurance: vehicle.endurance,
             computer: Computer::new(
                 scenario.own_mission.as_ref(),
@@ -171,7 +177,19 @@ impl Simulator {
         self.vehicle.stick_rudder(ailing.rudder);
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
         let motion = self.vehicle.motion();
-        self.positioning.step(tick, motion.ground_velocity, motion.position);
+        let altitude = self.world.water_depth(motion.position) - motion.depth;
+        let measured = if self.dvl.has_lock(altitude) { Some(self.measured_velocity(tick)) } else { None };
+        self.positioning.step(tick, measured, motion.position, motion.depth);
+    }
+
+    /// The velocity over ground as the Doppler log measures it and the compass turns it, m/s.
+    fn measured_velocity(&self, tick: u64) -> Vector {
+        let motion = self.vehicle.motion();
+        let velocity = self.dvl.noisy(tick, motion.ground_velocity).unwrap_or(motion.ground_velocity);
+        match self.compass.error(tick, motion.heading) {
+            Some(error) => velocity.length() * (velocity.toward() + error).unit(),
+            None => velocity,
+        }
     }
 
     /// What a vehicle does that gives up.
@@ -230,7 +248,10 @@ impl Simulator {
                 let place = to + back * (from - to);
                 self.world.concentration(place, to_height + back * (from_height - to_height), time)
             };
-            snapshot.push(CHEMICAL, &[self.fluorometer.reading(sample, concentration)]);
+            self.fluorometer.send(tick, self.fluorometer.reading(sample, concentration));
+        }
+        while let Some(reading) = self.fluorometer.told(tick) {
+            snapshot.push(CHEMICAL, &[reading]);
         }
     }
 
@@ -239,18 +260,35 @@ impl Simulator {
         let echo = self.sounder.reading(tick, truth.altitude);
         let (position, sigma) = self.positioning.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
-        snapshot.push(COURSE, &[truth.course.radians()]);
-        snapshot.push(HEADING, &[truth.heading.radians()]);
-        snapshot.push(SPEED, &[truth.speed_over_ground]);
+        let compass = truth.heading + self.compass.error(tick, truth.heading).unwrap_or(0.0);
+        let has_velocity = self.dvl.tells(tick, truth.altitude);
+        let velocity = self.measured_velocity(tick);
+        if has_velocity {
+            snapshot.push(COURSE, &[velocity.toward().radians()]);
+        }
+        if self.compass.tells(tick) {
+            snapshot.push(HEADING, &[compass.radians()]);
+        }
+        if has_velocity {
+            snapshot.push(SPEED, &[velocity.length()]);
+        }
         let depth = (truth.depth + self.world.wave_head(truth.position, truth.altitude, self.time_s())).max(0.0);
-        snapshot.push(DEPTH, &[depth]);
-        snapshot.push(ALTITUDE, &[echo]);
-        snapshot.push(WATER_DEPTH, &[depth + echo]);
+        let depth = self.pressure.reading(tick, depth);
+        if let Some(depth) = depth {
+            snapshot.push(DEPTH, &[depth]);
+        }
+        if let Some(echo) = echo {
+            snapshot.push(ALTITUDE, &[echo]);
+        }
+        if let (Some(depth), Some(echo)) = (depth, echo) {
+            snapshot.push(WATER_DEPTH, &[depth + echo]);
+        }
         let view = View {
             ground_velocity: self.vehicle.motion().ground_velocity,
             flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s())
                 + self.faults.ailing().current,
             heading: truth.heading,
+            compass,
             depth: truth.depth,
             altitude: truth.altitude,
         };

@@ -115,7 +115,7 @@ fn a_low_boundary_deceives_the_profiler() {
 
 #[test]
 fn a_fix_makes_the_position_jump() {
-    let lbl = Lbl { every: 60.0, sigma: 2.0, gate: 0.0 };
+    let lbl = Lbl { every: 60.0, ..Lbl::default() };
     let navigated = Scenario { navigation: Some(Navigation { walk: 0.05, lbl: Some(lbl) }), ..scenario() };
     let positions = driven(&navigated, 100, "position").unwrap();
     assert_eq!(positions[0][2], 0.0);
@@ -167,7 +167,7 @@ fn over_a_pit_the_water_is_deeper_and_echoes_are_as_noisy_as_told() {
     let deepest = exact.iter().map(|sample| sample[0]).fold(0.0, f64::max);
     assert!((deepest - 12.0).abs() < 0.02 && (exact[0][0] - 10.0).abs() < 0.01, "{deepest}");
 
-    over.sounder = Sounder { noise: 0.05 };
+    over.sounder = Sounder { noise: 0.05, ..Sounder::default() };
     let errors: Vec<f64> = driven(&over, 60, "water_depth")
         .unwrap()
         .iter()

@@ -1,7 +1,7 @@
 //! What a scenario says of the sensors.
 
 use super::clause::Clause;
-use albacore_sim::{Adcp, Fluorometer, Lbl, Navigation, Scenario, Sounder};
+use albacore_sim::{Adcp, Compass, Dvl, Fluorometer, Gps, Lbl, Navigation, Pressure, Scenario, Sounder};
 
 /// `navigation(…)`: how the vehicle knows its position.
 pub fn navigation(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -10,8 +10,14 @@ pub fn navigation(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         navigation.walk = reckoning.number("walk")?;
     }
     if let Some(lbl) = c.clause("fixes") {
-        navigation.lbl =
-            Some(Lbl { every: lbl.number("every")?, sigma: lbl.number("sigma")?, gate: lbl.number("gate")? });
+        navigation.lbl = Some(Lbl {
+            every: lbl.number("every")?,
+            sigma: lbl.number("sigma")?,
+            gate: lbl.number("gate")?,
+            outliers: lbl.number("outliers")?,
+            outlier: lbl.number("outlier")?,
+            drift: lbl.vector("drift")?,
+        });
     }
     scenario.navigation = Some(navigation);
     Ok(())
@@ -24,6 +30,9 @@ pub fn fluorometer(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         noise: c.number("noise")?,
         false_alarms: c.number("false_alarms")?,
         ahead: c.number("ahead")?,
+        bias: c.number("bias")?,
+        delay: c.number("delay")?,
+        saturation: c.number("saturation")?,
     };
     Ok(())
 }
@@ -36,6 +45,48 @@ pub fn adcp(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
 
 /// `sounder(…)`: the echo sounder.
 pub fn sounder(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.sounder = Sounder { noise: c.number("noise")? };
+    scenario.sounder = Sounder {
+        noise: c.number("noise")?,
+        bias: c.number("bias")?,
+        nearest: c.number("nearest")?,
+        farthest: above_nothing(c.number("farthest")?),
+        dropouts: c.number("dropouts")?,
+        rate: c.number("rate")?,
+    };
     Ok(())
+}
+
+/// `compass(…)`.
+pub fn compass(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.compass = Compass {
+        noise: c.number("noise")?,
+        bias: c.number("bias")?,
+        deviation: c.number("deviation")?,
+        greatest_at: c.heading("greatest_at")?,
+        rate: c.number("rate")?,
+    };
+    Ok(())
+}
+
+/// `pressure(…)`: the pressure gauge.
+pub fn pressure(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.pressure = Pressure { noise: c.number("noise")?, bias: c.number("bias")?, rate: c.number("rate")? };
+    Ok(())
+}
+
+/// `dvl(…)`: the Doppler log.
+pub fn dvl(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.dvl = Dvl { noise: c.number("noise")?, range: above_nothing(c.number("range")?), rate: c.number("rate")? };
+    Ok(())
+}
+
+/// `gps(…)`: satellite fixes at the surface.
+pub fn gps(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.gps = Some(Gps { every: c.number("every")?, sigma: c.number("sigma")?, above: c.number("above")? });
+    Ok(())
+}
+
+/// Of a limit that may be left out nothing stands for none.
+fn above_nothing(limit: f64) -> Option<f64> {
+    (limit > 0.0).then_some(limit)
 }

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let recording = record(&root)?;
     let flat = presets::duck_2003_flat();
-    let mut page = Page::read(root.join("docs/plume.md"))?;
+    let mut page = Page::new(root.join("docs/plume.md"));
     let draw = |name: &str, svg: String| -> Result<(), Box<dyn Error>> {
         let path: PathBuf = root.join("docs/plume").join(name);
         fs::create_dir_all(root.join("docs/plume"))?;
@@ -45,26 +45,26 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("record, its own kernel", measure::recorded_bands(&recording, RecordedKernel::Pompy)),
         ("duck_2003", measure::bands(&presets::duck_2003(), SEEDS)?),
     ];
-    page.put("wanted", &wanted(&plumes[0].1))?;
-    page.put("bands", &by_band(plumes.iter().map(|(name, bands)| (String::from(*name), bands))))?;
+    page.put("wanted", wanted(&plumes[0].1));
+    page.put("bands", by_band(plumes.iter().map(|(name, bands)| (String::from(*name), bands))));
     draw("bands.svg", pictures::bands(&plumes))?;
 
     let others = others().into_iter().map(|(name, scenario)| Ok((name, measure::bands(&scenario, SEEDS)?)));
     let others: Vec<(String, Vec<Band>)> = others.collect::<Result<_, Box<dyn Error>>>()?;
-    page.put("others", &by_band(others.iter().map(|(name, bands)| (name.clone(), bands))))?;
+    page.put("others", by_band(others.iter().map(|(name, bands)| (name.clone(), bands))));
 
     let diffusivity = Plume::default().diffusivity;
     let aged = measure::scatter(8, 10)?;
-    page.put("spread", &spread(&aged, diffusivity))?;
+    page.put("spread", spread(&aged, diffusivity));
     draw("spread.svg", pictures::spread(&aged, diffusivity))?;
-    page.put("mass", &mass()?)?;
+    page.put("mass", mass()?);
 
-    page.put("flow", &flow(&flat, &recording)?)?;
+    page.put("flow", flow(&flat, &recording)?);
     draw("flow.svg", pictures::flow(&flat, &recording)?)?;
 
     let measured = STEPS.map(|step| Ok((step, measure::bands_at_step(&flat, step, STEP_SEEDS)?)));
     let steps: Vec<(f64, Vec<Band>)> = measured.into_iter().collect::<Result<_, Box<dyn Error>>>()?;
-    page.put("steps", &by_band(steps.iter().map(|(step, bands)| (format!("{step} s"), bands))))?;
+    page.put("steps", by_band(steps.iter().map(|(step, bands)| (format!("{step} s"), bands))));
     draw("steps.svg", pictures::steps(&steps))?;
     page.write()?;
     writeln!(std::io::stdout(), "docs/plume.md")?;

@@ -6,28 +6,32 @@ use std::{fs, io};
 /// A page with places for figures.
 pub struct Page {
     path: PathBuf,
-    text: String,
+    /// By the names of their places.
+    figures: Vec<(String, String)>,
 }
 
 impl Page {
-    /// Reads the page.
-    pub fn read(path: PathBuf) -> io::Result<Self> {
-        Ok(Page { text: fs::read_to_string(&path)?, path })
+    /// The page at a path.
+    pub fn new(path: PathBuf) -> Self {
+        Page { path, figures: Vec::new() }
     }
 
-    /// Puts figures into their place.
-    pub fn put(&mut self, name: &str, figures: &str) -> io::Result<()> {
-        let mark = format!("<!-- figures: {name} -->\n");
-        let missing = || io::Error::other(format!("{} has no place for `{name}`", self.path.display()));
-        let begin = self.text.find(&mark).ok_or_else(missing)? + mark.len();
-        let end = begin + self.text[begin..].find("<!-- end -->").ok_or_else(missing)?;
-        self.text.replace_range(begin..end, figures);
-        Ok(())
+    /// Keeps figures for their place.
+    pub fn put(&mut self, name: &str, figures: String) {
+        self.figures.push((String::from(name), figures));
     }
 
-    /// Writes it.
+    /// Puts all figures into their places, and leaves the rest of the page as it is.
     pub fn write(&self) -> io::Result<()> {
-        fs::write(&self.path, &self.text)
+        let mut text = fs::read_to_string(&self.path)?;
+        for (name, figures) in &self.figures {
+            let mark = format!("<!-- figures: {name} -->\n");
+            let missing = || io::Error::other(format!("{} has no place for `{name}`", self.path.display()));
+            let begin = text.find(&mark).ok_or_else(missing)? + mark.len();
+            let end = begin + text[begin..].find("<!-- end -->").ok_or_else(missing)?;
+            text.replace_range(begin..end, figures);
+        }
+        fs::write(&self.path, text)
     }
 }
 

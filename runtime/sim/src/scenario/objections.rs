@@ -1,6 +1,7 @@
 //! Which scenarios are impossible, and how that is said.
 
 use albacore_geometry::Vector;
+use albacore_vehicle::TICK_S;
 
 /// Why a scenario cannot be simulated: every fault found in it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -27,6 +28,20 @@ impl Objections {
 
     pub fn not_negative(&mut self, name: &str, value: f64) {
         self.unless(value >= 0.0 && value.is_finite(), format!("`{name}` is {value}: it must be 0 or more"));
+    }
+
+    /// Samples a second of what is read at ticks.
+    pub fn rate(&mut self, name: &str, rate: f64) {
+        let most = 1.0 / TICK_S;
+        self.unless(
+            rate > 0.0 && rate <= most,
+            format!("`{name}` is {rate} Hz: it must be above 0 and {most} at most, a sample a tick"),
+        );
+    }
+
+    /// A share of a whole.
+    pub fn share(&mut self, name: &str, value: f64) {
+        self.unless((0.0..=1.0).contains(&value), format!("`{name}` is {value}: it must be 0 to 1"));
     }
 
     pub fn finite(&mut self, name: &str, values: [f64; 2]) {

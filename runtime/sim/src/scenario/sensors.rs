@@ -1,6 +1,8 @@
 //! The sensors: what a scenario says of them, and what of that cannot be.
 
+use crate::scenario::instruments::EVERY_TICK;
 use crate::scenario::{Objections, Scenario};
+use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
@@ -31,11 +33,17 @@ pub struct Lbl {
     pub sigma: f64,
     /// A fix is taken only if it disagrees with dead reckoning by more than this, m. Default 0: always.
     pub gate: f64,
+    /// The share of fixes that are outliers: reflections, heard for the direct way. Default 0.
+    pub outliers: f64,
+    /// How far an outlier is off, m, in any direction. Default 50.
+    pub outlier: f64,
+    /// The transponders drift with this velocity, m/s, and all fixes with them. Default none.
+    pub drift: Vector,
 }
 
 impl Default for Lbl {
     fn default() -> Self {
-        Lbl { every: 120.0, sigma: 2.0, gate: 0.0 }
+        Lbl { every: 120.0, sigma: 2.0, gate: 0.0, outliers: 0.0, outlier: 50.0, drift: Vector::ZERO }
     }
 }
 
@@ -51,11 +59,17 @@ pub struct Fluorometer {
     pub false_alarms: f64,
     /// How far its intake is ahead of the vehicle's reference point, m. Default 0.8: the nose of a 1.6 m REMUS 100.
     pub ahead: f64,
+    /// Its constant error, ratio of full scale. Default 0.
+    pub bias: f64,
+    /// Between sample and reading, s: pump and tube. Default 0.
+    pub delay: f64,
+    /// It reads no more than this, ratio of full scale. Default 1.
+    pub saturation: f64,
 }
 
 impl Default for Fluorometer {
     fn default() -> Self {
-        Fluorometer { rate: 10.0, noise: 0.003, false_alarms: 0.0, ahead: 0.8 }
+        Fluorometer { rate: 10.0, noise: 0.003, false_alarms: 0.0, ahead: 0.8, bias: 0.0, delay: 0.0, saturation: 1.0 }
     }
 }
 
@@ -73,12 +87,28 @@ impl Default for Adcp {
     }
 }
 
-/// The echo sounder, read at every tick: the height above the bottom, and with the vehicle's depth that of the water.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// The echo sounder: the height above the bottom, and with the vehicle's depth that of the water.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sounder {
+    /// Echoes a second. Default 10: at every tick.
+    pub rate: f64,
     /// Standard deviation of one echo, m. Default 0.
     pub noise: f64,
+    /// Its constant error, m: too far. Default 0.
+    pub bias: f64,
+    /// It hears no echo from nearer than this, m. Default 0.
+    pub nearest: f64,
+    /// It hears no echo from farther than this, m. Default none: from anywhere.
+    pub farthest: Option<f64>,
+    /// The share of echoes that are lost. Default 0.
+    pub dropouts: f64,
+}
+
+impl Default for Sounder {
+    fn default() -> Self {
+        Sounder { rate: EVERY_TICK, noise: 0.0, bias: 0.0, nearest: 0.0, farthest: None, dropouts: 0.0 }
+    }
 }
 
 /// What of the sensors cannot be.
@@ -95,6 +125,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             );
             objections.not_negative("navigation.lbl.sigma", lbl.sigma);
             objections.not_negative("navigation.lbl.gate", lbl.gate);
+            objections.share("navigation.lbl.outliers", lbl.outliers);
+            objections.not_negative("navigation.lbl.outlier", lbl.outlier);
+            objections.flow("navigation.lbl.drift", lbl.drift);
         }
     }
     let fluorometer = &scenario.fluorometer;
@@ -109,9 +142,28 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         "`fluorometer.false_alarms` exceeds `fluorometer.rate`: a sample gives one alarm at most",
     );
     objections.finite("fluorometer.ahead", [fluorometer.ahead, 0.0]);
+    objections.finite("fluorometer.bias", [fluorometer.bias, 0.0]);
+    objections.unless(
+        (0.0..=DELAY_MAX_S).contains(&fluorometer.delay),
+        format!("`fluorometer.delay` is {} s: it must be 0 to {DELAY_MAX_S}", fluorometer.delay),
+    );
+    objections.share("fluorometer.saturation", fluorometer.saturation);
     objections.not_negative("adcp.noise", scenario.adcp.noise);
-    objections.not_negative("sounder.noise", scenario.sounder.noise);
+    let sounder = &scenario.sounder;
+    objections.rate("sounder.rate", sounder.rate);
+    objections.not_negative("sounder.noise", sounder.noise);
+    objections.finite("sounder.bias", [sounder.bias, 0.0]);
+    objections.not_negative("sounder.nearest", sounder.nearest);
+    if let Some(farthest) = sounder.farthest {
+        objections.unless(
+            farthest > sounder.nearest,
+            format!("`sounder.farthest` is {farthest} m: it must be above `nearest`, {} m", sounder.nearest),
+        );
+    }
+    objections.share("sounder.dropouts", sounder.dropouts);
 }
 
+/// The longest way from the intake to the sensor, s.
+const DELAY_MAX_S: f64 = 600.0;
 /// A chemical sensor gives at most this many samples a second.
 const FLUOROMETER_RATE_MAX: f64 = 1000.0;

@@ -3,6 +3,7 @@
 use crate::noise::{Noise, Stream};
 use crate::scenario;
 use albacore_vehicle::TICK_S;
+use std::collections::VecDeque;
 
 /// What a false alarm reads at least, ratio of full scale.
 const FALSE_ALARM: f64 = 0.10;
@@ -16,6 +17,8 @@ pub struct Fluorometer {
     noise: Noise,
     alarms: Noise,
     next: u64,
+    /// Readings on their way, and the tick at which each comes.
+    tube: VecDeque<(u64, f64)>,
 }
 
 impl Fluorometer {
@@ -26,6 +29,7 @@ impl Fluorometer {
             noise: Noise::new(seed, Stream::Fluorometer),
             alarms: Noise::new(seed, Stream::FalseAlarm),
             next: 0,
+            tube: VecDeque::new(),
         }
     }
 
@@ -40,12 +44,23 @@ impl Fluorometer {
         Some((sample, sample as f64 / self.settings.rate))
     }
 
+    /// Sends a reading on its way.
+    pub fn send(&mut self, tick: u64, reading: f64) {
+        self.tube.push_back((tick + (self.settings.delay / TICK_S).round() as u64, reading));
+    }
+
+    /// The next reading that has come by a tick.
+    pub fn told(&mut self, tick: u64) -> Option<f64> {
+        let has_come = self.tube.front().is_some_and(|(comes, _)| *comes <= tick);
+        if has_come { self.tube.pop_front().map(|(_, reading)| reading) } else { None }
+    }
+
     /// The reading of a sample where the truth is `concentration`; both are ratios of full scale.
     pub fn reading(&self, sample: u64, concentration: f64) -> f64 {
-        let noisy = concentration + self.settings.noise * self.noise.gaussian(sample);
+        let noisy = concentration + self.settings.noise * self.noise.gaussian(sample) + self.settings.bias;
         let alarm = self.alarms.uniform(sample) < self.settings.false_alarms / self.settings.rate;
         let read = if alarm { noisy.max(FALSE_ALARM) } else { noisy };
-        read.clamp(0.0, 1.0)
+        read.clamp(0.0, self.settings.saturation)
     }
 }
 
@@ -77,7 +92,20 @@ mod tests {
         let above = (0..n).filter(|&k| sensor.reading(k, 0.0) > 0.04).count();
         assert!((800..1200).contains(&above), "one alarm in a thousand samples: {above} of {n}");
         assert!((0..1000).all(|k| sensor.reading(k, 1.8) == 1.0 && sensor.reading(k, 0.0) >= 0.0));
+        let dull = Fluorometer::new(&scenario::Fluorometer { saturation: 0.4, bias: 0.1, noise: 0.0, ..settings }, 1);
+        assert!(dull.reading(1, 0.35) == 0.4 && (dull.reading(1, 0.2) - 0.3).abs() < 1e-12);
         let mean = (0..n).map(|k| sensor.reading(k, 0.5)).sum::<f64>() / n as f64;
         assert!((mean - 0.5).abs() < 1e-4);
+    }
+
+    #[test]
+    fn readings_come_as_late_as_told_and_in_order() {
+        let mut sensor = Fluorometer::new(&scenario::Fluorometer { delay: 3.0, ..Default::default() }, 1);
+        let mut told = Vec::new();
+        for tick in 0..100 {
+            sensor.send(tick, tick as f64);
+            told.extend(sensor.told(tick).map(|reading| (tick, reading)));
+        }
+        assert!(told.len() == 70 && told.iter().all(|(tick, reading)| *tick as f64 == reading + 30.0));
     }
 }

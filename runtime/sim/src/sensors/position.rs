@@ -1,8 +1,9 @@
 //! What the vehicle believes of its position: dead reckoning with noisy velocity, and noisy acoustic fixes.
 
 use crate::noise::{Noise, Stream};
-use crate::scenario::{Lbl, Navigation};
-use albacore_geometry::{Point, Vector};
+use crate::scenario::{Gps, Lbl, Navigation};
+use albacore_geometry::math::TAU;
+use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::DeadReckoning;
 use albacore_vehicle::TICK_S;
 
@@ -18,11 +19,16 @@ struct Reckoned {
     velocity_noise: Noise,
     lbl: Option<Lbl>,
     fix_noise: Noise,
+    outliers: Noise,
+    gps: Option<Gps>,
+    gps_noise: Noise,
+    /// The velocity that the Doppler log told last, m/s.
+    velocity: Vector,
 }
 
 impl Positioning {
     /// Begins at the true start: the last thing a vehicle had before it dived was a satellite fix.
-    pub fn new(navigation: Option<&Navigation>, start: Point, seed: u64) -> Self {
+    pub fn new(navigation: Option<&Navigation>, gps: Option<&Gps>, start: Point, seed: u64) -> Self {
         Positioning(navigation.map(|navigation| Reckoned {
             reckoning: DeadReckoning::new(start, navigation.walk),
             // White noise of this deviation, held over a tick, integrates to a random walk of `walk`.
@@ -30,12 +36,19 @@ impl Positioning {
             velocity_noise: Noise::new(seed, Stream::GroundVelocity),
             lbl: navigation.lbl.clone(),
             fix_noise: Noise::new(seed, Stream::Lbl),
+            outliers: Noise::new(seed, Stream::LblOutlier),
+            gps: gps.cloned(),
+            gps_noise: Noise::new(seed, Stream::Gps),
+            velocity: Vector::ZERO,
         }))
     }
 
-    /// Lets one tick go by, in which the vehicle moved with a velocity (m/s) and came to a point.
-    pub fn step(&mut self, tick: u64, velocity: Vector, position: Point) {
+    /// Lets one tick go by, in which the vehicle measured a velocity over ground (m/s), if it could, and came to a point and a
+    /// depth (m).
+    pub fn step(&mut self, tick: u64, measured: Option<Vector>, position: Point, depth: f64) {
         let Some(own) = &mut self.0 else { return };
+        let velocity = measured.unwrap_or(own.velocity);
+        own.velocity = velocity;
         let pair = |noise: Noise| Vector::new(noise.gaussian(2 * tick), noise.gaussian(2 * tick + 1));
         if own.deviation > 0.0 {
             own.reckoning.advance(velocity + own.deviation * pair(own.velocity_noise), TICK_S);
@@ -45,7 +58,14 @@ impl Positioning {
         if let Some(lbl) = &own.lbl {
             let ticks = ((lbl.every / TICK_S).round() as u64).max(1);
             if tick.is_multiple_of(ticks) {
-                own.reckoning.fix(position + lbl.sigma * pair(own.fix_noise), lbl.sigma, lbl.gate);
+                let fix = position + lbl.sigma * pair(own.fix_noise) + lbl_error(lbl, tick, own.outliers);
+                own.reckoning.fix(fix, lbl.sigma, lbl.gate);
+            }
+        }
+        if let Some(gps) = own.gps.as_ref().filter(|gps| depth < gps.above) {
+            let ticks = ((gps.every / TICK_S).round() as u64).max(1);
+            if tick.is_multiple_of(ticks) {
+                own.reckoning.fix(position + gps.sigma * pair(own.gps_noise), gps.sigma, 0.0);
             }
         }
     }
@@ -56,6 +76,16 @@ impl Positioning {
     }
 }
 
+/// What a fix is off by beside its noise, m: the way of the transponders, and now and then a reflection.
+fn lbl_error(lbl: &Lbl, tick: u64, outliers: Noise) -> Vector {
+    let drifted = tick as f64 * TICK_S * lbl.drift;
+    let is_outlier = lbl.outliers > 0.0 && outliers.uniform(2 * tick) < lbl.outliers;
+    if !is_outlier {
+        return drifted;
+    }
+    drifted + lbl.outlier * Heading::from_radians(TAU * outliers.uniform(2 * tick + 1)).unit()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,15 +93,15 @@ mod tests {
     /// Over many runs: the error before the first fix is the walk's, after it the fix's, and sigma tells both.
     #[test]
     fn sigma_is_the_error_to_expect() {
-        let navigation = Navigation { walk: 0.05, lbl: Some(Lbl { every: 120.0, sigma: 2.0, gate: 0.0 }) };
+        let navigation = Navigation { walk: 0.05, lbl: Some(Lbl::default()) };
         let mut errors = [0.0; 2];
         let mut sigmas = [0.0; 2];
         for seed in 0..400 {
-            let mut own = Positioning::new(Some(&navigation), Point::ORIGIN, seed);
+            let mut own = Positioning::new(Some(&navigation), None, Point::ORIGIN, seed);
             let velocity = Vector::new(2.0, 0.0);
             for tick in 1..=1200 {
                 let truth = Point::new(0.2 * tick as f64, 0.0);
-                own.step(tick, velocity, truth);
+                own.step(tick, Some(velocity), truth, 3.0);
                 if tick >= 1199 {
                     let (position, sigma) = own.belief(truth);
                     let error = position - truth;
@@ -84,5 +114,43 @@ mod tests {
             assert!((f64::sqrt(error) / sigma - 1.0).abs() < 0.08, "{} where {sigma} is expected", f64::sqrt(error));
         }
         assert!((sigmas[0] - 0.5475).abs() < 0.001 && sigmas[1] == 2.0);
+    }
+
+    /// Where a vehicle at rest believes to be after each fix.
+    fn believed(lbl: Option<Lbl>, gps: Option<&Gps>, depth: f64) -> Vec<Vector> {
+        let mut own = Positioning::new(Some(&Navigation { walk: 0.0, lbl }), gps, Point::ORIGIN, 5);
+        let fixes = (1..=60_000).filter_map(|tick| {
+            own.step(tick, Some(Vector::ZERO), Point::ORIGIN, depth);
+            (tick % 10 == 0).then(|| own.belief(Point::ORIGIN).0 - Point::ORIGIN)
+        });
+        fixes.collect()
+    }
+
+    #[test]
+    fn outliers_come_as_often_and_lie_as_far_as_told_and_transponders_drift() {
+        let exact = Lbl { every: 1.0, sigma: 0.0, ..Lbl::default() };
+        let far = believed(Some(Lbl { outliers: 0.1, outlier: 80.0, ..exact.clone() }), None, 3.0);
+        let outliers: Vec<&Vector> = far.iter().filter(|error| error.length() > 1.0).collect();
+        assert!(outliers.iter().all(|error| (error.length() - 80.0).abs() < 1e-9));
+        assert!((540..660).contains(&outliers.len()), "one in ten of 6000: {}", outliers.len());
+        let drifted = believed(Some(Lbl { drift: Vector::new(0.01, 0.0), ..exact }), None, 3.0);
+        assert!((drifted[5999].north - 60.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn satellites_are_heard_at_the_surface_only() {
+        let gps = Gps::default();
+        let errors = believed(None, Some(&gps), 0.1);
+        let deviation = (errors.iter().map(|e| e.dot(*e)).sum::<f64>() / 12_000.0).sqrt();
+        assert!((deviation - 5.0).abs() < 0.2, "{deviation}");
+        assert!(believed(None, Some(&gps), 0.4).iter().all(|error| *error == Vector::ZERO));
+    }
+
+    #[test]
+    fn without_a_velocity_the_last_one_holds() {
+        let mut own = Positioning::new(Some(&Navigation { walk: 0.0, lbl: None }), None, Point::ORIGIN, 1);
+        (1..=10).for_each(|tick| own.step(tick, Some(Vector::new(2.0, 0.0)), Point::ORIGIN, 3.0));
+        (11..=20).for_each(|tick| own.step(tick, None, Point::ORIGIN, 3.0));
+        assert!(own.belief(Point::ORIGIN).0.distance(Point::new(4.0, 0.0)) < 1e-9);
     }
 }

@@ -17,6 +17,8 @@ pub struct View {
     pub flow: Vector,
     /// Where the nose points.
     pub heading: Heading,
+    /// Where the compass says that it points: the estimate turns by it.
+    pub compass: Heading,
     /// Depth, m.
     pub depth: f64,
     /// Height above the bottom, m.
@@ -53,7 +55,7 @@ impl Profiler {
                 ahead: through_water.ahead + noise(0),
                 starboard: through_water.starboard + noise(1),
             },
-            heading: view.heading,
+            heading: view.compass,
             depth: view.depth,
             altitude: view.altitude,
         });

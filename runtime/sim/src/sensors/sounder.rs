@@ -1,25 +1,35 @@
-//! The echo sounder: how far the bottom is, with noise.
+//! The echo sounder: how far the bottom is, where it hears an echo.
 
+use super::rate::is_due;
 use crate::noise::{Noise, Stream};
 use crate::scenario::Sounder;
 
-/// An echo at every tick.
+/// A sounder.
 #[derive(Clone, Debug)]
 pub struct EchoSounder {
-    /// Standard deviation of one echo, m.
-    deviation: f64,
+    settings: Sounder,
     noise: Noise,
+    dropouts: Noise,
 }
 
 impl EchoSounder {
     /// The sounder of a run.
     pub fn new(settings: &Sounder, seed: u64) -> Self {
-        EchoSounder { deviation: settings.noise, noise: Noise::new(seed, Stream::Sounder) }
+        let (noise, dropouts) = (Noise::new(seed, Stream::Sounder), Noise::new(seed, Stream::SounderDropout));
+        EchoSounder { settings: settings.clone(), noise, dropouts }
     }
 
-    /// What it makes of a true altitude, m: never less than nothing.
-    pub fn reading(&self, tick: u64, altitude: f64) -> f64 {
-        if self.deviation > 0.0 { (altitude + self.deviation * self.noise.gaussian(tick)).max(0.0) } else { altitude }
+    /// What it makes of a true altitude at a tick, m, when it hears an echo: never less than nothing.
+    pub fn reading(&self, tick: u64, altitude: f64) -> Option<f64> {
+        let s = &self.settings;
+        let is_lost = s.dropouts > 0.0 && self.dropouts.uniform(tick) < s.dropouts;
+        let is_near = altitude >= s.nearest && s.farthest.is_none_or(|farthest| altitude <= farthest);
+        if is_lost || !is_near || !is_due(s.rate, tick) {
+            return None;
+        }
+        let noise = if s.noise > 0.0 { s.noise * self.noise.gaussian(tick) } else { 0.0 };
+        let is_perfect = s.noise == 0.0 && s.bias == 0.0;
+        Some(if is_perfect { altitude } else { (altitude + s.bias + noise).max(0.0) })
     }
 }
 
@@ -29,12 +39,23 @@ mod tests {
 
     #[test]
     fn echoes_scatter_about_the_truth_and_a_perfect_one_is_the_truth() {
-        let sounder = EchoSounder::new(&Sounder { noise: 0.05 }, 1);
-        let errors: Vec<f64> = (0..10_000).map(|tick| sounder.reading(tick, 3.0) - 3.0).collect();
+        let sounder = EchoSounder::new(&Sounder { noise: 0.05, ..Sounder::default() }, 1);
+        let errors: Vec<f64> = (0..10_000).map(|tick| sounder.reading(tick, 3.0).unwrap() - 3.0).collect();
         let mean = errors.iter().sum::<f64>() / 10_000.0;
         let deviation = (errors.iter().map(|e| e * e).sum::<f64>() / 10_000.0).sqrt();
         assert!(mean.abs() < 0.002 && (deviation - 0.05).abs() < 0.002, "{mean} {deviation}");
-        assert!((0..1000).all(|tick| sounder.reading(tick, 0.01) >= 0.0));
-        assert_eq!(EchoSounder::new(&Sounder::default(), 1).reading(7, 3.3), 3.3);
+        assert!((0..1000).all(|tick| sounder.reading(tick, 0.01).unwrap() >= 0.0));
+        assert_eq!(EchoSounder::new(&Sounder::default(), 1).reading(7, 3.3), Some(3.3));
+    }
+
+    #[test]
+    fn echoes_are_lost_out_of_range_and_at_random() {
+        let settings = Sounder { nearest: 0.5, farthest: Some(30.0), bias: -0.2, ..Sounder::default() };
+        let sounder = EchoSounder::new(&settings, 1);
+        assert_eq!((sounder.reading(1, 0.4), sounder.reading(1, 31.0)), (None, None));
+        assert_eq!(sounder.reading(1, 3.0), Some(2.8));
+        let sounder = EchoSounder::new(&Sounder { dropouts: 0.3, ..settings }, 1);
+        let lost = (0..10_000).filter(|&tick| sounder.reading(tick, 3.0).is_none()).count();
+        assert!((2_800..3_200).contains(&lost), "{lost}");
     }
 }

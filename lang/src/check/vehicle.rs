@@ -1,0 +1,114 @@
+//! Vehicles: what belongs to one hull, wherever it swims. A scenario that names one has its hull, and says what it does not
+//! say itself: sensors, limits.
+
+use super::scenario::Standing;
+use super::{Checker, Def, Scope, Setting};
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{ClauseArg, ClauseUse};
+use crate::source::Span;
+use crate::syntax::tree::{self, Item};
+
+/// The clause with which a scenario names a vehicle.
+const CLAUSE: &str = "vehicle";
+
+/// A vehicle, as far as it is checked.
+#[derive(Clone, Debug)]
+pub(super) struct VehicleInfo {
+    name: String,
+    /// What the scenario's own clause takes of it, each with its kind: how it moves.
+    values: Vec<(String, ClauseUse)>,
+    /// What else it says.
+    clauses: Vec<ClauseUse>,
+}
+
+impl<'t> Checker<'t> {
+    pub(super) fn declare_vehicle(&mut self, m: usize, name: &'t tree::Name) {
+        self.vehicles.push(VehicleInfo { name: name.node.clone(), values: Vec::new(), clauses: Vec::new() });
+        self.define(m, name, Def::Vehicle(self.vehicles.len() - 1));
+    }
+
+    /// Scenarios take from vehicles, so that these come first.
+    pub(super) fn check_vehicles(&mut self) {
+        let modules = self.modules;
+        for (m, module) in modules.iter().enumerate() {
+            for item in &module.tree.items {
+                if let Item::Vehicle { name, body } = item
+                    && let Some(&Def::Vehicle(id)) = self.names[m].get(&name.node)
+                {
+                    self.check_vehicle(m, id, name, body);
+                }
+            }
+        }
+    }
+
+    fn check_vehicle(&mut self, m: usize, id: usize, name: &tree::Name, body: &'t tree::Block) {
+        let (clauses, _) = self.within(Scope::new(m, Setting::Constant), |c| c.clause_lines(body, Standing::Vehicle));
+        self.clauses_once(&clauses);
+        let kind = |c: &Self, used: &ClauseUse| {
+            let info = c.clauses.iter().find(|info| info.signature.name == used.name && info.kind.is_some());
+            info.and_then(|info| info.kind.clone()).filter(|_| !c.stands_alone(&used.name))
+        };
+        let (mut values, mut rest) = (Vec::new(), Vec::new());
+        for used in clauses {
+            match kind(self, &used) {
+                Some(kind) => values.push((kind, used)),
+                None => rest.push(used),
+            }
+        }
+        for (i, (kind, used)) in values.iter().enumerate() {
+            if let Some((_, first)) = values[..i].iter().find(|(earlier, _)| earlier == kind) {
+                let message = format!("a vehicle has one {kind}");
+                let finding = Diagnostic::error(Code::ScenariosTwice, used.span, message);
+                self.report(finding.label(first.span, "the first").help("leave one of them out"));
+            }
+        }
+        if values.is_empty() && !rest.is_empty() {
+            let kinds = self.vehicle_kinds().join(" or ");
+            let message = format!("the vehicle `{}` has no {kinds}", name.node);
+            let finding = Diagnostic::error(Code::ScenariosClause, name.span, message);
+            self.report(finding.help("say how it moves: `kinematic()`, for example"));
+        }
+        (self.vehicles[id].values, self.vehicles[id].clauses) = (values, rest);
+    }
+
+    /// The kinds of values that a vehicle may hold on a line of their own: those that a scenario's clause takes from it.
+    pub(super) fn vehicle_kinds(&self) -> Vec<String> {
+        let clause = self.clauses.iter().find(|clause| clause.signature.name == CLAUSE);
+        clause.map_or_else(Vec::new, |clause| clause.nested.iter().flatten().cloned().collect())
+    }
+
+    /// Whether a clause of this name stands on a line of its own.
+    fn stands_alone(&self, name: &str) -> bool {
+        self.clauses.iter().any(|clause| clause.signature.name == name && clause.kind.is_none())
+    }
+
+    /// What a vehicle gives to the clause that names it: a value for each parameter whose kind it has.
+    pub(super) fn of_vehicle(
+        &mut self,
+        id: usize,
+        at: Span,
+        params: &[super::ParamInfo],
+        nested: &[Option<String>],
+    ) -> Vec<(String, ClauseArg)> {
+        let vehicle = self.vehicles[id].clone();
+        self.fitted.extend(vehicle.clauses);
+        let mut given = Vec::new();
+        for (param, kind) in params.iter().zip(nested) {
+            let value = vehicle.values.iter().find(|(has, _)| Some(has) == kind.as_ref());
+            given.extend(value.map(|(_, used)| (param.name.clone(), ClauseArg::Nested(used.clone()))));
+        }
+        if given.is_empty() && !vehicle.values.is_empty() {
+            let message = format!("the vehicle `{}` cannot stand here", vehicle.name);
+            let help = format!("a scenario names it in its `{CLAUSE}({}, start: …)`", vehicle.name);
+            self.report(Diagnostic::error(Code::ScenariosClause, at, message).help(help));
+        }
+        given
+    }
+
+    /// Adds what the vehicles that a scenario has named say, where it does not say the same itself.
+    pub(super) fn fit_out(&mut self, clauses: &mut Vec<ClauseUse>) {
+        let said: Vec<String> = clauses.iter().map(|clause| clause.name.clone()).collect();
+        clauses.extend(std::mem::take(&mut self.fitted).into_iter().filter(|clause| !said.contains(&clause.name)));
+    }
+}

@@ -1,0 +1,44 @@
+//! The pressure gauge: how deep the vehicle is, by the weight of the water over it.
+
+use super::rate::is_due;
+use crate::noise::{Noise, Stream};
+use crate::scenario;
+
+/// A gauge.
+#[derive(Clone, Debug)]
+pub struct Pressure {
+    settings: scenario::Pressure,
+    noise: Noise,
+}
+
+impl Pressure {
+    /// The gauge of a run.
+    pub fn new(settings: &scenario::Pressure, seed: u64) -> Self {
+        Pressure { settings: settings.clone(), noise: Noise::new(seed, Stream::Pressure) }
+    }
+
+    /// What it makes of a true depth at a tick, m, when it tells anything: never less than nothing.
+    pub fn reading(&self, tick: u64, depth: f64) -> Option<f64> {
+        let s = &self.settings;
+        let noise = if s.noise > 0.0 { s.noise * self.noise.gaussian(tick) } else { 0.0 };
+        let is_perfect = s.noise == 0.0 && s.bias == 0.0;
+        let told = if is_perfect { depth } else { (depth + s.bias + noise).max(0.0) };
+        is_due(s.rate, tick).then_some(told)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bias_and_noise_are_as_told_and_a_perfect_gauge_tells_the_truth() {
+        let gauge = Pressure::new(&scenario::Pressure { noise: 0.1, bias: 0.5, rate: 5.0 }, 1);
+        let errors: Vec<f64> = (0..20_000).filter_map(|tick| Some(gauge.reading(tick, 3.0)? - 3.0)).collect();
+        assert_eq!(errors.len(), 10_000);
+        let mean = errors.iter().sum::<f64>() / 1e4;
+        let deviation = (errors.iter().map(|e| (e - mean) * (e - mean)).sum::<f64>() / 1e4).sqrt();
+        assert!((mean - 0.5).abs() < 0.005 && (deviation - 0.1).abs() < 0.005, "{mean} {deviation}");
+        assert_eq!(Pressure::new(&scenario::Pressure::default(), 1).reading(7, 3.3), Some(3.3));
+    }
+}

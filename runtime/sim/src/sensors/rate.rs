@@ -1,0 +1,24 @@
+//! When an instrument takes its samples.
+
+use albacore_vehicle::TICK_S;
+
+/// A sample that falls on a tick belongs to it, whatever the rounding of its time.
+const TOLERANCE: f64 = 1e-9;
+
+/// Whether a sample of an instrument with so many a second, ten at most, falls on a tick or between it and the one before.
+pub(super) fn is_due(rate: f64, tick: u64) -> bool {
+    let samples = |tick: u64| (tick as f64 * (rate * TICK_S) + TOLERANCE).floor();
+    tick == 0 || samples(tick) > samples(tick - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_come_at_their_rate() {
+        for (rate, expected) in [(10.0, 601), (5.0, 301), (3.0, 181), (0.1, 7)] {
+            assert_eq!((0..=600).filter(|&tick| is_due(rate, tick)).count(), expected, "{rate} Hz");
+        }
+    }
+}
