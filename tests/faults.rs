@@ -12,7 +12,7 @@ mod faults {
     pub mod page;
 }
 
-use albacore_session::{Outcome, Plan, Run, Running, load, load_faults};
+use albacore_session::{Outcome, Plan, PlanError, Run, Running, load, load_faults};
 use faults::guard::{Guard, Problems};
 use std::path::Path;
 
@@ -147,5 +147,41 @@ fn what_can_be_seen_is_detected() {
                 assert!(own.is_some_and(|(_, after)| *after <= 40.0), "{fault}, seed {seed}: {:?}", told.detected);
             }
         }
+    }
+}
+
+#[test]
+fn what_is_no_fault_is_told_with_what_would_be_one() {
+    let load = |text: &str| load_faults(&[text.to_string()]);
+    let told = |text: &str| {
+        let script = load(text);
+        let errors: Vec<String> = script.findings.iter().map(|f| format!("{} {:?}", f.message, f.help)).collect();
+        errors.join("\n")
+    };
+    assert!(told("position, of").contains("did you mean `off`?"), "{}", told("position, of"));
+    assert!(told("heding, stuck").contains("did you mean `heading`?"), "{}", told("heding, stuck"));
+    assert!(told("leak, from: 5 m").contains("Length"), "{}", told("leak, from: 5 m"));
+    assert!(told("pit(\"a\")").contains("takes no `pit`"), "{}", told("pit(\"a\")"));
+    assert_eq!(told("flow, off"), "");
+    // What each part is by itself, and what they are together.
+    let refused = |text: &str| {
+        let script = albacore_session::load(Path::new(SURVEY), None, &[]).unwrap();
+        let plan = Plan::new(&script, SURVEY, None, None).unwrap();
+        assert_eq!(told(text), "", "{text}");
+        match plan.with_faults(&load(text)) {
+            Err(PlanError::Asked(_, help)) => help.unwrap_or_default(),
+            Err(PlanError::Script(findings)) => findings.iter().map(|f| f.message.clone()).collect(),
+            Ok(_) => String::from("nothing"),
+        }
+    };
+    for (text, why) in [
+        ("off", "`off` is a trouble of a sensor"),
+        ("position", "what is wrong?"),
+        ("position, leak", "leave `position` out"),
+        ("chemical, jump(10 m)", "only the position can"),
+        ("speed, saturated", "only the heading can"),
+        ("flow, off, from: 9 s, to: 8 s", "it must be after `from`"),
+    ] {
+        assert!(refused(text).contains(why), "{text}: {}", refused(text));
     }
 }
