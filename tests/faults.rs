@@ -136,7 +136,8 @@ fn every_fault_is_survived_and_named() {
     }
 }
 
-/// These must be noticed on every seed: what they change can be seen.
+/// These must be noticed on every seed, and soon: what they change can be seen. Of a channel that comes and goes it may take until
+/// it stays away for five of its periods.
 #[test]
 fn what_can_be_seen_is_detected() {
     for sensor in SENSORS {
@@ -144,7 +145,8 @@ fn what_can_be_seen_is_detected() {
             let fault = format!("{sensor}, {disorder}");
             for (told, seed) in all_seeds(&fault).iter().zip(1..) {
                 let own = told.detected.iter().find(|(what, _)| what.starts_with(sensor));
-                assert!(own.is_some_and(|(_, after)| *after <= 40.0), "{fault}, seed {seed}: {:?}", told.detected);
+                let soon = if disorder == "intermittent" { TO - FROM } else { 40.0 };
+                assert!(own.is_some_and(|(_, after)| *after <= soon), "{fault}, seed {seed}: {:?}", told.detected);
             }
         }
     }
@@ -158,7 +160,7 @@ fn what_is_no_fault_is_told_with_what_would_be_one() {
         let errors: Vec<String> = script.findings.iter().map(|f| format!("{} {:?}", f.message, f.help)).collect();
         errors.join("\n")
     };
-    assert!(told("position, of").contains("did you mean `off`?"), "{}", told("position, of"));
+    assert!(told("position, stuk").contains("did you mean `stuck`?"), "{}", told("position, stuk"));
     assert!(told("heding, stuck").contains("did you mean `heading`?"), "{}", told("heding, stuck"));
     assert!(told("leak, from: 5 m").contains("Length"), "{}", told("leak, from: 5 m"));
     assert!(told("pit(\"a\")").contains("takes no `pit`"), "{}", told("pit(\"a\")"));
