@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a benchmark whose world cannot be has nothing to measure")]
 
-use albacore_sim::{Plume, Scenario, Simulator, presets};
+use albacore_sim::{Noise, Plume, Scenario, Simulator, Stream, presets};
 use albacore_vehicle::{Command, Snapshot, TICK_S, Vehicle, Vertical};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -41,6 +41,26 @@ fn filament_step(bencher: Bencher, duck: Duck) {
     let mut snapshot = Snapshot::default();
     simulator.sense(&mut snapshot).unwrap();
     bencher.counter(ItemsCount::new(simulator.filaments().count())).bench_local(|| simulator.sense(&mut snapshot));
+}
+
+/// The increments of such a step alone: of each filament one draw for the horizontal, and in a layer one more for the vertical.
+/// The items are filaments.
+#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 20)]
+fn increment(bencher: Bencher, duck: Duck) {
+    let filaments = Simulator::new(&duck.scenario(), 1).unwrap().filaments().count() as u64;
+    let (horizontal, vertical) = (Noise::new(1, Stream::Diffusion), Noise::new(1, Stream::VerticalDiffusion));
+    bencher.counter(ItemsCount::new(filaments as usize)).bench_local(|| {
+        let draws = black_box(0)..black_box(filaments);
+        draws.fold([0.0; 3], |[x, y, z], filament| {
+            let index = filament << 32 | 7;
+            let (dx, dy) = horizontal.nearly_gaussian_pair(index);
+            let dz = match duck {
+                Duck::Flat => 0.0,
+                Duck::Layered => vertical.nearly_gaussian_pair(index).0,
+            };
+            [x + dx, y + dy, z + dz]
+        })
+    });
 }
 
 /// One look at a place anywhere in the plume, in an index made before.
