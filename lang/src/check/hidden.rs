@@ -40,7 +40,12 @@ impl<'t> Checker<'t> {
             Item::Fn(f) => self.hides_no_function(&f.name),
             // A behavior is called as a statement and a function is a value: `round(area)` and `round(2.5)` differ in sight.
             Item::Use(_) | Item::Activity(_) | Item::Clause { .. } | Item::Test(_) => {}
-            Item::Scenario { .. } | Item::Vehicle { .. } => {}
+            Item::Scenario { .. } => {}
+            Item::Vehicle { name, .. } => {
+                if let Some(Def::Clause(_)) = self.lookup_if(0, &name.node, |def| matches!(def, Def::Clause(_))) {
+                    self.hidden(name, "a clause of scenarios");
+                }
+            }
         }
     }
 

@@ -194,8 +194,12 @@ impl<'t> Checker<'t> {
                 K::Call(callee, _) => callee.as_ref(),
                 _ => &arg.value,
             };
-            if let Found::Def(Def::Vehicle(vehicle)) = self.find(head) {
+            if let Some(vehicle) = self.vehicle_named(head) {
                 values.extend(self.of_vehicle(vehicle, head.span, &params, &nested));
+                continue;
+            }
+            if nested.iter().any(Option::is_some) && self.misses_vehicle(head) {
+                failed = true;
                 continue;
             }
             let takes = |kind: Option<&String>| kind.is_some() && nested.iter().any(|n| n.as_ref() == kind);

@@ -1,13 +1,15 @@
 //! Vehicles: what belongs to one hull, wherever it swims. A scenario that names one has its hull, and says what it does not
 //! say itself: sensors, limits.
 
+use super::names::Found;
 use super::scenario::Standing;
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::source::Span;
-use crate::syntax::tree::{self, Item};
+use crate::syntax::tree::{self, ExprKind, Item};
+use crate::types::Type;
 
 /// The clause with which a scenario names a vehicle.
 const CLAUSE: &str = "vehicle";
@@ -81,6 +83,29 @@ impl<'t> Checker<'t> {
     /// Whether a clause of this name stands on a line of its own.
     fn stands_alone(&self, name: &str) -> bool {
         self.clauses.iter().any(|clause| clause.signature.name == name && clause.kind.is_none())
+    }
+
+    /// The vehicle that an expression names.
+    pub(super) fn vehicle_named(&self, e: &tree::Expr) -> Option<usize> {
+        let def = match &e.kind {
+            ExprKind::Name(name) => {
+                self.lookup_if(self.scope.module, name, |def| matches!(def, Def::Vehicle(_))).cloned()
+            }
+            _ => match self.find(e) {
+                Found::Def(def) => Some(def),
+                Found::Nothing => None,
+            },
+        };
+        match def {
+            Some(Def::Vehicle(id)) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// Whether `module.name` stands for nothing at all, which is told: it would be taken for another argument.
+    pub(super) fn misses_vehicle(&mut self, e: &tree::Expr) -> bool {
+        let is_member = matches!(e.kind, ExprKind::Member(..));
+        is_member && matches!(self.find(e), Found::Nothing) && self.expr(e, None).ty == Type::Unknown
     }
 
     /// What a vehicle gives to the clause that names it: a value for each parameter whose kind it has.

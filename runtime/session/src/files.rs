@@ -5,10 +5,11 @@ use albacore_lang::{Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 9] = [
+const STDLIB: [(&str, &str); 10] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
     ("faults", include_str!("../../../stdlib/faults.alb")),
+    ("vehicles", include_str!("../../../stdlib/vehicles.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),

@@ -45,7 +45,10 @@ mod tests {
         assert!(dvl.tells(5, 30.0) && !dvl.tells(5, 30.1) && !dvl.tells(6, 30.0));
         let dvl = Dvl::new(&scenario::Dvl { noise: 0.02, ..Default::default() }, 1);
         let truth = Vector::new(1.0, 1.0);
-        let square = |tick| (dvl.noisy(tick, truth).unwrap() - truth).length().powi(2);
+        let square = |tick| {
+            let error = dvl.noisy(tick, truth).unwrap() - truth;
+            error.dot(error)
+        };
         let variance = (0..10_000).map(square).sum::<f64>() / 2e4;
         assert!((variance.sqrt() - 0.02).abs() < 0.001 && dvl.tells(3, 1e4));
         assert_eq!(Dvl::new(&scenario::Dvl::default(), 1).noisy(3, truth), None);
