@@ -180,7 +180,7 @@ impl Mission {
                 None => Vertical::Depth(metres),
             },
         };
-        let course = self.filter.step(amended, TICK_S);
+        let course = self.filter.step(amended, TURN_RATE_MAX, TICK_S);
         if (over_ground || amended != asked) && speed > 0.0 {
             let water = through_water(course, speed, self.senses.flow, SPEED_MAX);
             Command { heading: water.heading, speed: water.speed, vertical }

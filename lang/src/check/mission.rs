@@ -5,26 +5,37 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Mission, Require};
+use crate::source::Spanned;
 use crate::syntax::tree::{self, ActivityKind};
 use crate::types::Type;
 use albacore_program::Channel;
 
+/// The limit that is no channel's.
+const TURN_RATE: &str = "turn_rate";
+
 impl Checker<'_> {
     /// `altitude >= 1.5 m`.
     pub(super) fn limit(&mut self, limit: &tree::Expr, mission: &mut Mission) {
-        let help = "for example `altitude >= 1.5 m`, `depth <= 30 m` or `speed <= 2.6 m/s`";
+        let help = "for example `altitude >= 1.5 m`, `depth <= 30 m`, `speed <= 2.6 m/s` or `turn_rate <= 6 deg/s`";
         let tree::ExprKind::Binary(op, left, right) = &limit.kind else {
             self.report(Diagnostic::error(Code::MissionsLimit, limit.span, "a limit is a comparison").help(help));
             return;
         };
+        if matches!(&left.kind, tree::ExprKind::Name(name) if name == TURN_RATE) {
+            return self.turn_rate(limit, op, right, mission);
+        }
         let channel = match &left.kind {
             tree::ExprKind::Name(name) if name == "altitude" => (Channel::Altitude, Type::Altitude),
             tree::ExprKind::Name(name) if name == "depth" => (Channel::Depth, Type::Depth),
             tree::ExprKind::Name(name) if name == "speed" => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
             _ => {
                 self.report(
-                    Diagnostic::error(Code::MissionsLimit, left.span, "limits hold `altitude`, `depth` and `speed`")
-                        .help(help),
+                    Diagnostic::error(
+                        Code::MissionsLimit,
+                        left.span,
+                        "limits hold `altitude`, `depth`, `speed` and `turn_rate`",
+                    )
+                    .help(help),
                 );
                 return;
             }
@@ -53,6 +64,28 @@ impl Checker<'_> {
             self.report(finding);
         }
         mission.limits.push((channel.0, least, value));
+    }
+
+    /// `turn_rate <= 6 deg/s`.
+    fn turn_rate(&mut self, limit: &tree::Expr, op: &Spanned<tree::Binary>, right: &tree::Expr, mission: &mut Mission) {
+        if op.node != tree::Binary::Le {
+            let message = "a vehicle may always turn more slowly: its rate of turn has a greatest value alone";
+            self.report(Diagnostic::error(Code::MissionsLimit, op.span, message).help("write `turn_rate <= 6 deg/s`"));
+            return;
+        }
+        let rate = Type::Quantity(Dimension::ANGLE / Dimension::TIME);
+        let value = self.instant(Temporal::No, |c| c.expr_as(right, &rate, "the limit"));
+        if value.range.high <= 0.0 {
+            let finding = Diagnostic::error(Code::MissionsLimit, value.span, "a vehicle with this limit never turns");
+            self.report(finding.help("give what it can turn in a second: `turn_rate <= 6 deg/s`"));
+        }
+        if let Some(first) = &mission.turn_rate {
+            let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
+                .label(first.span, "the first")
+                .help("keep one of them");
+            self.report(finding);
+        }
+        mission.turn_rate = Some(value);
     }
 
     pub(super) fn require(&mut self, require: &tree::Require, mission: &mut Mission) {

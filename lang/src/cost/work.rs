@@ -64,7 +64,11 @@ impl<'a> Work<'a> {
         let activity = &self.hir.activities[mission];
         let mut steps = self.exprs(activity.defaults.iter().flatten());
         if let Some(parts) = &activity.mission {
-            steps = sum([steps, self.exprs(&parts.within), self.exprs(parts.limits.iter().map(|(_, _, e)| e))]);
+            steps = sum([
+                steps,
+                self.exprs(&parts.within),
+                self.exprs(parts.limits.iter().map(|(_, _, e)| e).chain(&parts.turn_rate)),
+            ]);
             for require in &parts.requires {
                 let asked = [&require.at_first, &require.hold_for].into_iter().flatten();
                 // Once while the first samples are awaited, and once more at the start.

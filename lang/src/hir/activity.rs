@@ -107,6 +107,8 @@ pub struct Mission {
     pub area: Option<VarId>,
     /// `channel >= value`: channel, whether it is the least value, the value.
     pub limits: Vec<(Channel, bool, Expr)>,
+    /// The fastest turn that is commanded.
+    pub turn_rate: Option<Expr>,
     /// The inputs it cannot do without.
     pub requires: Vec<Require>,
     /// What runs after a time-out or an abort.

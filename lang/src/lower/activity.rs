@@ -314,6 +314,7 @@ impl<'a> Lowering<'a> {
                 (Channel::Speed, false) => limits.speed_max = code,
             }
         }
+        limits.turn_rate_max = mission.turn_rate.as_ref().map(|e| self.code(e));
         let mut requires = Vec::new();
         for require in &mission.requires {
             requires.push(Require {

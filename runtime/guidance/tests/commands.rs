@@ -2,6 +2,7 @@
 
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Heading, Vector};
+use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{CommandFilter, through_water};
 
 fn deg(x: f64) -> Heading {
@@ -12,7 +13,7 @@ fn deg(x: f64) -> Heading {
 fn a_step_of_ninety_degrees_takes_nine_seconds() {
     let mut filter = CommandFilter::new(deg(0.0));
     let mut time = 0.0;
-    while (deg(90.0) - filter.step(deg(90.0), 0.1)).abs() > radians(0.5) {
+    while (deg(90.0) - filter.step(deg(90.0), TURN_RATE_MAX, 0.1)).abs() > radians(0.5) {
         time += 0.1;
     }
     // 8.8 s at 10 degrees per second, then the last 2 degrees fade with 0.2 s: 0.28 s to half a degree.
@@ -28,7 +29,7 @@ fn it_never_overshoots_nor_turns_faster_than_its_limit() {
             let mut error = target - filter.course;
             for _ in 0..200 {
                 let before = filter.course;
-                let turned = filter.step(target, dt) - before;
+                let turned = filter.step(target, TURN_RATE_MAX, dt) - before;
                 let next = target - filter.course;
                 assert!(turned.abs() <= radians(10.0) * dt + 1e-12, "{to}: rate");
                 let same_side = next * error >= 0.0 || next.abs() < 1e-12;
@@ -45,18 +46,18 @@ fn it_never_overshoots_nor_turns_faster_than_its_limit() {
 #[test]
 fn it_goes_the_short_way_through_north() {
     let mut filter = CommandFilter::new(deg(350.0));
-    let first = filter.step(deg(10.0), 0.1);
+    let first = filter.step(deg(10.0), TURN_RATE_MAX, 0.1);
     assert!((first.degrees() - 351.0).abs() < 1e-9);
     let mut filter = CommandFilter::new(deg(10.0));
-    assert!((filter.step(deg(350.0), 0.1).degrees() - 9.0).abs() < 1e-9);
+    assert!((filter.step(deg(350.0), TURN_RATE_MAX, 0.1).degrees() - 9.0).abs() < 1e-9);
 }
 
 #[test]
 fn two_short_steps_are_one_long_step() {
     let (mut once, mut twice) = (CommandFilter::new(deg(0.0)), CommandFilter::new(deg(0.0)));
-    once.step(deg(3.0), 0.4);
-    twice.step(deg(3.0), 0.15);
-    twice.step(deg(3.0), 0.25);
+    once.step(deg(3.0), TURN_RATE_MAX, 0.4);
+    twice.step(deg(3.0), TURN_RATE_MAX, 0.15);
+    twice.step(deg(3.0), TURN_RATE_MAX, 0.25);
     assert!((once.course - twice.course).abs() < 1e-12);
     assert_eq!(CommandFilter::from_words(&once.to_words()), once);
 }

@@ -2,6 +2,7 @@
 
 use albacore_geometry::{Heading, Line, Point, Vector};
 use albacore_guidance::dubins::{Pose, Words};
+use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{Circling, CommandFilter, FollowLine, Goto, GotoPose, Guidance, Loiter, through_water};
 
 const NOWHERE: Point = Point::new(f64::NAN, f64::NAN);
@@ -44,7 +45,7 @@ fn commands_that_are_no_numbers() {
     let nan = Heading::from_radians(f64::NAN);
     // A time that is none does not move the filter.
     let mut filter = CommandFilter::new(Heading::NORTH);
-    assert_eq!(filter.step(Heading::from_degrees(90.0), f64::NAN), Heading::NORTH);
+    assert_eq!(filter.step(Heading::from_degrees(90.0), TURN_RATE_MAX, f64::NAN), Heading::NORTH);
     // The speed stays one the vehicle can be asked for.
     let flow = Vector::new(f64::NAN, 0.0);
     for (course, speed, flow) in [(nan, 1.0, Vector::ZERO), (Heading::NORTH, f64::NAN, Vector::ZERO), (nan, 1.0, flow)]

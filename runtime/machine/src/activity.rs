@@ -48,6 +48,7 @@ impl Run {
         let declared = self.execute(p, activity.entry, base);
         if activity.kind == ActivityKind::Mission {
             self.remember_declared(p, activity, base);
+            self.compute_turn_rate(p, base);
         }
         if declared == Flow::Abort {
             return;

@@ -4,6 +4,7 @@ use crate::guide::Filter;
 use crate::state::{Limits, Run};
 use crate::{Event, execute::Flow};
 use albacore_geometry::Heading;
+use albacore_guidance::parameters::TURN_RATE_MIN;
 use albacore_guidance::through_water;
 use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, header};
 use albacore_vehicle::{Command, TICK_S, Vertical};
@@ -25,7 +26,7 @@ impl Run {
         let speed = self.limit(Channel::Speed, asked.speed);
         let vertical = self.limit_vertical(asked.vertical);
         let mut filter = Filter::new(self.state.filtered);
-        let course = filter.step(amended, TICK_S);
+        let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;
         // Flow compensation may ask for more speed through the water than the mission allows.
         let speed_max = self.state.limits.speed.1;
@@ -178,8 +179,17 @@ impl Run {
         given
     }
 
-    /// The mission's limits as numbers.
+    /// The fastest turn as a number: the first statement plans with it.
+    pub fn compute_turn_rate(&mut self, p: &Program, base: Slot) {
+        if let Some(code) = &p.mission.limits.turn_rate_max {
+            self.execute(p, code.entry, base);
+            self.state.limits.turn_rate = self.get(base + code.value).max(TURN_RATE_MIN);
+        }
+    }
+
+    /// The mission's other limits as numbers.
     pub fn compute_limits(&mut self, p: &Program) {
+        let turn_rate = self.state.limits.turn_rate;
         let base = p.mission.base;
         let mut number = |code: &Option<Code>, otherwise: f64| match code {
             Some(code) => {
@@ -194,6 +204,7 @@ impl Run {
             altitude: (number(&limits.altitude_min, none.altitude.0), number(&limits.altitude_max, none.altitude.1)),
             depth: (number(&limits.depth_min, none.depth.0), number(&limits.depth_max, none.depth.1)),
             speed: (number(&limits.speed_min, none.speed.0), number(&limits.speed_max, none.speed.1)),
+            turn_rate,
         };
         self.state.limits = computed;
     }

@@ -3,7 +3,7 @@
 use crate::state::{Asked, Run};
 use albacore_geometry::Heading;
 use albacore_guidance::dubins::{Pose, Words};
-use albacore_guidance::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
+use albacore_guidance::parameters::TURN_LEAD_TIME;
 use albacore_guidance::{Circling, CommandFilter, FollowLine, Goto, GotoPose, Loiter, turning_radius_in_flow};
 use albacore_program::{Guide, Slot, setpoints};
 use albacore_vehicle::Vertical;
@@ -25,7 +25,7 @@ impl Run {
         if asked > 0.0 {
             asked
         } else {
-            turning_radius_in_flow(self.planned_speed(setpoints), self.flow().length(), TURN_RATE_MAX)
+            turning_radius_in_flow(self.planned_speed(setpoints), self.flow().length(), self.state.limits.turn_rate)
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
+use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_program::{Slot, setpoints};
 use albacore_vehicle::{Command, Control, Vertical};
 use serde::{Deserialize, Serialize};
@@ -86,10 +87,13 @@ pub(crate) struct Limits {
     pub altitude: (f64, f64),
     pub depth: (f64, f64),
     pub speed: (f64, f64),
+    /// Of the course that is commanded, rad/s at most.
+    pub turn_rate: f64,
 }
 
 impl Limits {
-    pub const NONE: Limits = Limits { altitude: (0.0, f64::MAX), depth: (0.0, f64::MAX), speed: (0.0, f64::MAX) };
+    pub const NONE: Limits =
+        Limits { altitude: (0.0, f64::MAX), depth: (0.0, f64::MAX), speed: (0.0, f64::MAX), turn_rate: TURN_RATE_MAX };
 }
 
 /// A required input as numbers.

@@ -21,7 +21,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 4;
+pub const PROGRAM_VERSION: u32 = 5;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -103,6 +103,8 @@ pub struct Limits {
     pub speed_min: Option<Code>,
     /// Metres per second through the water, at most.
     pub speed_max: Option<Code>,
+    /// Radians per second of the course that is commanded, at most; else what the command filter has.
+    pub turn_rate_max: Option<Code>,
 }
 
 /// An input that the mission cannot do without.

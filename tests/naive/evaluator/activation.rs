@@ -8,6 +8,7 @@ use super::value::Value;
 use super::watch::Watch;
 use super::world::World;
 use albacore_geometry::Heading;
+use albacore_guidance::parameters::TURN_RATE_MIN;
 use albacore_lang::hir::{Activity, Block, Body, Decl, Kind, With};
 use albacore_lang::types::Type;
 use albacore_program::Cause;
@@ -93,6 +94,10 @@ impl<'p> Activation<'p> {
                 }
             }
             self.signals.push(watch);
+        }
+        if let Some(limit) = activity.mission.as_ref().and_then(|mission| mission.turn_rate.as_ref()) {
+            let rate = super::expr::number(w, Scope::of(&frame), limit);
+            w.turn_rate = rate.max(TURN_RATE_MIN);
         }
         let aborts = activity.aborts.iter().map(|(_, condition)| condition);
         let conditions: Vec<_> = aborts.chain(activity.reactions.iter().map(|(condition, _)| condition)).collect();

@@ -342,7 +342,7 @@ impl<'p> Evaluator<'p> {
                 Vertical::Depth(water.map_or(given, |water| given.min((water - lowest).max(0.0))))
             }
         };
-        let course = self.filter.step(amended, TICK_S);
+        let course = self.filter.step(amended, self.w.turn_rate, TICK_S);
         if (asked.over_ground || amended != asked.course) && speed > 0.0 {
             let fastest = self.limits[Channel::Speed as usize].1;
             let water = through_water(course, speed, self.w.flow(), fastest);

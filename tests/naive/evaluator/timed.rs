@@ -7,7 +7,7 @@ use super::watch::Watch;
 use super::world::{World, ticks};
 use albacore_geometry::Heading;
 use albacore_guidance::dubins::{Pose, Words};
-use albacore_guidance::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
+use albacore_guidance::parameters::TURN_LEAD_TIME;
 use albacore_guidance::{Circling, FollowLine, Goto, GotoPose, Guidance, Loiter, turning_radius_in_flow};
 use albacore_lang::hir::{Action, Expr, Timed};
 use albacore_program::{Cause, Channel, Guide};
@@ -198,7 +198,7 @@ fn law(w: &World<'_>, guide: Guide, args: &[Value], setpoints: Setpoints) -> Law
     // Speeds below 0.1 m/s turn in no circle worth planning with.
     let speed = setpoints.speed.unwrap_or(w.asked.speed).max(0.1);
     let lead = speed * TURN_LEAD_TIME;
-    let allowed = turning_radius_in_flow(speed, w.flow().length(), TURN_RATE_MAX);
+    let allowed = turning_radius_in_flow(speed, w.flow().length(), w.turn_rate);
     let radius = |asked: f64| if asked > 0.0 { asked } else { allowed };
     let n = |i: usize| args[i].number();
     match guide {

@@ -3,6 +3,7 @@
 use super::timed::Setpoints;
 use super::value::Value;
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
+use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_lang::hir::{Expr, Hir, InputPart};
 use albacore_lang::source::Sources;
 use albacore_lang::types::{Type, TypeTable};
@@ -36,6 +37,8 @@ pub struct World<'p> {
     pub inputs: Vec<Sensed>,
     pub tick: u64,
     pub asked: Asked,
+    /// The fastest turn that is commanded, rad/s.
+    pub turn_rate: f64,
     /// What overlays that own a channel keep in this tick.
     pub kept: Setpoints,
     /// Rule 17: the recovery runs without aborts.
@@ -67,6 +70,7 @@ impl<'p> World<'p> {
             frame,
             tick: 0,
             asked,
+            turn_rate: TURN_RATE_MAX,
             kept: Setpoints::default(),
             is_recovering: false,
             steps: 0,

@@ -5,6 +5,7 @@
 use albacore_geometry::math::{TAU, degrees, radians};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::dubins::Pose;
+use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{CommandFilter, Guidance, through_water, turning_radius};
 
 /// The control period.
@@ -60,7 +61,7 @@ impl Vehicle {
 
     /// One control period behind the command filter and, if the current is known, its compensation.
     pub fn drive(&mut self, commanded: Heading) {
-        let filtered = self.filter.step(commanded, DT);
+        let filtered = self.filter.step(commanded, TURN_RATE_MAX, DT);
         let flow = if self.compensated { self.current } else { Vector::ZERO };
         let asked = through_water(filtered, SPEED, flow, SPEED_MAX);
         let turn = (asked.heading - self.heading).clamp(-self.rate_max * DT, self.rate_max * DT);
