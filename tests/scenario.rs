@@ -1,0 +1,76 @@
+//! `albacore scenario show`: every number in force, and a picture.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// An empty folder of its own for a test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("scenario-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn show(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(["scenario", "show"]).args(arguments).current_dir(folder);
+    command.env("NO_COLOR", "1").stdin(Stdio::null()).output().unwrap()
+}
+
+fn listed(arguments: &[&str]) -> String {
+    let output = show(Path::new(env!("CARGO_MANIFEST_DIR")), arguments);
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    assert_eq!(output.status.code(), Some(0));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// What a scenario says, what the vehicle that it names says, and what holds without being said.
+#[test]
+fn every_number_is_listed_with_where_it_comes_from() {
+    insta::assert_snapshot!(listed(&["tests/scenario/ocean.alb", "--no-out"]));
+    let set = listed(&["tests/scenario/ocean.alb#ocean", "--no-out", "--set", "ocean.age=30min"]);
+    assert!(set.contains("age               1800 s\n"), "{set}");
+}
+
+/// The library's scenarios can all be, and those of the trial differ where they say so.
+#[test]
+fn the_library_has_worlds_that_can_be() {
+    let library = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/stdlib/scenarios.alb")).unwrap();
+    let names = library.lines().filter_map(|line| line.strip_prefix("scenario ")?.split(['(', ' ']).next());
+    let shown: Vec<String> = names.map(|name| listed(&[name, "--no-out"])).collect();
+    assert!(shown.len() >= 9, "{}", shown.len());
+    let rough = shown.iter().find(|text| text.starts_with("scenario duck_2003_rough\n")).unwrap();
+    assert!(rough.contains("sigma             10 m\n"), "{rough}");
+}
+
+#[test]
+fn the_picture_is_a_file_of_its_own() {
+    let folder = folder("picture");
+    let output = show(&folder, &["duck_2003", "--seed", "3"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.ends_with("picture albacore-runs/duck_2003-3/scenario.svg\n"), "{said}");
+    let picture = std::fs::read_to_string(folder.join("albacore-runs/duck_2003-3/scenario.svg")).unwrap();
+    for word in ["scenario duck_2003", "seed 3", "region", "dye", "plume", "start", "depth, every 0.5 m"] {
+        assert!(picture.contains(word), "no {word}");
+    }
+    assert_eq!(show(&folder, &["duck_2003", "--out", "mine.svg"]).status.code(), Some(0));
+    assert_ne!(std::fs::read_to_string(folder.join("mine.svg")).unwrap(), picture, "another seed");
+}
+
+#[test]
+fn what_cannot_be_shown_is_said() {
+    let folder = folder("refused");
+    std::fs::write(folder.join("none.alb"), "const one = 1\n").unwrap();
+    std::fs::write(folder.join("wet.alb"), "scenario dry { tide(\"M2\", 20 m/s toward 0 deg) }\n").unwrap();
+    for (arguments, code, expected) in [
+        (&["duk_2003"][..], 2, "did you mean `duck_2003`?"),
+        (&["nowhere.alb"], 2, "there is no file `nowhere.alb`"),
+        (&["none.alb"], 2, "which scenario of `none.alb` is to be shown?"),
+        (&["wet.alb"], 2, "`tide M2: amplitude` is 20 m/s: it must be 10 m/s at most"),
+    ] {
+        let output = show(&folder, arguments);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(code), 0), "{said}");
+        assert!(said.contains(expected), "{said}");
+    }
+}
