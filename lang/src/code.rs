@@ -42,6 +42,9 @@ codes! {
         AbsentLet = "let",
         AbsentUsed = "used",
     }
+    areas {
+        AreasFile = "file",
+    }
     args {
         ArgsLabel = "label",
         ArgsMany = "many",

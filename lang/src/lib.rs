@@ -3,6 +3,7 @@
 //! [`load`] reads a file and all it imports (`syntax`), checks them (`check`: names, types, dimensions, rules), and gives a
 //! [`Script`], from which missions and scenarios are lowered (`lower`) to what the machine executes.
 
+mod area_file;
 mod broken;
 mod check;
 pub mod code;
@@ -45,6 +46,18 @@ pub trait Library {
     fn prelude(&self) -> Vec<Source>;
     /// The module that `use a.b` in a file means; else a message that names what exists.
     fn module(&self, importer: &Source, path: &[String]) -> Result<Source, String>;
+    /// The bytes of a file of the project that holds data, `bytes_max` of them at most. Its path counts from the project's
+    /// folder, and does not lead out of it.
+    fn data_file(&self, path: &str, bytes_max: u64) -> Result<Vec<u8>, FileFault>;
+}
+
+/// What is wrong with a file of data.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileFault {
+    /// What is wrong, with the path.
+    pub message: String,
+    /// How to mend it.
+    pub help: Option<String>,
 }
 
 /// A mission of a script.
@@ -84,10 +97,13 @@ fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script 
     let main = &modules[MAIN].tree;
     let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
     let overrides = overrides(sources, set, chosen.as_ref(), &mut findings);
-    let checked = check::check(modules, overrides.clone());
+    let checked = check::check(modules, loader.library, overrides.clone());
     let echoes = Echoes::of(unread, sources);
     let later = checked.findings.into_iter().filter(|f| !echoes.holds_back(f, sources));
     findings.extend(later.map(|finding| missing_use(finding, sources, loader.library)));
+    for file in checked.files {
+        sources.add(file);
+    }
     let mut missions = Vec::new();
     for item in &main.items {
         if let Item::Activity(a) = item

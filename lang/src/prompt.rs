@@ -100,7 +100,7 @@ impl Prompt {
 
     /// Reads a line. `known` are the values that it may name, `origin` is where the vehicle's frame touches the globe.
     pub fn read(&mut self, library: &dyn Library, text: &str, known: &[Named], origin: Option<Geodetic>) -> Read {
-        if is_item(text) { self.declare(library, text) } else { self.statements(text, known, origin) }
+        if is_item(text) { self.declare(library, text) } else { self.statements(library, text, known, origin) }
     }
 
     /// What is typed as a source of its own, so that messages can point into it.
@@ -142,7 +142,9 @@ impl Prompt {
         if !unreadable {
             // Earlier lines and the script were checked when they came.
             let of_new = |f: &Diagnostic| self.sources.get(f.span().file).name == name;
-            findings.extend(check::check(&self.modules, self.overrides.clone()).findings.into_iter().filter(of_new));
+            findings.extend(
+                check::check(&self.modules, library, self.overrides.clone()).findings.into_iter().filter(of_new),
+            );
         }
         diagnostic::settle(&mut findings);
         if findings.iter().any(|f| f.severity == Severity::Error) {
@@ -154,7 +156,7 @@ impl Prompt {
         Read { line: Some(Line::Declared(names)), findings }
     }
 
-    fn statements(&mut self, text: &str, known: &[Named], origin: Option<Geodetic>) -> Read {
+    fn statements(&mut self, library: &dyn Library, text: &str, known: &[Named], origin: Option<Geodetic>) -> Read {
         let source = self.source(text);
         let file = self.sources.add(source);
         let (block, mut findings) = syntax::parse_lines(file, text);
@@ -165,7 +167,7 @@ impl Prompt {
         let span = block.span;
         let mut clauses = block.clauses;
         if let [tree::Clause { kind: tree::ClauseKind::With(items), .. }] = clauses.as_slice() {
-            return self.with(items.clone(), span, known, origin);
+            return self.with(library, items.clone(), span, known, origin);
         }
         if let Some(place) = clauses.iter().find(|c| needs_a_table(&c.kind)) {
             let finding =
@@ -207,7 +209,7 @@ impl Prompt {
             }
         }
         let left = name.clone().or_else(|| expression.then(|| VALUE.to_string()));
-        let checked = match self.checked(clauses, span, known) {
+        let checked = match self.checked(library, clauses, span, known) {
             Ok(checked) => checked,
             Err(findings) => return Read { line: None, findings },
         };
@@ -222,7 +224,14 @@ impl Prompt {
     }
 
     /// Setpoints and overlays for all lines that follow: a channel's new setpoint replaces the one before.
-    fn with(&mut self, items: Vec<tree::WithItem>, span: Span, known: &[Named], origin: Option<Geodetic>) -> Read {
+    fn with(
+        &mut self,
+        library: &dyn Library,
+        items: Vec<tree::WithItem>,
+        span: Span,
+        known: &[Named],
+        origin: Option<Geodetic>,
+    ) -> Read {
         let channel = |item: &tree::WithItem| match item {
             tree::WithItem::Setpoint(setpoint) => {
                 Some(if setpoint.channel.node == "speed" { "speed" } else { "vertical" })
@@ -233,7 +242,7 @@ impl Prompt {
         with.retain(|old| channel(old).is_none_or(|c| !items.iter().any(|new| channel(new) == Some(c))));
         with.extend(items);
         let before = std::mem::replace(&mut self.with, with);
-        let checked = self.checked(Vec::new(), span, known);
+        let checked = self.checked(library, Vec::new(), span, known);
         let read = checked
             .and_then(|checked| self.drive(&checked, span.file, known, None, None, origin).map(|_| checked.findings));
         match read {
@@ -285,7 +294,13 @@ impl Prompt {
     }
 
     /// Checks a line as the body of a mission.
-    fn checked(&self, clauses: Vec<tree::Clause>, span: Span, known: &[Named]) -> Result<Checked, Vec<Diagnostic>> {
+    fn checked(
+        &self,
+        library: &dyn Library,
+        clauses: Vec<tree::Clause>,
+        span: Span,
+        known: &[Named],
+    ) -> Result<Checked, Vec<Diagnostic>> {
         let with = tree::Clause { kind: tree::ClauseKind::With(self.with.clone()), span };
         let body = tree::Block { clauses: std::iter::once(with).chain(clauses).collect(), span };
         let mission = tree::Activity {
@@ -299,7 +314,7 @@ impl Prompt {
         module.known = known.iter().map(|n| (n.name.clone(), n.ty.clone())).collect();
         let mut modules = self.modules.clone();
         modules.push(module);
-        let check::Checked { hir, types, findings, .. } = check::check(&modules, self.overrides.clone());
+        let check::Checked { hir, types, findings, .. } = check::check(&modules, library, self.overrides.clone());
         let mission = hir.activities.iter().rposition(|a| a.full_name == MISSION).unwrap_or_default();
         // A line has no area, no limit in time and no recovery: the person at the prompt is there. Other findings are of
         // sources that were looked at before.

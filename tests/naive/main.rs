@@ -16,7 +16,7 @@ mod generate;
 mod random;
 mod vehicle;
 
-use albacore_lang::Library;
+use albacore_lang::{FileFault, Library};
 use albacore_session::{Plan, Severity, Source, load};
 use albacore_sim::Simulator;
 use std::collections::BTreeMap;
@@ -42,6 +42,10 @@ impl Library for Inputs {
 
     fn module(&self, _: &Source, _: &[String]) -> Result<Source, String> {
         Err("a generated script imports nothing".to_string())
+    }
+
+    fn data_file(&self, path: &str, _: u64) -> Result<Vec<u8>, FileFault> {
+        Err(FileFault { message: format!("a generated script reads no `{path}`"), help: None })
     }
 }
 

@@ -15,12 +15,13 @@ const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const NUMBER: Type = Type::Quantity(Dimension::NONE);
 
 /// The functions that every script knows.
-pub(super) const BUILTINS: [&str; 17] = [
+pub(super) const BUILTINS: [&str; 18] = [
     "point",
     "vector",
     "line",
     "rectangle",
     "polygon",
+    "area_file",
     "distance",
     "abs",
     "min",
@@ -275,6 +276,7 @@ impl<'t> Checker<'t> {
                 let corners = Type::List(Box::new(Type::Point), albacore_geometry::AREA_CORNERS_MAX as u32);
                 simple(self, &[("corners", corners)], Builtin::Polygon, Type::Area.optional())
             }
+            "area_file" => self.area_file(args, span),
             "distance" => {
                 let Some(values) = self.simple_args(name, &[("from", Type::Point), ("to", Type::Point)], args, span)
                 else {

@@ -2,6 +2,7 @@
 
 mod activity;
 mod advice;
+mod area_file;
 mod args;
 mod body;
 mod choice;
@@ -38,10 +39,11 @@ pub use table::never_ends;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
 use crate::hir::{self, Hir, Interval};
-use crate::source::Span;
+use crate::source::{Source, Span};
 use crate::suggest;
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
+use crate::{FileFault, Library};
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
 use visible::Visible;
@@ -207,6 +209,9 @@ impl Scope {
 /// Checks modules. Imported modules come before those that import them.
 pub struct Checker<'t> {
     modules: &'t [Module],
+    library: &'t dyn Library,
+    /// The files of data that the scripts name, each read once.
+    files: BTreeMap<String, Result<Vec<u8>, FileFault>>,
     names: Vec<BTreeMap<String, Def>>,
     consts: Vec<Lazy<'t>>,
     signals: Vec<Lazy<'t>>,
@@ -243,12 +248,16 @@ pub struct Checked {
     pub findings: Vec<Diagnostic>,
     /// Names that nobody uses. In a file with an error nobody can tell: what uses them may be what could not be understood.
     pub unused: Vec<Diagnostic>,
+    /// The files of data that were read.
+    pub files: Vec<Source>,
 }
 
-/// Checks all modules.
-pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
+/// Checks all modules. Their files of data come from the library.
+pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>) -> Checked {
     let mut checker = Checker {
         modules,
+        library,
+        files: BTreeMap::new(),
         names: modules.iter().map(|_| BTreeMap::new()).collect(),
         consts: Vec::new(),
         signals: Vec::new(),
@@ -270,7 +279,15 @@ pub fn check(modules: &[Module], overrides: Vec<Override>) -> Checked {
     };
     checker.run();
     let unused = checker.unused_names();
-    Checked { hir: checker.hir, types: checker.types, overrides: checker.overrides, findings: checker.findings, unused }
+    let files = checker.files_read();
+    Checked {
+        hir: checker.hir,
+        types: checker.types,
+        overrides: checker.overrides,
+        findings: checker.findings,
+        unused,
+        files,
+    }
 }
 
 impl<'t> Checker<'t> {

@@ -57,6 +57,8 @@ fn area(e: &Expr, frame: Option<TangentFrame>) -> Option<Area> {
             }
             _ => None,
         },
+        // `area_file(…)`
+        ExprKind::Unwrap(inner) => area(inner, frame),
         // `polygon(…) else rectangle(…)`
         ExprKind::Else(first, second) => area(first, frame).or_else(|| area(second, frame)),
         _ => None,

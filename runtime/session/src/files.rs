@@ -1,7 +1,7 @@
 //! Where scripts come from: the project's folder, then the standard library inside the binary, nowhere else.
 
 use albacore_lang::source::{SOURCE_BYTES_MAX, Source};
-use albacore_lang::{Library, Script, nearest};
+use albacore_lang::{FileFault, Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
@@ -253,5 +253,9 @@ impl Library for Files {
                 format!("there is {}, and the scripts of this project's folder", standard.join(", "))
             }
         })
+    }
+
+    fn data_file(&self, path: &str, bytes_max: u64) -> Result<Vec<u8>, FileFault> {
+        self.data(path, bytes_max).map_err(|FileError { message, help }| FileFault { message, help })
     }
 }

@@ -1,0 +1,116 @@
+//! Whether the corners of a polygon make an area: on the globe, convex, not too many; what is wrong is told by the corner.
+
+use super::{Polygon, Position, fault};
+use crate::FileFault;
+use albacore_geometry::{AREA_CORNERS_MAX, Area, Geodetic, Point, TangentFrame, Vector};
+
+/// Corners of an area that spans more degrees of longitude than this lie on both sides of the 180th meridian.
+const LONGITUDES_MAX_DEG: f64 = 180.0;
+
+/// What is thinner than this, in metres, is no area but a point or a line.
+const THICKNESS_M: f64 = 1e-3;
+
+/// The corners, unless something is wrong with them: then all of it.
+pub(super) fn sound(polygon: &Polygon, path: &str) -> Result<Vec<Position>, Vec<FileFault>> {
+    let corners = &polygon.corners;
+    let what = match &polygon.name {
+        Some(name) => format!("the polygon `{name}`, {},", polygon.place),
+        None => format!("the polygon at {}", polygon.place),
+    };
+    let mut faults = Vec::new();
+    if polygon.holes > 0 {
+        faults.push(fault(
+            format!("{what} has {}, and an area is whole", if polygon.holes == 1 { "a hole" } else { "holes" }),
+            format!(
+                "make of each hole a polygon with a name, and keep out of it: `no_go(\"hole\", area_file(\"{path}\", \
+                 named: \"hole\"))` in the scenario, `safety.keep_out` in the mission"
+            ),
+        ));
+    }
+    if corners.len() < 3 {
+        let message = format!("{what} has {} corners, and an area needs at least 3", corners.len());
+        faults.push(fault(message, "add what is missing, or export it again"));
+    }
+    if corners.len() > AREA_CORNERS_MAX {
+        let message = format!("{what} has {} corners, and an area has at most {AREA_CORNERS_MAX}", corners.len());
+        faults.push(fault(message, "simplify its outline"));
+    }
+    faults.extend(beyond(corners, &what));
+    if faults.is_empty() {
+        faults.extend(misshapen(corners, &what));
+    }
+    if faults.is_empty() { Ok(corners.clone()) } else { Err(faults) }
+}
+
+/// The first corner that is nowhere on the globe.
+fn beyond(corners: &[Position], what: &str) -> Option<FileFault> {
+    let on_globe = |c: &Position| c.latitude_deg.abs() <= 90.0 && c.longitude_deg.abs() <= 180.0;
+    if let Some(i) = corners.iter().position(|c| !on_globe(c)) {
+        let Position { latitude_deg, longitude_deg } = corners[i];
+        let exchanged = Position { latitude_deg: longitude_deg, longitude_deg: latitude_deg };
+        let help = if on_globe(&exchanged) {
+            "in such files the longitude comes first, then the latitude: exchange them"
+        } else {
+            "positions are degrees on WGS 84, the longitude first: export the area in these"
+        };
+        let message = format!("corner {} of {what} has latitude {latitude_deg} and longitude {longitude_deg}", i + 1);
+        return Some(fault(message, help));
+    }
+    let longitudes = corners.iter().map(|c| c.longitude_deg);
+    let (least, most) =
+        longitudes.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)));
+    (most - least > LONGITUDES_MAX_DEG).then(|| {
+        fault(
+            format!("{what} reaches over {:.1}° of longitude", most - least),
+            "an area cannot lie across the 180th meridian: cut it there",
+        )
+    })
+}
+
+/// What keeps corners on the globe from making an area.
+fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
+    let n = corners.len();
+    let sum = corners.iter().fold((0.0, 0.0), |s, c| (s.0 + c.latitude_deg, s.1 + c.longitude_deg));
+    let frame = TangentFrame { origin: Geodetic::from_degrees(sum.0 / n as f64, sum.1 / n as f64) };
+    let place = |c: &Position| frame.to_point(Geodetic::from_degrees(c.latitude_deg, c.longitude_deg));
+    let points: Vec<Point> = corners.iter().map(place).collect();
+    let side = |i: usize| points[(i + 1) % n] - points[i % n];
+    // To `Area::polygon` two corners within a millimetre are one.
+    if let Some(i) = (0..n).find(|&i| side(i).length() < THICKNESS_M) {
+        let message = format!("corners {} and {} of {what} are in one place", i + 1, (i + 1) % n + 1);
+        return Some(fault(message, "leave one of them out"));
+    }
+    for i in 0..n {
+        // Sides that share a corner cannot cross.
+        if let Some(j) = (i + 2..n).find(|&j| (j + 1) % n != i && cross(&points, i, j)) {
+            let message = format!("the outline of {what} crosses itself, after corners {} and {}", i + 1, j + 1);
+            return Some(fault(message, "put its corners in their order round it"));
+        }
+    }
+    let turn = |i: usize| wedge(side((i + n - 1) % n), side(i));
+    let surface: f64 = (1..n - 1).map(|i| wedge(points[i] - points[0], points[i + 1] - points[0])).sum();
+    let longest = (0..n).map(|i| side(i).length()).fold(0.0, f64::max);
+    if surface.abs() < THICKNESS_M * longest {
+        return Some(fault(format!("the corners of {what} lie on one line"), "draw it as a polygon"));
+    }
+    let error = Area::polygon(&points).err()?;
+    let message = match (0..n).find(|&i| turn(i) * surface < 0.0) {
+        Some(i) => format!("{what} is not convex: it has a dent at corner {}", i + 1),
+        None => format!("{what} is no area: {error}"),
+    };
+    Some(fault(message, "leave out the corners of dents, or cut it into convex polygons, each with a name"))
+}
+
+/// Whether the sides after two corners cross.
+fn cross(points: &[Point], i: usize, j: usize) -> bool {
+    let (a, b) = (points[i], points[(i + 1) % points.len()]);
+    let (c, d) = (points[j], points[(j + 1) % points.len()]);
+    let sides =
+        |from: Point, to: Point, p: Point, q: Point| wedge(to - from, p - from) * wedge(to - from, q - from) < 0.0;
+    sides(a, b, c, d) && sides(c, d, a, b)
+}
+
+/// The area of the parallelogram of two vectors, positive if the second lies clockwise of the first.
+fn wedge(u: Vector, v: Vector) -> f64 {
+    u.north * v.east - u.east * v.north
+}

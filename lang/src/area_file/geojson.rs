@@ -1,0 +1,82 @@
+//! GeoJSON (RFC 7946): its polygons, wherever they stand. Positions are longitude, latitude, and maybe a height, in degrees on
+//! WGS 84 (section 4).
+
+use super::{Contents, Polygon, Position, fault, opened};
+use crate::FileFault;
+use serde_json::Value;
+
+/// The kinds of geometry that are no areas (section 1.4).
+const OTHERS: [&str; 4] = ["Point", "MultiPoint", "LineString", "MultiLineString"];
+
+/// The polygons of a text.
+pub(super) fn contents(text: &str) -> Result<Contents, FileFault> {
+    let value: Value = serde_json::from_str(text)
+        .map_err(|error| fault(format!("this is no JSON: {error}"), "export the area again as GeoJSON"))?;
+    let mut contents = Contents::default();
+    object(&value, "", None, &mut contents)?;
+    Ok(contents)
+}
+
+/// An object of any kind, at a path such as `features[2].geometry`, of a feature of a name.
+fn object(value: &Value, path: &str, name: Option<&str>, into: &mut Contents) -> Result<(), FileFault> {
+    let at = |member: &str| if path.is_empty() { member.to_string() } else { format!("{path}.{member}") };
+    let list = |member: &str| {
+        let list = value.get(member).and_then(Value::as_array);
+        list.ok_or_else(|| missing(&at(member), "is no list"))
+    };
+    match value.get("type").and_then(Value::as_str) {
+        Some("FeatureCollection") => {
+            for (i, feature) in list("features")?.iter().enumerate() {
+                object(feature, &format!("{}[{i}]", at("features")), None, into)?;
+            }
+        }
+        Some("Feature") => match value.get("geometry") {
+            // A feature may have no place (section 3.2).
+            None | Some(Value::Null) => {}
+            Some(geometry) => {
+                let name = value.get("properties").and_then(|properties| properties.get("name")?.as_str());
+                object(geometry, &at("geometry"), name, into)?;
+            }
+        },
+        Some("GeometryCollection") => {
+            for (i, geometry) in list("geometries")?.iter().enumerate() {
+                object(geometry, &format!("{}[{i}]", at("geometries")), name, into)?;
+            }
+        }
+        Some("Polygon") => into.polygons.push(polygon(list("coordinates")?, &at("coordinates"), name)?),
+        Some("MultiPolygon") => {
+            for (i, rings) in list("coordinates")?.iter().enumerate() {
+                let place = format!("{}[{i}]", at("coordinates"));
+                let rings = rings.as_array().ok_or_else(|| missing(&place, "is no list of rings"))?;
+                into.polygons.push(polygon(rings, &place, name)?);
+            }
+        }
+        Some(other) if OTHERS.contains(&other) => _ = into.others.insert(other.to_string()),
+        Some(other) => {
+            return Err(missing(&at("type"), &format!("is `{other}`, which is no kind of GeoJSON")));
+        }
+        None => return Err(missing(&at("type"), "is missing")),
+    }
+    Ok(())
+}
+
+/// A polygon: its outline first, then its holes (section 3.1.6).
+fn polygon(rings: &[Value], place: &str, name: Option<&str>) -> Result<Polygon, FileFault> {
+    let outline = rings.first().and_then(Value::as_array);
+    let outline = outline.ok_or_else(|| missing(&format!("{place}[0]"), "is no list of positions"))?;
+    let corner = |(i, value): (usize, &Value)| {
+        position(value).ok_or_else(|| missing(&format!("{place}[0][{i}]"), "is no longitude and latitude"))
+    };
+    let corners = outline.iter().enumerate().map(corner).collect::<Result<Vec<Position>, FileFault>>()?;
+    let (name, place) = (name.map(str::to_string), format!("`{place}`"));
+    Ok(Polygon { name, place, corners: opened(corners), holes: rings.len() - 1 })
+}
+
+fn position(value: &Value) -> Option<Position> {
+    let (longitude, latitude) = (value.get(0)?.as_f64()?, value.get(1)?.as_f64()?);
+    Some(Position { latitude_deg: latitude, longitude_deg: longitude })
+}
+
+fn missing(path: &str, what: &str) -> FileFault {
+    fault(format!("`{path}` {what}"), "export the area again as GeoJSON, in WGS 84 (RFC 7946)")
+}

@@ -1,0 +1,142 @@
+//! Areas that charting programs save: the polygons of a GeoJSON or KML file, and the one of them that a script means.
+
+mod corners;
+mod geojson;
+mod kml;
+
+use crate::FileFault;
+use crate::suggest::{listed, nearest};
+use std::collections::BTreeSet;
+
+/// A file larger than this, in bytes, is refused: an area has few corners.
+pub const BYTES_MAX: u64 = 4_000_000;
+
+/// So many names are listed in a message at most.
+const LISTED_MAX: usize = 12;
+
+/// A position on the globe (WGS 84), in degrees; north and east are positive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Position {
+    pub latitude_deg: f64,
+    pub longitude_deg: f64,
+}
+
+/// A polygon of a file.
+#[derive(Clone, Debug, PartialEq)]
+struct Polygon {
+    /// The name of the feature that it belongs to.
+    name: Option<String>,
+    /// Where it stands in its file: `line 12`, or a path such as `features[0].geometry`.
+    place: String,
+    /// Its corners, each once.
+    corners: Vec<Position>,
+    /// How many holes it has.
+    holes: usize,
+}
+
+/// What a file holds.
+#[derive(Debug, Default)]
+struct Contents {
+    polygons: Vec<Polygon>,
+    /// The kinds of what it holds beside polygons, such as `LineString`.
+    others: BTreeSet<String>,
+}
+
+/// The corners of the area that is meant: of a file's only polygon, or of the one of a name.
+pub fn area(path: &str, bytes: &[u8], named: Option<&str>) -> Result<Vec<Position>, Vec<FileFault>> {
+    let in_file = |fault: FileFault| FileFault { message: format!("`{path}`: {}", fault.message), ..fault };
+    let one = |fault| vec![in_file(fault)];
+    let contents = contents(path, bytes).map_err(one)?;
+    let polygon = choose(path, &contents, named).map_err(one)?;
+    corners::sound(polygon, path).map_err(|faults| faults.into_iter().map(in_file).collect())
+}
+
+/// What a file holds, by the ending of its name.
+fn contents(path: &str, bytes: &[u8]) -> Result<Contents, FileFault> {
+    let ending = path.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase()).unwrap_or_default();
+    let read = match ending.as_str() {
+        "geojson" | "json" => geojson::contents,
+        "kml" => kml::contents,
+        "kmz" => return Err(fault("this is a packed KML", "unpack it, as a ZIP is, and name the KML that is in it")),
+        _ => {
+            let what = "areas are read from files that end in `.geojson`, `.json` or `.kml`";
+            return Err(fault(what, "save the area as GeoJSON in WGS 84"));
+        }
+    };
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
+        fault(format!("line {line} is no text in UTF-8"), "save it as UTF-8")
+    })?;
+    read(text.trim_start_matches('\u{feff}'))
+}
+
+/// The polygon that is meant.
+fn choose<'c>(path: &str, contents: &'c Contents, named: Option<&str>) -> Result<&'c Polygon, FileFault> {
+    let polygons = &contents.polygons;
+    let names: Vec<&str> = polygons.iter().filter_map(|polygon| polygon.name.as_deref()).collect();
+    if polygons.is_empty() {
+        let others: Vec<&str> = contents.others.iter().map(String::as_str).collect();
+        let what = if others.is_empty() { "nothing".to_string() } else { format!("only {}", others.join(", ")) };
+        let help = "draw the area as a polygon, not as a line or as points, and save it again";
+        return Err(fault(format!("there is no polygon in it, {what}"), help));
+    }
+    let Some(named) = named else {
+        return match polygons.as_slice() {
+            [only] => Ok(only),
+            _ => Err(fault(
+                format!("there are {} polygons in it{}", polygons.len(), in_all(&names)),
+                match names.first() {
+                    Some(name) => format!("say which by its name: `area_file(\"{path}\", named: \"{name}\")`"),
+                    None => "give each a `name`, and say which is meant: `area_file(…, named: \"…\")`".to_string(),
+                },
+            )),
+        };
+    };
+    let found: Vec<&Polygon> = polygons.iter().filter(|polygon| polygon.name.as_deref() == Some(named)).collect();
+    match found.as_slice() {
+        [only] => Ok(only),
+        [] => Err(fault(
+            format!("there is no polygon named `{named}` in it{}", in_all(&names)),
+            match (nearest(named, names.iter().copied()), polygons.len()) {
+                (Some(near), _) => format!("did you mean `{near}`?"),
+                (None, 1) => "leave out `named`: there is one polygon only".to_string(),
+                (None, _) if names.is_empty() => "give the polygon that is meant a `name`".to_string(),
+                (None, _) => "use one of these names".to_string(),
+            },
+        )),
+        several => {
+            let places: Vec<&str> = several.iter().map(|polygon| polygon.place.as_str()).collect();
+            let places = places[..places.len().min(LISTED_MAX)].join(", ");
+            Err(fault(
+                format!("{} polygons are named `{named}`: {places}", several.len()),
+                "give each polygon a feature and a name of its own",
+            ))
+        }
+    }
+}
+
+/// The names that there are.
+fn in_all(names: &[&str]) -> String {
+    match names {
+        [] => ", none with a name".to_string(),
+        _ if names.len() > LISTED_MAX => {
+            format!(": {} and {} more", names[..LISTED_MAX].join(", "), names.len() - LISTED_MAX)
+        }
+        _ => format!(": {}", listed(names)),
+    }
+}
+
+/// The corners of a ring, without the last position that closes it.
+fn opened(mut ring: Vec<Position>) -> Vec<Position> {
+    if ring.len() > 1 && ring.first() == ring.last() {
+        ring.pop();
+    }
+    ring
+}
+
+fn fault(message: impl Into<String>, help: impl Into<String>) -> FileFault {
+    FileFault { message: message.into(), help: Some(help.into()) }
+}
+
+#[cfg(test)]
+mod tests;

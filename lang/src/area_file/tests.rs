@@ -1,0 +1,189 @@
+use super::*;
+
+/// A GeoJSON of features, each with its properties and geometry.
+fn geojson(features: &[(&str, &str)]) -> String {
+    let feature = |(properties, geometry): &(&str, &str)| {
+        format!(r#"{{"type": "Feature", "properties": {properties}, "geometry": {geometry}}}"#)
+    };
+    let features: Vec<String> = features.iter().map(feature).collect();
+    format!(r#"{{"type": "FeatureCollection", "features": [{}]}}"#, features.join(", "))
+}
+
+/// A polygon of GeoJSON with this outline, of positions `longitude, latitude`.
+fn outline(positions: &[(f64, f64)]) -> String {
+    let positions: Vec<String> = positions.iter().map(|(x, y)| format!("[{x}, {y}]")).collect();
+    format!(r#"{{"type": "Polygon", "coordinates": [[{}]]}}"#, positions.join(", "))
+}
+
+const SQUARE: [(f64, f64); 5] = [(-75.75, 36.18), (-75.74, 36.18), (-75.74, 36.19), (-75.75, 36.19), (-75.75, 36.18)];
+
+fn kml(body: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document>\n{body}\n</Document></kml>"
+    )
+}
+
+fn placemark(name: &str, coordinates: &str) -> String {
+    format!(
+        "<Placemark><name>{name}</name><Polygon>\n<outerBoundaryIs><LinearRing><coordinates>\n{coordinates}\n\
+         </coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>"
+    )
+}
+
+const KML_SQUARE: &str = "-75.75,36.18,0 -75.74,36.18,0\n-75.74,36.19,0 -75.75,36.19,0 -75.75,36.18,0";
+
+fn read(path: &str, text: &str, named: Option<&str>) -> Result<Vec<Position>, Vec<FileFault>> {
+    area(path, text.as_bytes(), named)
+}
+
+/// The file is refused with one message, that begins with the file's name; the help holds this.
+#[track_caller]
+fn refused(path: &str, text: &str, named: Option<&str>, message: &str, help: &str) {
+    let faults = read(path, text, named).unwrap_err();
+    assert_eq!(faults.len(), 1, "{faults:#?}");
+    assert_eq!(faults[0].message, format!("`{path}`: {message}"));
+    assert!(faults[0].help.as_ref().unwrap().contains(help), "{faults:#?}");
+}
+
+/// A GeoJSON with one polygon of this outline is refused.
+#[track_caller]
+fn misshapen(positions: &[(f64, f64)], message: &str, help: &str) {
+    let message = message.replace("POLYGON", "the polygon `box`, `features[0].geometry.coordinates`,");
+    refused("a.geojson", &geojson(&[(r#"{"name": "box"}"#, &outline(positions))]), None, &message, help);
+}
+
+#[test]
+fn both_formats_give_the_same_corners_each_once() {
+    let corners: Vec<Position> =
+        SQUARE[..4].iter().map(|&(x, y)| Position { latitude_deg: y, longitude_deg: x }).collect();
+    assert_eq!(read("a.geojson", &geojson(&[("null", &outline(&SQUARE))]), None).unwrap(), corners);
+    assert_eq!(read("a.kml", &kml(&placemark("box", KML_SQUARE)), None).unwrap(), corners);
+    // A geometry alone, a file that begins with a byte order mark, an outline that is not closed.
+    assert_eq!(read("a.json", &format!("\u{feff}{}", outline(&SQUARE[..4])), None).unwrap(), corners);
+    // A comment between the coordinates, and a folder round the placemark.
+    let commented = KML_SQUARE.replacen('\n', "\n<!-- east -->\n", 1);
+    let inner = format!("<Folder><name>areas</name>{}</Folder>", placemark("box", &commented));
+    assert_eq!(read("a.KML", &kml(&inner), Some("box")).unwrap(), corners);
+}
+
+#[test]
+fn of_several_polygons_one_is_chosen_by_its_name() {
+    let far = outline(&SQUARE.map(|(x, y)| (x + 1.0, y)));
+    let point = r#"{"type": "Point", "coordinates": [0, 0]}"#;
+    let square = outline(&SQUARE);
+    let two = geojson(&[(r#"{"name": "box"}"#, &square), (r#"{"name": "pier"}"#, &far), ("{}", point), ("{}", "null")]);
+    assert_eq!(read("a.geojson", &two, Some("pier")).unwrap()[0].longitude_deg, -74.75);
+    let help = "`area_file(\"a.geojson\", named: \"box\")`";
+    refused("a.geojson", &two, None, "there are 2 polygons in it: `box` and `pier`", help);
+    let none = "there is no polygon named `peer` in it: `box` and `pier`";
+    refused("a.geojson", &two, Some("peer"), none, "did you mean `pier`?");
+    let unnamed = geojson(&[("{}", &square), ("null", &far)]);
+    refused("a.geojson", &unnamed, None, "there are 2 polygons in it, none with a name", "give each a `name`");
+    let alone = geojson(&[("{}", &square)]);
+    let none = "there is no polygon named `box` in it, none with a name";
+    refused("a.geojson", &alone, Some("box"), none, "leave out `named`");
+    let places = kml(&[placemark("box", KML_SQUARE), placemark("box", KML_SQUARE)].join("\n"));
+    refused("a.kml", &places, Some("box"), "2 polygons are named `box`: line 3, line 8", "a name of its own");
+    let rings = square.replacen("Polygon", "MultiPolygon", 1).replace("[[[", "[[[[").replace("]]]", "]]]]");
+    assert_eq!(read("a.geojson", &geojson(&[("{}", &rings)]), None).unwrap().len(), 4);
+}
+
+#[test]
+fn a_file_that_is_no_chart_is_told_with_its_line() {
+    let text = "{\"type\": \"Polygon\",\n  \"coordinates\": [[1, 2,]]}";
+    refused("a.geojson", text, None, "this is no JSON: trailing comma at line 2 column 25", "export");
+    let text = kml("<Placemark>\n</Folder>");
+    let faults = read("a.kml", &text, None).unwrap_err();
+    assert!(
+        faults[0].message.starts_with("`a.kml`: this is no XML: ") && faults[0].message.contains("4:"),
+        "{faults:?}"
+    );
+    refused("a.kml", "<gpx/>", None, "its outermost element is `gpx`, not `kml`", "export");
+    refused("a.kmz", "PK", None, "this is a packed KML", "unpack it");
+    let endings = "areas are read from files that end in `.geojson`, `.json` or `.kml`";
+    refused("a.shp", "", None, endings, "save the area as GeoJSON");
+    refused("a", "", None, endings, "save the area as GeoJSON");
+    let faults = area("a.json", b"{\n\xff}", None).unwrap_err();
+    assert_eq!(faults[0].message, "`a.json`: line 2 is no text in UTF-8");
+    // Entities that multiply are never expanded.
+    let bomb = "<!DOCTYPE kml [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]><kml>&b;</kml>";
+    assert!(read("a.kml", bomb, None).unwrap_err()[0].message.contains("this is no XML"));
+    // Nor does deep nesting end the reader.
+    assert!(read("a.json", &"[".repeat(100_000), None).unwrap_err()[0].message.contains("recursion limit"));
+    let deep = format!("{}{}", "<kml>".repeat(50_000), "</kml>".repeat(50_000));
+    assert!(read("a.kml", &deep, None).is_err());
+}
+
+#[test]
+fn what_is_no_polygon_is_told_with_its_place() {
+    let line = r#"{"type": "LineString", "coordinates": [[0, 0], [1, 1]]}"#;
+    refused("a.json", &geojson(&[]), None, "there is no polygon in it, nothing", "as a polygon");
+    refused("a.json", &geojson(&[("{}", line)]), None, "there is no polygon in it, only LineString", "as a polygon");
+    let track = "<Placemark><LineString><coordinates>0,0 1,1</coordinates></LineString></Placemark>";
+    refused("a.kml", &kml(track), None, "there is no polygon in it, only LineString", "as a polygon");
+    let help = "export the area again";
+    refused("a.json", "[]", None, "`type` is missing", help);
+    refused("a.json", r#"{"type": "Topology"}"#, None, "`type` is `Topology`, which is no kind of GeoJSON", help);
+    refused("a.json", r#"{"type": "FeatureCollection"}"#, None, "`features` is no list", help);
+    let empty = geojson(&[("{}", r#"{"type": "Polygon", "coordinates": []}"#)]);
+    let place = "`features[0].geometry.coordinates[0]` is no list of positions";
+    refused("a.json", &empty, None, place, help);
+    let text = geojson(&[("{}", r#"{"type": "Polygon", "coordinates": [[[0, 0], [0, "1"]]]}"#)]);
+    let place = "`features[0].geometry.coordinates[0][1]` is no longitude and latitude";
+    refused("a.json", &text, None, place, help);
+    let flat = r#"{"type": "GeometryCollection", "geometries": [{"type": "MultiPolygon", "coordinates": [1]}]}"#;
+    refused("a.json", flat, None, "`geometries[0].coordinates[0]` is no list of rings", help);
+    let tuple = "line 4: `-75.74;36.18` is no longitude and latitude with a comma between them";
+    refused("a.kml", &kml(&placemark("box", "-75.74;36.18")), None, tuple, help);
+    let hollow = "line 3: this polygon has no outline with `coordinates`";
+    refused("a.kml", &kml("<Placemark><Polygon/></Placemark>"), None, hollow, help);
+}
+
+#[test]
+fn corners_that_make_no_area_are_told_one_by_one() {
+    misshapen(&SQUARE[..2], "POLYGON has 2 corners, and an area needs at least 3", "add what is missing");
+    let round: Vec<(f64, f64)> = (0..17)
+        .map(|i| f64::from(i) * std::f64::consts::TAU / 17.0)
+        .map(|a| (albacore_geometry::math::sin(a), albacore_geometry::math::cos(a)))
+        .collect();
+    misshapen(&round, "POLYGON has 17 corners, and an area has at most 16", "simplify its outline");
+    let exchanged = SQUARE.map(|(x, y)| (y, x - 20.0));
+    let beyond = "corner 1 of POLYGON has latitude -95.75 and longitude 36.18";
+    misshapen(&exchanged, beyond, "exchange them");
+    let metres = SQUARE.map(|(x, y)| (x * 1e4, y * 1e4));
+    let beyond = "corner 1 of POLYGON has latitude 361800 and longitude -757500";
+    misshapen(&metres, beyond, "degrees on WGS 84");
+    let across = [(179.9, 0.0), (-179.9, 0.0), (-179.9, 0.1), (179.9, 0.1)];
+    misshapen(&across, "POLYGON reaches over 359.8° of longitude", "180th meridian");
+    let bow = [SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]];
+    misshapen(&bow, "the outline of POLYGON crosses itself, after corners 1 and 3", "in their order");
+    let twice = [SQUARE[0], SQUARE[1], SQUARE[1], SQUARE[2]];
+    misshapen(&twice, "corners 2 and 3 of POLYGON are in one place", "leave one of them out");
+    // The dent is the same whichever way round the outline goes.
+    let mut dented = vec![SQUARE[0], SQUARE[1], SQUARE[2], (-75.745, 36.185), SQUARE[3]];
+    misshapen(&dented, "POLYGON is not convex: it has a dent at corner 4", "cut it into convex polygons");
+    dented.reverse();
+    misshapen(&dented, "POLYGON is not convex: it has a dent at corner 2", "cut it into convex polygons");
+    let flat = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)];
+    misshapen(&flat, "the corners of POLYGON lie on one line", "draw it as a polygon");
+}
+
+#[test]
+fn a_hole_and_what_else_is_wrong_are_told_together() {
+    let holed = outline(&[(0.0, 0.0), (1.0, 95.0)]).replace("]]]", "]], [], []]");
+    let faults = read("bay.json", &geojson(&[("{}", &holed)]), None).unwrap_err();
+    let messages: Vec<&str> = faults.iter().map(|fault| fault.message.as_str()).collect();
+    let what = "the polygon at `features[0].geometry.coordinates`";
+    assert_eq!(
+        messages,
+        [
+            format!("`bay.json`: {what} has holes, and an area is whole"),
+            format!("`bay.json`: {what} has 2 corners, and an area needs at least 3"),
+            format!("`bay.json`: corner 2 of {what} has latitude 95 and longitude 1"),
+        ]
+    );
+    assert!(faults[0].help.as_ref().unwrap().contains("`no_go(\"hole\", area_file(\"bay.json\", named: \"hole\"))`"));
+    let inner = "<innerBoundaryIs/></Polygon>";
+    let text = kml(&placemark("bay", KML_SQUARE).replace("</Polygon>", inner));
+    refused("a.kml", &text, None, "the polygon `bay`, line 3, has a hole, and an area is whole", "safety.keep_out");
+}

@@ -1,0 +1,92 @@
+//! `area_file("bay.geojson")`: an area of a file, read while the script is checked, as if its corners stood in the script.
+
+use super::{Checker, ParamInfo};
+use crate::FileFault;
+use crate::area_file::{self, BYTES_MAX};
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Builtin, Expr, ExprKind, TextPart};
+use crate::source::{Source, Span};
+use crate::syntax::tree;
+use crate::types::Type;
+
+impl Checker<'_> {
+    pub(super) fn area_file(&mut self, args: &[tree::Arg], span: Span) -> Expr {
+        let unnamed = self.make(ExprKind::None, Type::None, span);
+        let text = |name: &str, default| ParamInfo { name: name.into(), ty: Type::Text, default, range: None, span };
+        let params = [text("file", None), text("named", Some(unnamed))];
+        let Some(values) = self.arguments("area_file", &params, args, span, None) else { return self.unknown(span) };
+        let [file, named] = values.as_slice() else { return self.unknown(span) };
+        let Some(path) = self.constant_text(file) else { return self.unknown(span) };
+        let named = match named.kind {
+            ExprKind::None => None,
+            _ => match self.constant_text(named) {
+                Some(name) => Some(name),
+                None => return self.unknown(span),
+            },
+        };
+        let corners = match self.data_file(&path) {
+            Ok(bytes) => area_file::area(&path, &bytes, named.as_deref()),
+            Err(fault) => Err(vec![fault]),
+        };
+        match corners {
+            Ok(corners) => self.polygon_of(&corners, span),
+            Err(faults) => {
+                for FileFault { message, help } in faults {
+                    let finding = Diagnostic::error(Code::AreasFile, span, message);
+                    self.report(match help {
+                        Some(help) => finding.help(help),
+                        None => finding,
+                    });
+                }
+                self.unknown(span)
+            }
+        }
+    }
+
+    /// The area of corners that are known to make one.
+    fn polygon_of(&self, corners: &[area_file::Position], span: Span) -> Expr {
+        let corner = |c: &area_file::Position| {
+            let kind = ExprKind::Geodetic { latitude_deg: c.latitude_deg, longitude_deg: c.longitude_deg };
+            self.make(kind, Type::Point, span)
+        };
+        let list = ExprKind::List(corners.iter().map(corner).collect());
+        let list = self.make(list, Type::List(Box::new(Type::Point), corners.len() as u32), span);
+        let area = self.operation(Builtin::Polygon, vec![list], Type::Area.optional(), span);
+        self.make(ExprKind::Unwrap(Box::new(area)), Type::Area, span)
+    }
+
+    /// A text without values in it: a file is read before anything is known of a run.
+    fn constant_text(&mut self, e: &Expr) -> Option<String> {
+        let literal = |part: &TextPart| match part {
+            TextPart::Literal(text) => Some(text.clone()),
+            TextPart::Hole(_) => None,
+        };
+        let plain = match &e.kind {
+            ExprKind::Text(parts) => parts.iter().map(literal).collect(),
+            _ => None,
+        };
+        if plain.is_none() && e.ty != Type::Unknown {
+            self.report(
+                Diagnostic::error(Code::AreasFile, e.span, "the file of an area is read before the launch")
+                    .help("write the text itself, without values in `{` and `}`"),
+            );
+        }
+        plain
+    }
+
+    /// The bytes of a file of the project, each file read once; it becomes one of the script's sources.
+    fn data_file(&mut self, path: &str) -> Result<Vec<u8>, FileFault> {
+        let read = self.files.entry(path.to_string()).or_insert_with(|| self.library.data_file(path, BYTES_MAX));
+        read.clone()
+    }
+
+    /// The files that were read, as sources.
+    pub(super) fn files_read(&self) -> Vec<Source> {
+        let source = |(path, read): (&String, &Result<Vec<u8>, FileFault>)| {
+            let text = String::from_utf8_lossy(read.as_ref().ok()?);
+            Some(Source { name: path.as_str().into(), text: text.as_ref().into() })
+        };
+        self.files.iter().filter_map(source).collect()
+    }
+}
