@@ -3,7 +3,7 @@
 use albacore_geometry::{Heading, Vector};
 use serde::{Deserialize, Serialize};
 
-/// Samples that are averaged: 200 s of one every 2 s.
+/// Samples that are averaged: 200 s of one every 2 s, 100 s where both looks are heard.
 const BUFFER: usize = 100;
 /// No mean is given before this many samples: with a deviation of 0.05 m/s each, ten give 0.016 m/s.
 const SAMPLES_MIN: usize = 10;
@@ -31,7 +31,7 @@ pub struct BodyVelocity {
     pub starboard: f64,
 }
 
-/// One message of the upward profiler.
+/// One message of the profiler.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AdcpMessage {
     /// The vehicle's velocity over ground, in its own frame: the paper's v_g^b.

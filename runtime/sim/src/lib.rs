@@ -31,7 +31,7 @@ pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
     Adcp, Bottom, Compass, Dvl, Flow, Fluorometer, Gps, Grid, Ground, Handover, HullSetup, KinematicHull, Lbl, Limits,
-    Meander, Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario, ScenarioError, Sounder,
+    Looks, Meander, Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario, ScenarioError, Sounder,
     Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves,
 };
 pub use simulator::{Simulator, Truth};

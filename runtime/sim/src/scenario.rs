@@ -15,7 +15,7 @@ pub use instruments::{Compass, Dvl, Gps, Pressure};
 pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
 pub use plume::Plume;
-pub use sensors::{Adcp, Fluorometer, Lbl, Navigation, Sounder};
+pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
 pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};

@@ -19,8 +19,6 @@ use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, Veh
 const BATTERY_TICKS: u64 = 100;
 /// Ticks between what the vehicle tells of its own mission.
 const MODE_TICKS: u64 = 10;
-/// The profiler measures this far above the vehicle, m: the middle of its bin of 0.75 to 1.25 m (the 2005 paper, App. B).
-const PROFILER_BIN_M: f64 = 1.0;
 /// A sample this near a tick, in ticks, is taken on it.
 const ON_THE_TICK: f64 = 1e-6;
 
@@ -94,7 +92,7 @@ impl Simulator {
             intake: (start, 0.0),
             intake_ahead: scenario.fluorometer.ahead,
             positioning: Positioning::new(scenario.navigation.as_ref(), scenario.gps.as_ref(), start, seed),
-            profiler: Profiler::new(scenario.adcp.noise, seed),
+            profiler: Profiler::new(&scenario.adcp, seed),
             fluorometer: Fluorometer::new(&scenario.fluorometer, seed),
             sounder: EchoSounder::new(&scenario.sounder, seed),
             compass: Compass::new(&scenario.compass, seed),
@@ -285,14 +283,14 @@ impl Simulator {
         }
         let view = View {
             ground_velocity: self.vehicle.motion().ground_velocity,
-            flow: self.world.flow(truth.position, truth.altitude + PROFILER_BIN_M, self.time_s())
-                + self.faults.ailing().current,
             heading: truth.heading,
             compass,
             depth: truth.depth,
             altitude: truth.altitude,
         };
-        if let Some(flow) = self.profiler.measure(tick, &view) {
+        let (time, current) = (self.time_s(), self.faults.ailing().current);
+        let flow_at = |height| self.world.flow(truth.position, height, time) + current;
+        if let Some(flow) = self.profiler.measure(tick, &view, flow_at) {
             self.flow = flow;
             snapshot.push(FLOW, &[flow.north, flow.east]);
         }

@@ -3,8 +3,8 @@
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Bottom, Flow, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Navigation, Pit, Plane, Scenario,
-    Simulator, Sounder, SubmersibleHull, UpperFlow, VehicleSetup, presets,
+    Adcp, Bottom, Flow, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Looks, Navigation, Pit,
+    Plane, Scenario, Simulator, Sounder, SubmersibleHull, UpperFlow, VehicleSetup, presets,
 };
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::error::Error;
@@ -111,6 +111,32 @@ fn a_low_boundary_deceives_the_profiler() {
     layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 3.5, ..UpperFlow::default() });
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
+}
+
+/// The remedy: what is below the vehicle is in the same layer as the vehicle, as long as there is a bin above the bottom.
+#[test]
+fn a_downward_look_is_not_deceived_by_a_low_boundary() {
+    let upper = UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() };
+    let mut layered = scenario();
+    layered.flow.upper = Some(upper);
+    layered.adcp.looks = Looks::Down;
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
+    layered.adcp.looks = Looks::Both;
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!((last[0] - 0.1).abs() < 0.02 && (last[1] - 0.05).abs() < 0.02, "of neither layer: {last:?}");
+    // It begins at 2 m: nothing of the 2 m below can be measured, once the vehicle is down there.
+    layered.adcp = Adcp { blanking: 2.0, looks: Looks::Down, ..Adcp::default() };
+    layered.vehicle.depth = 8.0;
+    assert_eq!(driven(&layered, 400, "flow").unwrap(), Vec::<[f64; 4]>::new());
+}
+
+#[test]
+fn an_impossible_profiler_is_refused() {
+    let adcp = Adcp { bias: f64::NAN, blanking: -1.0, bin: 0.0, count: 0, ..Adcp::default() };
+    let error = Simulator::new(&Scenario { adcp, ..scenario() }, 1).unwrap_err();
+    assert_eq!(error.faults.len(), 4, "{error}");
+    assert!(error.to_string().contains("`adcp.bin` is 0: it must be above 0"), "{error}");
 }
 
 #[test]

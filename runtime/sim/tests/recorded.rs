@@ -16,7 +16,7 @@ fn recording() -> Result<Arc<Recording>, Box<dyn Error>> {
 /// In the record from a moment on, at a place.
 fn scenario(start: f64, place: Point) -> Result<Scenario, Box<dyn Error>> {
     let recording = Some(RecordedPlume { start, ..RecordedPlume::new(recording()?) });
-    let mut scenario = Scenario { recording, adcp: Adcp { noise: 0.0 }, ..Scenario::default() };
+    let mut scenario = Scenario { recording, adcp: Adcp { noise: 0.0, ..Adcp::default() }, ..Scenario::default() };
     (scenario.vehicle.start, scenario.vehicle.depth) = (place, 5.0);
     Ok(scenario)
 }

@@ -1,7 +1,7 @@
 //! What a scenario says of the sensors.
 
 use super::clause::Clause;
-use albacore_sim::{Adcp, Compass, Dvl, Fluorometer, Gps, Lbl, Navigation, Pressure, Scenario, Sounder};
+use albacore_sim::{Adcp, Compass, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder};
 
 /// `navigation(…)`: how the vehicle knows its position.
 pub fn navigation(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -39,7 +39,19 @@ pub fn fluorometer(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
 
 /// `adcp(…)`: the Doppler profiler.
 pub fn adcp(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.adcp = Adcp { noise: c.number("noise")? };
+    let looks = match c.clause("looks").map(|looks| looks.clause.name.as_str()) {
+        Some("down") => Looks::Down,
+        Some("both") => Looks::Both,
+        _ => Looks::Up,
+    };
+    scenario.adcp = Adcp {
+        noise: c.number("noise")?,
+        bias: c.number("bias")?,
+        blanking: c.number("blanking")?,
+        bin: c.number("bin")?,
+        count: c.number("count")? as u32,
+        looks,
+    };
     Ok(())
 }
 

@@ -73,18 +73,42 @@ impl Default for Fluorometer {
     }
 }
 
-/// The flow sensor: an upward acoustic Doppler current profiler, read every 2 s.
+/// The flow sensor: an acoustic Doppler current profiler that looks up and down by turns, 1 s each. Its defaults are those of the
+/// 2005 paper's Appendix B.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Adcp {
-    /// Standard deviation of each component of one flow sample, m/s. Default 0.05.
+    /// Standard deviation of each component of the velocity of one bin, m/s. Default 0.05.
     pub noise: f64,
+    /// Its constant error, m/s: so much too fast through the water, ahead. Default 0.
+    pub bias: f64,
+    /// It measures nothing nearer than this, m: it is still ringing. Default 0.75.
+    pub blanking: f64,
+    /// The thickness of a bin, m. Default 0.5.
+    pub bin: f64,
+    /// The flow is averaged over so many bins, the nearest that are valid. Default 1.
+    pub count: u32,
+    /// Which looks the flow is estimated from. Default upward.
+    pub looks: Looks,
 }
 
 impl Default for Adcp {
     fn default() -> Self {
-        Adcp { noise: 0.05 }
+        Adcp { noise: 0.05, bias: 0.0, blanking: 0.75, bin: 0.5, count: 1, looks: Looks::Up }
     }
+}
+
+/// The looks of the profiler that the flow is estimated from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Looks {
+    /// Upward: every 2 s, as the 2005 paper has it.
+    #[default]
+    Up,
+    /// Downward: every 2 s.
+    Down,
+    /// Both: every second.
+    Both,
 }
 
 /// The echo sounder: the height above the bottom, and with the vehicle's depth that of the water.
@@ -148,7 +172,15 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         format!("`fluorometer.delay` is {} s: it must be 0 to {DELAY_MAX_S}", fluorometer.delay),
     );
     objections.share("fluorometer.saturation", fluorometer.saturation);
-    objections.not_negative("adcp.noise", scenario.adcp.noise);
+    let adcp = &scenario.adcp;
+    objections.not_negative("adcp.noise", adcp.noise);
+    objections.finite("adcp.bias", [adcp.bias, 0.0]);
+    objections.not_negative("adcp.blanking", adcp.blanking);
+    objections.positive("adcp.bin", adcp.bin);
+    objections.unless(
+        (1..=BINS_MAX).contains(&adcp.count),
+        format!("`adcp.count` is {}: it must be 1 to {BINS_MAX}", adcp.count),
+    );
     let sounder = &scenario.sounder;
     objections.rate("sounder.rate", sounder.rate);
     objections.not_negative("sounder.noise", sounder.noise);
@@ -163,6 +195,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     objections.share("sounder.dropouts", sounder.dropouts);
 }
 
+/// A profiler has at most this many bins.
+const BINS_MAX: u32 = 128;
 /// The longest way from the intake to the sensor, s.
 const DELAY_MAX_S: f64 = 600.0;
 /// A chemical sensor gives at most this many samples a second.

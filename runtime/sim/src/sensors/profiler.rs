@@ -1,20 +1,21 @@
-//! The upward acoustic Doppler current profiler and the flow estimate fed by it.
+//! The acoustic Doppler current profiler, which looks up and down by turns, and the flow estimate fed by it.
 
 use crate::noise::{Noise, Stream};
+use crate::scenario::{Adcp, Looks};
 use albacore_geometry::{Heading, Vector};
 use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate};
 
-/// Ticks between messages of the upward profiler: upward and downward take turns of 1 s, and the downward is not used this
-/// near the bottom (the 2005 paper, App. B).
-const MESSAGE_TICKS: u64 = 20;
+/// Ticks of a turn: a message comes every second, of the upward and of the downward look by turns (the 2005 paper, App. B).
+const TURN_TICKS: u64 = 10;
+/// Near the bottom the echo of the side lobes, which go straight down, drowns that of the beams, which go 20 degrees aslant: the
+/// last 1 - cos 20 deg of the altitude cannot be measured (Teledyne RD Instruments, Principles of Operation, 2011).
+const SIDE_LOBE_SHARE: f64 = 0.06;
 
 /// What the profiler sees of the vehicle.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     /// Velocity over ground, m/s.
     pub ground_velocity: Vector,
-    /// Velocity of the water where it measures, m/s.
-    pub flow: Vector,
     /// Where the nose points.
     pub heading: Heading,
     /// Where the compass says that it points: the estimate turns by it.
@@ -25,40 +26,195 @@ pub struct View {
     pub altitude: f64,
 }
 
+/// Where the profiler looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Look {
+    Up,
+    Down,
+}
+
 /// The profiler.
 #[derive(Clone, Debug)]
 pub struct Profiler {
-    noise: Noise,
-    deviation: f64,
+    settings: Adcp,
+    /// Of each bin, one stream.
+    noise: Vec<Noise>,
     estimate: FlowEstimate,
 }
 
 impl Profiler {
-    /// With a standard deviation, in m/s, of each component of a flow sample.
-    pub fn new(deviation: f64, seed: u64) -> Self {
-        Profiler { noise: Noise::new(seed, Stream::Adcp), deviation, estimate: FlowEstimate::new() }
+    /// The profiler of a run.
+    pub fn new(settings: &Adcp, seed: u64) -> Self {
+        let noise = (0..settings.count).map(|bin| Noise::sub(seed, Stream::Adcp, bin)).collect();
+        Profiler { settings: settings.clone(), noise, estimate: FlowEstimate::new() }
     }
 
-    /// The mean flow, m/s toward, if a message comes at this tick and enough have been heard.
+    /// The mean flow, m/s toward, if a message comes at this tick and enough have been heard; `flow_at` is the velocity of the
+    /// water at a height above the bottom (m).
     ///
     /// All noise is put on the velocity through the water: a flow sample is the difference of both, so no more can be told
-    /// from it.
-    pub fn measure(&mut self, tick: u64, view: &View) -> Option<Vector> {
-        if !tick.is_multiple_of(MESSAGE_TICKS) {
-            return None;
-        }
-        let through_water = BodyVelocity::of_tangent(view.ground_velocity - view.flow, view.heading);
-        let noise = |component: u64| self.deviation * self.noise.gaussian(2 * tick + component);
+    /// from it. A look without a valid bin tells an exact zero, which the estimate takes for a missing value: the mean stays.
+    pub fn measure(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
+        let look = self.look(tick)?;
         self.estimate.hear(&AdcpMessage {
             over_ground: BodyVelocity::of_tangent(view.ground_velocity, view.heading),
-            through_water: BodyVelocity {
-                ahead: through_water.ahead + noise(0),
-                starboard: through_water.starboard + noise(1),
-            },
+            through_water: self.through_water(tick, look, view, flow_at).unwrap_or_default(),
             heading: view.compass,
             depth: view.depth,
             altitude: view.altitude,
         });
         self.estimate.mean()
+    }
+
+    /// Where it looks at this tick, if a message comes and is listened to.
+    fn look(&self, tick: u64) -> Option<Look> {
+        let turn = tick.is_multiple_of(TURN_TICKS).then_some(tick / TURN_TICKS)?;
+        let look = if turn.is_multiple_of(2) { Look::Up } else { Look::Down };
+        let is_heard = match self.settings.looks {
+            Looks::Up => look == Look::Up,
+            Looks::Down => look == Look::Down,
+            Looks::Both => true,
+        };
+        is_heard.then_some(look)
+    }
+
+    /// The velocity through the water, the mean of the valid bins; none if there are none.
+    fn through_water(
+        &self,
+        tick: u64,
+        look: Look,
+        view: &View,
+        flow_at: impl Fn(f64) -> Vector,
+    ) -> Option<BodyVelocity> {
+        let Adcp { noise: deviation, bias, blanking, bin, .. } = self.settings;
+        let mut sum = (Vector::ZERO, 0.0, 0.0);
+        let mut count = 0;
+        for (number, noise) in (0_u32..).zip(&self.noise) {
+            let middle = blanking + (f64::from(number) + 0.5) * bin;
+            let height = match look {
+                // The paper's own condition on its bin, 1 m above: depth > 1 m.
+                Look::Up if middle < view.depth => view.altitude + middle,
+                Look::Down if middle + 0.5 * bin <= (1.0 - SIDE_LOBE_SHARE) * view.altitude => view.altitude - middle,
+                // Those beyond are invalid too.
+                _ => break,
+            };
+            let noise = |component: u64| deviation * noise.gaussian(2 * tick + component);
+            sum = (sum.0 + flow_at(height), sum.1 + noise(0), sum.2 + noise(1));
+            count += 1;
+        }
+        if count == 0 {
+            return None;
+        }
+        let share = 1.0 / f64::from(count);
+        let (flow, ahead, starboard) = (share * sum.0, share * sum.1, share * sum.2);
+        let through_water = BodyVelocity::of_tangent(view.ground_velocity - flow, view.heading);
+        Some(BodyVelocity { ahead: through_water.ahead + ahead + bias, starboard: through_water.starboard + starboard })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without noise, 2 m above the bottom of 8 m of water, at 2 m/s toward the east.
+    fn view() -> View {
+        let heading = Heading::from_degrees(90.0);
+        View { ground_velocity: 2.0 * heading.unit(), heading, compass: heading, depth: 6.0, altitude: 2.0 }
+    }
+
+    fn quiet(looks: Looks) -> Adcp {
+        Adcp { noise: 0.0, looks, ..Adcp::default() }
+    }
+
+    /// The flow that is estimated in 40 s where a flow toward north grows with the height above the bottom, 0.1 m/s a metre: its
+    /// northward component over that tells the height at which it was measured.
+    fn height(settings: &Adcp, view: &View) -> Option<f64> {
+        let mut profiler = Profiler::new(settings, 1);
+        let heard = (0..400).filter_map(|tick| profiler.measure(tick, view, |height| Vector::new(0.1 * height, 0.0)));
+        heard.last().map(|flow| flow.north / 0.1)
+    }
+
+    fn is_about(height: Option<f64>, expected: f64) -> bool {
+        height.is_some_and(|height| (height - expected).abs() < 1e-9)
+    }
+
+    #[test]
+    fn the_first_bin_is_a_metre_above_or_below() {
+        assert!(is_about(height(&quiet(Looks::Up), &view()), 3.0));
+        assert!(is_about(height(&quiet(Looks::Down), &view()), 1.0));
+        assert!(is_about(height(&quiet(Looks::Both), &view()), 2.0), "as many of the one as of the other");
+        let far = Adcp { blanking: 0.2, bin: 0.8, ..quiet(Looks::Down) };
+        assert!(is_about(height(&far, &view()), 2.0 - 0.6));
+    }
+
+    #[test]
+    fn the_looks_take_turns_of_a_second() {
+        let ticks = |looks| {
+            let profiler = Profiler::new(&quiet(looks), 1);
+            (0..60).filter_map(|tick| Some((tick, profiler.look(tick)?))).collect::<Vec<_>>()
+        };
+        assert_eq!(ticks(Looks::Up), [(0, Look::Up), (20, Look::Up), (40, Look::Up)]);
+        assert_eq!(ticks(Looks::Down), [(10, Look::Down), (30, Look::Down), (50, Look::Down)]);
+        let mut both = [ticks(Looks::Up), ticks(Looks::Down)].concat();
+        both.sort_by_key(|(tick, _)| *tick);
+        assert_eq!(ticks(Looks::Both), both);
+    }
+
+    /// The first bin ends 1.25 m below: 94 % of 1.3298 m.
+    #[test]
+    fn a_bin_that_the_bottom_drowns_is_invalid() {
+        let down = quiet(Looks::Down);
+        assert_eq!(height(&down, &View { altitude: 1.32, ..view() }), None);
+        assert!(is_about(height(&down, &View { altitude: 1.34, ..view() }), 0.34));
+        assert_eq!(height(&down, &View { altitude: 1.2, ..view() }), None, "below dead zone and bin");
+        let both = quiet(Looks::Both);
+        assert!(is_about(height(&both, &View { altitude: 1.32, ..view() }), 2.32), "what is above is left");
+    }
+
+    #[test]
+    fn a_bin_above_the_surface_is_invalid() {
+        let far = Adcp { blanking: 2.0, ..quiet(Looks::Up) };
+        assert_eq!(height(&far, &View { depth: 2.2, ..view() }), None);
+        assert!(is_about(height(&far, &View { depth: 2.3, altitude: 1.1, ..view() }), 1.1 + 2.25));
+    }
+
+    /// Of 2 m below, bins end at 1.25 and 1.75 m before the lowest 12 cm, and the third does not.
+    #[test]
+    fn several_bins_are_averaged_as_far_as_they_are_valid() {
+        let down = |count| height(&Adcp { count, ..quiet(Looks::Down) }, &view());
+        assert!(is_about(down(2), 2.0 - 1.25));
+        assert!(is_about(down(5), 2.0 - 1.25), "as far as they are valid");
+        // The third is 2 m above, which is above the surface.
+        let up = |count| height(&Adcp { count, ..quiet(Looks::Up) }, &View { depth: 1.9, altitude: 1.1, ..view() });
+        assert!(is_about(up(1), 1.1 + 1.0) && is_about(up(9), 1.1 + 1.25));
+    }
+
+    #[test]
+    fn a_look_without_a_valid_bin_leaves_the_mean_as_it_was() {
+        let mut profiler = Profiler::new(&quiet(Looks::Down), 1);
+        let flow = Vector::new(0.0, 0.1);
+        (0..400).for_each(|tick| _ = profiler.measure(tick, &view(), |_| flow));
+        let low = View { altitude: 1.3, ..view() };
+        let last = profiler.measure(410, &low, |_| -1.0 * flow).unwrap();
+        assert!((last - flow).length() < 1e-12);
+    }
+
+    #[test]
+    fn each_bin_has_noise_of_its_own_and_all_share_the_bias() {
+        let spread = |count| {
+            let profiler = Profiler::new(&Adcp { count, bias: 0.02, ..Adcp::default() }, 1);
+            let still = |_| Vector::ZERO;
+            let errors: Vec<BodyVelocity> = (0..2000)
+                .filter_map(|i| profiler.through_water(20 * i, Look::Up, &view(), still))
+                .map(|v| BodyVelocity { ahead: v.ahead - 2.0, ..v })
+                .collect();
+            assert_eq!(errors.len(), 2000);
+            let mean = |part: fn(&BodyVelocity) -> f64| errors.iter().map(part).sum::<f64>() / 2000.0;
+            let (ahead, starboard) = (mean(|e| e.ahead), mean(|e| e.starboard));
+            assert!((ahead - 0.02).abs() < 0.004 && starboard.abs() < 0.004, "{ahead} {starboard}");
+            mean(|e| e.starboard * e.starboard).sqrt()
+        };
+        assert!((spread(1) - 0.05).abs() < 0.003);
+        assert!((spread(4) - 0.025).abs() < 0.0015);
     }
 }
