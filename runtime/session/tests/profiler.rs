@@ -39,7 +39,7 @@ fn followed(adcp: &str) -> (String, f64) {
     while run.tick() < 2200 {
         run.step();
     }
-    ((run.summary(0.0).digest), (run.true_position() - from).toward().degrees())
+    (run.summary(0.0).digest, (run.true_position() - from).toward().degrees())
 }
 
 fn is_toward(adcp: &str, expected: f64) {
@@ -65,7 +65,7 @@ fn each_of_its_numbers_has_its_place() {
     is_toward("adcp(blanking: 0.1 m, bin: 0.1 m, count: 16)", 18.4);
     // Nothing can be measured in the 2 m below; the flow stays as it was said to be at first.
     is_toward("adcp(blanking: 1.8 m, looks: down)", 270.0);
-    // On its way south it takes 5 cm/s ahead for flow: with the true 10 cm/s toward the east, 117 deg. On the new course it is less.
+    // On its way south it takes 5 cm/s ahead for flow: with the true 10 cm/s toward the east, 117 deg. Later it is less.
     let (_, toward) = followed("adcp(bias: -5 cm/s, noise: 0 m/s, looks: down)");
     assert!((98.0..118.0).contains(&toward), "{toward}");
 }
