@@ -1,5 +1,7 @@
 //! `albacore scenario show`: every number in force, and a picture.
 
+#![expect(clippy::unwrap_used, reason = "a test whose files cannot be written has failed")]
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
