@@ -36,7 +36,7 @@ fn main() {
 #[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 20)]
 fn filament_step(bencher: Bencher, duck: Duck) {
     let scenario = duck.scenario();
-    let plume = scenario.plume.clone().map(|plume| Plume { step: TICK_S, ..plume });
+    let plume = scenario.plume.clone().map(|plume| Plume { step: TICK_S, graded: false, ..plume });
     let mut simulator = Simulator::new(&Scenario { plume, ..scenario }, 1).unwrap();
     let mut snapshot = Snapshot::default();
     simulator.sense(&mut snapshot).unwrap();

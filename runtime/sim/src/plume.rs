@@ -1,55 +1,29 @@
 //! The plume: filaments released at the sources that drift with the water, diffuse, and grow (Farrell et al. 2002).
 
+mod block;
 mod index;
 mod kernel;
 mod nearby;
 mod release;
 mod spin_up;
+mod steps;
 
 pub use index::Index;
 pub use nearby::Nearby;
-pub use spin_up::{LONGEST_STEP_S, begin as spin_up_begin, stays_in_layer};
+pub use spin_up::begin as spin_up_begin;
+pub use steps::{LONGEST_PLUME_STEP_S, LONGEST_STEP_S, stays_in_layer};
 
 use crate::noise::{Noise, Stream};
 use crate::scenario::{self, Patch, Scenario};
 use crate::water::{Cells, FlowFrame, Water};
 use albacore_vehicle::TICK_S;
+use block::{Block, Drift, Filament, reflected};
 use kernel::Kernel;
 use release::Release;
+use steps::{Steps, longest};
 
 /// The number of the first patch's streams: sources have those below.
 const PATCH_STREAMS: u32 = 1 << 31;
-
-/// The birth of a filament that has left the plume: later than any time.
-const GONE: f64 = f64::INFINITY;
-/// The ranks are closed when more than one in this many is gone.
-const GONE_SHARE: usize = 32;
-
-/// Filaments in a block.
-const BLOCK: usize = 64;
-
-/// An interval along the flow, m.
-#[derive(Clone, Copy, Debug)]
-struct Reach {
-    low: f64,
-    high: f64,
-}
-
-/// A puff of chemical at the end of the last step, in the coordinates of the flow frame (m); one cache line.
-#[derive(Clone, Copy, Debug)]
-pub struct Filament {
-    /// Which source released it, and as its how manieth.
-    source: u32,
-    number: u32,
-    /// When, s; [`GONE`] once it has left.
-    birth: f64,
-    x: f64,
-    y: f64,
-    /// Height above the bottom, m.
-    z: f64,
-    /// Its mean velocity over the step, m/s: between steps it moves on a straight line.
-    velocity: [f64; 3],
-}
 
 /// What a source or a patch needs for its filaments.
 #[derive(Clone, Debug)]
@@ -70,11 +44,9 @@ pub struct Plume {
     settings: scenario::Plume,
     /// The sources, and after them the patches.
     origins: Vec<Origin>,
-    filaments: Vec<Filament>,
-    /// Where each [`BLOCK`] of filaments is along the flow during the step: what was released together stays together.
-    blocks: Vec<Reach>,
-    /// How many have left and still stand in the ranks.
-    gone: usize,
+    /// All that are alive, in the order of their release; the last block takes what is released.
+    blocks: Vec<Block>,
+    steps_of: Steps,
     /// The birth of the oldest patch, s; 0 without any.
     oldest_patch: f64,
     /// Filaments leave the plume where they leave this box, m.
@@ -124,14 +96,13 @@ impl Plume {
         });
         Some(Plume {
             origins: sources.chain(patches).collect(),
-            filaments: Vec::new(),
             blocks: Vec::new(),
-            gone: 0,
+            steps_of: Steps::new(scenario, &settings),
             oldest_patch: scenario.patches.iter().map(|patch| -patch.age).fold(0.0, f64::min),
             length: frame.length,
             width: frame.width,
             end: begin,
-            step: spin_up::step(scenario),
+            step: longest(scenario),
             end_tick: 0,
             step_ticks: (settings.step / TICK_S).round() as u64,
             steps: 0,
@@ -164,16 +135,14 @@ impl Plume {
         }
     }
 
-    /// Takes a filament into the ranks, that was at `x` along the flow when the step began.
+    /// Takes in a filament that was at `x` along the flow when the step began.
     fn add(&mut self, filament: Filament, x: f64) {
-        if self.filaments.len().is_multiple_of(BLOCK) {
-            self.blocks.push(Reach::default());
+        if !self.blocks.last().is_some_and(Block::is_open) {
+            self.blocks.push(Block::new(self.end, self.steps));
         }
         if let Some(block) = self.blocks.last_mut() {
-            block.extend(x);
-            block.extend(filament.x);
+            block.add(filament, x);
         }
-        self.filaments.push(filament);
     }
 
     /// Computes steps until the plume is known up to a tick, and with it the water.
@@ -184,10 +153,15 @@ impl Plume {
         }
     }
 
+    /// The filaments alive at a time of the last step, and where they are then: m, in the flow frame.
+    fn at(&self, time: f64) -> impl Iterator<Item = (&Filament, [f64; 3])> {
+        let all = self.blocks.iter().flat_map(move |block| block.filaments.iter().map(move |f| (f, block.end - time)));
+        all.filter(move |(f, _)| f.birth <= time).map(|(f, before)| (f, f.at(before)))
+    }
+
     /// The filaments alive at a time of the last step: where (m, in the flow frame) and how large (m).
     pub fn alive(&self, time: f64) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
-        self.filaments.iter().filter(move |f| f.birth <= time).map(move |f| {
-            let place = f.at(self.end - time);
+        self.at(time).map(move |(f, place)| {
             (place, self.origins[f.source as usize].kernel.squared_radius(time - f.birth).sqrt())
         })
     }
@@ -195,19 +169,16 @@ impl Plume {
     /// A bound of the largest squared radius, m2. Filaments of sources stand in the order of the steps of their release, so that
     /// none is older than the first alive by more than one step; those of patches are as old as they were said to be.
     fn largest_squared_radius(&self) -> f64 {
-        let first = self
-            .filaments
-            .iter()
-            .find(|f| f.birth < GONE)
-            .map_or(self.end, |f| f.birth - spin_up::LONGEST_SPIN_UP_STEP_S);
-        let oldest = first.min(self.oldest_patch);
+        let first = self.blocks.iter().find_map(|block| block.filaments.first());
+        let oldest = first.map_or(self.end, |f| f.birth - LONGEST_STEP_S).min(self.oldest_patch);
         self.settings.initial_radius * self.settings.initial_radius + self.settings.growth * (self.end - oldest)
     }
 
     /// One step, to a time.
     ///
     /// x += u dt + sqrt(2 K dt) N, Euler, with the flow in the middle of the step: a step is short beside what the flow changes
-    /// over. (pompy multiplies the noise by dt, which makes the diffusivity depend on the time step.)
+    /// over. (pompy multiplies the noise by dt, which makes the diffusivity depend on the time step.) Old filaments take several
+    /// steps at once ([`Steps`]), in the flow of the first of them.
     fn advance(&mut self, end: f64, water: &mut Water) {
         (self.step, self.end) = (end - self.end, end);
         let middle = end - 0.5 * self.step;
@@ -218,44 +189,28 @@ impl Plume {
         self.release();
     }
 
-    /// Moves what is alive and forgets what has left.
+    /// Moves the blocks whose step is over.
     fn drift(&mut self) {
-        let (dt, per_dt, steps) = (self.step, 1.0 / self.step, self.steps);
-        let spread = (2.0 * self.settings.diffusivity * dt).sqrt();
-        let rise = (2.0 * self.settings.vertical * dt).sqrt();
-        let ceiling = self.settings.layer.filter(|_| rise > 0.0);
-        let (half_length, half_width) = (0.5 * self.length, 0.5 * self.width);
-        // Closing the ranks costs as much as a step: not for every one that leaves.
-        if self.gone * GONE_SHARE > self.filaments.len() {
-            self.filaments.retain(|f| f.birth < GONE);
+        let (dt, begin) = (self.step, self.end - self.step);
+        let settings = &self.settings;
+        let drift = Drift {
+            origins: &self.origins,
+            cells: &self.cells,
+            step: self.steps,
+            diffusivity: (settings.diffusivity, settings.vertical),
+            ceiling: settings.layer.filter(|_| settings.vertical > 0.0),
+            length: self.length,
+            width: self.width,
+        };
+        for block in self.blocks.iter_mut().filter(|block| block.until < drift.step) {
+            // What is released in the step joins the open block at its end.
+            let youngest = block.filaments.last().filter(|_| !block.is_open());
+            let at_once = youngest.map_or(1, |f| self.steps_of.at_once(begin - f.birth, dt));
+            let step = at_once as f64 * dt;
+            (block.until, block.end) = (drift.step + at_once - 1, self.end + (at_once - 1) as f64 * dt);
+            block.advance(step, &drift);
         }
-        self.gone = 0;
-        self.blocks.clear();
-        for block in self.filaments.chunks_mut(BLOCK) {
-            let mut reach = Reach::default();
-            for f in block {
-                let (horizontal, vertical) = self.origins[f.source as usize].noises;
-                let index = f.noise_index(steps);
-                let (u, v) = self.cells.velocity(f.x, f.y);
-                let (nx, ny) = horizontal.nearly_gaussian_pair(index);
-                let (dx, dy) = (u * dt + spread * nx, v * dt + spread * ny);
-                reach.extend(f.x);
-                f.x += dx;
-                f.y += dy;
-                reach.extend(f.x);
-                (f.velocity[0], f.velocity[1]) = (dx * per_dt, dy * per_dt);
-                if let Some(ceiling) = ceiling {
-                    let z = reflected(f.z + rise * vertical.nearly_gaussian_pair(index).0, ceiling);
-                    f.velocity[2] = (z - f.z) * per_dt;
-                    f.z = z;
-                }
-                if (f.x - half_length).abs() > half_length || (f.y - half_width).abs() > half_width {
-                    f.birth = GONE;
-                    self.gone += 1;
-                }
-            }
-            self.blocks.push(reach);
-        }
+        self.blocks.retain(|block| block.is_open() || !block.filaments.is_empty());
     }
 
     /// Adds what was released during the step, each filament moved from its own moment of release on.
@@ -287,41 +242,6 @@ impl Plume {
             }
         }
     }
-}
-
-impl Default for Reach {
-    fn default() -> Self {
-        Reach { low: f64::INFINITY, high: f64::NEG_INFINITY }
-    }
-}
-
-impl Reach {
-    #[inline]
-    fn extend(&mut self, x: f64) {
-        // Not `min` and `max`: those also cater for what is not a number.
-        self.low = if x < self.low { x } else { self.low };
-        self.high = if x > self.high { x } else { self.high };
-    }
-}
-
-impl Filament {
-    /// The draws of a filament at a step are its own, whatever else is alive.
-    fn noise_index(&self, step: u64) -> u64 {
-        u64::from(self.number) << 32 | (step & 0xFFFF_FFFF)
-    }
-
-    /// Where it was some seconds before the end of the step.
-    #[inline]
-    fn at(&self, before: f64) -> [f64; 3] {
-        let [u, v, w] = self.velocity;
-        [self.x - before * u, self.y - before * v, self.z - before * w]
-    }
-}
-
-/// A height mirrored at the bottom and at the ceiling of the layer.
-fn reflected(z: f64, ceiling: f64) -> f64 {
-    let up = z.abs();
-    (if up > ceiling { 2.0 * ceiling - up } else { up }).clamp(0.0, ceiling)
 }
 
 #[cfg(test)]

@@ -73,9 +73,7 @@ impl Water {
             None => cells.uniform(self.mean.length()),
             Some(field) => field.frozen(time, cells),
         }
-        if self.current.is_some() {
-            cells.shift(self.carried(time));
-        }
+        cells.carry(self.carried(time));
     }
 
     /// What the whole water does beyond the mean at a time, along the mean flow and to its right, m/s.

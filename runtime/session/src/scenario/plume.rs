@@ -14,6 +14,7 @@ pub fn plume(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         vertical: c.number("vertical")?,
         layer: (layer > 0.0).then_some(layer),
         step: c.number("step")?,
+        graded: c.number("graded")? != 0.0,
     });
     Ok(())
 }

@@ -62,9 +62,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     page.put("flow", flow(&flat, &recording)?);
     draw("flow.svg", pictures::flow(&flat, &recording)?)?;
 
-    let measured = STEPS.map(|step| Ok((step, measure::bands_at_step(&flat, step, STEP_SEEDS)?)));
-    let steps: Vec<(f64, Vec<Band>)> = measured.into_iter().collect::<Result<_, Box<dyn Error>>>()?;
-    page.put("steps", by_band(steps.iter().map(|(step, bands)| (format!("{step} s"), bands))));
+    let even = STEPS.map(|step| (format!("{step} s"), step, false));
+    let graded = (String::from("1 s to 16 s, by age"), 1.0, true);
+    let measured = even.into_iter().chain([graded]).map(|(name, step, graded)| {
+        let plume = flat.plume.clone().map(|plume| Plume { step, graded, ..plume });
+        Ok((name, measure::bands_under_way(&Scenario { plume, ..flat.clone() }, STEP_SEEDS)?))
+    });
+    let steps: Vec<(String, Vec<Band>)> = measured.collect::<Result<_, Box<dyn Error>>>()?;
+    page.put("steps", by_band(steps.iter().map(|(name, bands)| (name.clone(), bands))));
     draw("steps.svg", pictures::steps(&steps))?;
     page.write()?;
     writeln!(std::io::stdout(), "docs/plume.md")?;

@@ -60,16 +60,14 @@ pub fn recorded_bands(recording: &Arc<Recording>, kernel: RecordedKernel) -> Vec
     probe.bands
 }
 
-/// What probes meet when the whole plume was computed in steps of `step` seconds: from one transit on, every 500 s.
-pub fn bands_at_step(scenario: &Scenario, step: f64, seeds: u64) -> Result<Vec<Band>, Box<dyn Error>> {
-    let plume = scenario.plume.clone().map(|plume| Plume { step, ..plume });
-    let scenario = Scenario { plume, ..scenario.clone() };
+/// What probes meet once nothing of the spin-up is left: from one transit on, every 500 s.
+pub fn bands_under_way(scenario: &Scenario, seeds: u64) -> Result<Vec<Band>, Box<dyn Error>> {
     let mut probe = Probe::new(&BANDS);
     for seed in 0..seeds {
-        let mut simulator = after(&scenario, seed, 9000.0)?;
+        let mut simulator = after(scenario, seed, 9000.0)?;
         for _ in 0..4 {
             run(&mut simulator, 500.0)?;
-            fly(&mut probe, &scenario, &simulator);
+            fly(&mut probe, scenario, &simulator);
         }
     }
     Ok(probe.bands)

@@ -152,9 +152,9 @@ pub fn bands(plumes: &[Named]) -> String {
 }
 
 /// The law of the gaps at several steps of the plume: the share that lasts longer, at two ranges.
-pub fn steps(steps: &[(f64, Vec<Band>)]) -> String {
+pub fn steps(steps: &[(String, Vec<Band>)]) -> String {
     let mut svg = Svg::new(940.0, 400.0);
-    let names: Vec<String> = steps.iter().map(|(step, _)| format!("steps of {step} s")).collect();
+    let names: Vec<String> = steps.iter().map(|(step, _)| format!("steps of {step}")).collect();
     let colours: Vec<(&str, &str)> = names.iter().map(String::as_str).zip(COLOURS).collect();
     for (left, band) in [(60.0, 1), (520.0, 3)] {
         let Some(example) = steps.first().and_then(|(_, bands)| bands.get(band)) else { continue };

@@ -37,15 +37,12 @@ pub struct Index {
 impl Index {
     /// The plume at a time of its last step, s.
     pub fn new(plume: &Plume, time: f64) -> Self {
-        let before = plume.end - time;
         let alive: Vec<Puff> = plume
-            .filaments
-            .iter()
-            .filter(|f| f.birth <= time)
-            .map(|f| {
+            .at(time)
+            .map(|(f, center)| {
                 let kernel = &plume.origins[f.source as usize].kernel;
                 let squared_radius = kernel.squared_radius(time - f.birth);
-                Puff { center: f.at(before), squared_radius, strength: kernel.strength(squared_radius) }
+                Puff { center, squared_radius, strength: kernel.strength(squared_radius) }
             })
             .collect();
         let largest = alive.iter().map(|puff| puff.squared_radius).fold(0.0, f64::max);

@@ -40,7 +40,7 @@ impl Kernel {
         if self.layer.is_some() { self.peak * thinning * thinning.sqrt() } else { self.peak * thinning }
     }
 
-    /// The reading of a filament at a place (m), `before` seconds before the end of its step and at an age.
+    /// The reading of a filament at a place (m), `before` seconds before the time it stands at and at an age.
     pub fn reading(&self, filament: &Filament, before: f64, age: f64, place: [f64; 3]) -> f64 {
         let r2 = self.squared_radius(age);
         let share = share(filament.at(before), r2, self.layer, place);

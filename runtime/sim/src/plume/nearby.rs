@@ -1,7 +1,7 @@
 //! The reading at a point: the sum over the filaments near it, found once a plume step for the whole neighbourhood.
 
 use crate::plume::kernel::CUT_RADII;
-use crate::plume::{BLOCK, Filament, Plume};
+use crate::plume::{Filament, Plume};
 
 /// Queries within this distance of each other in one step share one search, m: a vehicle's way in a step of 1 s.
 const NEIGHBOURHOOD_M: f64 = 3.0;
@@ -16,6 +16,7 @@ pub struct Nearby {
     center: [f64; 2],
     /// The plume's step that the search was made in; 0 before the first.
     steps: u64,
+    /// As they are at the end of that step.
     filaments: Vec<Filament>,
 }
 
@@ -51,14 +52,12 @@ impl Nearby {
             (end - half * velocity - center).abs() <= reach + half * velocity.abs()
         };
         self.filaments.clear();
-        for (block, along) in plume.filaments.chunks(BLOCK).zip(&plume.blocks) {
-            if along.low <= center[0] + reach && along.high >= center[0] - reach {
-                self.filaments.extend(
-                    block
-                        .iter()
-                        .filter(|f| within(f.x, f.velocity[0], center[0]) && within(f.y, f.velocity[1], center[1])),
-                );
-            }
+        for block in plume.blocks.iter().filter(|block| block.is_between(center[0] - reach, center[0] + reach)) {
+            let before = block.end - plume.end;
+            let alongside = block.filaments.iter().map(|f| f.back(before));
+            self.filaments.extend(
+                alongside.filter(|f| within(f.x, f.velocity[0], center[0]) && within(f.y, f.velocity[1], center[1])),
+            );
         }
     }
 }

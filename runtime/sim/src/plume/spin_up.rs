@@ -1,24 +1,16 @@
-//! How long before the run a plume must begin to be whole at its start, and in which steps.
+//! How long before the run a plume must begin to be whole at its start.
 
-use crate::scenario::{self, SPIN_UP_MAX_S, Scenario};
+use crate::plume::steps::longest;
+use crate::scenario::{SPIN_UP_MAX_S, Scenario};
 use crate::water::{Current, FlowFrame};
 
-/// The plume is spun up in steps so many times as long as those that follow: its law does not depend on the step, and nobody
-/// looks. They are [`LONGEST_STEP_S`] long at least, and at most this.
-const SPIN_UP_STEPS: f64 = 5.0;
-pub const LONGEST_SPIN_UP_STEP_S: f64 = 20.0;
-/// In a step of the spin-up the mean flow goes this share of a cell of the field at most.
-const CELL_SHARE: f64 = 0.25;
-/// The bound of a diffusion's draw, in standard deviations ([`Noise::nearly_gaussian_pair`]).
-const LARGEST_DRAW: f64 = 3.46;
 /// The spin-up lasts this many times the mean flow's time from the farthest source to the down-flow end.
 const SPIN_UP_TRANSITS: f64 = 1.15;
 /// Steps in which it is found out how long that takes where the flow changes, s.
 const TRANSIT_STEP_S: f64 = 60.0;
-/// Once the plume is spun up, its steps are this long at most, s.
-pub const LONGEST_STEP_S: f64 = 5.0;
 
-/// When the spin-up begins, s: so long before 0 that what was released earlier has left its box by 0.
+/// When the spin-up begins, s: so long before 0 that what was released earlier has left its box by 0. Nobody looks before 0, so
+/// that all steps are as long as they may be: a whole number of them.
 pub fn begin(scenario: &Scenario) -> f64 {
     if scenario.plume.is_none() || scenario.sources.is_empty() {
         return 0.0;
@@ -31,7 +23,7 @@ pub fn begin(scenario: &Scenario) -> f64 {
     } else {
         emptied_in(&current, SPIN_UP_TRANSITS * frame.length, SPIN_UP_TRANSITS * frame.width, &frame)
     };
-    let step = step(scenario);
+    let step = longest(scenario);
     -(transit / step).ceil() * step
 }
 
@@ -52,18 +44,4 @@ fn emptied_in(current: &Current, length: f64, width: f64, frame: &FlowFrame) -> 
         }
     }
     age
-}
-
-/// The time step of the spin-up, s: so long that a filament neither crosses its layer nor much of a cell of the field.
-pub fn step(scenario: &Scenario) -> f64 {
-    let Some(plume) = &scenario.plume else { return LONGEST_STEP_S };
-    let cell = scenario.flow.meander.as_ref().map_or(f64::INFINITY, |meander| meander.cell);
-    let fits = |step: f64| scenario.flow.mean.length() * step <= CELL_SHARE * cell && stays_in_layer(plume, step);
-    let longest = (SPIN_UP_STEPS * plume.step).min(LONGEST_SPIN_UP_STEP_S);
-    if longest > LONGEST_STEP_S && fits(longest) { longest } else { LONGEST_STEP_S }
-}
-
-/// Whether no filament can cross its layer in one step, s: it is mirrored at one wall of it at most.
-pub fn stays_in_layer(plume: &scenario::Plume, step: f64) -> bool {
-    plume.layer.is_none_or(|layer| LARGEST_DRAW * (2.0 * plume.vertical * step).sqrt() <= layer)
 }

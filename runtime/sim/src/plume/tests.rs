@@ -22,6 +22,11 @@ fn begun(scenario: &Scenario, begin: f64, seed: u64) -> (Plume, Water) {
     (Plume::new(scenario, water.frame(), begin, seed).unwrap(), water)
 }
 
+/// All filaments, and where they are at the end of the last step.
+fn now(plume: &Plume) -> Vec<(Filament, [f64; 3])> {
+    plume.at(plume.end).map(|(f, at)| (*f, at)).collect()
+}
+
 fn squared(x: f64) -> f64 {
     x * x
 }
@@ -31,12 +36,12 @@ fn shown_diffusivity(step: f64, seed: u64) -> (f64, f64) {
     let (mut plume, mut water) = begun(&uniform(4.0, scenario::Plume { step, ..Default::default() }), 0.0, seed);
     plume.advance_to(10_000, &mut water);
     let [x, y, _] = plume.origins[0].place;
-    let n = plume.filaments.len() as f64;
-    let mean = |square: &dyn Fn(&Filament, f64) -> f64| {
-        plume.filaments.iter().map(|f| square(f, plume.end - f.birth)).sum::<f64>() / n
+    let all = now(&plume);
+    let mean = |square: &dyn Fn([f64; 3], f64) -> f64| {
+        all.iter().map(|(f, at)| square(*at, plume.end - f.birth)).sum::<f64>() / all.len() as f64
     };
-    let along = mean(&|f, age| squared(f.x - x - 0.2 * age) / (2.0 * age));
-    (along, mean(&|f, age| squared(f.y - y) / (2.0 * age)))
+    let along = mean(&|at, age| squared(at[0] - x - 0.2 * age) / (2.0 * age));
+    (along, mean(&|at, age| squared(at[1] - y) / (2.0 * age)))
 }
 
 /// What it has caught elsewhere: noise times dt instead of its root, which halves the diffusivity with the step.
@@ -73,8 +78,9 @@ fn vertical_mixing_fills_the_layer() {
     let settings = scenario::Plume { vertical: 0.01, layer: Some(3.5), ..Default::default() };
     let (mut plume, mut water) = begun(&uniform(2.0, settings), 0.0, 2);
     plume.advance_to(20_000, &mut water);
-    assert!(plume.filaments.iter().all(|f| (0.0..=3.5).contains(&f.z)));
-    let old: Vec<f64> = plume.filaments.iter().filter(|f| plume.end - f.birth > 1000.0).map(|f| f.z).collect();
+    let all = now(&plume);
+    assert!(all.iter().all(|(_, at)| (0.0..=3.5).contains(&at[2])));
+    let old: Vec<f64> = all.iter().filter(|(f, _)| plume.end - f.birth > 1000.0).map(|(_, at)| at[2]).collect();
     let mean = old.iter().sum::<f64>() / old.len() as f64;
     let deviation = (old.iter().map(|z| squared(z - mean)).sum::<f64>() / old.len() as f64).sqrt();
     assert!((mean - 1.75).abs() < 0.1 && (deviation - 3.5 / 12.0_f64.sqrt()).abs() < 0.06, "{mean} {deviation}");
@@ -131,14 +137,20 @@ fn nothing_jumps_between_steps() {
         ..uniform(1.0, scenario::Plume::default())
     };
     let (mut plume, mut water) = begun(&scenario, 0.0, 6);
-    plume.advance_to(3000, &mut water);
-    let before: Vec<_> = plume.alive(300.0).collect();
-    plume.advance_to(3010, &mut water);
-    let after: Vec<_> = plume.alive(300.0).collect();
-    assert_eq!(before.len(), after.len());
-    for (a, b) in before.iter().zip(&after) {
-        assert!((0..3).all(|i| (a.0[i] - b.0[i]).abs() < 1e-9) && (a.1 - b.1).abs() < 1e-12, "{a:?} {b:?}");
+    let mut at_once = 0;
+    for second in 3000..3040 {
+        plume.advance_to(10 * second, &mut water);
+        let time = second as f64;
+        let before: Vec<_> = plume.alive(time).collect();
+        plume.advance_to(10 * second + 10, &mut water);
+        let after: Vec<_> = plume.alive(time).collect();
+        assert_eq!(before.len(), after.len());
+        for (a, b) in before.iter().zip(&after) {
+            assert!((0..3).all(|i| (a.0[i] - b.0[i]).abs() < 1e-9) && (a.1 - b.1).abs() < 1e-12, "{a:?} {b:?}");
+        }
+        at_once = plume.blocks.iter().map(|block| block.until + 1 - plume.steps).fold(at_once, u64::max);
     }
+    assert_eq!(at_once, 16, "the oldest have steps of 16 s");
 }
 
 /// What was released in one tide is carried back by the next: the plume lies on both sides of its source.
@@ -157,11 +169,11 @@ fn a_tide_carries_the_plume_to_both_sides() {
     let [source, ..] = plume.origins[0].place;
     // To and fro by 0.15 T / 2 pi = 191 m: at tick 0, in mid flood, 191 m up-flow of the mean path.
     let fresh: Vec<f64> =
-        plume.filaments.iter().filter(|f| (-2000.0..0.0).contains(&f.birth)).map(|f| f.x - source).collect();
+        now(&plume).iter().filter(|(f, _)| (-2000.0..0.0).contains(&f.birth)).map(|(_, at)| at[0] - source).collect();
     assert!(fresh.iter().all(|x| (-40.0..330.0).contains(x)));
     plume.advance_to(40_000, &mut water);
-    let young = |f: &&Filament| f.birth > 0.0 && f.birth < 4000.0;
-    let sides: Vec<bool> = plume.filaments.iter().filter(young).map(|f| f.x < source).collect();
+    let young = now(&plume).into_iter().filter(|(f, _)| f.birth > 0.0 && f.birth < 4000.0);
+    let sides: Vec<bool> = young.map(|(_, at)| at[0] < source).collect();
     assert!(sides.iter().any(|up| *up) && sides.iter().any(|up| !up), "on both sides after half a tide");
     assert_eq!(water.velocity(Point::ORIGIN, 4000.0).north, 0.04 - 0.15);
 }
@@ -180,18 +192,19 @@ fn a_patch_is_as_wide_as_asked_and_drifts() {
     plume.spin_up(&mut water, &scenario.patches, 3);
     let [x, y, _] = plume.origins[0].place;
     let centre = |plume: &Plume| {
-        let n = plume.filaments.len() as f64;
-        (plume.filaments.iter().map(|f| f.x).sum::<f64>() / n, plume.filaments.iter().map(|f| f.y).sum::<f64>() / n)
+        let all = now(plume);
+        let mean = |axis: usize| all.iter().map(|(_, at)| at[axis]).sum::<f64>() / all.len() as f64;
+        (mean(0), mean(1))
     };
     let (cx, cy) = centre(&plume);
     assert!((cx - x).abs() < 1.5 && (cy - y).abs() < 1.5);
-    let variance = plume.filaments.iter().map(|f| squared(f.x - cx)).sum::<f64>() / 2000.0;
+    let variance = now(&plume).iter().map(|(_, at)| squared(at[0] - cx)).sum::<f64>() / 2000.0;
     assert!((variance.sqrt() - 15.0).abs() < 0.8);
     let radius = plume.largest_squared_radius().sqrt();
     assert!((0.0..0.01).contains(&(radius - 3.04_f64.sqrt())), "as wide as 30,000 s make it: {radius}");
     plume.advance_to(10_000, &mut water);
     let gone = centre(&plume).0 - cx;
-    assert!((gone - 200.0).abs() < 1e-6 && plume.filaments.len() == 2000, "{gone} {}", plume.filaments.len());
+    assert!((gone - 200.0).abs() < 1e-6 && now(&plume).len() == 2000, "{gone} {}", now(&plume).len());
     // The look-ups know how wide it is.
     let place = [centre(&plume).0 + 60.0, cy, 0.2];
     let read = Nearby::default().reading(&plume, place, 1000.0);
@@ -217,7 +230,7 @@ fn a_leak_is_a_line() {
     let (mut plume, mut water) = begun(&scenario, 0.0, 3);
     plume.advance_to(20_000, &mut water);
     let [_, y, _] = plume.origins[0].place;
-    let mut aside: Vec<f64> = plume.filaments.iter().map(|f| f.y - y).collect();
+    let mut aside: Vec<f64> = now(&plume).iter().map(|(_, at)| at[1] - y).collect();
     aside.sort_by(f64::total_cmp);
     let quantile = |share: f64| aside[(share * aside.len() as f64) as usize];
     assert!(aside[0] >= -1e-9 && quantile(0.999) <= 100.0);

@@ -1,6 +1,6 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
-use crate::plume::LONGEST_STEP_S;
+use crate::plume::LONGEST_PLUME_STEP_S;
 use crate::scenario::{Objections, Scenario};
 use crate::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
@@ -191,7 +191,7 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
     objections.positive("flow.meander.viscosity", meander.viscosity);
     objections.positive("flow.meander.cell", meander.cell);
     objections.not_negative("flow.meander.margin", meander.margin);
-    let least = scenario.plume.as_ref().map_or(0.0, |plume| plume.step).max(LONGEST_STEP_S / 2.0);
+    let least = scenario.plume.as_ref().map_or(0.0, |plume| plume.step).max(LONGEST_PLUME_STEP_S / 2.0);
     objections.unless(
         meander.step >= least && meander.step <= FLOW_STEP_MAX_S,
         format!("`flow.meander.step` is {} s: it must be {least} to {FLOW_STEP_MAX_S}", meander.step),

@@ -1,6 +1,6 @@
 //! The plume: what a scenario says of it, and what of that cannot be.
 
-use crate::plume::{LONGEST_STEP_S, stays_in_layer};
+use crate::plume::{LONGEST_PLUME_STEP_S, stays_in_layer};
 use crate::scenario::{Objections, Scenario};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -21,11 +21,21 @@ pub struct Plume {
     pub layer: Option<f64>,
     /// Time step, s: a whole number of ticks, 5 s at most. Default 1. Statistics do not depend on it.
     pub step: f64,
+    /// Whether old filaments, whose radius hides it, go in longer steps. Default true. Nor does anything depend on this.
+    pub graded: bool,
 }
 
 impl Default for Plume {
     fn default() -> Self {
-        Plume { growth: 1e-4, initial_radius: 0.2, diffusivity: 0.027, vertical: 0.0, layer: None, step: 1.0 }
+        Plume {
+            growth: 1e-4,
+            initial_radius: 0.2,
+            diffusivity: 0.027,
+            vertical: 0.0,
+            layer: None,
+            step: 1.0,
+            graded: true,
+        }
     }
 }
 
@@ -42,7 +52,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         Some(layer) => {
             objections.positive("plume.layer", layer);
             objections.unless(
-                stays_in_layer(plume, LONGEST_STEP_S) || layer <= 0.0,
+                stays_in_layer(plume, LONGEST_PLUME_STEP_S) || layer <= 0.0,
                 format!("`plume.vertical` mixes a `plume.layer` of {layer} m within seconds: leave both out for a flat plume"),
             );
         }
@@ -51,9 +61,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
     let ticks = plume.step / TICK_S;
     objections.unless(
-        plume.step >= TICK_S && plume.step <= LONGEST_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
+        plume.step >= TICK_S && plume.step <= LONGEST_PLUME_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
         format!(
-            "`plume.step` is {} s: it must be a whole number of ticks of {TICK_S} s, {LONGEST_STEP_S} s at most",
+            "`plume.step` is {} s: it must be a whole number of ticks of {TICK_S} s, {LONGEST_PLUME_STEP_S} s at most",
             plume.step
         ),
     );

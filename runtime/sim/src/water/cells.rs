@@ -11,11 +11,10 @@ pub struct Cells {
     per_y: f64,
     /// u = c0 + c1 x + c2 y + c3 x y, v likewise from c4; x and y from the grid's corner, m.
     coefficients: Vec<[f64; 8]>,
-    /// The coefficients at two states of the field, made once for the pair.
-    early: Vec<[f64; 8]>,
-    late: Vec<[f64; 8]>,
-    /// Which pair: the time of the later, in steps.
-    pair: Option<i64>,
+    /// Which of the field's states they are made from: its number.
+    state: Option<i64>,
+    /// What is added everywhere, m/s.
+    carried: (f64, f64),
 }
 
 impl Cells {
@@ -25,32 +24,18 @@ impl Cells {
         *self = Cells { columns: 1, rows: 1, coefficients: vec![only], ..Cells::default() };
     }
 
-    /// The field part of the way from one of its states to the next. `pair` is a number of the later that grows by one a step.
-    pub fn freeze(&mut self, mesh: &Mesh, pair: i64, [early, late]: [&Nodes; 2], share: f64) {
-        if self.pair != Some(pair) {
-            // Time goes on: the later state of the last pair is mostly the earlier of this.
-            if self.pair == Some(pair - 1) {
-                std::mem::swap(&mut self.early, &mut self.late);
-            } else {
-                self.fit(mesh);
-                fill(&mut self.early, mesh, early);
-            }
-            fill(&mut self.late, mesh, late);
-            self.pair = Some(pair);
-        }
-        for ((c, early), late) in self.coefficients.iter_mut().zip(&self.early).zip(&self.late) {
-            for i in 0..c.len() {
-                c[i] = early[i] + share * (late[i] - early[i]);
-            }
+    /// A state of the field, which has a number of its own.
+    pub fn freeze(&mut self, mesh: &Mesh, state: i64, nodes: &Nodes) {
+        if self.state != Some(state) {
+            self.fit(mesh);
+            fill(&mut self.coefficients, mesh, nodes);
+            self.state = Some(state);
         }
     }
 
-    /// Adds the same velocity everywhere to what was frozen last.
-    pub fn shift(&mut self, (u, v): (f64, f64)) {
-        for c in &mut self.coefficients {
-            c[0] += u;
-            c[4] += v;
-        }
+    /// The same velocity is added everywhere.
+    pub fn carry(&mut self, velocity: (f64, f64)) {
+        self.carried = velocity;
     }
 
     /// Velocity along and to the right of the mean flow, m/s, at a place within the grid.
@@ -61,7 +46,8 @@ impl Cells {
         let row = ((y * self.per_y) as i32).min(self.rows - 1).max(0);
         let c = &self.coefficients[(row * self.columns + column) as usize];
         let xy = x * y;
-        (c[0] + c[1] * x + (c[2] * y + c[3] * xy), c[4] + c[5] * x + (c[6] * y + c[7] * xy))
+        let (u, v) = (c[0] + c[1] * x + (c[2] * y + c[3] * xy), c[4] + c[5] * x + (c[6] * y + c[7] * xy));
+        (u + self.carried.0, v + self.carried.1)
     }
 
     /// Takes the shape of a grid.
@@ -69,9 +55,7 @@ impl Cells {
         let (columns, rows) = (mesh.columns - 1, mesh.rows - 1);
         (self.columns, self.rows) = (columns as i32, rows as i32);
         (self.per_x, self.per_y) = (1.0 / mesh.dx, 1.0 / mesh.dy);
-        for coefficients in [&mut self.coefficients, &mut self.early, &mut self.late] {
-            coefficients.resize(columns * rows, [0.0; 8]);
-        }
+        self.coefficients.resize(columns * rows, [0.0; 8]);
     }
 }
 

@@ -74,10 +74,16 @@ impl Field {
         (at(&early.u, &late.u), at(&early.v, &late.v))
     }
 
-    /// The field at a time, as coefficients of cells.
+    /// The state nearest to a time, as coefficients of cells: a step is short beside what the field changes over.
     pub fn frozen(&self, time: f64, cells: &mut Cells) {
-        let (pair, share) = self.bracket(time);
-        cells.freeze(&self.mesh, pair, self.states(pair), share);
+        let [oldest, middle, newest] = &self.frames;
+        let back = self.newest as f64 - time / self.step;
+        let (before, nodes) = match back {
+            ..0.5 => (0, newest),
+            ..1.5 => (1, middle),
+            _ => (2, oldest),
+        };
+        cells.freeze(&self.mesh, self.newest - before, nodes);
     }
 
     /// The later of the two states round a time, in steps, and how far the time is from the earlier to it.
@@ -149,15 +155,18 @@ fn euler(old: &Nodes, new: &mut Nodes, mesh: &Mesh, half_viscosity: f64, time: f
         (time * half_viscosity / (mesh.dx * mesh.dx), time * half_viscosity / (mesh.dy * mesh.dy));
     let n = mesh.columns;
     for row in 1..mesh.rows - 1 {
-        for node in row * n + 1..row * n + n - 1 {
-            let (u, v) = (old.u[node] + carried.0, old.v[node] + carried.1);
-            let step = |f: &[f64]| {
-                let (here, west, east, north, south) = (f[node], f[node - 1], f[node + 1], f[node - n], f[node + n]);
-                here - (u * along * (east - west) + v * across * (south - north))
+        // Slices of one length, so that their bounds are looked at once a row.
+        let [u, v] = [&old.u, &old.v].map(|f| [row - 1, row, row + 1].map(|row| &f[row * n..(row + 1) * n]));
+        let (new_u, new_v) = (&mut new.u[row * n..(row + 1) * n], &mut new.v[row * n..(row + 1) * n]);
+        for i in 1..n - 1 {
+            let (along, across) = (along * (u[1][i] + carried.0), across * (v[1][i] + carried.1));
+            let step = |[north, here, south]: [&[f64]; 3]| {
+                let (west, east, here, north, south) = (here[i - 1], here[i + 1], here[i], north[i], south[i]);
+                here - (along * (east - west) + across * (south - north))
                     + (diffuse_x * (east - 2.0 * here + west) + diffuse_y * (south - 2.0 * here + north))
             };
-            new.u[node] = step(&old.u);
-            new.v[node] = step(&old.v);
+            new_u[i] = step(u);
+            new_v[i] = step(v);
         }
     }
 }
@@ -194,10 +203,10 @@ mod tests {
         let mut field = duck(&Meander::default(), 5);
         field.advance_to(12.0, STILL);
         let mut cells = Cells::default();
-        for time in [6.5, 12.0, 14.9] {
+        for (time, nearest) in [(7.4, 5.0), (12.0, 10.0), (14.9, 15.0)] {
             field.frozen(time, &mut cells);
             for (x, y) in [(0.0, 0.0), (607.0, 243.0), (1213.9, 486.9), (20.3, 477.7), (333.3, 77.7)] {
-                let (direct, frozen) = (field.velocity(x, y, time), cells.velocity(x, y));
+                let (direct, frozen) = (field.velocity(x, y, nearest), cells.velocity(x, y));
                 assert!((direct.0 - frozen.0).abs() < 1e-12 && (direct.1 - frozen.1).abs() < 1e-12);
             }
         }
