@@ -3,6 +3,7 @@
 
 use crate::scenario::{Objections, Scenario};
 use albacore_geometry::Heading;
+use albacore_geometry::math::{PI, radians};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
@@ -93,22 +94,20 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     for (name, rate) in [("compass", compass.rate), ("pressure", pressure.rate), ("dvl", dvl.rate)] {
         objections.rate(&format!("{name}.rate"), rate);
     }
-    objections.not_negative("compass.noise", compass.noise);
-    objections.finite("compass.bias", [compass.bias, compass.deviation]);
+    objections.within("compass.noise", compass.noise, 0.0..=radians(45.0));
+    objections.within("compass.bias", compass.bias, -PI..=PI);
+    objections.within("compass.deviation", compass.deviation, 0.0..=radians(90.0));
     objections.finite("compass.greatest_at", [compass.greatest_at.radians(), 0.0]);
-    objections.not_negative("pressure.noise", pressure.noise);
-    objections.finite("pressure.bias", [pressure.bias, 0.0]);
-    objections.not_negative("dvl.noise", dvl.noise);
+    objections.within("pressure.noise", pressure.noise, 0.0..=10.0);
+    objections.within("pressure.bias", pressure.bias, -100.0..=100.0);
+    objections.within("dvl.noise", dvl.noise, 0.0..=1.0);
     if let Some(range) = dvl.range {
-        objections.positive("dvl.range", range);
+        objections.within("dvl.range", range, 0.0..=1000.0);
     }
     if let Some(gps) = gps {
-        objections.unless(
-            gps.every >= TICK_S && gps.every.is_finite(),
-            format!("`gps.every` is {} s: fixes cannot come more often than every tick of {TICK_S} s", gps.every),
-        );
-        objections.not_negative("gps.sigma", gps.sigma);
-        objections.not_negative("gps.above", gps.above);
+        objections.within("gps.every", gps.every, TICK_S..=3600.0);
+        objections.within("gps.sigma", gps.sigma, 0.0..=1000.0);
+        objections.within("gps.above", gps.above, 0.0..=10.0);
         objections.unless(
             scenario.navigation.is_some(),
             "`gps` needs a `navigation`: without one the vehicle knows its position exactly",

@@ -2,6 +2,7 @@
 
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
+use std::ops::RangeInclusive;
 
 /// Why a scenario cannot be simulated: every fault found in it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,6 +31,16 @@ impl Objections {
         self.unless(value >= 0.0 && value.is_finite(), format!("`{name}` is {value}: it must be 0 or more"));
     }
 
+    /// A number with bounds. What was computed to be one of them is within them, but for rounding.
+    pub fn within(&mut self, name: &str, value: f64, bounds: RangeInclusive<f64>) {
+        let (low, high) = bounds.into_inner();
+        let slack = ROUNDING * low.abs().max(high.abs());
+        self.unless(
+            value >= low - slack && value <= high + slack,
+            format!("`{name}` is {value}: it must be {low} to {high}"),
+        );
+    }
+
     /// Samples a second of what is read at ticks.
     pub fn rate(&mut self, name: &str, rate: f64) {
         let most = 1.0 / TICK_S;
@@ -56,3 +67,5 @@ impl Objections {
 
 /// The fastest flow, m/s: tidal races reach 8.
 const FLOW_MAX: f64 = 10.0;
+/// What units of a script may lose, as a share.
+const ROUNDING: f64 = 1e-12;

@@ -138,54 +138,46 @@ impl Default for Sounder {
 /// What of the sensors cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     if let Some(navigation) = &scenario.navigation {
-        objections.not_negative("navigation.walk", navigation.walk);
+        objections.within("navigation.walk", navigation.walk, 0.0..=10.0);
         if let Some(lbl) = &navigation.lbl {
-            objections.unless(
-                lbl.every >= TICK_S && lbl.every.is_finite(),
-                format!(
-                    "`navigation.lbl.every` is {} s: fixes cannot come more often than every tick of {TICK_S} s",
-                    lbl.every
-                ),
-            );
-            objections.not_negative("navigation.lbl.sigma", lbl.sigma);
-            objections.not_negative("navigation.lbl.gate", lbl.gate);
+            objections.within("navigation.lbl.every", lbl.every, TICK_S..=DAY_S);
+            objections.within("navigation.lbl.sigma", lbl.sigma, 0.0..=1000.0);
+            objections.within("navigation.lbl.gate", lbl.gate, 0.0..=10_000.0);
             objections.share("navigation.lbl.outliers", lbl.outliers);
-            objections.not_negative("navigation.lbl.outlier", lbl.outlier);
-            objections.flow("navigation.lbl.drift", lbl.drift);
+            objections.within("navigation.lbl.outlier", lbl.outlier, 0.0..=10_000.0);
+            objections.within("navigation.lbl.drift", lbl.drift.length(), 0.0..=LBL_DRIFT_MAX);
         }
     }
     let fluorometer = &scenario.fluorometer;
-    objections.unless(
-        fluorometer.rate > 0.0 && fluorometer.rate <= FLUOROMETER_RATE_MAX,
-        format!("`fluorometer.rate` is {} Hz: it must be above 0 and at most {FLUOROMETER_RATE_MAX}", fluorometer.rate),
-    );
-    objections.not_negative("fluorometer.noise", fluorometer.noise);
-    objections.not_negative("fluorometer.false_alarms", fluorometer.false_alarms);
+    for (name, value, bounds) in [
+        ("fluorometer.rate", fluorometer.rate, 0.01..=1000.0),
+        ("fluorometer.noise", fluorometer.noise, 0.0..=1.0),
+        ("fluorometer.false_alarms", fluorometer.false_alarms, 0.0..=1000.0),
+        ("fluorometer.ahead", fluorometer.ahead, -10.0..=10.0),
+        ("fluorometer.bias", fluorometer.bias, -1.0..=1.0),
+        ("fluorometer.delay", fluorometer.delay, 0.0..=600.0),
+        ("fluorometer.saturation", fluorometer.saturation, 0.0..=1.0),
+    ] {
+        objections.within(name, value, bounds);
+    }
     objections.unless(
         fluorometer.false_alarms <= fluorometer.rate,
         "`fluorometer.false_alarms` exceeds `fluorometer.rate`: a sample gives one alarm at most",
     );
-    objections.finite("fluorometer.ahead", [fluorometer.ahead, 0.0]);
-    objections.finite("fluorometer.bias", [fluorometer.bias, 0.0]);
-    objections.unless(
-        (0.0..=DELAY_MAX_S).contains(&fluorometer.delay),
-        format!("`fluorometer.delay` is {} s: it must be 0 to {DELAY_MAX_S}", fluorometer.delay),
-    );
-    objections.share("fluorometer.saturation", fluorometer.saturation);
     let adcp = &scenario.adcp;
-    objections.not_negative("adcp.noise", adcp.noise);
-    objections.finite("adcp.bias", [adcp.bias, 0.0]);
-    objections.not_negative("adcp.blanking", adcp.blanking);
-    objections.positive("adcp.bin", adcp.bin);
+    objections.within("adcp.noise", adcp.noise, 0.0..=1.0);
+    objections.within("adcp.bias", adcp.bias, -1.0..=1.0);
+    objections.within("adcp.blanking", adcp.blanking, 0.0..=100.0);
+    objections.within("adcp.bin", adcp.bin, 0.1..=100.0);
     objections.unless(
         (1..=BINS_MAX).contains(&adcp.count),
         format!("`adcp.count` is {}: it must be 1 to {BINS_MAX}", adcp.count),
     );
     let sounder = &scenario.sounder;
     objections.rate("sounder.rate", sounder.rate);
-    objections.not_negative("sounder.noise", sounder.noise);
-    objections.finite("sounder.bias", [sounder.bias, 0.0]);
-    objections.not_negative("sounder.nearest", sounder.nearest);
+    objections.within("sounder.noise", sounder.noise, 0.0..=10.0);
+    objections.within("sounder.bias", sounder.bias, -100.0..=100.0);
+    objections.within("sounder.nearest", sounder.nearest, 0.0..=100.0);
     if let Some(farthest) = sounder.farthest {
         objections.unless(
             farthest > sounder.nearest,
@@ -197,7 +189,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 
 /// A profiler has at most this many bins.
 const BINS_MAX: u32 = 128;
-/// The longest way from the intake to the sensor, s.
-const DELAY_MAX_S: f64 = 600.0;
-/// A chemical sensor gives at most this many samples a second.
-const FLUOROMETER_RATE_MAX: f64 = 1000.0;
+/// Transponders drift no faster than this, m/s.
+const LBL_DRIFT_MAX: f64 = 1.0;
+/// The longest time between fixes, s.
+const DAY_S: f64 = 86_400.0;

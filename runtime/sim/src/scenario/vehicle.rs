@@ -2,11 +2,12 @@
 
 use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
 use crate::scenario::{Objections, Scenario};
-use albacore_geometry::math::PI;
+use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::Rows;
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
 /// The vehicle, and where it is when the run begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -118,6 +119,12 @@ pub struct SubmersibleHull {
 }
 
 impl SubmersibleHull {
+    /// What its propeller may turn at most, 1/s. Lift and drag are those of slow water: beyond twice what the published hulls do
+    /// nothing is known of them.
+    pub const TURNS_MAX: RangeInclusive<f64> = 1.0..=60.0;
+    /// What it may go at most, m/s: no more than so many turns give.
+    pub const SPEED_MAX: RangeInclusive<f64> = 0.1..=6.0;
+
     /// The published limits of the plant after Fossen: 1525 turns a minute.
     pub fn fossen() -> Self {
         SubmersibleHull { speed_max: 2.5, fin_max: 15.0 * PI / 180.0, turns_max: 25.42, step: 0.01 }
@@ -146,12 +153,12 @@ impl SubmersibleHull {
 
     /// What of it cannot be; `possible` is the speed that its greatest turns give, m/s.
     fn check(&self, possible: f64, objections: &mut Objections) {
-        objections.positive("vehicle.hull.speed_max", self.speed_max);
+        objections.within("vehicle.hull.speed_max", self.speed_max, Self::SPEED_MAX);
         objections.unless(
             self.fin_max > 0.0 && self.fin_max <= FIN_MAX,
             format!("`vehicle.hull.fin_max` is {} rad: it must be above 0 and at most {FIN_MAX}", self.fin_max),
         );
-        objections.positive("vehicle.hull.turns_max", self.turns_max);
+        objections.within("vehicle.hull.turns_max", self.turns_max, Self::TURNS_MAX);
         objections.unless(
             self.speed_max <= possible || !possible.is_finite(),
             format!(
@@ -219,7 +226,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     objections.finite("vehicle.start", [v.start.north, v.start.east]);
     objections.finite("vehicle.heading", [v.heading.radians(), 0.0]);
     objections.not_negative("vehicle.start_spread", v.start_spread);
-    objections.not_negative("vehicle.depth", v.depth);
+    objections.within("vehicle.depth", v.depth, DEPTHS);
     // Where the start is scattered it may be anywhere: as shallow as the ground is there.
     let water = if v.start_spread > 0.0 {
         scenario.bottom.shallowest_within(v.start_spread, v.start)
@@ -234,11 +241,11 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             v.depth
         ),
     );
-    objections.positive("vehicle.endurance", v.endurance);
+    objections.within("vehicle.endurance", v.endurance, 1.0..=ENDURANCE_MAX_S);
     if let Some(limits) = &scenario.limits {
-        objections.positive("limits.depth", limits.depth.unwrap_or(1.0));
-        objections.not_negative("limits.altitude", limits.altitude);
-        objections.positive("limits.speed", limits.speed.unwrap_or(1.0));
+        objections.within("limits.depth", limits.depth.unwrap_or(1.0), DEPTHS);
+        objections.within("limits.altitude", limits.altitude, ALTITUDES);
+        objections.within("limits.speed", limits.speed.unwrap_or(1.0), 0.0..=20.0);
     }
     match &v.hull {
         HullSetup::Kinematic(hull) => check_kinematic(hull, objections),
@@ -250,21 +257,27 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 }
 
 fn check_kinematic(hull: &KinematicHull, objections: &mut Objections) {
-    for (name, value) in [
-        ("vehicle.speed_max", hull.speed_max),
-        ("vehicle.turn_rate", hull.turn_rate),
-        ("vehicle.heading_time", hull.heading_time),
-        ("vehicle.acceleration", hull.acceleration),
-        ("vehicle.depth_rate", hull.depth_rate),
-        ("vehicle.altitude_jitter_time", hull.altitude_jitter_time),
+    for (name, value, bounds) in [
+        ("vehicle.speed_max", hull.speed_max, 0.1..=20.0),
+        ("vehicle.turn_rate", hull.turn_rate, radians(0.1)..=radians(360.0)),
+        ("vehicle.heading_time", hull.heading_time, TICK_S..=60.0),
+        ("vehicle.acceleration", hull.acceleration, 0.001..=10.0),
+        ("vehicle.depth_rate", hull.depth_rate, 0.01..=10.0),
+        ("vehicle.altitude_jitter", hull.altitude_jitter, 0.0..=10.0),
+        ("vehicle.altitude_jitter_max", hull.altitude_jitter_max, 0.0..=10.0),
+        ("vehicle.altitude_jitter_time", hull.altitude_jitter_time, TICK_S..=3600.0),
     ] {
-        objections.positive(name, value);
+        objections.within(name, value, bounds);
     }
-    objections.not_negative("vehicle.altitude_jitter", hull.altitude_jitter);
-    objections.not_negative("vehicle.altitude_jitter_max", hull.altitude_jitter_max);
 }
 
 /// The greatest angle of a fin, rad: beyond it no fin lifts.
 const FIN_MAX: f64 = 1.0;
 /// So many steps of integration in a tick: with fewer the roll of a hull is not followed, with more nothing is gained.
-const STEPS: std::ops::RangeInclusive<f64> = 2.0..=100.0;
+const STEPS: RangeInclusive<f64> = 2.0..=100.0;
+/// From the surface to the deepest trench, m.
+const DEPTHS: RangeInclusive<f64> = 0.0..=11_000.0;
+/// What an echo sounder of such a vehicle could see, m.
+const ALTITUDES: RangeInclusive<f64> = 0.0..=1000.0;
+/// The longest that a battery lasts, s: longer than any vehicle's has.
+const ENDURANCE_MAX_S: f64 = 1e4 * 3600.0;
