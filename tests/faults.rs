@@ -12,7 +12,7 @@ mod faults {
     pub mod page;
 }
 
-use albacore_session::{Outcome, Plan, PlanError, Run, Running, load, load_faults};
+use albacore_session::{Faults, Outcome, Plan, PlanError, Run, Running, load, load_faults};
 use faults::guard::{Guard, Problems};
 use std::path::Path;
 
@@ -94,7 +94,7 @@ fn plan(fault: Option<&str>) -> Plan {
     let text = fault.map(|fault| format!("fault({fault}, from: {FROM} s, to: {TO} s)"));
     let faults = load_faults(&text.into_iter().collect::<Vec<_>>());
     assert!(faults.is_sound(), "{fault:?}: {:?}", faults.findings);
-    plan.with_faults(&faults).unwrap()
+    plan.with_faults(&Faults::of(&faults).unwrap()).unwrap()
 }
 
 fn seeds() -> u64 {
@@ -170,7 +170,7 @@ fn what_is_no_fault_is_told_with_what_would_be_one() {
         let script = albacore_session::load(Path::new(SURVEY), None, &[]).unwrap();
         let plan = Plan::new(&script, SURVEY, None, None).unwrap();
         assert_eq!(told(text), "", "{text}");
-        match plan.with_faults(&load(text)) {
+        match Faults::of(&load(text)).and_then(|faults| plan.with_faults(&faults)) {
             Err(PlanError::Asked(_, help)) => help.unwrap_or_default(),
             Err(PlanError::Script(findings)) => findings.iter().map(|f| f.message.clone()).collect(),
             Ok(_) => String::from("nothing"),

@@ -1,5 +1,6 @@
 //! What is to be run: a mission, chosen from a script, and the world that it runs in.
 
+use crate::faults::Faults;
 use crate::world;
 use albacore_geometry::TangentFrame;
 use albacore_lang::diagnostic::Diagnostic;
@@ -69,6 +70,11 @@ impl Plan {
         }
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
         Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script) })
+    }
+
+    /// The same with faults added to those of the scenario.
+    pub fn with_faults(self, faults: &Faults) -> Result<Self, PlanError> {
+        Ok(Plan { scenario: faults.in_scenario(self.scenario)?, ..self })
     }
 
     /// The frame of the mission, if it lies on the globe.
