@@ -375,6 +375,10 @@ impl Vehicle for Simulator {
         Ok(())
     }
 
+    fn is_aground(&self) -> bool {
+        self.incidents.is_aground()
+    }
+
     fn notices(&mut self) -> Vec<String> {
         let mut notices = self.faults.take_notices();
         notices.extend(self.watch.take_notices());
