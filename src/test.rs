@@ -8,7 +8,7 @@ use crate::plan::Faults;
 use albacore_session::{Failure, PlanError, Script, TestResult, first_difference, run_test, same_behavior};
 use std::path::{Path, PathBuf};
 
-/// Run the tests of scripts. With `--fault` their snapshots, which are of runs without, are left out.
+/// Run the tests of scripts.
 #[derive(clap::Args)]
 pub struct Test {
     /// Scripts, or folders of scripts; else the folder `missions`, or this one where there is none.
@@ -17,7 +17,8 @@ pub struct Test {
     /// Only the tests whose names contain this.
     #[arg(long, value_name = "TEXT")]
     filter: Option<String>,
-    /// Take what was found as right: write new snapshots over the old.
+    /// Take what was found as right: write new snapshots over the old. They are of runs without `--fault`, and are left out with
+    /// it.
     #[arg(long, conflicts_with = "texts")]
     accept: bool,
     #[command(flatten)]
