@@ -88,7 +88,7 @@ impl Run {
         let refused = |error| refused(&error, script);
         let Some(link) = &self.link else {
             let plan = self.choice.plan(script, &self.script)?;
-            let plan = self.faults.add(|faults| plan.with_faults(faults))?;
+            let plan = plan.with_faults(&self.faults.read()?).map_err(refused)?;
             let run = MissionRun::new(&plan, self.seed).map_err(refused)?;
             return Ok((plan, run));
         };

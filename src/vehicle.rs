@@ -68,7 +68,7 @@ impl Vehicle {
         let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
         let refused = |error| refused(&error, &script);
         let world = World::new(&script, file, name).map_err(refused)?;
-        let world = self.faults.add(|faults| world.with_faults(faults))?;
+        let world = world.with_faults(&self.faults.read()?).map_err(refused)?;
         world.far_end(self.seed, self.rows).map_err(refused)
     }
 

@@ -4,7 +4,7 @@
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{Controller, FrontSeat, Happening, Milestone, Rows};
-use albacore_sim::{Scenario, Simulator, VehicleSetup};
+use albacore_sim::{Bottom, Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 
 /// A generator for tests (SplitMix64): what goes wrong is the same in every run.
@@ -81,8 +81,12 @@ struct Pair {
 
 impl Pair {
     fn new(rows: &str, seed: u64, share: f64) -> Self {
+        Pair::within(&still_water(), rows, seed, share)
+    }
+
+    fn within(scenario: &Scenario, rows: &str, seed: u64, share: f64) -> Self {
         let rows: Rows = rows.parse().unwrap();
-        let simulator = Simulator::new(&still_water(), seed).unwrap();
+        let simulator = Simulator::new(scenario, seed).unwrap();
         let start = (Point::ORIGIN, Heading::NORTH);
         Pair {
             vehicle: FrontSeat::new(simulator, frame(), rows, start, Vertical::Depth(3.0)),
@@ -257,6 +261,22 @@ fn unsafe_commands_are_refused_and_noticed() {
     assert!(notices.iter().any(|n| n.contains("does not follow `#C,Depth,Depth,400.00`")), "{notices:?}");
     let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
     assert!((depth - 5.0).abs() < 0.011, "it holds what it held: {depth}");
+}
+
+#[test]
+fn a_vehicle_that_runs_aground_says_so_and_that_it_came_free() {
+    let mut pair = Pair::within(&Scenario { bottom: Bottom::flat(4.0), ..still_water() }, "100x20x2", 1, 0.0);
+    pair.controller.take_over();
+    pair.send();
+    let mut told = Vec::new();
+    for depth in [5.0, 2.0] {
+        pair.ticks(100, Some(&Command { vertical: Vertical::Depth(depth), ..EAST }));
+        told.push(pair.controller.take_notices());
+    }
+    let says = |told: &[String], what: &str| told.iter().filter(|notice| notice.as_str() == what).count();
+    let (aground, free) = ("the vehicle says: error 4, aground", "the vehicle says: error 5, free of the bottom again");
+    assert_eq!((says(&told[0], aground), says(&told[0], free)), (1, 0), "{told:?}");
+    assert_eq!((says(&told[1], aground), says(&told[1], free)), (0, 1), "{told:?}");
 }
 
 #[test]

@@ -31,7 +31,7 @@ pub use albacore_link::{LinkError, Transport, Url, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use check::findings;
-pub use faults::load_faults;
+pub use faults::{Faults, load_faults};
 pub use files::{
     FileError, Files, is_known_everywhere, load, load_library, load_or_module, load_text, read, standard_modules,
 };

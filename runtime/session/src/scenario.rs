@@ -19,6 +19,8 @@ use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 use clause::Clause;
 
+pub(crate) use recorded::uncovered;
+
 /// A scenario that was understood.
 pub(crate) struct Understood {
     /// The simulator's own.

@@ -1,5 +1,6 @@
 //! A simulated world with a vehicle in it that is served to others: the far end of a link.
 
+use crate::faults::Faults;
 use crate::files::Files;
 use crate::plan::PlanError;
 use crate::scenario::Understood;
@@ -8,6 +9,7 @@ use albacore_lang::{ScenarioProgram, Script, suggestion};
 use albacore_link::recon::{FrontSeat, Rows};
 use albacore_sim::{Scenario, ScenarioError, Simulator};
 use albacore_vehicle::Vertical;
+use std::sync::Arc;
 
 /// A vehicle at the surface swims its rows this far above the bottom, m.
 const ROWS_ALTITUDE: f64 = 2.0;
@@ -17,7 +19,7 @@ const ROWS_ALTITUDE: f64 = 2.0;
 pub struct World {
     /// Its name.
     pub name: String,
-    scenario: Scenario,
+    scenario: Arc<Scenario>,
     frame: TangentFrame,
 }
 
@@ -43,13 +45,12 @@ impl World {
                 Some(help.into()),
             ));
         };
-        Ok(World { name: lowered.name, scenario: understood.world, frame: TangentFrame { origin } })
+        Ok(World { name: lowered.name, scenario: Arc::new(understood.world), frame: TangentFrame { origin } })
     }
 
-    /// The same with the faults of a script of [`crate::load_faults`] added to those of the scenario.
-    pub fn with_faults(mut self, script: &Script) -> Result<Self, PlanError> {
-        self.scenario.faults.extend(crate::faults::faults(script)?);
-        Ok(self)
+    /// The same with faults added to those of the scenario.
+    pub fn with_faults(self, faults: &Faults) -> Result<Self, PlanError> {
+        Ok(World { scenario: faults.in_scenario(self.scenario)?, ..self })
     }
 
     /// The vehicle in it, with rows to swim, else those of the scenario: the first from where it starts and along its heading, at the depth at which it

@@ -173,6 +173,7 @@ impl Simulator {
         let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
         self.intake = self.intake_now();
         self.vehicle.stick_rudder(ailing.rudder);
+        self.vehicle.flood(ailing.water);
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
         let motion = self.vehicle.motion();
         let altitude = self.world.water_depth(motion.position) - motion.depth;
@@ -373,6 +374,10 @@ impl Vehicle for Simulator {
         self.control = Control::Released;
         self.command = None;
         Ok(())
+    }
+
+    fn is_aground(&self) -> bool {
+        self.incidents.is_aground()
     }
 
     fn notices(&mut self) -> Vec<String> {

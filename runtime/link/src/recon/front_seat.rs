@@ -6,6 +6,7 @@
 use super::controller::FULL_SCALE_VOLTS;
 use super::fields::DAY_MS;
 use super::frame::{Deframer, seal};
+use super::happening::Happening;
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
 use albacore_geometry::math::{cos, sin};
@@ -13,10 +14,9 @@ use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{Milestone, OwnPlan, Rows, through_water};
 use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
-use std::fmt;
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
-const TIMEOUT_TICKS: u64 = 50;
+pub(super) const TIMEOUT_TICKS: u64 = 50;
 /// Ticks without a message after which who serves faster than real time should wait for the guest.
 const PATIENCE_TICKS: u64 = 10;
 /// Ticks between messages of the profiler.
@@ -36,48 +36,8 @@ const CAPACITY_WH: f64 = 1000.0;
 const NOT_IN_OVERRIDE: u32 = 1;
 const OUT_OF_BOUNDS: u32 = 2;
 const NOT_SERVED: u32 = 3;
-
-/// What happened, for who watches.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
-    /// A step in the life of the vehicle's own plan.
-    Plan(Milestone),
-    /// A guest drives; from where, and on which row.
-    Taken(Point, u32),
-    /// The guest has given control back.
-    Released,
-    /// The guest is silent.
-    TimedOut,
-    /// Something that was asked for is not done, and why.
-    Refused(String, &'static str),
-    /// What the vehicle gave notice of.
-    Notice(String),
-    /// The vehicle has given up: it takes no commands any more, from nobody.
-    GivenUp,
-}
-
-impl fmt::Display for Happening {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seconds = TIMEOUT_TICKS as f64 * TICK_S;
-        match self {
-            Happening::Plan(Milestone::Row(row, of)) => write!(f, "row {row} of {of}"),
-            Happening::Taken(at, row) => {
-                write!(f, "override taken at ({:.1}, {:.1}) m, on row {row}", at.north, at.east)
-            }
-            Happening::Released => f.write_str("override released; returns to the break-off point"),
-            Happening::TimedOut => {
-                write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
-            }
-            Happening::Plan(Milestone::Resumed(at, row)) => {
-                write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes row {row}", at.north, at.east)
-            }
-            Happening::Plan(Milestone::Over) => f.write_str("the rows are done: mission over"),
-            Happening::Notice(notice) => f.write_str(notice),
-            Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
-            Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
-        }
-    }
-}
+const AGROUND: u32 = 4;
+const FREE_AGAIN: u32 = 5;
 
 /// What a guest has asked for; it holds until something else is asked for.
 #[derive(Clone, Copy)]
@@ -122,6 +82,8 @@ pub struct FrontSeat<V> {
     unreadable: u64,
     /// The vehicle has taken itself back, from us too: it leaks, say.
     given_up: bool,
+    /// Whether the vehicle lay on the bottom in the last tick.
+    aground: bool,
     /// Why something was refused last, and when.
     refused: Option<(&'static str, u64)>,
     out: Vec<u8>,
@@ -148,6 +110,7 @@ impl<V: Vehicle> FrontSeat<V> {
             command: None,
             unreadable: 0,
             given_up: false,
+            aground: false,
             refused: None,
             out: Vec::new(),
             happenings,
@@ -202,6 +165,7 @@ impl<V: Vehicle> FrontSeat<V> {
             self.happenings.push(Happening::GivenUp);
         }
         self.tell_samples();
+        self.tell_grounding();
         self.hear(bytes);
         if !self.given_up {
             let command = self.steer();
@@ -344,6 +308,16 @@ impl<V: Vehicle> FrontSeat<V> {
         self.snapshot = snapshot;
         if self.tick.is_multiple_of(ADCP_TICKS) {
             self.tell_adcp();
+        }
+    }
+
+    /// Says once that the vehicle has run aground, and that it has come free: its state has no flag for it.
+    fn tell_grounding(&mut self) {
+        let aground = self.vehicle.is_aground();
+        if aground != self.aground {
+            let (code, what) = if aground { (AGROUND, "aground") } else { (FREE_AGAIN, "free of the bottom again") };
+            self.say(&FromVehicle::Error(code, what.to_string()));
+            self.aground = aground;
         }
     }
 
