@@ -133,6 +133,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "pressure" => sensors::pressure(scenario, c),
         "dvl" => sensors::dvl(scenario, c),
         "gps" => sensors::gps(scenario, c),
+        "battery" => sensors::battery(scenario, c),
         "fault" => fault::fault(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
         other => Err(format!("the simulator knows no `{other}`")),

@@ -59,6 +59,8 @@ pub enum Stream {
     Dvl = 67,
     /// The moment at which a recorded plume is begun.
     RecordStart = 80,
+    /// Noise of the battery's gauge.
+    Battery = 92,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.

@@ -11,7 +11,7 @@ mod vehicle;
 
 pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
-pub use instruments::{Compass, Dvl, Gps, Pressure};
+pub use instruments::{Battery, Compass, Dvl, Gps, Pressure};
 pub(crate) use objections::Objections;
 pub use objections::ScenarioError;
 pub use plume::Plume;
@@ -72,6 +72,8 @@ pub struct Scenario {
     pub dvl: Dvl,
     /// The receiver of satellite fixes; none: it has none. It needs a [`Navigation`].
     pub gps: Option<Gps>,
+    /// The battery and its gauge.
+    pub battery: Battery,
     /// What goes wrong. Default nothing.
     pub faults: Vec<Fault>,
 }

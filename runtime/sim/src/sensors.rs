@@ -1,6 +1,8 @@
 //! What the vehicle's instruments make of the truth.
 
+mod battery;
 mod compass;
+mod delay;
 mod dvl;
 mod fluorometer;
 mod position;
@@ -9,6 +11,7 @@ mod profiler;
 mod rate;
 mod sounder;
 
+pub use battery::Battery;
 pub use compass::Compass;
 pub use dvl::Dvl;
 pub use fluorometer::Fluorometer;

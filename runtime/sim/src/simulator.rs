@@ -6,7 +6,7 @@ use crate::hull::Hull;
 use crate::incidents::Incidents;
 use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
-use crate::sensors::{Compass, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
+use crate::sensors::{Battery, Compass, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
@@ -15,8 +15,6 @@ use albacore_vehicle::channels::{
 };
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
-/// Ticks between battery readings.
-const BATTERY_TICKS: u64 = 100;
 /// Ticks between what the vehicle tells of its own mission.
 const MODE_TICKS: u64 = 10;
 /// A sample this near a tick, in ticks, is taken on it.
@@ -63,6 +61,7 @@ pub struct Simulator {
     compass: Compass,
     pressure: Pressure,
     dvl: Dvl,
+    battery: Battery,
     endurance: f64,
     computer: Computer,
     watch: Watch,
@@ -98,6 +97,7 @@ impl Simulator {
             compass: Compass::new(&scenario.compass, seed),
             pressure: Pressure::new(&scenario.pressure, seed),
             dvl: Dvl::new(&scenario.dvl, seed),
+            battery: Battery::new(&scenario.battery, seed),
             endurance: vehicle.endurance,
             computer: Computer::new(
                 scenario.own_mission.as_ref(),
@@ -184,7 +184,8 @@ impl Simulator {
     /// The velocity over ground as the Doppler log measures it and the compass turns it, m/s.
     fn measured_velocity(&self, tick: u64) -> Vector {
         let motion = self.vehicle.motion();
-        let velocity = self.dvl.noisy(tick, motion.ground_velocity).unwrap_or(motion.ground_velocity);
+        let velocity =
+            self.dvl.imperfect(tick, motion.ground_velocity, motion.heading).unwrap_or(motion.ground_velocity);
         match self.compass.error(tick, motion.heading) {
             Some(error) => velocity.length() * (velocity.toward() + error).unit(),
             None => velocity,
@@ -256,23 +257,23 @@ impl Simulator {
 
     fn measure(&mut self, tick: u64, snapshot: &mut Snapshot) {
         let truth = self.truth;
-        let echo = self.sounder.reading(tick, truth.altitude);
+        let echo = self.sounder.told(tick, truth.altitude);
         let (position, sigma) = self.positioning.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
         let compass = truth.heading + self.compass.error(tick, truth.heading).unwrap_or(0.0);
-        let has_velocity = self.dvl.tells(tick, truth.altitude);
         let velocity = self.measured_velocity(tick);
-        if has_velocity {
+        let velocity = self.dvl.told(tick, truth.altitude, velocity);
+        if let Some(velocity) = velocity {
             snapshot.push(COURSE, &[velocity.toward().radians()]);
         }
-        if self.compass.tells(tick) {
-            snapshot.push(HEADING, &[compass.radians()]);
+        if let Some(heading) = self.compass.told(tick, compass) {
+            snapshot.push(HEADING, &[heading.radians()]);
         }
-        if has_velocity {
+        if let Some(velocity) = velocity {
             snapshot.push(SPEED, &[velocity.length()]);
         }
         let depth = (truth.depth + self.world.wave_head(truth.position, truth.altitude, self.time_s())).max(0.0);
-        let depth = self.pressure.reading(tick, depth);
+        let depth = self.pressure.told(tick, depth);
         if let Some(depth) = depth {
             snapshot.push(DEPTH, &[depth]);
         }
@@ -291,13 +292,13 @@ impl Simulator {
         };
         let (time, current) = (self.time_s(), self.faults.ailing().current);
         let flow_at = |height| self.world.flow(truth.position, height, time) + current;
-        if let Some(flow) = self.profiler.measure(tick, &view, flow_at) {
+        if let Some(flow) = self.profiler.told(tick, &view, flow_at) {
             self.flow = flow;
             snapshot.push(FLOW, &[flow.north, flow.east]);
         }
         self.sample_chemical(tick, snapshot);
-        if tick.is_multiple_of(BATTERY_TICKS) {
-            let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
+        let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
+        if let Some(charge) = self.battery.reading(tick, charge) {
             snapshot.push(BATTERY, &[charge]);
         }
         if tick.is_multiple_of(MODE_TICKS)
