@@ -64,10 +64,13 @@ fn what_cannot_be_shown_is_said() {
     let folder = folder("refused");
     std::fs::write(folder.join("none.alb"), "const one = 1\n").unwrap();
     std::fs::write(folder.join("wet.alb"), "scenario dry { tide(\"M2\", 20 m/s toward 0 deg) }\n").unwrap();
+    std::fs::write(folder.join("fresh.alb"), "scenario dead_sea { stratification(surface_salinity: 340 psu) }\n")
+        .unwrap();
     for (arguments, code, expected) in [
         (&["duk_2003"][..], 2, "did you mean `duck_2003`?"),
         (&["nowhere.alb"], 2, "there is no file `nowhere.alb`"),
         (&["none.alb"], 2, "which scenario of `none.alb` is to be shown?"),
+        (&["fresh.alb"], 3, "`surface_salinity` is in 0 psu..42 psu"),
         (&["wet.alb"], 2, "`tide M2: amplitude` is 20 m/s: it must be 10 m/s at most"),
     ] {
         let output = show(&folder, arguments);

@@ -1,6 +1,7 @@
 //! What the vehicle's instruments make of the truth.
 
 mod compass;
+mod ctd;
 mod dvl;
 mod fluorometer;
 mod position;
@@ -10,6 +11,7 @@ mod rate;
 mod sounder;
 
 pub use compass::Compass;
+pub use ctd::Ctd;
 pub use dvl::Dvl;
 pub use fluorometer::Fluorometer;
 pub use position::Positioning;

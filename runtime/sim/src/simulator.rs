@@ -6,12 +6,13 @@ use crate::hull::Hull;
 use crate::incidents::Incidents;
 use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
-use crate::sensors::{Compass, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
+use crate::sensors::{Compass, Ctd, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
+    VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
@@ -63,6 +64,7 @@ pub struct Simulator {
     compass: Compass,
     pressure: Pressure,
     dvl: Dvl,
+    ctd: Option<Ctd>,
     endurance: f64,
     computer: Computer,
     watch: Watch,
@@ -86,7 +88,7 @@ impl Simulator {
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
-            channels: channels::all(),
+            channels: if scenario.ctd.is_some() { channels::all() } else { channels::without_ctd() },
             vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),
@@ -98,6 +100,7 @@ impl Simulator {
             compass: Compass::new(&scenario.compass, seed),
             pressure: Pressure::new(&scenario.pressure, seed),
             dvl: Dvl::new(&scenario.dvl, seed),
+            ctd: scenario.ctd.as_ref().map(|ctd| Ctd::new(ctd, seed)),
             endurance: vehicle.endurance,
             computer: Computer::new(
                 scenario.own_mission.as_ref(),
@@ -295,6 +298,11 @@ impl Simulator {
             snapshot.push(FLOW, &[flow.north, flow.east]);
         }
         self.sample_chemical(tick, snapshot);
+        let water = |depth| self.world.stratification().at(depth);
+        if let Some((temperature, salinity)) = self.ctd.as_ref().and_then(|ctd| ctd.reading(tick, truth.depth, water)) {
+            snapshot.push(TEMPERATURE, &[temperature]);
+            snapshot.push(SALINITY, &[salinity]);
+        }
         if tick.is_multiple_of(BATTERY_TICKS) {
             let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
             snapshot.push(BATTERY, &[charge]);

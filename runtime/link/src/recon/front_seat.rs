@@ -6,17 +6,18 @@
 use super::controller::FULL_SCALE_VOLTS;
 use super::fields::DAY_MS;
 use super::frame::{Deframer, seal};
+use super::happening::Happening;
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
+use super::seawater;
 use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{Milestone, OwnPlan, Rows, through_water};
 use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
-use std::fmt;
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
-const TIMEOUT_TICKS: u64 = 50;
+pub(super) const TIMEOUT_TICKS: u64 = 50;
 /// Ticks without a message after which who serves faster than real time should wait for the guest.
 const PATIENCE_TICKS: u64 = 10;
 /// Ticks between messages of the profiler.
@@ -36,48 +37,6 @@ const CAPACITY_WH: f64 = 1000.0;
 const NOT_IN_OVERRIDE: u32 = 1;
 const OUT_OF_BOUNDS: u32 = 2;
 const NOT_SERVED: u32 = 3;
-
-/// What happened, for who watches.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
-    /// A step in the life of the vehicle's own plan.
-    Plan(Milestone),
-    /// A guest drives; from where, and on which row.
-    Taken(Point, u32),
-    /// The guest has given control back.
-    Released,
-    /// The guest is silent.
-    TimedOut,
-    /// Something that was asked for is not done, and why.
-    Refused(String, &'static str),
-    /// What the vehicle gave notice of.
-    Notice(String),
-    /// The vehicle has given up: it takes no commands any more, from nobody.
-    GivenUp,
-}
-
-impl fmt::Display for Happening {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seconds = TIMEOUT_TICKS as f64 * TICK_S;
-        match self {
-            Happening::Plan(Milestone::Row(row, of)) => write!(f, "row {row} of {of}"),
-            Happening::Taken(at, row) => {
-                write!(f, "override taken at ({:.1}, {:.1}) m, on row {row}", at.north, at.east)
-            }
-            Happening::Released => f.write_str("override released; returns to the break-off point"),
-            Happening::TimedOut => {
-                write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
-            }
-            Happening::Plan(Milestone::Resumed(at, row)) => {
-                write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes row {row}", at.north, at.east)
-            }
-            Happening::Plan(Milestone::Over) => f.write_str("the rows are done: mission over"),
-            Happening::Notice(notice) => f.write_str(notice),
-            Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
-            Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
-        }
-    }
-}
 
 /// What a guest has asked for; it holds until something else is asked for.
 #[derive(Clone, Copy)]
@@ -319,6 +278,7 @@ impl<V: Vehicle> FrontSeat<V> {
     fn tell_samples(&mut self) {
         let snapshot = std::mem::take(&mut self.snapshot);
         let heading = self.senses.heading;
+        let (mut temperature, mut salinity) = (None, None);
         // On the wire there is no number for what is none.
         for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
             let Some(channel) = self.vehicle.channels().get(sample.channel as usize) else { continue };
@@ -337,8 +297,13 @@ impl<V: Vehicle> FrontSeat<V> {
                     let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);
                     self.say(&FromVehicle::Battery { capacity, available, percent });
                 }
+                "temperature" => temperature = Some(a),
+                "salinity" => salinity = Some(a),
                 _ => {}
             }
+        }
+        if let (Some(temperature), Some(salinity)) = (temperature, salinity) {
+            self.say(&FromVehicle::Ctd(seawater::ctd(temperature, salinity, self.senses.depth)));
         }
         self.senses.turn_rate = (self.senses.heading - heading) / TICK_S;
         self.snapshot = snapshot;

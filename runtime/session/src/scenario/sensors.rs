@@ -1,7 +1,7 @@
 //! What a scenario says of the sensors.
 
 use super::clause::Clause;
-use albacore_sim::{Adcp, Compass, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder};
+use albacore_sim::{Adcp, Compass, Ctd, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder};
 
 /// `navigation(…)`: how the vehicle knows its position.
 pub fn navigation(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -95,6 +95,19 @@ pub fn dvl(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
 /// `gps(…)`: satellite fixes at the surface.
 pub fn gps(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
     scenario.gps = Some(Gps { every: c.number("every")?, sigma: c.number("sigma")?, above: c.number("above")? });
+    Ok(())
+}
+
+/// `ctd(…)`: temperature and salinity.
+pub fn ctd(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.ctd = Some(Ctd {
+        rate: c.number("rate")?,
+        temperature_noise: c.number("temperature_noise")?,
+        temperature_bias: c.number("temperature_bias")?,
+        salinity_noise: c.number("salinity_noise")?,
+        salinity_bias: c.number("salinity_bias")?,
+        above: c.number("above")?,
+    });
     Ok(())
 }
 
