@@ -11,7 +11,7 @@ use std::time::Duration;
 /// The longest wait for bytes: who interrupts does not wait longer.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Serve a simulated vehicle at the far end of a link: it swims rows until a mission takes over.
+/// Serve a simulated vehicle at the far end of a link: it swims its own mission until another takes over.
 #[derive(clap::Args)]
 pub struct Vehicle {
     /// The world: a scenario that every script knows, or one of a script.
@@ -23,8 +23,8 @@ pub struct Vehicle {
     /// How many times faster than real time; give `run --link` the same.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clock::rate)]
     rate: f64,
-    /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last [default: those of
-    /// the scenario, else 200x30x6].
+    /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last [default: the
+    /// mission of the scenario, else 200x30x6].
     #[arg(long, value_name = "LENGTHxSPACINGxCOUNT")]
     rows: Option<Rows>,
     /// The seed of all that is random.

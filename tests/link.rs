@@ -75,7 +75,7 @@ impl Vehicle {
         let child = command.args(RATE).stderr(file).spawn().unwrap();
         let mut vehicle = Vehicle { child, log, link: String::new() };
         vehicle.says("link open at ");
-        vehicle.says("row 1 of 50");
+        vehicle.says("leg 1 of 50");
         let said = vehicle.said();
         vehicle.link = said.split("link open at ").nth(1).unwrap().lines().next().unwrap().to_string();
         vehicle
@@ -146,7 +146,7 @@ fn there_and_back(name: &str, link: &str) {
     let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
     assert!(matches!(journal.ending, Ending::Complete(_)), "{:?}", journal.ending);
     vehicle.says("override released");
-    vehicle.says("resumes row");
+    vehicle.says("resumes leg");
     // It can be had again.
     let again = vehicle.mission(&["--no-out"]).output().unwrap();
     assert_eq!(again.status.code(), Some(0), "{}\n{}", stderr(&again), vehicle.said());
@@ -184,7 +184,7 @@ fn a_guest_drives_in_its_overrides_alone() {
 }
 
 #[test]
-fn a_vehicle_whose_guest_is_killed_goes_back_to_its_rows() {
+fn a_vehicle_whose_guest_is_killed_goes_back_to_its_legs() {
     let folder = empty("killed");
     let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
     let out = folder.join("run");
@@ -193,7 +193,7 @@ fn a_vehicle_whose_guest_is_killed_goes_back_to_its_rows() {
     run.kill().unwrap();
     run.wait().unwrap();
     vehicle.says("override timed out: no message for 5 s");
-    vehicle.says("resumes row");
+    vehicle.says("resumes leg");
     let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
     assert!(matches!(journal.ending, Ending::CutShort(_)), "{:?}", journal.ending);
 }
@@ -208,7 +208,7 @@ fn who_interrupts_a_mission_gives_the_vehicle_back() {
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(String::from_utf8_lossy(&output.stdout).contains("interrupted"));
     vehicle.says("override released");
-    vehicle.says("resumes row");
+    vehicle.says("resumes leg");
     let (code, said) = vehicle.stop();
     assert_eq!(code, Some(0));
     assert!(!said.contains("timed out"), "{said}");

@@ -90,7 +90,7 @@ impl Pair {
         let simulator = Simulator::new(scenario, seed).unwrap();
         let start = (Point::ORIGIN, Heading::NORTH);
         Pair {
-            vehicle: FrontSeat::new(simulator, frame(), rows, start, Vertical::Depth(3.0)),
+            vehicle: FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(3.0)),
             controller: Controller::new(frame()),
             wire: Wire { chance: Chance(seed), share },
             to_vehicle: Vec::new(),

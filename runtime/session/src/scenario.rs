@@ -31,7 +31,9 @@ pub(crate) struct Understood {
 pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
     let mut understood = Understood { world: Scenario::default(), files: Vec::new() };
-    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().chain(two_plumes(program)).collect();
+    let pairs = [["bottom", "bottom_grid"], ["rows", "waypoints"]];
+    let twice = pairs.into_iter().filter_map(|pair| one_of(program, pair));
+    let mut findings: Vec<Diagnostic> = twice.chain(two_plumes(program)).collect();
     for clause in &program.clauses {
         let clause = Clause { clause, words: &words };
         let read = match clause.clause.name.as_str() {
@@ -49,11 +51,12 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
     if findings.is_empty() { Ok(understood) } else { Err(findings) }
 }
 
-/// The ground is a plane or a survey: of two that are said, neither can be the one that is meant.
-fn two_grounds(program: &ScenarioProgram) -> Option<Diagnostic> {
-    let mut grounds = program.clauses.iter().filter(|c| matches!(c.name.as_str(), "bottom" | "bottom_grid"));
-    let (first, second) = (grounds.next()?, grounds.next()?);
-    let message = "a scenario has one `bottom` or one `bottom_grid`";
+/// The ground is a plane or a survey, the vehicle's own mission rows or waypoints: of two that are said, neither can be the one
+/// that is meant.
+fn one_of(program: &ScenarioProgram, names: [&str; 2]) -> Option<Diagnostic> {
+    let mut said = program.clauses.iter().filter(|c| names.contains(&c.name.as_str()));
+    let (first, second) = (said.next()?, said.next()?);
+    let message = format!("a scenario has one `{}` or one `{}`", names[0], names[1]);
     let finding = Diagnostic::error(Code::ScenariosTwice, second.span, message);
     Some(finding.label(first.span, "the first").help("leave one of them out"))
 }
@@ -124,6 +127,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "vehicle" => vehicle::vehicle(scenario, c),
         "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
+        "waypoints" => vehicle::waypoints(scenario, c),
         "handover" => vehicle::handover(scenario, c),
         "navigation" => sensors::navigation(scenario, c),
         "fluorometer" => sensors::fluorometer(scenario, c),
