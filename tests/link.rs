@@ -68,10 +68,14 @@ struct Vehicle {
 impl Vehicle {
     #[track_caller]
     fn serve(link: &str, folder: &Path) -> Self {
+        Vehicle::serve_world(&format!("{EXCURSION}#bay"), link, folder)
+    }
+
+    #[track_caller]
+    fn serve_world(world: &str, link: &str, folder: &Path) -> Self {
         let log = folder.join("vehicle.log");
         let file = std::fs::File::create(&log).unwrap();
-        let world = format!("{EXCURSION}#bay");
-        let mut command = albacore(&["vehicle", &world, "--link", link, "--rows", "400x30x50"]);
+        let mut command = albacore(&["vehicle", world, "--link", link, "--rows", "400x30x50"]);
         let child = command.args(RATE).stderr(file).spawn().unwrap();
         let mut vehicle = Vehicle { child, log, link: String::new() };
         vehicle.says("link open at ");
@@ -319,6 +323,25 @@ fn what_is_asked_for_wrongly_is_told() {
         2,
         "no place on the globe",
     );
+}
+
+/// The vehicle's own declaration says what it speaks, to both ends.
+#[test]
+fn the_dialect_of_a_vehicle_is_taken_where_the_url_is_silent() {
+    let folder = empty("dialect");
+    let script = "tests/link/remus.alb";
+    let vehicle = Vehicle::serve_world(&format!("{script}#quay"), "pty:", &folder);
+    assert!(vehicle.link.ends_with("?dialect=recon"), "{}", vehicle.link);
+    let silent = vehicle.link.trim_end_matches("?dialect=recon");
+    let run = albacore(&["run", script, "--no-out", "--link", silent]).args(RATE).output().unwrap();
+    assert_eq!(run.status.code(), Some(0), "{}", stderr(&run));
+    assert!(stderr(&run).contains(&format!("link open to {}", vehicle.link)), "{}", stderr(&run));
+    ends_with(&["run", script, "--no-out", "--link", "serial:/dev/x?dialect=rekon"], 2, "did you mean `recon`?");
+    ends_with(&["run", EXCURSION, "--no-out", "--link", "serial:/dev/x"], 2, "or `dialect(recon)` in the `vehicle`");
+    ends_with(&["vehicle", "duck_2003", "--link", "pty:"], 2, "does not say what the vehicle speaks");
+    let wrong = folder.join("wrong.alb");
+    std::fs::write(&wrong, "vehicle v {\n    kinematic\n    dialect(mavlink)\n}\nscenario s {\n    vehicle(v, start: point(0 m, 0 m))\n}\n").unwrap();
+    ends_with(&["check", wrong.to_str().unwrap()], 3, "there is no protocol named `mavlink`");
 }
 
 #[test]

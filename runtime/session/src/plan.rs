@@ -5,6 +5,7 @@ use albacore_geometry::TangentFrame;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::source::Source;
 use albacore_lang::{Script, suggestion};
+use albacore_link::Dialect;
 use albacore_program::Program;
 use albacore_sim::Scenario;
 use albacore_trace::Digest;
@@ -69,6 +70,15 @@ impl Plan {
         }
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
         Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script) })
+    }
+
+    /// What the vehicle speaks that the mission's own scenario says it is for, if it says so.
+    pub fn dialect(script: &Script, file: &str, mission: Option<&str>) -> Result<Option<Dialect>, PlanError> {
+        let (name, program) = chosen(script, file, mission)?;
+        let Some(own) = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone()) else {
+            return Ok(None);
+        };
+        Ok(world::scenario(script, &own, program.mission.origin)?.1.dialect)
     }
 
     /// The frame of the mission, if it lies on the globe.

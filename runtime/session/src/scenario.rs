@@ -14,6 +14,7 @@ use albacore_geometry::TangentFrame;
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
+use albacore_link::Dialect;
 use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
@@ -23,6 +24,8 @@ use clause::Clause;
 pub(crate) struct Understood {
     /// The simulator's own.
     pub world: Scenario,
+    /// What its vehicle speaks at the end of a link, if that is said.
+    pub dialect: Option<Dialect>,
     /// The files of numbers that it was read from.
     pub files: Vec<SourceDigest>,
 }
@@ -30,7 +33,7 @@ pub(crate) struct Understood {
 /// The simulator's scenario; else what of it cannot be understood, and where.
 pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
-    let mut understood = Understood { world: Scenario::default(), files: Vec::new() };
+    let mut understood = Understood { world: Scenario::default(), dialect: None, files: Vec::new() };
     let pairs = [["bottom", "bottom_grid"], ["rows", "waypoints"]];
     let twice = pairs.into_iter().filter_map(|pair| one_of(program, pair));
     let mut findings: Vec<Diagnostic> = twice.chain(two_plumes(program)).collect();
@@ -42,6 +45,9 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
                 bottom::grid(&mut understood, &clause, files, frame)
             }
             "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
+            "dialect" => {
+                vehicle::dialect(&clause).map(|dialect| understood.dialect = Some(dialect)).map_err(Into::into)
+            }
             _ => apply(&mut understood.world, &clause).map_err(Into::into),
         };
         if let Err(Wrong(faults)) = read {

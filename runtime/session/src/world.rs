@@ -5,6 +5,7 @@ use crate::plan::PlanError;
 use crate::scenario::Understood;
 use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
+use albacore_link::Dialect;
 use albacore_link::recon::{FrontSeat, Route, Rows};
 use albacore_sim::{Scenario, ScenarioError, Simulator};
 use albacore_vehicle::Vertical;
@@ -17,6 +18,8 @@ const ROWS_ALTITUDE: f64 = 2.0;
 pub struct World {
     /// Its name.
     pub name: String,
+    /// What its vehicle speaks, if that is said.
+    pub dialect: Option<Dialect>,
     scenario: Scenario,
     frame: TangentFrame,
 }
@@ -43,7 +46,8 @@ impl World {
                 Some(help.into()),
             ));
         };
-        Ok(World { name: lowered.name, scenario: understood.world, frame: TangentFrame { origin } })
+        let (scenario, dialect) = (understood.world, understood.dialect);
+        Ok(World { name: lowered.name, dialect, scenario, frame: TangentFrame { origin } })
     }
 
     /// The same with the faults of a script of [`crate::load_faults`] added to those of the scenario.

@@ -2,6 +2,7 @@
 
 use super::clause::Clause;
 use albacore_guidance::{Route, Rows, Waypoints};
+use albacore_link::Dialect;
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{Handover, HullSetup, KinematicHull, Limits, OwnMission, Scenario, SubmersibleHull, VehicleSetup};
 use albacore_vehicle::Vertical;
@@ -82,6 +83,12 @@ fn own_mission(scenario: &mut Scenario, c: &Clause, route: Route) -> Result<(), 
     let vertical = if depth > 0.0 { Vertical::Depth(depth) } else { Vertical::Altitude(c.number("altitude")?) };
     scenario.own_mission = Some(OwnMission { route, vertical });
     Ok(())
+}
+
+/// `dialect(…)`: what it speaks at the end of a link.
+pub fn dialect(c: &Clause) -> Result<Dialect, String> {
+    let speaks = c.clause("speaks").ok_or("a dialect needs a name: write `dialect(recon)`")?;
+    Dialect::named(&speaks.clause.name).map_err(|error| error.message)
 }
 
 /// `handover(…)`: how its computer answers.
