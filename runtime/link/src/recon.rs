@@ -12,10 +12,11 @@ mod goal;
 mod happening;
 mod message;
 mod mode;
+mod seawater;
 mod vehicle;
 mod vehicle_time;
 
-pub use albacore_guidance::{Milestone, Rows};
+pub use albacore_guidance::{Milestone, Route, Rows};
 pub use controller::{Controller, Count};
 pub use frame::{Deframer, LINE_MAX, Unreadable, seal};
 pub use front_seat::FrontSeat;

@@ -27,7 +27,7 @@ pub use albacore_lang::fmt::format;
 pub use albacore_lang::source::{FileId, Source, Sources, Span};
 pub use albacore_lang::{Script, nearest};
 pub use albacore_link::recon::{HostClock, Rows};
-pub use albacore_link::{LinkError, Transport, Url, serve};
+pub use albacore_link::{Dialect, LinkError, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use check::findings;

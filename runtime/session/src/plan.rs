@@ -7,6 +7,7 @@ use albacore_geometry::TangentFrame;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::source::Source;
 use albacore_lang::{Script, suggestion};
+use albacore_link::Dialect;
 use albacore_program::Program;
 use albacore_sim::Scenario;
 use albacore_trace::Digest;
@@ -88,6 +89,15 @@ impl Plan {
     /// The same with faults added to those of the scenario.
     pub fn with_faults(self, faults: &Faults) -> Result<Self, PlanError> {
         Ok(Plan { scenario: faults.in_scenario(self.scenario)?, ..self })
+    }
+
+    /// What the vehicle speaks that the mission's own scenario says it is for, if it says so.
+    pub fn dialect(script: &Script, file: &str, mission: Option<&str>) -> Result<Option<Dialect>, PlanError> {
+        let (name, program) = chosen(script, file, mission)?;
+        let Some(own) = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone()) else {
+            return Ok(None);
+        };
+        Ok(world::scenario(script, &own, program.mission.origin)?.1.dialect)
     }
 
     /// The frame of the mission, if it lies on the globe.

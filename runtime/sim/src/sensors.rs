@@ -2,6 +2,7 @@
 
 mod battery;
 mod compass;
+mod ctd;
 mod delay;
 mod dvl;
 mod fluorometer;
@@ -13,6 +14,7 @@ mod sounder;
 
 pub use battery::Battery;
 pub use compass::Compass;
+pub use ctd::Ctd;
 pub use dvl::Dvl;
 pub use fluorometer::Fluorometer;
 pub use position::Positioning;

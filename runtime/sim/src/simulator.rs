@@ -6,12 +6,13 @@ use crate::hull::Hull;
 use crate::incidents::Incidents;
 use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
-use crate::sensors::{Battery, Compass, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
+use crate::sensors::{Battery, Compass, Ctd, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
+    VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
@@ -61,6 +62,7 @@ pub struct Simulator {
     compass: Compass,
     pressure: Pressure,
     dvl: Dvl,
+    ctd: Option<Ctd>,
     battery: Battery,
     endurance: f64,
     computer: Computer,
@@ -85,7 +87,7 @@ impl Simulator {
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
-            channels: channels::all(),
+            channels: if scenario.ctd.is_some() { channels::all() } else { channels::without_ctd() },
             vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),
@@ -97,6 +99,7 @@ impl Simulator {
             compass: Compass::new(&scenario.compass, seed),
             pressure: Pressure::new(&scenario.pressure, seed),
             dvl: Dvl::new(&scenario.dvl, seed),
+            ctd: scenario.ctd.as_ref().map(|ctd| Ctd::new(ctd, seed)),
             battery: Battery::new(&scenario.battery, seed),
             endurance: vehicle.endurance,
             computer: Computer::new(
@@ -297,6 +300,11 @@ impl Simulator {
             snapshot.push(FLOW, &[flow.north, flow.east]);
         }
         self.sample_chemical(tick, snapshot);
+        let water = |depth| self.world.stratification().at(depth);
+        if let Some((temperature, salinity)) = self.ctd.as_mut().and_then(|ctd| ctd.told(tick, truth.depth, water)) {
+            snapshot.push(TEMPERATURE, &[temperature]);
+            snapshot.push(SALINITY, &[salinity]);
+        }
         let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
         if let Some(charge) = self.battery.reading(tick, charge) {
             snapshot.push(BATTERY, &[charge]);

@@ -1,7 +1,7 @@
-//! The vehicle's side: its own computer in the front seat, which swims rows until a guest asks to drive.
+//! The vehicle's side: its own computer in the front seat, which follows a route of its own until a guest asks to drive.
 //!
 //! It serves any [`Vehicle`], one tick at a time, and is a function of the bytes that come in these ticks. On release, and when
-//! the guest is silent for 5 s, it returns to the point where the guest took over and goes on with its rows (the 2003 paper).
+//! the guest is silent for 5 s, it returns to the point where the guest took over and goes on with its leg (the 2003 paper).
 
 use super::controller::FULL_SCALE_VOLTS;
 use super::fields::DAY_MS;
@@ -9,10 +9,11 @@ use super::frame::{Deframer, seal};
 use super::happening::Happening;
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
+use super::seawater;
 use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_guidance::{Milestone, OwnPlan, Rows, through_water};
+use albacore_guidance::{Milestone, OwnPlan, Route, through_water};
 use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
@@ -68,7 +69,7 @@ pub struct FrontSeat<V> {
     vehicle: V,
     frame: TangentFrame,
     plan: OwnPlan,
-    /// What it holds on its rows.
+    /// What it holds on its legs.
     vertical: Vertical,
     /// What the guest wants who drives; none while the vehicle follows its own plan.
     goals: Option<Goals>,
@@ -91,10 +92,10 @@ pub struct FrontSeat<V> {
 }
 
 impl<V: Vehicle> FrontSeat<V> {
-    /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its rows.
-    pub fn new(vehicle: V, frame: TangentFrame, rows: Rows, start: (Point, Heading), vertical: Vertical) -> Self {
-        let plan = OwnPlan::new(rows, start.0, start.1);
-        let happenings = vec![Happening::Plan(Milestone::Row(1, plan.rows()))];
+    /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its route.
+    pub fn new(vehicle: V, frame: TangentFrame, route: &Route, start: (Point, Heading), vertical: Vertical) -> Self {
+        let plan = OwnPlan::new(route, start.0, start.1);
+        let happenings = vec![Happening::Plan(Milestone::Leg(1, plan.legs()))];
         FrontSeat {
             vehicle,
             frame,
@@ -213,7 +214,7 @@ impl<V: Vehicle> FrontSeat<V> {
         if self.given_up || !self.plan.leave(self.senses.position) {
             return;
         }
-        self.happenings.push(Happening::Taken(self.senses.position, self.plan.row()));
+        self.happenings.push(Happening::Taken(self.senses.position, self.plan.leg()));
         let (heading, speed) = (self.senses.heading, self.plan.speed());
         self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.vertical });
     }
@@ -272,7 +273,7 @@ impl<V: Vehicle> FrontSeat<V> {
         }
     }
 
-    /// A course over ground at the rows' speed, through water that moves.
+    /// A course over ground at the route's speed, through water that moves.
     fn over_ground(&self, course: Heading) -> Command {
         let flow = self.senses.flow.unwrap_or(Vector::ZERO);
         let water = through_water(course, self.plan.speed(), flow, SPEED_MAX);
@@ -283,6 +284,7 @@ impl<V: Vehicle> FrontSeat<V> {
     fn tell_samples(&mut self) {
         let snapshot = std::mem::take(&mut self.snapshot);
         let heading = self.senses.heading;
+        let (mut temperature, mut salinity) = (None, None);
         // On the wire there is no number for what is none.
         for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
             let Some(channel) = self.vehicle.channels().get(sample.channel as usize) else { continue };
@@ -301,8 +303,13 @@ impl<V: Vehicle> FrontSeat<V> {
                     let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);
                     self.say(&FromVehicle::Battery { capacity, available, percent });
                 }
+                "temperature" => temperature = Some(a),
+                "salinity" => salinity = Some(a),
                 _ => {}
             }
+        }
+        if let (Some(temperature), Some(salinity)) = (temperature, salinity) {
+            self.say(&FromVehicle::Ctd(seawater::ctd(temperature, salinity, self.senses.depth)));
         }
         self.senses.turn_rate = (self.senses.heading - heading) / TICK_S;
         self.snapshot = snapshot;
@@ -372,7 +379,7 @@ impl<V: Vehicle> FrontSeat<V> {
             heading_rate: s.turn_rate,
             heading_goal: goal.map_or(s.heading, |c| c.heading),
             mode: self.mode(),
-            leg: Some(self.plan.row()),
+            leg: Some(self.plan.leg()),
         }));
     }
 

@@ -1,4 +1,4 @@
-//! What happens at the vehicle's side, for who watches.
+//! What happens at the vehicle's side, and how it is told.
 
 use super::front_seat::TIMEOUT_TICKS;
 use albacore_geometry::Point;
@@ -11,7 +11,7 @@ use std::fmt;
 pub enum Happening {
     /// A step in the life of the vehicle's own plan.
     Plan(Milestone),
-    /// A guest drives; from where, and on which row.
+    /// A guest drives; from where, and on which leg.
     Taken(Point, u32),
     /// The guest has given control back.
     Released,
@@ -29,18 +29,18 @@ impl fmt::Display for Happening {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let seconds = TIMEOUT_TICKS as f64 * TICK_S;
         match self {
-            Happening::Plan(Milestone::Row(row, of)) => write!(f, "row {row} of {of}"),
-            Happening::Taken(at, row) => {
-                write!(f, "override taken at ({:.1}, {:.1}) m, on row {row}", at.north, at.east)
+            Happening::Plan(Milestone::Leg(leg, of)) => write!(f, "leg {leg} of {of}"),
+            Happening::Taken(at, leg) => {
+                write!(f, "override taken at ({:.1}, {:.1}) m, on leg {leg}", at.north, at.east)
             }
             Happening::Released => f.write_str("override released; returns to the break-off point"),
             Happening::TimedOut => {
                 write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
             }
-            Happening::Plan(Milestone::Resumed(at, row)) => {
-                write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes row {row}", at.north, at.east)
+            Happening::Plan(Milestone::Resumed(at, leg)) => {
+                write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes leg {leg}", at.north, at.east)
             }
-            Happening::Plan(Milestone::Over) => f.write_str("the rows are done: mission over"),
+            Happening::Plan(Milestone::Over) => f.write_str("the last leg is done: mission over"),
             Happening::Notice(notice) => f.write_str(notice),
             Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
             Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),

@@ -2,7 +2,7 @@
 
 use super::clause::Clause;
 use albacore_sim::{
-    Adcp, Battery, Compass, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder,
+    Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder,
 };
 
 /// `navigation(…)`: how the vehicle knows its position.
@@ -125,6 +125,20 @@ pub fn gps(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
 /// `battery(…)`: the gauge of its charge.
 pub fn battery(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
     scenario.battery = Battery { rate: c.number("rate")?, noise: c.number("noise")?, bias: c.number("bias")? };
+    Ok(())
+}
+
+/// `ctd(…)`: temperature and salinity.
+pub fn ctd(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.ctd = Some(Ctd {
+        rate: c.number("rate")?,
+        temperature_noise: c.number("temperature_noise")?,
+        temperature_bias: c.number("temperature_bias")?,
+        salinity_noise: c.number("salinity_noise")?,
+        salinity_bias: c.number("salinity_bias")?,
+        above: c.number("above")?,
+        delay: c.number("delay")?,
+    });
     Ok(())
 }
 

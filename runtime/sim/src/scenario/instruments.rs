@@ -1,5 +1,5 @@
-//! The instruments of the vehicle itself, compass, pressure gauge, Doppler log, receiver of fixes: what a scenario says of them,
-//! and what of that cannot be. Their defaults are perfect.
+//! The instruments of the vehicle itself, compass, pressure gauge, Doppler log, receiver of fixes, CTD: what a scenario says of
+//! them, and what of that cannot be. Their defaults are perfect.
 
 use crate::scenario::{Objections, Scenario};
 use albacore_geometry::{Heading, Vector};
@@ -117,9 +117,43 @@ impl Default for Battery {
     }
 }
 
+/// The CTD: conductivity and temperature, and the practical salinity that is derived from them and the pressure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ctd {
+    /// Samples a second. Default 1.
+    pub rate: f64,
+    /// Standard deviation of a temperature, degrees Celsius. Default 0.
+    pub temperature_noise: f64,
+    /// Its constant error, degrees Celsius: too warm. Default 0.
+    pub temperature_bias: f64,
+    /// Standard deviation of a salinity. Default 0.
+    pub salinity_noise: f64,
+    /// Its constant error: too salty. Default 0.
+    pub salinity_bias: f64,
+    /// Above this depth its cell runs dry, and it tells nothing, m. Default 0.2.
+    pub above: f64,
+    /// Between a sample and its being told, s. Default 0.
+    pub delay: f64,
+}
+
+impl Default for Ctd {
+    fn default() -> Self {
+        Ctd {
+            rate: 1.0,
+            temperature_noise: 0.0,
+            temperature_bias: 0.0,
+            salinity_noise: 0.0,
+            salinity_bias: 0.0,
+            above: 0.2,
+            delay: 0.0,
+        }
+    }
+}
+
 /// What of the instruments cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    let Scenario { compass, pressure, dvl, gps, battery, .. } = scenario;
+    let Scenario { compass, pressure, dvl, gps, battery, ctd, .. } = scenario;
     for (name, rate) in
         [("compass", compass.rate), ("pressure", pressure.rate), ("dvl", dvl.rate), ("battery", battery.rate)]
     {
@@ -153,5 +187,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             scenario.navigation.is_some(),
             "`gps` needs a `navigation`: without one the vehicle knows its position exactly",
         );
+    }
+    if let Some(ctd) = ctd {
+        objections.rate("ctd.rate", ctd.rate);
+        objections.not_negative("ctd.temperature_noise", ctd.temperature_noise);
+        objections.not_negative("ctd.salinity_noise", ctd.salinity_noise);
+        objections.finite("ctd.temperature_bias", [ctd.temperature_bias, 0.0]);
+        objections.finite("ctd.salinity_bias", [ctd.salinity_bias, 0.0]);
+        objections.not_negative("ctd.above", ctd.above);
+        objections.delay("ctd.delay", ctd.delay);
     }
 }
