@@ -10,6 +10,8 @@ use albacore_geometry::{Geodetic, Point, TangentFrame};
 const DEEPEST_M: f64 = 11_500.0;
 /// And no land higher, m: Everest has 8,849.
 const HIGHEST_M: f64 = 9_000.0;
+/// No projection of the earth counts farther, m: half its girth is 20,037,508.
+const FARTHEST_M: f64 = 2.1e7;
 
 /// What the axes of a survey are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +112,18 @@ pub(crate) fn on_the_globe(latitude: Axis, longitude: Axis, faults: &mut Faults)
     if east.first < -TAU || east.last > TAU || east.last - east.first > TAU {
         let message = format!("longitudes run from {} to {} degrees", longitude.first, longitude.last);
         faults.add(message, "they lie between -360 and 360, once round at most: are they in metres?");
+    }
+    (faults.count() == before).then_some((north, east))
+}
+
+/// The axes of a survey in metres.
+pub(crate) fn on_a_plane(north: Axis, east: Axis, faults: &mut Faults) -> Option<(Axis, Axis)> {
+    let before = faults.count();
+    for (name, axis) in [("northward", north), ("eastward", east)] {
+        if axis.first < -FARTHEST_M || axis.last > FARTHEST_M {
+            let message = format!("the survey runs {name} from {:e} to {:e} metres", axis.first, axis.last);
+            faults.add(message, "the earth is smaller: are they millimetres?");
+        }
     }
     (faults.count() == before).then_some((north, east))
 }
