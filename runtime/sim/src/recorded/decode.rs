@@ -1,6 +1,7 @@
 //! The binary of a record made into tracks and flow, every number looked at.
 
 use super::flow::FlowRecord;
+use super::header::AGE_MAX;
 use super::{Recording, RecordingError, RecordingHeader, Track};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -9,8 +10,6 @@ use std::fmt::Write;
 const QUANTA_MAX: i64 = 1 << 24;
 /// No recorded flow is faster than this, m/s.
 const FLOW_MAX: f32 = 10.0;
-/// No filament was released longer before the record begins, s: a year.
-const AGE_MAX: f64 = 31_536_000.0;
 /// The mends of a binary that is another, and of one that cannot be.
 const FETCH_AGAIN: &str = "fetch header and binary again, both of one record";
 const MAKE_AGAIN: &str = "mend it where the record is made: header and binary do not fit together";

@@ -16,6 +16,8 @@ const HEADER_BYTES_MAX: usize = 4 * 1024 * 1024;
 const FRAMES_MAX: usize = 1_000_000;
 /// Nothing of a record lies farther from the origin, m.
 const FARTHEST_M: f64 = 1e6;
+/// No filament is older when the record begins, and each has grown to `r2_far` at this age, s: a year.
+pub(super) const AGE_MAX: f64 = 31_536_000.0;
 /// Its name is no longer than this, characters.
 const NAME_MAX: usize = 60;
 /// The mend of a header that cannot be.
@@ -232,6 +234,12 @@ impl Raw {
         }
         let growth = self.parameters.growth_m2_s;
         unless((0.0..=1e4).contains(&growth), format!("`parameters.growth_m2_s` is {growth:?}: it must be 0 to 10000"));
+        unless(
+            growth == 0.0 || self.concentration.r2_far <= growth * AGE_MAX,
+            format!(
+                "`parameters.growth_m2_s` is {growth:?}: with it no filament grows to `concentration.r2_far` in a year"
+            ),
+        );
         unless(
             (2..=FRAMES_MAX).contains(&r.n_frames),
             format!("`record.n_frames` is {}: it must be 2 to {FRAMES_MAX}", r.n_frames),

@@ -244,6 +244,7 @@ fn spoilt_records_are_refused_with_the_reason() {
             said(|h, _| h["parameters"]["growth_m2_s"] = json!(1e308)),
             "`parameters.growth_m2_s` is 1e308: it must be 0 to",
         ),
+        (said(|h, _| h["parameters"]["growth_m2_s"] = json!(1e-300)), "no filament grows to `concentration.r2_far`"),
         (said(|h, _| h["flow_grid"]["east_m"] = json!([0, 1e9])), "reaches farther than 1000000 m"),
         (said(|h, _| h["source"]["north_m"] = json!(548)), "`source` lies outside of `frame.operation_area_m`"),
         (said(|h, _| h["case"] = json!("")), "`case` has 0 letters"),
