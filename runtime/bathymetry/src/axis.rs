@@ -1,7 +1,7 @@
 //! One side of a grid: evenly spaced places, ascending.
 
 use crate::CELLS_MAX;
-use crate::fault::{self, Fault, counted, shortened};
+use crate::fault::{self, Fault, counted, shortened, told};
 
 /// A place is off its even spacing by at most this share of a step. Degrees in single precision are: steps of 15 seconds
 /// of arc about 290 degrees by 0.4 %.
@@ -30,11 +30,12 @@ impl Axis {
             let message = format!("`{name}` has {count} places: {CELLS_MAX} cells are read at most");
             return Err(Fault::new(message, fault::CUT_IT));
         };
+        let runs = || format!("`{name}` runs from {} to {}", told(first), told(last));
         if !(first.is_finite() && last.is_finite()) {
-            return Err(Fault::new(format!("`{name}` runs from {first} to {last}"), "give finite numbers"));
+            return Err(Fault::new(runs(), "give finite numbers"));
         }
         if first >= last {
-            let message = format!("`{name}` runs from {first} to {last}: it must ascend");
+            let message = format!("{}: it must ascend", runs());
             return Err(Fault::new(message, turn_round(name)));
         }
         Ok(Axis { first, last, count })
@@ -47,7 +48,8 @@ impl Axis {
             return Err(Fault::new(format!("`{short}({i})` is {place}"), "give finite numbers"));
         }
         if let Some(i) = (1..places.len()).find(|&i| places[i] <= places[i - 1]) {
-            let message = format!("`{short}({i})` is {} after {}: it must ascend", places[i], places[i - 1]);
+            let message =
+                format!("`{short}({i})` is {} after {}: it must ascend", told(places[i]), told(places[i - 1]));
             return Err(Fault::new(message, turn_round(short)));
         }
         let ends = places.first().zip(places.last());
@@ -58,7 +60,7 @@ impl Axis {
         match places.iter().enumerate().find(off) {
             None => Ok(axis),
             Some((i, place)) => {
-                let even = first + i as f64 * step;
+                let (place, even) = (told(*place), told(first + i as f64 * step));
                 let message =
                     format!("`{short}` is not evenly spaced: `{short}({i})` is {place}, evenly it were {even}");
                 Err(Fault::new(message, "lay it onto an even grid, such as with `cdo remapbil` or `gmt surface`"))

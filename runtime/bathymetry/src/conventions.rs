@@ -8,7 +8,7 @@ mod packing;
 
 use crate::axis::Axis;
 use crate::classic::{Classic, Variable};
-use crate::fault::{Fault, Faults, listed, shortened};
+use crate::fault::{Fault, Faults, listed, shortened, told};
 use crate::marks;
 use crate::survey::{Kind, Survey, check_size, is_on_earth, on_a_plane, on_the_globe};
 use packing::Packing;
@@ -170,12 +170,12 @@ fn depths(file: &Classic, bottom: &Variable, columns: u32, faults: &mut Faults) 
     for (i, &value) in stored.iter().enumerate() {
         let depth = 0.0 + sign * packing.value(value);
         let fault = if packing.is_nothing(value) {
-            Some((format!("{} is no data ({value})", place(i)), FILL.to_string()))
+            Some((format!("{} is no data ({})", place(i), told(value)), FILL.to_string()))
         } else if packing.is_invalid(value) {
-            Some((format!("{} is no data: {value} is outside its valid range", place(i)), FILL.to_string()))
+            Some((format!("{} is no data: {} is outside its valid range", place(i), told(value)), FILL.to_string()))
         } else if !is_on_earth(depth) {
             let help = "if it stands for no data, give it to `missing_value` and fill it; if the unit is not metres, convert it";
-            Some((format!("{} is {value}: neither water nor land on earth", place(i)), help.to_string()))
+            Some((format!("{} is {}: neither water nor land on earth", place(i), told(value)), help.to_string()))
         } else {
             None
         };
@@ -189,6 +189,7 @@ fn depths(file: &Classic, bottom: &Variable, columns: u32, faults: &mut Faults) 
         let meant = marks::undeclared(sound().map(|(_, depth)| *depth));
         let is_mark = |(_, (value, depth)): &(usize, (&f64, &f64))| marks.contains(value) || meant.contains(depth);
         for (i, (value, _)) in stored.iter().zip(&depths).enumerate().filter(is_mark) {
+            let value = told(*value);
             faults.add(
                 format!("{} is {value}: far from all other cells, as a mark for no data is", place(i)),
                 format!(

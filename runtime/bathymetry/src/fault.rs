@@ -26,6 +26,17 @@ pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     told.join(", ") + if names.next().is_some() { ", …" } else { "" }
 }
 
+/// A number of a file in few digits: those of single precision where it has no more, and powers of ten where it is enormous.
+pub(crate) fn told(number: f64) -> String {
+    let (size, single) = (number.abs(), number as f32);
+    match (size == 0.0 || (1e-6..1e15).contains(&size), f64::from(single) == number) {
+        (true, true) => single.to_string(),
+        (true, false) => number.to_string(),
+        (false, true) => format!("{single:e}"),
+        (false, false) => format!("{number:e}"),
+    }
+}
+
 /// A number of things, each called so.
 pub(crate) fn counted(count: u64, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })

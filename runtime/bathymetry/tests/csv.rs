@@ -164,7 +164,8 @@ fn heads_that_say_too_little_or_what_cannot_be() {
     wrong(&SMALL.replace("0..20", "0...5"), "line 1: `east` is not followed by its ends and its count");
     let n = SMALL.replace("n=3", "n=18446744073709551615");
     wrong(&n, &format!("`east` has 18446744073709551615 places: {CELLS_MAX} cells are read at most"));
-    wrong(&SMALL.replace("0..20", "0..1e308"), "the survey runs eastward from 0e0 to 1e308 metres");
+    wrong(&SMALL.replace("0..20", "0..1e308"), "the survey runs eastward from 0 to 1e308 metres");
+    wrong(&SMALL.replace("0..20", "0..1e-320"), "the survey's places lie 5e-321 m apart eastward");
     wrong(&SMALL.replace('\n', "\r"), "the file is one line: it ends its lines with carriage returns alone");
     wrong(&SMALL.replace("0..20", "20..0"), "`east` runs from 20 to 0: it must ascend");
     wrong(&SMALL.replace("0..20", "0..inf"), "`east` runs from 0 to inf");
@@ -182,7 +183,7 @@ fn heads_that_say_too_little_or_what_cannot_be() {
 #[test]
 fn sizes_beyond_the_limits_are_refused_before_anything_is_made() {
     wrong(
-        "# east 0..9 n=4000000 north 0..9 n=4000000 metres\n1,2\n",
+        "# east 0..9e6 n=4000000 north 0..9e6 n=4000000 metres\n1,2\n",
         &format!("the grid has 4000000 rows of 4000000 cells: {CELLS_MAX} cells are read at most"),
     );
     let large = vec![b' '; FILE_BYTES_MAX as usize + 1];
