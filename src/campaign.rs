@@ -60,7 +60,8 @@ impl Campaign {
     pub fn run(&self) -> Exit {
         let planned = self.choice.script(&self.script).and_then(|script| {
             let plan = self.choice.plan(&script, &self.script)?;
-            let plan = self.faults.add(|faults| plan.with_faults(faults))?;
+            let faults = self.faults.read()?;
+            let plan = plan.with_faults(&faults).map_err(|error| refused(&error, &script))?;
             Ok((script, plan))
         });
         let (script, plan) = match planned {

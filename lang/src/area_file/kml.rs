@@ -95,18 +95,23 @@ fn uncrowded(text: &str) -> Result<(), FileFault> {
 }
 
 fn polygon(node: Node, name: Option<Name>, place: String) -> Result<Polygon, FileFault> {
-    let outline = child(node, "outerBoundaryIs")
-        .and_then(|outer| child(outer, "LinearRing"))
-        .and_then(|ring| child(ring, "coordinates"))
-        .ok_or_else(|| broken(node, "this polygon has no outline with `coordinates`"))?;
+    let outline = child(node, "outerBoundaryIs").and_then(|outer| child(outer, "LinearRing"));
+    let corners = ring(outline, || broken(node, "this polygon has no outline with `coordinates`"))?;
+    let inner = node.children().filter(|below| is(*below, "innerBoundaryIs"));
+    let hole = |inner: Node| ring(child(inner, "LinearRing"), || broken(inner, "this hole has no `coordinates`"));
+    let holes = inner.map(hole).collect::<Result<_, FileFault>>()?;
+    Ok(Polygon { name, place, corners, holes })
+}
+
+/// The corners of a ring; `without` any, it says so.
+fn ring(ring: Option<Node>, without: impl FnOnce() -> FileFault) -> Result<Vec<Position>, FileFault> {
+    let coordinates = ring.and_then(|ring| child(ring, "coordinates")).ok_or_else(without)?;
     let corner = |tuple: &str| {
         let no_position = "is no longitude and latitude with a comma between them";
-        let what = || broken(outline, &format!("`{}` {no_position}", shortened(tuple)));
+        let what = || broken(coordinates, &format!("`{}` {no_position}", shortened(tuple)));
         position(tuple).ok_or_else(what)
     };
-    let corners = text_of(outline).split_whitespace().map(corner).collect::<Result<Vec<Position>, FileFault>>()?;
-    let holes = node.children().filter(|below| is(*below, "innerBoundaryIs")).count();
-    Ok(Polygon { name, place, corners: opened(corners), holes })
+    text_of(coordinates).split_whitespace().map(corner).collect::<Result<_, FileFault>>().map(opened)
 }
 
 fn position(tuple: &str) -> Option<Position> {

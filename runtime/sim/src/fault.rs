@@ -11,7 +11,7 @@ mod under_way;
 pub use sensor::Sensor;
 pub(crate) use under_way::Faults;
 
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{HullSetup, Objections, Scenario};
 use albacore_geometry::Vector;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -37,6 +37,13 @@ pub enum Trouble {
     IgnoredCommands,
     /// Water gets in: the vehicle takes control back for good, and floats up.
     Leak,
+    /// Water gets into the hull, evenly for a while, and makes it heavier; the vehicle does not know.
+    Flooding {
+        /// So much in all, kg.
+        water: f64,
+        /// In this time from when the fault begins, s; 0: at once.
+        within: f64,
+    },
     /// The rudder stands at a share of its greatest deflection, positive to starboard, whatever the heading asked for.
     StuckRudder(f64),
     /// So much current is added to that of the water about the vehicle, m/s toward. The plume is not carried by it.
@@ -86,6 +93,7 @@ impl fmt::Display for Trouble {
             Trouble::Sensor(sensor, disorder) => write!(f, "{} {disorder}", sensor.name()),
             Trouble::IgnoredCommands => f.write_str("ignored commands"),
             Trouble::Leak => f.write_str("leak"),
+            Trouble::Flooding { .. } => f.write_str("flooding"),
             Trouble::StuckRudder(_) => f.write_str("stuck rudder"),
             Trouble::StrongCurrent(_) => f.write_str("strong current"),
         }
@@ -127,6 +135,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
                 format!("`{}` is {share}: a rudder goes from -1 to 1", name("rudder")),
             ),
             Trouble::StrongCurrent(current) => objections.flow(&name("current"), current),
+            Trouble::Flooding { water, within } => {
+                objections.not_negative(&name("water"), water);
+                objections.not_negative(&name("within"), within);
+                objections.unless(
+                    !matches!(scenario.vehicle.hull, HullSetup::Kinematic(_)),
+                    format!("`fault {fault}` is nothing to a `kinematic` vehicle, which knows no weight: it must be a `fossen` or a `prestero`"),
+                );
+            }
             Trouble::IgnoredCommands | Trouble::Leak => {}
         }
     }

@@ -52,6 +52,11 @@ impl Incidents {
         self.notices.extend(told.into_iter().take(room));
     }
 
+    /// Whether the vehicle lies on the bottom.
+    pub fn is_aground(&self) -> bool {
+        self.aground
+    }
+
     /// What has happened since this was last asked.
     pub fn take(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)

@@ -39,6 +39,14 @@ impl Objections {
         );
     }
 
+    /// The way from a sensor to who reads it.
+    pub fn delay(&mut self, name: &str, value: f64) {
+        self.unless(
+            (0.0..=DELAY_MAX_S).contains(&value),
+            format!("`{name}` is {value} s: it must be 0 to {DELAY_MAX_S}"),
+        );
+    }
+
     /// A share of a whole.
     pub fn share(&mut self, name: &str, value: f64) {
         self.unless((0.0..=1.0).contains(&value), format!("`{name}` is {value}: it must be 0 to 1"));
@@ -54,5 +62,7 @@ impl Objections {
     }
 }
 
+/// The longest delay of a sensor, s.
+const DELAY_MAX_S: f64 = 600.0;
 /// The fastest flow, m/s: tidal races reach 8.
 const FLOW_MAX: f64 = 10.0;

@@ -4,7 +4,7 @@ use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
 use crate::scenario::{Objections, Scenario};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
-use albacore_guidance::Rows;
+use albacore_guidance::Route;
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 
@@ -172,12 +172,12 @@ impl SubmersibleHull {
     }
 }
 
-/// A vehicle's own mission: rows from where it starts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// A vehicle's own mission.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OwnMission {
-    /// The rows: the first begins at the start and runs along the vehicle's heading there.
-    pub rows: Rows,
-    /// What it holds on them.
+    /// Where it goes, from where it starts: of rows the first runs along its heading there.
+    pub route: Route,
+    /// What it holds on the way.
     pub vertical: Vertical,
 }
 
@@ -239,6 +239,13 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         objections.positive("limits.depth", limits.depth.unwrap_or(1.0));
         objections.not_negative("limits.altitude", limits.altitude);
         objections.positive("limits.speed", limits.speed.unwrap_or(1.0));
+    }
+    if let Some(Route::Waypoints(waypoints)) = scenario.own_mission.as_ref().map(|own| &own.route) {
+        objections.unless(!waypoints.points.is_empty(), "`waypoints.points` is empty: there is nowhere to swim to");
+        for point in &waypoints.points {
+            objections.finite("waypoints.points", [point.north, point.east]);
+        }
+        objections.positive("waypoints.speed", waypoints.speed);
     }
     match &v.hull {
         HullSetup::Kinematic(hull) => check_kinematic(hull, objections),
