@@ -34,6 +34,13 @@ fn every_number_is_listed_with_where_it_comes_from() {
     assert!(set.contains("age               1800 s\n"), "{set}");
 }
 
+/// Of a survey more than its file: where it lies, how large it is and how deep.
+#[test]
+fn a_surveyed_bottom_is_listed_as_it_came_to_lie() {
+    let listing = listed(&["tests/scenario/bay.alb", "--no-out"]);
+    insta::assert_snapshot!(listing.split("\n\nvehicle").next().unwrap());
+}
+
 /// The library's scenarios can all be, and those of the trial differ where they say so.
 #[test]
 fn the_library_has_worlds_that_can_be() {

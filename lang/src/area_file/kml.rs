@@ -1,27 +1,57 @@
 //! KML 2.3 (OGC 12-007r2): its polygons, wherever they stand. Positions are `longitude,latitude` and maybe a height, in degrees on
 //! WGS 84, with blanks between them.
 
-use super::{Contents, Polygon, Position, fault, opened};
+use super::{Contents, Name, Polygon, Position, fault, opened, shortened};
 use crate::FileFault;
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, NodeId};
+use std::collections::BTreeSet;
 
 /// The kinds of geometry that are no areas.
 const OTHERS: [&str; 4] = ["Point", "LineString", "Model", "Track"];
 
+/// An element has no more attributes than this, and a file no more prefixes of names: the reader compares each with each.
+const ATTRIBUTES_MAX: usize = 64;
+const PREFIXES_MAX: usize = 32;
+
+/// A placemark has its polygons no deeper in it than this: in a `MultiGeometry`, maybe in another.
+const PLACEMARK_DEPTH_MAX: usize = 16;
+
+/// The lines of a text, counted once from its beginning to its end.
+struct Lines<'t> {
+    text: &'t str,
+    at: usize,
+    line: usize,
+}
+
 /// The polygons of a text.
 pub(super) fn contents(text: &str) -> Result<Contents, FileFault> {
+    uncrowded(text)?;
     // Entities of its own a document cannot declare: the reader refuses them.
-    let document = Document::parse(text)
-        .map_err(|error| fault(format!("this is no XML: {error}"), "export the area again as KML"))?;
+    let document = Document::parse(text).map_err(|error| {
+        let (told, at) = (error.to_string(), error.pos());
+        let short = shortened(&told);
+        let told = if short == told { told } else { format!("{short} at {at}") };
+        fault(format!("this is no XML: {told}"), "export the area again as KML")
+    })?;
     if !is(document.root_element(), "kml") {
-        let what = format!("its outermost element is `{}`, not `kml`", document.root_element().tag_name().name());
+        let outermost = shortened(document.root_element().tag_name().name());
+        let what = format!("its outermost element is `{outermost}`, not `kml`");
         return Err(fault(what, "export the area again as KML"));
     }
     let mut contents = Contents::default();
+    let mut lines = Lines { text, at: 0, line: 1 };
+    // The last placemark and its name, which may be long, and that of many polygons.
+    let mut named: (Option<NodeId>, Option<Name>) = (None, None);
     for node in document.descendants() {
         let kind = node.tag_name().name();
         if is(node, "Polygon") {
-            contents.polygons.push(polygon(node)?);
+            let placemark = node.ancestors().take(PLACEMARK_DEPTH_MAX).find(|above| is(*above, "Placemark"));
+            if placemark.map(|placemark| placemark.id()) != named.0 {
+                let name = placemark.and_then(|placemark| child(placemark, "name"));
+                named = (placemark.map(|p| p.id()), name.map(|name| Name(text_of(name).trim().into())));
+            }
+            let place = format!("line {}", lines.line_at(node.range().start));
+            contents.polygons.push(polygon(node, named.1.clone(), place)?);
         } else if OTHERS.contains(&kind) {
             contents.others.insert(kind.to_string());
         }
@@ -29,25 +59,59 @@ pub(super) fn contents(text: &str) -> Result<Contents, FileFault> {
     Ok(contents)
 }
 
-fn polygon(node: Node) -> Result<Polygon, FileFault> {
-    let placemark = node.ancestors().find(|above| is(*above, "Placemark"));
-    let name = placemark.and_then(|placemark| child(placemark, "name")).map(|name| text(name).trim().to_string());
+/// Whether the reader of XML gets through a text in good time: an element may have few attributes, and a file few prefixes.
+fn uncrowded(text: &str) -> Result<(), FileFault> {
+    let mut prefixes = BTreeSet::new();
+    let mut rest = text;
+    while let Some(at) = rest.find('<') {
+        rest = &rest[at + 1..];
+        let aside = [("!--", "-->"), ("![CDATA[", "]]>")].into_iter().find(|(begin, _)| rest.starts_with(begin));
+        if let Some((_, end)) = aside {
+            rest = rest.find(end).map_or("", |at| &rest[at..]);
+            continue;
+        }
+        let (mut count, mut quote) = (0, None);
+        for (i, byte) in rest.bytes().enumerate() {
+            match (quote, byte) {
+                (None, b'>' | b'<') => break,
+                (None, b'"' | b'\'') => quote = Some(byte),
+                (Some(begun), byte) if begun == byte => quote = None,
+                (None, b'=') => {
+                    count += 1;
+                    let name = rest[..i].trim_end().rsplit(char::is_whitespace).next().unwrap_or_default();
+                    prefixes.extend(name.strip_prefix("xmlns:"));
+                }
+                _ => {}
+            }
+            if count > ATTRIBUTES_MAX || prefixes.len() > PREFIXES_MAX {
+                let message = format!(
+                    "it has more than {ATTRIBUTES_MAX} attributes in one element, or more than {PREFIXES_MAX} prefixes"
+                );
+                return Err(fault(message, "export the area again as KML: a chart needs a few"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn polygon(node: Node, name: Option<Name>, place: String) -> Result<Polygon, FileFault> {
     let outline = child(node, "outerBoundaryIs").and_then(|outer| child(outer, "LinearRing"));
     let corners = ring(outline, || broken(node, "this polygon has no outline with `coordinates`"))?;
     let inner = node.children().filter(|below| is(*below, "innerBoundaryIs"));
     let hole = |inner: Node| ring(child(inner, "LinearRing"), || broken(inner, "this hole has no `coordinates`"));
     let holes = inner.map(hole).collect::<Result<_, FileFault>>()?;
-    Ok(Polygon { name, place: line(node), corners, holes })
+    Ok(Polygon { name, place, corners, holes })
 }
 
 /// The corners of a ring; `without` any, it says so.
 fn ring(ring: Option<Node>, without: impl FnOnce() -> FileFault) -> Result<Vec<Position>, FileFault> {
     let coordinates = ring.and_then(|ring| child(ring, "coordinates")).ok_or_else(without)?;
     let corner = |tuple: &str| {
-        let what = || broken(coordinates, &format!("`{tuple}` is no longitude and latitude with a comma between them"));
+        let no_position = "is no longitude and latitude with a comma between them";
+        let what = || broken(coordinates, &format!("`{}` {no_position}", shortened(tuple)));
         position(tuple).ok_or_else(what)
     };
-    text(coordinates).split_whitespace().map(corner).collect::<Result<_, FileFault>>().map(opened)
+    text_of(coordinates).split_whitespace().map(corner).collect::<Result<_, FileFault>>().map(opened)
 }
 
 fn position(tuple: &str) -> Option<Position> {
@@ -65,14 +129,21 @@ fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'inp
 }
 
 /// What stands in an element, comments left out.
-fn text(node: Node) -> String {
+fn text_of(node: Node) -> String {
     node.children().filter(Node::is_text).filter_map(|part| part.text()).collect()
 }
 
-fn line(node: Node) -> String {
-    format!("line {}", node.document().text_pos_at(node.range().start).row)
+fn broken(node: Node, what: &str) -> FileFault {
+    let line = node.document().text_pos_at(node.range().start).row;
+    fault(format!("line {line}: {what}"), "export the area again as KML")
 }
 
-fn broken(node: Node, what: &str) -> FileFault {
-    fault(format!("{}: {what}", line(node)), "export the area again as KML")
+impl Lines<'_> {
+    /// The line of a byte; that of none before it is asked any more.
+    fn line_at(&mut self, byte: usize) -> usize {
+        let passed = self.text.as_bytes().get(self.at..byte).unwrap_or_default();
+        self.line += passed.iter().filter(|byte| **byte == b'\n').count();
+        self.at = byte;
+        self.line
+    }
 }

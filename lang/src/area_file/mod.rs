@@ -7,12 +7,17 @@ mod kml;
 use crate::FileFault;
 use crate::suggest::{listed, nearest};
 use std::collections::BTreeSet;
+use std::fmt;
+use std::rc::Rc;
 
 /// A file larger than this, in bytes, is refused: an area has few corners.
 pub const BYTES_MAX: u64 = 4_000_000;
 
 /// So many names are listed in a message at most.
 const LISTED_MAX: usize = 12;
+
+/// So many characters of a file's own text stand in a message at most.
+const QUOTED_MAX: usize = 60;
 
 /// A position on the globe (WGS 84), in degrees; north and east are positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +26,15 @@ pub struct Position {
     pub longitude_deg: f64,
 }
 
+/// The name of a feature, which all its polygons have in common. A message shows no more of it than its beginning.
+#[derive(Clone, Debug, PartialEq)]
+struct Name(Rc<str>);
+
 /// A polygon of a file.
 #[derive(Clone, Debug, PartialEq)]
 struct Polygon {
     /// The name of the feature that it belongs to.
-    name: Option<String>,
+    name: Option<Name>,
     /// Where it stands in its file: `line 12`, or a path such as `features[0].geometry`.
     place: String,
     /// Its corners, each once.
@@ -133,7 +142,7 @@ fn choose<'c>(path: &str, contents: &'c Contents, named: Option<&str>) -> Result
             [only] => Ok(only),
             _ => Err(fault(
                 format!("there are {} polygons in it{}", polygons.len(), in_all(&names)),
-                match names.first() {
+                match names.iter().find(|name| is_short(name)) {
                     Some(name) => format!("say which by its name: `area_file(\"{path}\", named: \"{name}\")`"),
                     None => "give each a `name`, and say which is meant: `area_file(…, named: \"…\")`".to_string(),
                 },
@@ -145,7 +154,7 @@ fn choose<'c>(path: &str, contents: &'c Contents, named: Option<&str>) -> Result
         [only] => Ok(only),
         [] => Err(fault(
             format!("there is no polygon named `{named}` in it{}", in_all(&names)),
-            match (nearest(named, names.iter().copied()), polygons.len()) {
+            match (nearest(named, names.iter().copied().filter(|name| is_short(name))), polygons.len()) {
                 (Some(near), _) => format!("did you mean `{near}`?"),
                 (None, 1) => "leave out `named`: there is one polygon only".to_string(),
                 (None, _) if names.is_empty() => "give the polygon that is meant a `name`".to_string(),
@@ -165,12 +174,11 @@ fn choose<'c>(path: &str, contents: &'c Contents, named: Option<&str>) -> Result
 
 /// The names that there are.
 fn in_all(names: &[&str]) -> String {
-    match names {
-        [] => ", none with a name".to_string(),
-        _ if names.len() > LISTED_MAX => {
-            format!(": {} and {} more", names[..LISTED_MAX].join(", "), names.len() - LISTED_MAX)
-        }
-        _ => format!(": {}", listed(names)),
+    let told: Vec<String> = names.iter().take(LISTED_MAX).map(|name| shortened(name)).collect();
+    match names.len().checked_sub(LISTED_MAX) {
+        _ if names.is_empty() => ", none with a name".to_string(),
+        None | Some(0) => format!(": {}", listed(&told.iter().map(String::as_str).collect::<Vec<_>>())),
+        Some(more) => format!(": {} and {more} more", told.join(", ")),
     }
 }
 
@@ -180,6 +188,33 @@ fn opened(mut ring: Vec<Position>) -> Vec<Position> {
         ring.pop();
     }
     ring
+}
+
+/// The beginning of a file's own text, for a message: whoever made the file made it as long as it pleased.
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(QUOTED_MAX) {
+        None => text.to_string(),
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
+}
+
+/// Whether a text stands in a message as it is.
+fn is_short(text: &str) -> bool {
+    text.char_indices().nth(QUOTED_MAX).is_none()
+}
+
+impl std::ops::Deref for Name {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&shortened(&self.0))
+    }
 }
 
 fn fault(message: impl Into<String>, help: impl Into<String>) -> FileFault {

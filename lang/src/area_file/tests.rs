@@ -213,3 +213,101 @@ fn a_hole_is_an_area_of_its_own() {
     let place = "`features[0].geometry.coordinates[1]` is no list of positions";
     refused("a.json", &none, None, place, "export");
 }
+
+/// Positions of another system are metres, or degrees of another globe.
+#[test]
+fn another_system_of_coordinates_is_refused() {
+    let with = |system: &str, place: &str| {
+        let text = geojson(&[("{}", &outline(&SQUARE))]);
+        text.replacen(place, &format!("{place}, \"crs\": {system}"), 1)
+    };
+    let named = |name: &str| format!(r#"{{"type": "name", "properties": {{"name": "{name}"}}}}"#);
+    let (collection, geometry) = (r#""type": "FeatureCollection""#, r#""type": "Polygon""#);
+    for name in ["urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326", "urn:ogc:def:crs:EPSG::4326", "WGS 84"] {
+        assert_eq!(read("a.geojson", &with(&named(name), collection), None).unwrap().len(), 4, "{name}");
+    }
+    assert!(read("a.geojson", &with("null", collection), None).is_ok());
+    let help = "`ogr2ogr -t_srs EPSG:4326 OUT.geojson IN.geojson`";
+    let of = |system: &str| {
+        format!("by its `crs` its positions are those of {system}, and areas are read in degrees on WGS 84")
+    };
+    for name in ["EPSG:32618", "urn:ogc:def:crs:EPSG::3857", "EPSG:4269"] {
+        for place in [collection, geometry] {
+            refused("a.geojson", &with(&named(name), place), None, &of(&format!("`{name}`")), help);
+        }
+    }
+    let linked = r#"{"type": "link", "properties": {"href": "http://example.com/crs/42"}}"#;
+    refused("a.geojson", &with(linked, collection), None, &of("a system that it does not name"), help);
+}
+
+/// What is too long for a line of a message is cut, wherever it comes from.
+#[test]
+fn messages_do_not_grow_with_the_file() {
+    let long = "e".repeat(1_000_000);
+    let square = outline(&SQUARE);
+    let name = format!(r#"{{"name": "{long}"}}"#);
+    let two = geojson(&[(&name, &square), (&name, &square)]);
+    let bow = geojson(&[(&name, &outline(&[SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]]))]);
+    let kind = format!(r#"{{"type": "{long}"}}"#);
+    let system = format!(r#"{{"type": "Point", "crs": {{"properties": {{"name": "{long}"}}}}}}"#);
+    for text in [&two, &bow, &kind, &system] {
+        let fault = read("a.json", text, None).unwrap_err().remove(0);
+        assert!(fault.message.len() + fault.help.unwrap().len() < 400, "{}", fault.message.len());
+    }
+    let texts = [
+        kml(&placemark(&long, KML_SQUARE).repeat(2)),
+        kml(&placemark("box", &long)),
+        kml(&format!("<{long}></b>")),
+        format!("<{long}/>"),
+        kml(&format!("<a {long}:b='c'/>")),
+    ];
+    for text in texts {
+        let fault = read("a.kml", &text, None).unwrap_err().remove(0);
+        assert!(fault.message.len() + fault.help.unwrap().len() < 400, "{}", fault.message.len());
+    }
+}
+
+/// A name is held once, however many polygons have it: two megabytes times a hundred thousand would be no file's worth.
+#[test]
+fn polygons_of_one_feature_have_its_name_in_common() {
+    let name = "e".repeat(2_000_000);
+    let rings = vec!["[[]]"; 100_000].join(",");
+    let many = format!(r#"{{"type": "MultiPolygon", "coordinates": [{rings}]}}"#);
+    let text = geojson(&[(&format!(r#"{{"name": "{name}"}}"#), &many)]);
+    let fault = read("a.json", &text, None).unwrap_err().remove(0);
+    assert!(fault.message.starts_with("`a.json`: there are 100000 polygons in it: eee"), "{}", fault.message.len());
+    let fault = read("a.json", &text, Some("eel")).unwrap_err().remove(0);
+    assert!(
+        fault.message.starts_with("`a.json`: there is no polygon named `eel` in it: eee"),
+        "{}",
+        fault.message.len()
+    );
+}
+
+/// The reader of XML compares the attributes of an element each with each, and the prefixes in force with those of an element.
+#[test]
+fn a_crowd_of_attributes_is_refused_before_it_is_read() {
+    let attributes: String = (0..300_000).map(|i| format!(" a{i}='1'")).collect();
+    let prefixes: String = (0..40).map(|i| format!(" xmlns:a{i}='u'")).collect();
+    let nested: String = (0..40).map(|i| format!("<a xmlns:b{i} = \"u\">")).collect();
+    let crowd = "it has more than 64 attributes in one element, or more than 32 prefixes";
+    for text in [kml(&format!("<a{attributes}/>")), kml(&format!("<a{prefixes}/>")), kml(&nested)] {
+        refused("a.kml", &text, None, crowd, "export the area again");
+    }
+    // Nothing else that looks like them counts.
+    let rule = "=".repeat(100);
+    let harmless = format!("<!-- {rule} <a {rule} --><a b='{rule}>{rule}'/><![CDATA[<a {rule}]]>{rule}");
+    let text = kml(&format!("{harmless}{}", placemark("box", KML_SQUARE)));
+    assert_eq!(read("a.kml", &text, None).unwrap().len(), 4);
+}
+
+/// Lines are counted once: twice the polygons take twice as long, not four times.
+#[test]
+fn many_polygons_keep_their_lines() {
+    let polygons = placemark("cell", KML_SQUARE) + "\n";
+    let text = kml(&(polygons.repeat(12_000) + &placemark("last", KML_SQUARE) + &placemark("last", KML_SQUARE)));
+    assert_eq!(read("a.kml", &text, Some("lost")).unwrap_err().len(), 1);
+    let line = 3 + 12_000 * 5;
+    let message = format!("2 polygons are named `last`: line {line}, line {}", line + 4);
+    refused("a.kml", &text, Some("last"), &message, "a name of its own");
+}

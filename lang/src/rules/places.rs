@@ -1,10 +1,14 @@
-//! Where things are: a scenario that begins outside the area of its mission, or has a source there, is seldom meant.
+//! Where things are: a scenario that begins outside the area of its mission, or has a source there, or a no-go zone far from it,
+//! is seldom meant.
 
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir};
 use crate::source::Span;
-use albacore_geometry::{Area, Geodetic, Heading, Point, TangentFrame};
+use albacore_geometry::{Area, Edge, Geodetic, Heading, Point, TangentFrame};
+
+/// A no-go zone may well lie beside the area; one that is farther from it than this, m, keeps nobody out of anything.
+const NO_GO_FAR_M: f64 = 10_000.0;
 
 /// The findings for the scenario that a mission names, as far as its places and the area are constants.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
@@ -14,6 +18,12 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let name = path.rsplit('.').next().unwrap_or(path);
     let Some(scenario) = hir.scenarios.iter().find(|s| s.name == name) else { return Vec::new() };
     let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
+    let far = |clause: &ClauseUse| {
+        let (_, value) = clause.args.iter().find(|(name, _)| clause.name == "no_go" && name == "area")?;
+        let ClauseArg::Value(e) = value else { return None };
+        let out = beyond(&area, &self::area(e, frame)?);
+        (out > NO_GO_FAR_M).then(|| finding(&activity.name, written, e.span, "this no-go zone is", out))
+    };
     let outside = |clause: &ClauseUse| {
         let (what, param) = match clause.name.as_str() {
             "vehicle" => ("the vehicle starts", "start"),
@@ -25,7 +35,13 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         let out = -area.gap(point(e, frame)?);
         (out > 0.0).then(|| finding(&activity.name, written, e.span, what, out))
     };
-    scenario.clauses.iter().filter_map(outside).collect()
+    scenario.clauses.iter().filter_map(|clause| outside(clause).or_else(|| far(clause))).collect()
+}
+
+/// How far an area lies wholly beyond an edge of another, m; less than nothing where they meet.
+fn beyond(area: &Area, other: &Area) -> f64 {
+    let of_edge = |edge: Edge| other.corners().iter().map(|corner| -edge.gap(*corner)).fold(f64::INFINITY, f64::min);
+    area.edges().map(of_edge).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// The area of a mission and where it is written, if it is made of constants.
@@ -44,8 +60,8 @@ fn of_mission(hir: &Hir, mission: usize) -> Option<(Area, Span, Option<TangentFr
 }
 
 fn finding(mission: &str, area: Span, place: Span, what: &str, out_m: f64) -> Diagnostic {
-    let message =
-        format!("{what} {out_m:.0} m outside the area of the mission `{mission}`, which runs in this scenario");
+    let out = if out_m < 10_000.0 { format!("{out_m:.0} m") } else { format!("{:.0} km", out_m / 1000.0) };
+    let message = format!("{what} {out} outside the area of the mission `{mission}`, which runs in this scenario");
     Diagnostic::warning(Code::ScenariosOutside, place, message)
         .label(area, "the area")
         .help("move it into the area, or the area to it: look for minutes exchanged, and for north and east")

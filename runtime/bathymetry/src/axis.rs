@@ -1,6 +1,7 @@
 //! One side of a grid: evenly spaced places, ascending.
 
-use crate::fault::Fault;
+use crate::CELLS_MAX;
+use crate::fault::{self, Fault, counted, shortened, told};
 
 /// A place is off its even spacing by at most this share of a step. Degrees in single precision are: steps of 15 seconds
 /// of arc about 290 degrees by 0.4 %.
@@ -20,39 +21,48 @@ pub struct Axis {
 impl Axis {
     /// Between two ends. `name` is what the file calls the axis.
     pub(crate) fn between(name: &str, first: f64, last: f64, count: u64) -> Result<Axis, Fault> {
+        let name = &shortened(name);
+        if count < 2 {
+            let message = format!("`{name}` has {}: a grid has two or more", counted(count, "place"));
+            return Err(Fault::new(message, "widen the cut"));
+        }
+        let Some(count) = u32::try_from(count).ok().filter(|count| u64::from(*count) <= CELLS_MAX) else {
+            let message = format!("`{name}` has {count} places: {CELLS_MAX} cells are read at most");
+            return Err(Fault::new(message, fault::CUT_IT));
+        };
+        let runs = || format!("`{name}` runs from {} to {}", told(first), told(last));
         if !(first.is_finite() && last.is_finite()) {
-            return Err(Fault::new(format!("`{name}` runs from {first} to {last}"), "give finite numbers"));
+            return Err(Fault::new(runs(), "give finite numbers"));
         }
         if first >= last {
-            let message = format!("`{name}` runs from {first} to {last}: it must ascend");
+            let message = format!("{}: it must ascend", runs());
             return Err(Fault::new(message, turn_round(name)));
         }
-        match u32::try_from(count) {
-            Ok(count) if count >= 2 => Ok(Axis { first, last, count }),
-            _ => Err(Fault::new(format!("`{name}` has {count} places: a grid has two or more"), "widen the cut")),
-        }
+        Ok(Axis { first, last, count })
     }
 
     /// Through places as a file lists them.
     pub(crate) fn through(name: &str, places: &[f64]) -> Result<Axis, Fault> {
-        let (Some(first), Some(last)) = (places.first(), places.last()) else {
-            return Axis::between(name, 0.0, 1.0, 0);
-        };
+        let short = &shortened(name);
         if let Some((i, place)) = places.iter().enumerate().find(|(_, place)| !place.is_finite()) {
-            return Err(Fault::new(format!("`{name}({i})` is {place}"), "give finite numbers"));
+            return Err(Fault::new(format!("`{short}({i})` is {place}"), "give finite numbers"));
         }
         if let Some(i) = (1..places.len()).find(|&i| places[i] <= places[i - 1]) {
-            let message = format!("`{name}({i})` is {} after {}: it must ascend", places[i], places[i - 1]);
-            return Err(Fault::new(message, turn_round(name)));
+            let message =
+                format!("`{short}({i})` is {} after {}: it must ascend", told(places[i]), told(places[i - 1]));
+            return Err(Fault::new(message, turn_round(short)));
         }
-        let axis = Axis::between(name, *first, *last, places.len() as u64)?;
+        let ends = places.first().zip(places.last());
+        let (first, last) = ends.map_or((0.0, 0.0), |(first, last)| (*first, *last));
+        let axis = Axis::between(name, first, last, places.len() as u64)?;
         let step = axis.step();
         let off = |(i, place): &(usize, &f64)| (*place - (first + *i as f64 * step)).abs() > UNEVEN_MAX * step;
         match places.iter().enumerate().find(off) {
             None => Ok(axis),
             Some((i, place)) => {
-                let even = first + i as f64 * step;
-                let message = format!("`{name}` is not evenly spaced: `{name}({i})` is {place}, evenly it were {even}");
+                let (place, even) = (told(*place), told(first + i as f64 * step));
+                let message =
+                    format!("`{short}` is not evenly spaced: `{short}({i})` is {place}, evenly it were {even}");
                 Err(Fault::new(message, "lay it onto an even grid, such as with `cdo remapbil` or `gmt surface`"))
             }
         }

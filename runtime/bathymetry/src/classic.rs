@@ -7,7 +7,7 @@
 mod bytes;
 
 use crate::CELLS_MAX;
-use crate::fault::{self, Fault};
+use crate::fault::{self, Fault, counted, shortened};
 use bytes::Bytes;
 
 /// The marks that begin a list.
@@ -18,6 +18,8 @@ const ATTRIBUTES: u32 = 0x0C;
 const STREAMING: u32 = u32::MAX;
 /// A variable has at most this many dimensions: NC_MAX_VAR_DIMS.
 const VARIABLE_DIMENSIONS_MAX: u64 = 1024;
+/// An attribute that is read for its numbers has at most this many.
+const NUMBERS_MAX: u64 = 16;
 
 /// A file that was understood; its values are not read yet.
 #[derive(Debug)]
@@ -41,6 +43,8 @@ pub(crate) struct Variable<'a> {
     pub dimensions: Vec<usize>,
     attributes: Vec<Attribute<'a>>,
     pub kind: Kind,
+    /// Whether its whole numbers have no sign: `_Unsigned`.
+    unsigned: bool,
     begin: u64,
 }
 
@@ -79,7 +83,7 @@ impl Kind {
 
     /// What stands where nothing was written, unless the variable says otherwise: NC_FILL_SHORT and its like. Bytes have none
     /// that is not also a value.
-    pub fn fill(self) -> Option<f64> {
+    fn fill(self) -> Option<f64> {
         match self {
             Kind::Byte | Kind::Char => None,
             Kind::Short => Some(-32_767.0),
@@ -87,6 +91,34 @@ impl Kind {
             Kind::Float => Some(f64::from(9.969_21e36_f32)),
             Kind::Double => Some(9.969_209_968_386_869e36),
         }
+    }
+
+    /// How `ncatted` calls it.
+    pub fn letter(self) -> char {
+        match self {
+            Kind::Byte => 'b',
+            Kind::Char => 'c',
+            Kind::Short => 's',
+            Kind::Int => 'l',
+            Kind::Float => 'f',
+            Kind::Double => 'd',
+        }
+    }
+
+    /// Whether it is a whole number.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Kind::Byte | Kind::Short | Kind::Int)
+    }
+
+    /// A whole number of this size as it reads without a sign.
+    fn without_sign(self, value: f64) -> f64 {
+        let turn = match self {
+            Kind::Byte => 256.0,
+            Kind::Short => 65_536.0,
+            Kind::Int => 4_294_967_296.0,
+            Kind::Char | Kind::Float | Kind::Double => 0.0,
+        };
+        if value < 0.0 { value + turn } else { value }
     }
 
     fn values(self, bytes: &[u8]) -> Vec<f64> {
@@ -135,32 +167,40 @@ impl<'a> Classic<'a> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
-    /// The names of a variable's dimensions.
+    /// The names of a variable's dimensions, in order.
     pub fn dimension_names(&self, variable: &Variable) -> Vec<&'a str> {
         variable.dimensions.iter().filter_map(|&i| self.dimensions.get(i)).map(|d| d.name).collect()
     }
 
     /// All values of a variable, as they are stored; its dimensions are of fixed length.
     pub fn values(&self, variable: &Variable) -> Result<Vec<f64>, Fault> {
+        if variable.kind == Kind::Char {
+            let message = format!("`{}` holds text, and no numbers", shortened(variable.name));
+            return Err(Fault::new(message, "write it again with numbers, such as `float` or `short`"));
+        }
         let mut count: u64 = 1;
         for dimension in variable.dimensions.iter().filter_map(|&i| self.dimensions.get(i)) {
             let Some(length) = dimension.length else {
-                let message =
-                    format!("`{}` has `{}`, a dimension without a fixed length", variable.name, dimension.name);
+                let (name, dimension) = (shortened(variable.name), shortened(dimension.name));
+                let message = format!("`{name}` has `{dimension}`, a dimension without a fixed length");
                 return Err(Fault::new(message, "fix it with `nccopy -u -k classic IN.nc OUT.nc`"));
             };
             count = count.saturating_mul(length);
         }
         if count > CELLS_MAX {
-            let message = format!("`{}` has {count} values: {CELLS_MAX} are read at most", variable.name);
+            let message = format!("`{}` has {count} values: {CELLS_MAX} are read at most", shortened(variable.name));
             return Err(Fault::new(message, fault::CUT_IT));
         }
         let end = count.saturating_mul(variable.kind.size()).saturating_add(variable.begin);
         let held = self.bytes.len() as u64;
         match self.bytes.get(variable.begin as usize..end as usize) {
-            Some(bytes) if end <= held => Ok(variable.kind.values(bytes)),
+            Some(bytes) if end <= held => {
+                let mut values = variable.kind.values(bytes);
+                values.iter_mut().for_each(|value| *value = variable.sign(*value));
+                Ok(values)
+            }
             _ => {
-                let (name, begin) = (variable.name, variable.begin);
+                let (name, begin) = (shortened(variable.name), variable.begin);
                 let message = format!(
                     "the file is cut off: the {count} values of `{name}` are bytes {begin} to {end}, and it has {held}"
                 );
@@ -175,12 +215,13 @@ impl<'a> Variable<'a> {
         let name = bytes.name("a variable")?;
         let count = bytes.count("the number of a variable's dimensions")?;
         if count > VARIABLE_DIMENSIONS_MAX {
-            return Err(bytes.wrong(format!("the variable `{name}` has {count} dimensions")));
+            return Err(bytes.wrong(format!("the variable `{}` has {count} dimensions", shortened(name))));
         }
         let mut dimensions = Vec::new();
         for _ in 0..count {
             let index = bytes.count("a variable's dimension")? as usize;
             if index >= dimensions_known {
+                let name = shortened(name);
                 return Err(bytes.wrong(format!("the variable `{name}` has dimension {index} of {dimensions_known}")));
             }
             dimensions.push(index);
@@ -191,7 +232,9 @@ impl<'a> Variable<'a> {
         bytes.word("the size of a variable")?;
         let begin =
             if wide { bytes.long("the place of a variable")? } else { bytes.count("the place of a variable")? };
-        Ok(Variable { name, dimensions, attributes, kind, begin })
+        let mut variable = Variable { name, dimensions, attributes, kind, unsigned: false, begin };
+        variable.unsigned = variable.text("_Unsigned").is_some_and(|said| said.eq_ignore_ascii_case("true"));
+        Ok(variable)
     }
 
     /// An attribute that is a text, without the blanks and zeros that pad it.
@@ -200,10 +243,45 @@ impl<'a> Variable<'a> {
         Some(std::str::from_utf8(attribute.bytes).ok()?.trim_matches(['\0', ' ', '\n', '\t']))
     }
 
-    /// An attribute that is one number or several; none where there is no such attribute or it is a text.
-    pub fn numbers(&self, name: &str) -> Vec<f64> {
-        let attribute = self.attributes.iter().find(|a| a.name == name && a.kind != Kind::Char);
-        attribute.map(|a| a.kind.values(a.bytes)).unwrap_or_default()
+    /// An attribute that is one number or several; none where there is no such attribute. It is read as the values are if it
+    /// is of their kind.
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, Fault> {
+        let Some(attribute) = self.attributes.iter().find(|a| a.name == name) else { return Ok(Vec::new()) };
+        let variable = shortened(self.name);
+        if attribute.kind == Kind::Char {
+            let text = String::from_utf8_lossy(attribute.bytes);
+            let text = shortened(text.trim_matches(['\0', ' ', '\n', '\t']));
+            let help = match text.parse::<f64>() {
+                Ok(_) => format!("write the number: `ncatted -a {name},{variable},o,d,{text} FILE.nc`"),
+                Err(_) => format!("take it away with `ncatted -a {name},{variable},d,, FILE.nc`"),
+            };
+            return Err(Fault::new(format!("`{variable}:{name}` is the text `{text}`, where numbers belong"), help));
+        }
+        let count = attribute.bytes.len() as u64 / attribute.kind.size();
+        if count > NUMBERS_MAX {
+            let message = format!("`{variable}:{name}` has {}: {NUMBERS_MAX} are the most", counted(count, "value"));
+            return Err(Fault::new(message, format!("take it away with `ncatted -a {name},{variable},d,, FILE.nc`")));
+        }
+        let mut numbers = attribute.kind.values(attribute.bytes);
+        if attribute.kind == self.kind {
+            numbers.iter_mut().for_each(|number| *number = self.sign(*number));
+        }
+        Ok(numbers)
+    }
+
+    /// What an attribute is made of.
+    pub fn kind_of(&self, name: &str) -> Option<Kind> {
+        self.attributes.iter().find(|a| a.name == name).map(|a| a.kind)
+    }
+
+    /// What stands where nothing was written, unless the variable says otherwise.
+    pub fn fill(&self) -> Option<f64> {
+        self.kind.fill().map(|value| self.sign(value))
+    }
+
+    /// A stored number with the sign that it is meant to have.
+    fn sign(&self, value: f64) -> f64 {
+        if self.unsigned { self.kind.without_sign(value) } else { value }
     }
 }
 

@@ -2,19 +2,27 @@
 //!
 //! The depths are a variable over two dimensions that have variables of their own: `lat` and `lon` in degrees, or `y` and `x`
 //! in metres, by their units or else their names. Elevations are negative below the surface; depths, by name or by the
-//! attribute `positive = "down"`, are positive. `scale_factor` and `add_offset` are applied; `_FillValue` and
-//! `missing_value` are no data.
+//! attribute `positive = "down"`, are positive. What a stored number stands for, [`mod@packing`] tells.
+
+mod packing;
 
 use crate::axis::Axis;
 use crate::classic::{Classic, Variable};
-use crate::fault::{Fault, Faults};
-use crate::survey::{Kind, Survey, check_size, is_on_earth, on_the_globe};
+use crate::fault::{Fault, Faults, listed, shortened, told};
+use crate::marks;
+use crate::survey::{Kind, Survey, check_size, is_on_earth, on_a_plane, on_the_globe};
+use packing::Packing;
 
 /// Names of variables that hold the bottom, where a file has several over two dimensions.
 const BOTTOM_NAMES: [&str; 10] =
     ["elevation", "z", "depth", "topo", "bathymetry", "altitude", "height", "band1", "bathy", "rose"];
 /// How metres are written.
 const METRES: [&str; 5] = ["m", "metre", "metres", "meter", "meters"];
+/// How degrees of latitude and of longitude are written (CF 1.11, sections 4.1 and 4.2), in lower case; and degrees of either,
+/// which the name tells apart.
+const NORTH: [&str; 6] = ["degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "degreesn"];
+const EAST: [&str; 6] = ["degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "degreese"];
+const EITHER: [&str; 4] = ["", "degree", "degrees", "deg"];
 /// The mend of cells that hold nothing.
 const FILL: &str = "fill them, such as with `cdo fillmiss IN.nc OUT.nc`, or cut out a part without such cells";
 
@@ -40,13 +48,14 @@ pub(crate) fn read(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
         (Side::Latitude, Side::Longitude) => {
             on_the_globe(north, east, faults).map(|(north, east)| (Kind::Geodetic, north, east))
         }
-        (Side::Northing, Side::Easting) => Some((Kind::Local, north, east)),
+        (Side::Northing, Side::Easting) => {
+            on_a_plane(north, east, faults).map(|(north, east)| (Kind::Local, north, east))
+        }
         _ => {
-            let names = file.dimension_names(bottom).join(", ");
-            let message = format!("`{}({names})` runs over {north_side:?} and {east_side:?}", bottom.name);
-            let message = message.to_lowercase();
+            let (name, names) = (shortened(bottom.name), listed(file.dimension_names(bottom)));
+            let over = format!("{north_side:?} and {east_side:?}").to_lowercase();
             faults.add(
-                message,
+                format!("`{name}({names})` runs over {over}"),
                 "its rows must run north and its cells east: `ncpdq -a lat,lon IN.nc OUT.nc` exchanges them",
             );
             None
@@ -67,8 +76,8 @@ fn bottom<'f, 'a>(file: &'f Classic<'a>) -> Result<&'f Variable<'a>, Fault> {
         ([only], ..) => Ok(only),
         (_, Some(only), None) => Ok(only),
         ([], ..) => {
-            let all = file.variables.iter().map(|v| format!("`{}({})`", v.name, file.dimension_names(v).join(", ")));
-            let all: Vec<String> = all.take(8).collect();
+            let told = |v: &Variable| format!("`{}({})`", shortened(v.name), listed(file.dimension_names(v)));
+            let all: Vec<String> = file.variables.iter().take(8).map(told).collect();
             let held = if all.is_empty() { "no variables".to_string() } else { all.join(", ") };
             let message = format!("no variable has two dimensions: the file holds {held}");
             Err(Fault::new(
@@ -77,7 +86,7 @@ fn bottom<'f, 'a>(file: &'f Classic<'a>) -> Result<&'f Variable<'a>, Fault> {
             ))
         }
         (several, ..) => {
-            let names: Vec<String> = several.iter().take(8).map(|v| format!("`{}`", v.name)).collect();
+            let names: Vec<String> = several.iter().take(8).map(|v| format!("`{}`", shortened(v.name))).collect();
             let message = format!("which variable is the bottom? There is {}", names.join(", "));
             Err(Fault::new(message, "take one out with `ncks -v elevation IN.nc OUT.nc`, or name it `elevation`"))
         }
@@ -88,104 +97,108 @@ fn bottom<'f, 'a>(file: &'f Classic<'a>) -> Result<&'f Variable<'a>, Fault> {
 fn side(file: &Classic, bottom: &Variable, dimension: usize) -> Result<(Side, Axis), Fault> {
     let names = file.dimension_names(bottom);
     let name = names.get(dimension).copied().unwrap_or_default();
+    let short = shortened(name);
     let Some(variable) = file.variable(name) else {
-        let message = format!("the dimension `{name}` of `{}` has no variable `{name}({name})`", bottom.name);
+        let bottom = shortened(bottom.name);
+        let message = format!("the dimension `{short}` of `{bottom}` has no variable `{short}({short})`");
         return Err(Fault::new(message, "give it its places, in degrees or in metres"));
     };
     if file.dimension_names(variable) != [name] {
-        let over = file.dimension_names(variable).join(", ");
-        let message = format!("`{name}({over})` does not tell the places of the dimension `{name}`");
+        let over = listed(file.dimension_names(variable));
+        let message = format!("`{short}({over})` does not tell the places of the dimension `{short}`");
         return Err(Fault::new(
             message,
-            format!("give a variable `{name}({name})`: an even grid has one place for each row"),
+            format!("give a variable `{short}({short})`: an even grid has one place for each row"),
         ));
     }
     let units = variable.text("units").unwrap_or_default().to_ascii_lowercase();
     let lower = name.to_ascii_lowercase();
     let side = match (units.as_str(), lower.as_str()) {
-        (units, _) if units.starts_with("degree") && units.ends_with('n') || units.ends_with("north") => Side::Latitude,
-        (units, _) if units.starts_with("degree") && units.ends_with('e') || units.ends_with("east") => Side::Longitude,
-        ("" | "degrees" | "degree", name) if name.starts_with("lat") => Side::Latitude,
-        ("" | "degrees" | "degree", name) if name.starts_with("lon") => Side::Longitude,
+        (units, _) if NORTH.contains(&units) => Side::Latitude,
+        (units, _) if EAST.contains(&units) => Side::Longitude,
+        (units, name) if EITHER.contains(&units) && name.starts_with("lat") => Side::Latitude,
+        (units, name) if EITHER.contains(&units) && name.starts_with("lon") => Side::Longitude,
         (units, "y" | "north" | "northing") if METRES.contains(&units) => Side::Northing,
         (units, "x" | "east" | "easting") if METRES.contains(&units) => Side::Easting,
         _ => {
-            let said = if units.is_empty() { "has no units".to_string() } else { format!("is in `{units}`") };
-            let message = format!("`{name}` {said}: it is neither latitude, longitude, nor metres of `y` or `x`");
+            let said = said_units(&units);
+            let message = format!("`{short}` {said}: it is neither latitude, longitude, nor metres of `y` or `x`");
             let help =
-                format!("say it with `ncatted -a units,{name},o,c,degrees_north FILE.nc`, `degrees_east` or `m`");
+                format!("say it with `ncatted -a units,{short},o,c,degrees_north FILE.nc`, `degrees_east` or `m`");
             return Err(Fault::new(message, help));
         }
     };
-    Ok((side, Axis::through(name, &stored(file, variable)?)?))
+    let packing = Packing::of(variable)?;
+    let mut places = file.values(variable)?;
+    places.iter_mut().for_each(|place| *place = packing.value(*place));
+    Ok((side, Axis::through(name, &places)?))
 }
 
-/// The values of a variable with its scale and offset.
-fn stored(file: &Classic, variable: &Variable) -> Result<Vec<f64>, Fault> {
-    let (scale, offset) = scaling(variable)?;
-    let mut values = file.values(variable)?;
-    values.iter_mut().for_each(|value| *value = *value * scale + offset);
-    Ok(values)
-}
-
-fn scaling(variable: &Variable) -> Result<(f64, f64), Fault> {
-    let number = |name: &str, default: f64| match variable.numbers(name).as_slice() {
-        [] => Ok(default),
-        [value] if value.is_finite() && (name == "add_offset" || *value != 0.0) => Ok(*value),
-        other => {
-            let message = format!("`{}:{name}` is {other:?}", variable.name);
-            Err(Fault::new(
-                message,
-                format!("it must be one number; take it away with `ncatted -a {name},{},d,,`", variable.name),
-            ))
-        }
-    };
-    Ok((number("scale_factor", 1.0)?, number("add_offset", 0.0)?))
+/// What a variable says of its units, for a message.
+fn said_units(units: &str) -> String {
+    if units.is_empty() { "has no units".to_string() } else { format!("is in `{}`", shortened(units)) }
 }
 
 /// The depths of the bottom's variable, all faults of its cells told.
 fn depths(file: &Classic, bottom: &Variable, columns: u32, faults: &mut Faults) -> Option<Vec<f64>> {
-    let name = bottom.name;
+    let name = &shortened(bottom.name);
     let units = bottom.text("units").unwrap_or_default();
     if !METRES.contains(&units.to_ascii_lowercase().as_str()) {
-        let said = if units.is_empty() { "has no units".to_string() } else { format!("is in `{units}`") };
         let help = format!("convert it, and say so with `ncatted -a units,{name},o,c,m FILE.nc`");
-        faults.add(format!("`{name}` {said}: depths are read in metres"), help);
+        faults.add(format!("`{name}` {}: depths are read in metres", said_units(units)), help);
         return None;
     }
     let down = match bottom.text("positive").map(str::to_ascii_lowercase).as_deref() {
         Some("down") => true,
         Some("up") => false,
-        None => [name, bottom.text("standard_name").unwrap_or_default()]
+        None => [bottom.name, bottom.text("standard_name").unwrap_or_default()]
             .iter()
             .any(|n| n.to_ascii_lowercase().contains("depth")),
         Some(other) => {
             let help =
                 format!("say `up` for elevations, `down` for depths: `ncatted -a positive,{name},o,c,up FILE.nc`");
-            faults.add(format!("`{name}:positive` is `{other}`"), help);
+            faults.add(format!("`{name}:positive` is `{}`", shortened(other)), help);
             return None;
         }
     };
-    let (scale, offset) = faults.take(scaling(bottom))?;
-    let raw = faults.take(file.values(bottom))?;
-    let mut nothing = bottom.numbers("_FillValue");
-    if nothing.is_empty() {
-        nothing.extend(bottom.kind.fill());
-    }
-    nothing.extend(bottom.numbers("missing_value"));
+    let packing = faults.take(Packing::of(bottom))?;
+    let stored = faults.take(file.values(bottom))?;
     let sign = if down { 1.0 } else { -1.0 };
     let before = faults.count();
-    let mut depths = Vec::with_capacity(raw.len());
-    for (i, &value) in raw.iter().enumerate() {
-        let depth = 0.0 + sign * (value * scale + offset);
-        let place = || format!("`{name}({}, {})`", i / columns as usize, i % columns as usize);
-        if !value.is_finite() || nothing.contains(&value) {
-            faults.add(format!("{} is no data ({value})", place()), FILL);
+    let place = |i: usize| format!("`{name}({}, {})`", i / columns as usize, i % columns as usize);
+    let mut depths = Vec::with_capacity(stored.len());
+    for (i, &value) in stored.iter().enumerate() {
+        let depth = 0.0 + sign * packing.value(value);
+        let fault = if packing.is_nothing(value) {
+            Some((format!("{} is no data ({})", place(i), told(value)), FILL.to_string()))
+        } else if packing.is_invalid(value) {
+            Some((format!("{} is no data: {} is outside its valid range", place(i), told(value)), FILL.to_string()))
         } else if !is_on_earth(depth) {
             let help = "if it stands for no data, give it to `missing_value` and fill it; if the unit is not metres, convert it";
-            faults.add(format!("{} is {value}: neither water nor land on earth", place()), help);
+            Some((format!("{} is {}: neither water nor land on earth", place(i), told(value)), help.to_string()))
+        } else {
+            None
+        };
+        depths.push(if fault.is_some() { f64::NAN } else { depth });
+        fault.into_iter().for_each(|(message, help)| faults.add(message, help));
+    }
+    if !packing.is_bounded() {
+        // A mark may be one as it is stored, or as it is meant.
+        let sound = || stored.iter().zip(&depths).filter(|(_, depth)| depth.is_finite());
+        let marks = marks::undeclared(sound().map(|(value, _)| *value));
+        let meant = marks::undeclared(sound().map(|(_, depth)| *depth));
+        let is_mark = |(_, (value, depth)): &(usize, (&f64, &f64))| marks.contains(value) || meant.contains(depth);
+        for (i, (value, _)) in stored.iter().zip(&depths).enumerate().filter(is_mark) {
+            let value = told(*value);
+            faults.add(
+                format!("{} is {value}: far from all other cells, as a mark for no data is", place(i)),
+                format!(
+                    "if it is one, say so with `ncatted -a _FillValue,{name},o,{},{value} FILE.nc`, and {FILL}; if the \
+                     water is so deep, give `{name}` a `valid_range`",
+                    bottom.kind.letter()
+                ),
+            );
         }
-        depths.push(depth);
     }
     (faults.count() == before).then_some(depths)
 }

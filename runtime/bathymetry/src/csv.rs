@@ -7,19 +7,22 @@
 //!
 //! The head begins with `#`. It gives two axes, `lon` and `lat` in degrees or `east` and `north` in metres, each as
 //! `FIRST..LAST n=COUNT`, and the word `metres`. Rows run from south to north, cells from west to east, separated by commas.
-//! They are elevations, negative below the surface; with the word `depth` in the head they are depths, positive down. With
-//! `nodata=VALUE` cells of that value are known to hold nothing. Other words of the head are remarks, as are further lines
-//! that begin with `#`; blank lines count for nothing.
+//! They are elevations, negative below the surface; where the head says `depth in metres` they are depths, positive down. With
+//! `nodata=VALUE` cells of that value are known to hold nothing, and with `nodata=none` all cells to hold depths. Other words of
+//! the head are remarks, as are further lines that begin with `#`; blank lines count for nothing.
 
 use crate::axis::Axis;
-use crate::fault::{Fault, Faults};
-use crate::survey::{Kind, Survey, check_size, is_on_earth, on_the_globe};
+use crate::fault::{Fault, Faults, counted, shortened};
+use crate::marks;
+use crate::survey::{Kind, Survey, check_size, is_on_earth, on_a_plane, on_the_globe};
 
 /// What a head line looks like, for who has none.
 const HEAD: &str = "begin it with a line such as `# lon 140.0..144.9 n=60 lat 10.0..14.0 n=49 metres`, or with \
      `# east 0..500 n=51 north 0..300 n=31 metres`";
 /// The mend of cells that hold nothing.
 const FILL: &str = "fill it, such as with `gdal_fillnodata`, or cut out a part without such cells";
+/// The unit that is read.
+const METRES: [&str; 5] = ["metres", "meters", "metre", "meter", "m"];
 /// Units of depth that are not read.
 const OTHER_UNITS: [&str; 12] = [
     "feet",
@@ -43,7 +46,25 @@ struct Head<'a> {
     east: Option<Side<'a>>,
     in_metres: bool,
     is_depth: bool,
-    nodata: Option<f64>,
+    nodata: Nodata,
+}
+
+/// What a head says of cells that hold nothing.
+#[derive(Clone, Copy, Default, PartialEq)]
+enum Nodata {
+    #[default]
+    Unsaid,
+    /// There are none.
+    None,
+    Value(f64),
+}
+
+/// The cells of a text, row after row. What is no depth, and is told, is not a number.
+#[derive(Default)]
+struct Cells {
+    depths: Vec<f64>,
+    /// The lines of whole rows.
+    lines: Vec<usize>,
 }
 
 /// One axis of a head line, as it is written.
@@ -68,6 +89,13 @@ pub(crate) fn read(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
             return None;
         }
     };
+    if text.contains('\r') && !text.contains('\n') {
+        faults.add(
+            "the file is one line: it ends its lines with carriage returns alone",
+            "mend it with `tr '\\r' '\\n'`",
+        );
+        return None;
+    }
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let Some((_, first)) = lines.next() else {
         faults.add("the file is empty", HEAD);
@@ -82,26 +110,29 @@ pub(crate) fn read(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
     let cells = faults.take(check_size(u64::from(north.count), u64::from(east.count)))?;
     let rows = lines.filter(|(_, line)| !line.trim_start().starts_with('#'));
     // Each cell takes two bytes at least.
-    let mut depths = Vec::with_capacity((cells as usize).min(bytes.len() / 2 + 1));
+    let depths = Vec::with_capacity((cells as usize).min(bytes.len() / 2 + 1));
+    let mut cells = Cells { depths, ..Cells::default() };
     let mut count = 0;
     for (i, row) in rows {
         count += 1;
         if count <= north.count {
-            head.row(i + 1, row, east.count, &mut depths, faults);
+            head.row(i + 1, row, east.count, &mut cells, faults);
         }
     }
     if count != north.count {
-        let message = format!("there are {count} rows, and the head says n={}", north.count);
+        let (are, rows) = (if count == 1 { "is" } else { "are" }, counted(u64::from(count), "row"));
+        let message = format!("there {are} {rows}, and the head says n={}", north.count);
         faults.add(message, "give a row for each place from south to north, or correct the head's `n=`");
     }
-    Some(Survey { kind, north, east, depths })
+    head.check_marks(&cells, east.count, faults);
+    Some(Survey { kind, north, east, depths: cells.depths })
 }
 
 impl<'a> Head<'a> {
     fn read(words: &'a str, faults: &mut Faults) -> Option<Head<'a>> {
         let mut head = Head::default();
         let before = faults.count();
-        let mut words = words.split([' ', '\t', ',', ';']).filter(|word| !word.is_empty());
+        let mut words = words.split([' ', '\t', ',', ';']).filter(|word| !word.is_empty()).peekable();
         while let Some(word) = words.next() {
             match word.to_ascii_lowercase().as_str() {
                 name @ ("lat" | "latitude" | "north" | "lon" | "longitude" | "east") => {
@@ -113,8 +144,20 @@ impl<'a> Head<'a> {
                     }
                     *place = side;
                 }
-                "metres" | "meters" | "metre" | "meter" | "m" => head.in_metres = true,
-                "depth" | "depths" => head.is_depth = true,
+                word if METRES.contains(&word) => head.in_metres = true,
+                "depth" | "depths" => {
+                    // In a remark the word must not turn the bottom upside down.
+                    words.next_if(|next| next.eq_ignore_ascii_case("in"));
+                    if words.peek().is_some_and(|next| is_unit(&next.to_ascii_lowercase())) {
+                        head.is_depth = true;
+                    } else {
+                        faults.add(
+                            format!("line 1 says `{word}`, but not of what"),
+                            "if the cells are depths, write `depth in metres`; a remark can stand on a line of its own that \
+                             begins with `#`",
+                        );
+                    }
+                }
                 "north->south" => {
                     faults
                         .add("line 1 says `north->south`: rows run from south to north", "turn them round with `tac`");
@@ -127,13 +170,15 @@ impl<'a> Head<'a> {
                 }
                 other => {
                     if let Some(value) = other.strip_prefix("nodata=") {
-                        match value.parse() {
-                            Ok(value) => head.nodata = Some(value),
-                            Err(_) => faults.add(
-                                format!("line 1 says `{word}`, which is no number"),
-                                "write it such as `nodata=-9999`",
-                            ),
-                        }
+                        head.nodata = match value.parse() {
+                            _ if value == "none" => Nodata::None,
+                            Ok(value) => Nodata::Value(value),
+                            Err(_) => {
+                                let message = format!("line 1 says `{}`, which is no number", shortened(word));
+                                faults.add(message, "write it such as `nodata=-9999`, or `nodata=none`");
+                                Nodata::None
+                            }
+                        };
                     }
                 }
             }
@@ -159,7 +204,7 @@ impl<'a> Head<'a> {
         let is_geodetic = |side: &Side| !matches!(side.name.to_ascii_lowercase().as_str(), "north" | "east");
         match (is_geodetic(north), is_geodetic(east)) {
             (true, true) => on_the_globe(rows, columns, faults).map(|(rows, columns)| (Kind::Geodetic, rows, columns)),
-            (false, false) => Some((Kind::Local, rows, columns)),
+            (false, false) => on_a_plane(rows, columns, faults).map(|(rows, columns)| (Kind::Local, rows, columns)),
             _ => {
                 let message = format!("line 1 mixes degrees and metres: `{}` and `{}`", north.name, east.name);
                 faults.add(message, "give `lat` and `lon` in degrees, or `north` and `east` in metres");
@@ -169,43 +214,74 @@ impl<'a> Head<'a> {
     }
 
     /// Reads a row of the file; each cell's faults are told.
-    fn row(&self, line: usize, row: &str, columns: u32, depths: &mut Vec<f64>, faults: &mut Faults) {
-        let cells = row.split(',').count();
-        if cells as u64 != u64::from(columns) {
-            let message = format!("line {line} has {cells} cells, and the head says n={columns}");
+    fn row(&self, line: usize, row: &str, columns: u32, cells: &mut Cells, faults: &mut Faults) {
+        let count = row.split(',').count() as u64;
+        if count != u64::from(columns) {
+            let message = format!("line {line} has {}, and the head says n={columns}", counted(count, "cell"));
             return faults.add(message, "give a cell for each place from west to east, separated by commas");
         }
+        cells.lines.push(line);
         for (i, cell) in row.split(',').enumerate() {
             let cell = cell.trim();
-            let place = || format!("line {line}, cell {}", i + 1);
-            match cell.parse::<f64>() {
-                Ok(value) if value.is_finite() && Some(value) != self.nodata => {
-                    let depth = if self.is_depth { value } else { 0.0 - value };
-                    if is_on_earth(depth) {
-                        depths.push(depth);
-                    } else {
-                        let message = format!("{}: {cell} m is neither water nor land on earth", place());
-                        faults.add(
-                            message,
-                            "if it stands for no data, fill the cell; if the unit is not metres, convert it",
-                        );
-                    }
-                }
-                Ok(_) => faults.add(format!("{}: `{cell}` is no data", place()), FILL),
-                Err(_) if cell.is_empty() => faults.add(format!("{} is empty", place()), FILL),
-                Err(_) => faults.add(
-                    format!("{}: `{}` is no number", place(), shortened(cell)),
-                    "write metres with a point, such as `-12.5`; cells are separated by commas",
-                ),
-            }
+            let depth = faults.take(self.depth(cell, || format!("line {line}, cell {}", i + 1)));
+            cells.depths.push(depth.unwrap_or(f64::NAN));
         }
     }
+
+    /// The depth in a cell.
+    fn depth(&self, cell: &str, place: impl Fn() -> String) -> Result<f64, Fault> {
+        let short = || shortened(cell);
+        match cell.parse::<f64>() {
+            Ok(value) if value.is_finite() && Nodata::Value(value) != self.nodata => {
+                let depth = self.turned(value);
+                if is_on_earth(depth) {
+                    return Ok(depth);
+                }
+                let help = "if it stands for no data, fill the cell; if the unit is not metres, convert it";
+                Err(Fault::new(format!("{}: {} m is neither water nor land on earth", place(), short()), help))
+            }
+            Ok(_) => Err(Fault::new(format!("{}: `{}` is no data", place(), short()), FILL)),
+            Err(_) if cell.is_empty() => Err(Fault::new(format!("{} is empty", place()), FILL)),
+            Err(_) => Err(Fault::new(
+                format!("{}: `{}` is no number", place(), short()),
+                "write metres with a point, such as `-12.5`; cells are separated by commas",
+            )),
+        }
+    }
+
+    /// A depth from what a cell says, or the other way.
+    fn turned(&self, value: f64) -> f64 {
+        if self.is_depth { value } else { 0.0 - value }
+    }
+
+    /// Where the head does not say what stands for nothing, the cells may.
+    fn check_marks(&self, cells: &Cells, columns: u32, faults: &mut Faults) {
+        let marks =
+            if self.nodata == Nodata::None { Vec::new() } else { marks::undeclared(cells.depths.iter().copied()) };
+        for (i, depth) in cells.depths.iter().enumerate().filter(|(_, depth)| marks.contains(depth)) {
+            let (row, cell) = (i / columns as usize, i % columns as usize + 1);
+            let (line, value) = (cells.lines.get(row).copied().unwrap_or_default(), self.turned(*depth));
+            faults.add(
+                format!("line {line}, cell {cell}: {value} lies far from all other cells, as a mark for no data does"),
+                format!(
+                    "if it is one, say `nodata={value}` in the head and fill the cell, or cut out a part without such \
+                         cells; if the water is so deep, say `nodata=none`"
+                ),
+            );
+        }
+    }
+}
+
+/// Whether a word is a unit of depth.
+fn is_unit(word: &str) -> bool {
+    METRES.contains(&word) || OTHER_UNITS.contains(&word)
 }
 
 impl<'a> Side<'a> {
     fn read(name: &'a str, range: Option<&str>, count: Option<&str>) -> Result<Side<'a>, Fault> {
         let ends = range.and_then(|range| {
-            let (first, last) = range.split_once("..")?;
+            // `0...5` may be meant to end at 5 or at 0.5.
+            let (first, last) = range.split_once("..").filter(|(_, last)| !last.starts_with('.'))?;
             Some((first.parse::<f64>().ok()?, last.parse::<f64>().ok()?))
         });
         let count = count.and_then(|count| count.strip_prefix("n=")?.parse::<u64>().ok());
@@ -217,10 +293,4 @@ impl<'a> Side<'a> {
             }
         }
     }
-}
-
-/// The beginning of a text, for a message.
-fn shortened(text: &str) -> String {
-    const LONGEST: usize = 20;
-    if text.chars().count() <= LONGEST { text.to_string() } else { text.chars().take(LONGEST).chain(['…']).collect() }
 }

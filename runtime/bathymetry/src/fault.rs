@@ -7,6 +7,41 @@ const TOLD_MAX: usize = 12;
 pub(crate) const CUT_IT: &str =
     "cut out the part that is needed, such as with `ncks -d lat,10.,12. -d lon,140.,143. IN.nc OUT.nc`";
 
+/// So many characters of a file's own text stand in a message at most.
+const QUOTED_MAX: usize = 40;
+
+/// The beginning of a file's own text, for a message: whoever made the file made it as long as it pleased.
+pub(crate) fn shortened(text: &str) -> String {
+    match text.char_indices().nth(QUOTED_MAX) {
+        None => text.to_string(),
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
+}
+
+/// The first of some names of a file, for a message.
+pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    const MOST: usize = 8;
+    let mut names = names.into_iter();
+    let told: Vec<String> = names.by_ref().take(MOST).map(shortened).collect();
+    told.join(", ") + if names.next().is_some() { ", …" } else { "" }
+}
+
+/// A number of a file in few digits: those of single precision where it has no more, and powers of ten where it is enormous.
+pub(crate) fn told(number: f64) -> String {
+    let (size, single) = (number.abs(), number as f32);
+    match (size == 0.0 || (1e-6..1e15).contains(&size), f64::from(single) == number) {
+        (true, true) => single.to_string(),
+        (true, false) => number.to_string(),
+        (false, true) => format!("{single:e}"),
+        (false, false) => format!("{number:e}"),
+    }
+}
+
+/// A number of things, each called so.
+pub(crate) fn counted(count: u64, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
 /// One fault of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {

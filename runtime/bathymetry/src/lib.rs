@@ -11,6 +11,7 @@ mod classic;
 mod conventions;
 mod csv;
 mod fault;
+mod marks;
 mod survey;
 
 pub use axis::Axis;
@@ -24,9 +25,14 @@ pub const FILE_BYTES_MAX: u64 = 40_000_000;
 /// A grid has at most this many cells: 2000 a side.
 pub const CELLS_MAX: u64 = 4_000_000;
 
+/// What an HDF5 file begins with, behind a block of the user's own if it has one.
+const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
+/// The smallest such block, bytes; each larger one is twice as large (HDF5 File Format Specification, II.A).
+const USER_BLOCK: usize = 512;
+
 /// Files that are neither text nor NetCDF classic by how they begin, what they are, and what makes a file of them that is.
 const FOREIGN: [(&[u8], &str, &str); 7] = [
-    (b"\x89HDF\r\n\x1a\n", "a NetCDF-4 (HDF5) file", "convert it with `nccopy -k classic IN.nc OUT.nc`"),
+    (HDF5, "a NetCDF-4 (HDF5) file", "convert it with `nccopy -k classic IN.nc OUT.nc`"),
     (b"CDF\x05", "a NetCDF file with 64-bit data (CDF-5)", "convert it with `nccopy -k classic IN.nc OUT.nc`"),
     (b"II*\0", "a TIFF file", "convert it with `gdal_translate -of netCDF -co FORMAT=NC IN.tif OUT.nc`"),
     (b"MM\0*", "a TIFF file", "convert it with `gdal_translate -of netCDF -co FORMAT=NC IN.tif OUT.nc`"),
@@ -56,9 +62,25 @@ fn read_into(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
         faults.add(format!("the file has {megabytes:.1} MB: {most} MB are read at most"), fault::CUT_IT);
         return None;
     }
-    if let Some((_, what, mend)) = FOREIGN.iter().find(|(magic, ..)| bytes.starts_with(magic)) {
+    if let Some((_, what, mend)) = FOREIGN.iter().find(|(magic, ..)| begins(bytes, magic)) {
         faults.add(format!("this is {what}: only CSV and NetCDF classic are read"), *mend);
         return None;
     }
-    if bytes.starts_with(b"CDF") { conventions::read(bytes, faults) } else { csv::read(bytes, faults) }
+    let is_netcdf = bytes.starts_with(b"CDF");
+    let survey = if is_netcdf { conventions::read(bytes, faults) } else { csv::read(bytes, faults) }?;
+    if faults.count() == 0 && survey.depths.iter().all(|depth| *depth <= 0.0) {
+        let so =
+            if is_netcdf { "give the variable `positive = \"down\"`" } else { "write `depth in metres` in the head" };
+        faults.add("no cell lies under water", format!("elevations are negative there: if these are depths, {so}"));
+    }
+    Some(survey)
+}
+
+/// Whether a file begins so, in letters of either case.
+fn begins(bytes: &[u8], magic: &[u8]) -> bool {
+    let at = |place: usize| bytes.get(place..).is_some_and(|rest| rest.starts_with(magic));
+    let mut user_blocks =
+        std::iter::successors(Some(USER_BLOCK), |size| Some(2 * size)).take_while(|size| *size < bytes.len());
+    bytes.get(..magic.len()).is_some_and(|first| first.eq_ignore_ascii_case(magic))
+        || (magic == HDF5 && user_blocks.any(at))
 }

@@ -72,7 +72,7 @@ fn remarks_blank_lines_and_the_line_ends_of_others_count_for_nothing() {
 fn rows_and_cells_that_are_too_many_or_too_few_are_counted() {
     wrong(&SMALL.replace("-1,-2,-3", "-1,-2"), "line 2 has 2 cells, and the head says n=3");
     wrong(&SMALL.replace("5.5,6", "5.5,6,7"), "line 3 has 4 cells, and the head says n=3");
-    wrong(&SMALL.replace("-4,-5.5,6\n", ""), "there are 1 rows, and the head says n=2");
+    wrong(&SMALL.replace("-4,-5.5,6\n", ""), "there is 1 row, and the head says n=2");
     wrong(&format!("{SMALL}1,2,3\n4,5,6"), "there are 4 rows, and the head says n=2");
 }
 
@@ -87,6 +87,52 @@ fn cells_that_hold_nothing_or_no_number_are_named() {
         &SMALL.replace("metres", "metres nodata=-999").replace("-5.5", "-999.0"),
         "line 3, cell 2: `-999.0` is no data",
     );
+}
+
+#[test]
+fn a_mark_that_nobody_declared_is_known_by_standing_apart() {
+    let apart = "line 3, cell 2: -9999 lies far from all other cells, as a mark for no data does";
+    wrong(&SMALL.replace("-5.5", "-9999"), apart);
+    wrong(&SMALL.replace("-5.5", "-9999.00").replace("metres", "metres nodata=-1e9"), apart);
+    let help = faults(&SMALL.replace("-5.5", "-9999")).remove(0).help;
+    assert!(help.contains("`nodata=-9999`") && help.contains("`nodata=none`"), "{help}");
+    let meant = read(SMALL.replace("-5.5", "-9999").replace("metres", "metres nodata=none").as_bytes());
+    assert_eq!(meant.unwrap().depths[4], 9_999.0);
+    let down = SMALL.replace("metres", "depth in metres");
+    wrong(&down.replace("-5.5", "9999"), &apart.replace("-9999", "9999"));
+    // After a row that cannot be read the others keep their lines.
+    let found = faults("# east 0..1 n=2 north 0..2 n=3 metres\n-1\n\n-2,x\n-3,-9999\n");
+    let found: Vec<&str> = found.iter().map(|fault| fault.message.as_str()).collect();
+    let apart = "line 5, cell 2: -9999 lies far from all other cells, as a mark for no data does";
+    assert_eq!(found, ["line 2 has 1 cell, and the head says n=2", "line 4, cell 2: `x` is no number", apart]);
+}
+
+#[test]
+fn a_remark_does_not_turn_the_bottom_upside_down() {
+    wrong(&SMALL.replace("metres", "metres, sounded by the depth sounder"), "line 1 says `depth`, but not of what");
+    wrong(&SMALL.replace("metres", "metres depth"), "line 1 says `depth`, but not of what");
+    for said in ["depth metres", "Depths in Metres", "depth in m"] {
+        assert_eq!(read(SMALL.replace("metres", said).as_bytes()).unwrap().depths[0], -1.0, "{said}");
+    }
+    wrong("# east 0..1 n=2 north 0..1 n=2 metres\n1,2\n3,4\n", "no cell lies under water");
+}
+
+/// A file that is one long word gets a message of a line.
+#[test]
+fn messages_do_not_grow_with_the_file() {
+    let long = "7".repeat(1_000_000);
+    for text in [
+        SMALL.replace("metres", &format!("metres nodata={long}x")),
+        SMALL.replace("-5.5", &long),
+        SMALL.replace("-5.5", &format!("{long}x")),
+        SMALL.replace("metres", &format!("metres nodata={long}")).replace("-5.5", &long),
+        SMALL.replace("n=3", &format!("n={long}")),
+        SMALL.replace("0..20", &format!("{long}..20")),
+    ] {
+        for Fault { message, help } in faults(&text) {
+            assert!(message.len() < 200 && help.len() < 200, "{message}: {help}");
+        }
+    }
 }
 
 #[test]
@@ -114,9 +160,16 @@ fn heads_that_say_too_little_or_what_cannot_be() {
     wrong(&SMALL.replace(" metres", ""), "line 1 does not say in which unit the depths are");
     wrong(&SMALL.replace("metres", "feet"), "line 1 says `feet`: depths are read in metres");
     wrong(&SMALL.replace("n=3 ", "n=x "), "line 1: `east` is not followed by its ends and its count");
+    // Which of the two points is the one of the number?
+    wrong(&SMALL.replace("0..20", "0...5"), "line 1: `east` is not followed by its ends and its count");
+    let n = SMALL.replace("n=3", "n=18446744073709551615");
+    wrong(&n, &format!("`east` has 18446744073709551615 places: {CELLS_MAX} cells are read at most"));
+    wrong(&SMALL.replace("0..20", "0..1e308"), "the survey runs eastward from 0 to 1e308 metres");
+    wrong(&SMALL.replace("0..20", "0..1e-320"), "the survey's places lie 5e-321 m apart eastward");
+    wrong(&SMALL.replace('\n', "\r"), "the file is one line: it ends its lines with carriage returns alone");
     wrong(&SMALL.replace("0..20", "20..0"), "`east` runs from 20 to 0: it must ascend");
     wrong(&SMALL.replace("0..20", "0..inf"), "`east` runs from 0 to inf");
-    wrong(&SMALL.replace("0..20 n=3", "0..20 n=1"), "`east` has 1 places: a grid has two or more");
+    wrong(&SMALL.replace("0..20 n=3", "0..20 n=1"), "`east` has 1 place: a grid has two or more");
     wrong(&SMALL.replace("east", "lon"), "line 1 mixes degrees and metres: `north` and `lon`");
     wrong(&SMALL.replace("metres", "metres east 0..9 n=2"), "line 1 gives two axes such as `east`");
     wrong(
@@ -130,8 +183,8 @@ fn heads_that_say_too_little_or_what_cannot_be() {
 #[test]
 fn sizes_beyond_the_limits_are_refused_before_anything_is_made() {
     wrong(
-        "# east 0..9 n=4000000000 north 0..9 n=4000000000 metres\n1,2\n",
-        &format!("the grid has 4000000000 rows of 4000000000 cells: {CELLS_MAX} cells are read at most"),
+        "# east 0..9e6 n=4000000 north 0..9e6 n=4000000 metres\n1,2\n",
+        &format!("the grid has 4000000 rows of 4000000 cells: {CELLS_MAX} cells are read at most"),
     );
     let large = vec![b' '; FILE_BYTES_MAX as usize + 1];
     assert_eq!(read(&large).unwrap_err().faults[0].message, "the file has 40.0 MB: 40 MB are read at most");
@@ -144,6 +197,9 @@ fn files_of_other_kinds_are_told_by_their_name() {
     let of = |bytes: &[u8]| read(bytes).unwrap_err().faults.remove(0);
     let hdf = of(b"\x89HDF\r\n\x1a\n\0\0\0");
     assert!(hdf.message.contains("HDF5") && hdf.help.contains("nccopy -k classic"), "{hdf:?}");
+    let behind = [vec![0; 1024], b"\x89HDF\r\n\x1a\n\0\0".to_vec()].concat();
+    assert!(of(&behind).message.contains("HDF5"), "behind a block of the user's own");
+    assert!(of(b"NCOLS 4\nnrows 3\n").message.contains("Esri ASCII"));
     assert!(of(b"CDF\x05\0\0\0\0").help.contains("nccopy -k classic"));
     assert!(of(b"II*\0rest").message.contains("TIFF"));
     assert!(of(b"ncols 4\nnrows 3\n").message.contains("Esri ASCII"));

@@ -8,12 +8,12 @@ use albacore_geometry::{Geodetic, Point, TangentFrame};
 const MIDDLE: Placing = Placing { at: Some(Point { north: 10.0, east: -20.0 }), share: (0.5, 0.5), scale: 1.0 };
 
 fn local() -> Survey {
-    read(b"# east 0..20 n=3 north -5..5 n=2 metres\n1,2,3\n4,5,6\n").unwrap()
+    read(b"# east 0..20 n=3 north -5..5 n=2 depth in metres\n1,2,3\n4,5,6\n").unwrap()
 }
 
 /// Two degrees by two about 11 N 142 E, or as far west as 218 W.
 fn geodetic(west: f64) -> Survey {
-    let head = format!("# lon {west}..{} n=2 lat 10..12 n=2 metres", west + 2.0);
+    let head = format!("# lon {west}..{} n=2 lat 10..12 n=2 depth in metres", west + 2.0);
     read(format!("{head}\n1,2\n4,5\n").as_bytes()).unwrap()
 }
 

@@ -56,6 +56,9 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
             findings.extend(faults.into_iter().map(|fault| fault.at(&clause)));
         }
     }
+    if findings.is_empty() {
+        findings.extend(bottom::elsewhere(program, &understood.world));
+    }
     if findings.is_empty() { Ok(understood) } else { Err(findings) }
 }
 

@@ -8,7 +8,7 @@ use albacore_geometry::{Point, TangentFrame, Vector};
 use albacore_lang::source::Source;
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue, Script, doc};
 use albacore_program::{AREA_CORNER_WORDS, Shape, number};
-use albacore_sim::{Scenario, Simulator};
+use albacore_sim::{Grid, Ground, Scenario, Simulator};
 use albacore_trace::{Depths, Picture};
 use std::path::Path;
 
@@ -55,6 +55,11 @@ impl Shown {
         let teller = Teller { words: &words, frame: lowered.origin.map(|origin| TangentFrame { origin }) };
         for clause in &lowered.clauses {
             teller.tell(clause, "", true, &mut clauses);
+            if let ("bottom_grid", Ground::Grid(grid), Some(told)) =
+                (clause.name.as_str(), &world.bottom.ground, clauses.last_mut())
+            {
+                told.values.extend(teller.survey(grid));
+            }
         }
         let said = |name: &str| lowered.clauses.iter().any(|clause| clause.name == name);
         let mut absent = Vec::new();
@@ -177,6 +182,26 @@ impl Teller<'_> {
             }
             _ => number::brief(&[], shape, words),
         }
+    }
+
+    /// What a survey came to be: where its corners lie, how large it is, and how deep.
+    fn survey(&self, grid: &Grid) -> Vec<(String, String, bool)> {
+        let Grid { south_west, north_east, rows, columns, depths } = grid;
+        let size = *north_east - *south_west;
+        let length = |m: f64| if m < 10_000.0 { format!("{m:.1} m") } else { format!("{:.1} km", m / 1000.0) };
+        let (step, across) = (size.north / f64::from(rows - 1), size.east / f64::from(columns - 1));
+        let ends = |(low, high): (f64, f64), depth: &f64| (low.min(*depth), high.max(*depth));
+        let (least, most) = depths.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let land = depths.iter().filter(|depth| **depth <= 0.0).count();
+        let on_land = if land == 0 { String::new() } else { format!(", {land} cells on land") };
+        let told = [
+            ("south-west", self.point(*south_west)),
+            ("north-east", self.point(*north_east)),
+            ("size", format!("{} north, {} east", length(size.north), length(size.east))),
+            ("cells", format!("{rows} x {columns}, each {} x {}", length(step), length(across))),
+            ("depths", format!("{least:.1} m to {most:.1} m{on_land}")),
+        ];
+        told.into_iter().map(|(name, value)| (name.to_string(), value, false)).collect()
     }
 
     /// A place in the frame, and on the globe if it lies there.

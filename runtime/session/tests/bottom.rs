@@ -90,7 +90,7 @@ fn all_that_is_wrong_with_a_survey_is_told_at_its_clause() {
     let found = refused(&folder, "bottom_grid(\"bad.csv\")");
     let messages: Vec<&str> = found.iter().map(|f| f.message.as_str()).collect();
     let expected =
-        ["`bad.csv`: line 2, cell 2: `nan` is no data", "`bad.csv`: line 3 has 1 cells, and the head says n=2"];
+        ["`bad.csv`: line 2, cell 2: `nan` is no data", "`bad.csv`: line 3 has 1 cell, and the head says n=2"];
     assert_eq!(messages, expected);
     assert!(found.iter().all(|f| f.help.is_some()));
 
@@ -101,6 +101,33 @@ fn all_that_is_wrong_with_a_survey_is_told_at_its_clause() {
     let grid = "bottom_grid(\"bathymetry/mariana.csv\", at: point(north: 0 m, east: 0 m))";
     let found = refused(&missions(), &format!("bottom(from: 20 m, to: 20 m)\n{grid}"));
     assert!(found[0].message.contains("one `bottom` or one `bottom_grid`"), "{found:#?}");
+}
+
+#[test]
+fn a_survey_that_lies_elsewhere_is_no_level_bottom() {
+    let folder = folder("elsewhere");
+    let utm = "# north 4000000..4000500 n=2 east 350000..350500 n=2 metres\n-10,-12\n-14,-16\n";
+    std::fs::write(folder.join("utm.csv"), utm).unwrap();
+    std::fs::write(folder.join("far.csv"), "# lon 100..101 n=2 lat -36..-35 n=2 metres\n-2,-3\n-4,-5\n").unwrap();
+    let start = |place: &str| format!("    vehicle(kinematic, start: {place})");
+    let at_origin = start("point(north: 0 m, east: 0 m)");
+    let found = refused(&folder, &format!("bottom_grid(\"utm.csv\")\n{at_origin}"));
+    let expected = "the vehicle starts 4015 km outside this survey, which lies 4000000 to 4000500 m north and 350000 to \
+        350500 m east";
+    assert_eq!((found.len(), found[0].message.as_str()), (1, expected));
+    assert!(found[0].help.as_ref().unwrap().contains("`at: point(north: 0 m, east: 0 m)`"), "{found:#?}");
+    let laid = "bottom_grid(\"utm.csv\", at: point(north: 0 m, east: 0 m))";
+    assert!(plan(&folder, &format!("{laid}\n{at_origin}")).is_ok());
+    let edge = start("point(north: 250 m, east: -250 m)");
+    assert!(plan(&folder, &format!("{laid}\n{edge}")).is_ok(), "its corner is part of it");
+    let found = refused(&folder, &format!("{laid}\n{}", start("point(north: 250 m, east: -251.5 m)")));
+    assert!(found[0].message.starts_with("the vehicle starts 1.5 m outside this survey"), "{found:#?}");
+    assert!(found[0].help.as_ref().unwrap().starts_with("move the one to the other"), "{found:#?}");
+    let duck = MISSION.replace("center: point(north: 0 m, east: 0 m)", "center: 36°10.8'N 75°44.4'W");
+    let text = format!("{duck}scenario w {{\nbottom_grid(\"far.csv\")\n{at_origin}\n}}\n");
+    let script = load_text(Source { name: folder.join("s.alb").display().to_string().into(), text: text.into() });
+    let found = findings(&script);
+    assert!(found.len() == 1 && found[0].message.contains(" km outside this survey"), "{found:#?}");
 }
 
 #[test]

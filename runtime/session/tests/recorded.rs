@@ -74,6 +74,34 @@ fn records_that_cannot_be_are_told_with_their_file() {
     }
 }
 
+/// A record whose binary is a byte too long, and one whose header says what cannot be: each fault has its mend.
+#[test]
+fn a_record_that_does_not_fit_together_is_told_with_its_mend() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("recorded");
+    let missions = concat!(env!("CARGO_MANIFEST_DIR"), "/../../missions/recorded");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("albacore.toml"), "").unwrap();
+    let header = std::fs::read_to_string(format!("{missions}/case_a.json")).unwrap();
+    let binary = std::fs::read(format!("{missions}/case_a.bin")).unwrap();
+    let told = |header: &str, binary: &[u8]| {
+        std::fs::write(folder.join("case_a.json"), header).unwrap();
+        std::fs::write(folder.join("case_a.bin"), binary).unwrap();
+        let text = "scenario s {\n    recorded_plume(\"case_a.json\")\n    \
+            vehicle(kinematic, start: point(north: 0 m, east: 0 m))\n}\n";
+        let name = folder.join("s.alb").display().to_string();
+        findings(&load_text(Source { name: name.into(), text: text.into() }))
+    };
+    assert_eq!(told(&header, &binary), []);
+    let longer = told(&header, &[&binary[..], &[0]].concat());
+    let (given, known) = (binary.len() + 1, binary.len());
+    let expected = format!("`case_a.json`: `case_a.bin` has {given} bytes: the header knows of {known}");
+    assert_eq!((longer.len(), longer[0].message.as_str()), (1, expected.as_str()));
+    let spoilt = header.replace("\"quantum_m\": 0.03125", "\"quantum_m\": 1e20");
+    let spoilt = spoilt.replace("\"byte_order\": \"little\"", "\"byte_order\": \"big\"");
+    let found = told(&spoilt, &binary);
+    assert!(found.len() == 2 && longer.iter().chain(&found).all(|finding| finding.help.is_some()), "{found:#?}");
+}
+
 const RECORD: &str = "recorded_plume(\"recorded/case_a.json\")";
 
 #[test]

@@ -26,6 +26,19 @@ use header::Kernel;
 pub struct RecordingError {
     /// One sentence each.
     pub faults: Vec<String>,
+    /// The mend of them all.
+    pub help: &'static str,
+}
+
+/// So many characters of a record's own text stand in a message at most.
+const QUOTED_MAX: usize = 60;
+
+/// The beginning of a record's own text, for a message.
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(QUOTED_MAX) {
+        None => text.to_string(),
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
 }
 
 /// A recorded plume, read and checked.
@@ -133,9 +146,7 @@ impl Recording {
 
     /// Where a filament is in a frame of its life.
     fn in_frame(&self, track: &Track, frame: usize) -> Point {
-        let [north, east] = self.places[track.row + frame - track.first];
-        let quantum = self.header.record.quantum_m;
-        Point::new(f64::from(north) * quantum, f64::from(east) * quantum)
+        self.header.place(self.places[track.row + frame - track.first])
     }
 
     fn kernel(&self) -> &Kernel {

@@ -2,6 +2,9 @@
 
 use crate::fault::Fault;
 
+/// A name has at most this many bytes: NC_MAX_NAME.
+const NAME_BYTES_MAX: u64 = 256;
+
 /// The mend of a file that ends too early or says what cannot be.
 pub(crate) const FETCH_AGAIN: &str = "fetch or write it again, and look at it with `ncdump -h`";
 
@@ -76,6 +79,9 @@ impl<'a> Bytes<'a> {
 
     pub fn name(&mut self, of: &str) -> Result<&'a str, Fault> {
         let length = self.count("the length of a name")?;
+        if length > NAME_BYTES_MAX {
+            return Err(self.wrong(format!("the name of {of} is {length} bytes long: {NAME_BYTES_MAX} are the most")));
+        }
         let bytes = self.padded(length, "a name")?;
         std::str::from_utf8(bytes).map_err(|_| self.wrong(format!("the name of {of} is no text in UTF-8")))
     }

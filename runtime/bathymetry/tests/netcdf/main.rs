@@ -6,7 +6,7 @@ mod writer;
 
 use albacore_bathymetry::{CELLS_MAX, Fault, Kind, Survey, Unreadable, read};
 use writer::File;
-use writer::Values::{Doubles, Shorts, Text};
+use writer::Values::{Doubles, Floats, Shorts, Text};
 
 fn data(name: &str) -> Vec<u8> {
     std::fs::read(format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
@@ -86,9 +86,153 @@ fn no_data_is_named_whatever_stands_for_it() {
     wrong(shorts(&[("missing_value", Doubles(vec![-998.0, -999.0]))], -998), "`elevation(1, 1)` is no data (-998)");
     wrong(shorts(&[], -32_767), "`elevation(1, 1)` is no data (-32767)");
     wrong(shorts(&[], 9_999), "`elevation(1, 1)` is 9999: neither water nor land on earth");
+    wrong(
+        numbers(Doubles(vec![-1.0, -2.0, -3.0, -4.0, 1e300, -6.0]), &[]),
+        "`elevation(1, 1)` is 1e300: neither water nor land on earth",
+    );
     let not_a_number =
         File::small().with("elevation", |v| v.values = Doubles(vec![-1.0, f64::NAN, -3.0, 0.0, 0.0, 0.0]));
     wrong(not_a_number, "`elevation(0, 1)` is no data (NaN)");
+}
+
+/// The small file with other numbers, and what is said of them beside their unit.
+fn numbers(values: writer::Values, said: &[(&'static str, writer::Values)]) -> File {
+    File::small().with("elevation", |v| {
+        v.values = values;
+        v.attributes.extend_from_slice(said);
+    })
+}
+
+#[test]
+fn a_mark_that_nobody_declared_is_known_by_standing_apart() {
+    let cells = |mark: f64| Doubles(vec![-12.0, -14.0, -16.0, -12.0, mark, -13.0]);
+    let apart = |mark: f64| format!("`elevation(1, 1)` is {mark}: far from all other cells, as a mark for no data is");
+    wrong(numbers(cells(-9_999.0), &[]), &apart(-9_999.0));
+    wrong(numbers(cells(-999.0), &[]), &apart(-999.0));
+    let down = Doubles(vec![12.0, 14.0, 16.0, 12.0, 9_999.0, 13.0]);
+    wrong(numbers(down, &[("positive", Text("down"))]), &apart(9_999.0));
+    let help = faults(&numbers(cells(-9_999.0), &[])).remove(0).help;
+    assert!(help.contains("`ncatted -a _FillValue,elevation,o,d,-9999 FILE.nc`"), "{help}");
+    // Another mark that is declared says nothing of this one; a range in which it lies does.
+    wrong(numbers(cells(-9_999.0), &[("_FillValue", Doubles(vec![f64::NAN]))]), &apart(-9_999.0));
+    let range = ("valid_range", Doubles(vec![-11_000.0, 9_000.0]));
+    assert_eq!(read(&numbers(cells(-9_999.0), &[range]).bytes(1)).unwrap().depths[4], 9_999.0);
+    // Packed, a mark of the stored numbers is a depth like any.
+    let packed = Shorts(vec![-120, -140, -160, -120, -32_768, -130]);
+    wrong(numbers(packed, &[("scale_factor", Doubles(vec![0.1]))]), &apart(-32_768.0));
+    let halves = Shorts(vec![-24, -28, -32, -24, -19_998, -26]);
+    wrong(numbers(halves, &[("scale_factor", Doubles(vec![0.5]))]), &apart(-19_998.0));
+}
+
+/// NetCDF Users Guide, appendix A.
+#[test]
+fn a_valid_range_is_honoured_as_it_is_stored_or_as_it_is_meant() {
+    let cells = || Shorts(vec![-10, -20, -30, -10, -90, -30]);
+    let outside = "`elevation(1, 1)` is no data: -90 is outside its valid range";
+    wrong(numbers(cells(), &[("valid_range", Shorts(vec![-50, 0]))]), outside);
+    wrong(numbers(cells(), &[("valid_min", Shorts(vec![-50]))]), outside);
+    wrong(numbers(cells(), &[("valid_max", Doubles(vec![100.0])), ("valid_min", Shorts(vec![-89]))]), outside);
+    let scale = ("scale_factor", Doubles(vec![0.1]));
+    wrong(numbers(cells(), &[scale.clone(), ("valid_min", Shorts(vec![-50]))]), outside);
+    wrong(numbers(cells(), &[scale.clone(), ("valid_min", Doubles(vec![-5.0]))]), outside);
+    assert!(read(&numbers(cells(), &[scale, ("valid_min", Doubles(vec![-50.0]))]).bytes(1)).is_ok());
+    let pair = "`elevation:valid_range` is no pair of numbers that ascend";
+    wrong(numbers(cells(), &[("valid_range", Shorts(vec![0, -50]))]), pair);
+    wrong(numbers(cells(), &[("valid_range", Shorts(vec![0]))]), pair);
+}
+
+#[test]
+fn a_text_where_numbers_belong_is_refused() {
+    let cells = || Doubles(vec![-10.0, -20.0, -30.0, -10.0, -90.0, -30.0]);
+    for name in ["scale_factor", "add_offset", "_FillValue", "missing_value", "valid_range", "valid_min", "valid_max"] {
+        let file = numbers(cells(), &[(name, Text("0.1"))]);
+        let help = faults(&file).remove(0).help;
+        assert_eq!(help, format!("write the number: `ncatted -a {name},elevation,o,d,0.1 FILE.nc`"));
+        wrong(file, &format!("`elevation:{name}` is the text `0.1`, where numbers belong"));
+        let many = numbers(cells(), &[(name, Doubles(vec![1.0; 100_000]))]);
+        wrong(many, &format!("`elevation:{name}` has 100000 values: 16 are the most"));
+    }
+    wrong(numbers(cells(), &[("scale_factor", Doubles(vec![1.0, 2.0]))]), "`elevation:scale_factor` has 2 values");
+    wrong(numbers(Text("abcdef"), &[]), "`elevation` holds text, and no numbers");
+}
+
+#[test]
+fn whole_numbers_without_a_sign_and_marks_in_another_precision_are_known() {
+    let depths = |said: &[(&'static str, writer::Values)]| {
+        let said = [&[("positive", Text("down"))], said].concat();
+        read(&numbers(Shorts(vec![1, 2, 3, 4, 5, -26_000]), &said).bytes(1))
+    };
+    assert!(depths(&[]).is_err(), "26 km high");
+    let quarter = ("scale_factor", Doubles(vec![0.25]));
+    assert_eq!(depths(&[quarter.clone(), ("_Unsigned", Text("true"))]).unwrap().depths[5], 9_884.0);
+    let filled = depths(&[quarter, ("_Unsigned", Text("true")), ("_FillValue", Shorts(vec![-26_000]))]);
+    assert_eq!(filled.unwrap_err().faults[0].message, "`elevation(1, 2)` is no data (39536)");
+    let single = Floats(vec![-10.0, -20.5, -20.1, -10.0, -20.0, -30.0]);
+    let found = faults(&numbers(single, &[("missing_value", Doubles(vec![-20.1]))]));
+    assert!(found.len() == 1 && found[0].message == "`elevation(0, 2)` is no data (-20.1)", "{found:#?}");
+}
+
+/// A file that says much in little room, or little in much, gets a message of a few lines.
+#[test]
+fn messages_do_not_grow_with_the_file() {
+    let long = |letters: usize| -> &'static str { "e".repeat(letters).leak() };
+    let units = File::small().with("elevation", |v| v.attributes = vec![("units", Text(long(1_000_000)))]);
+    let named = File::small().with("elevation", |v| {
+        v.name = long(200);
+        v.attributes.clear();
+    });
+    let sense = numbers(Doubles(vec![-1.0; 6]), &[("positive", Text(long(1_000_000)))]);
+    let scale = numbers(Doubles(vec![-1.0; 6]), &[("scale_factor", Text(long(1_000_000)))]);
+    // A variable over a thousand dimensions, all of one long name.
+    let mut wide = File::small();
+    wide.dimensions.push((long(250), 1));
+    wide.variables[1].dimensions = vec![2; 1000];
+    let mut axis = File::small().with("x", |v| v.name = long(200));
+    axis.dimensions[1].0 = long(200);
+    axis.variables[1].values = Doubles(vec![3.0, 2.0, 1.0]);
+    for file in [units, named, sense, scale, wide, axis] {
+        for Fault { message, help } in faults(&file) {
+            assert!(message.len() < 600 && help.len() < 400, "{} {}: {message}", message.len(), help.len());
+        }
+    }
+    wrong(
+        File::small().with("elevation", |v| v.name = long(300)),
+        "the header is wrong before byte 180: the name of a variable is 300 bytes long: 256 are the most",
+    );
+}
+
+#[test]
+fn degrees_in_all_their_spellings() {
+    let globe = |lat: &'static str, lon: &'static str| {
+        let mut file = File::small();
+        file.dimensions = vec![("lat", 2), ("lon", 3)];
+        for (variable, (name, units)) in file.variables.iter_mut().zip([("lat", lat), ("lon", lon)]) {
+            (variable.name, variable.attributes) = (name, vec![("units", Text(units))]);
+        }
+        file
+    };
+    let spellings = [("degree", "degree"), ("degrees", ""), ("degree_N", "degree_E"), ("degreesN", "degreesE")];
+    for (lat, lon) in [("degrees_north", "degrees_east"), ("degree_north", "degree_east")].into_iter().chain(spellings)
+    {
+        assert_eq!(read(&globe(lat, lon).bytes(1)).unwrap().kind, Kind::Geodetic, "{lat} {lon}");
+    }
+    wrong(
+        globe("metres north", "degrees"),
+        "`lat` is in `metres north`: it is neither latitude, longitude, nor metres of `y` or `x`",
+    );
+}
+
+#[test]
+fn a_single_row_and_a_bottom_without_water_are_told_as_what_they_are() {
+    let mut row = File::small();
+    row.dimensions[0].1 = 1;
+    row.variables[0].values = Doubles(vec![3.0]);
+    wrong(row, "`y` has 1 place: a grid has two or more");
+    let dry = numbers(Doubles(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), &[]);
+    assert!(faults(&dry)[0].help.contains("`positive = \"down\"`"));
+    wrong(dry, "no cell lies under water");
+    let far = File::small().with("y", |v| v.values = Doubles(vec![0.0, 3e9]));
+    wrong(far, "the survey runs northward from 0 to 3000000000 metres");
 }
 
 #[test]
@@ -107,7 +251,7 @@ fn units_and_sense_that_are_not_known() {
     );
     wrong(
         File::small().with("elevation", |v| v.attributes.push(("scale_factor", Doubles(vec![0.0])))),
-        "`elevation:scale_factor` is [0.0]",
+        "`elevation:scale_factor` is 0",
     );
 }
 

@@ -5,10 +5,11 @@
 pub enum Values {
     Text(&'static str),
     Shorts(Vec<i16>),
+    Floats(Vec<f32>),
     Doubles(Vec<f64>),
 }
 
-use Values::{Doubles, Shorts, Text};
+use Values::{Doubles, Floats, Shorts, Text};
 
 /// A variable: its name, its dimensions by their index, its attributes and its values.
 #[derive(Clone)]
@@ -31,6 +32,7 @@ impl Values {
         match self {
             Text(_) => 2,
             Shorts(_) => 3,
+            Floats(_) => 5,
             Doubles(_) => 6,
         }
     }
@@ -39,6 +41,7 @@ impl Values {
         match self {
             Text(text) => text.len(),
             Shorts(values) => values.len(),
+            Floats(values) => values.len(),
             Doubles(values) => values.len(),
         }
     }
@@ -47,6 +50,7 @@ impl Values {
         let bytes: Vec<u8> = match self {
             Text(text) => text.bytes().collect(),
             Shorts(values) => values.iter().flat_map(|v| v.to_be_bytes()).collect(),
+            Floats(values) => values.iter().flat_map(|v| v.to_be_bytes()).collect(),
             Doubles(values) => values.iter().flat_map(|v| v.to_be_bytes()).collect(),
         };
         padded(&bytes)

@@ -4,7 +4,10 @@ use super::clause::Clause;
 use super::{Fault, Understood, Wrong};
 use crate::files::Files;
 use albacore_bathymetry::{FILE_BYTES_MAX, Placing};
-use albacore_geometry::TangentFrame;
+use albacore_geometry::{Point, TangentFrame};
+use albacore_lang::ScenarioProgram;
+use albacore_lang::code::Code;
+use albacore_lang::diagnostic::Diagnostic;
 use albacore_sim::{Grid, Ground, NoGo, Pit, Plane, Scenario};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
@@ -49,6 +52,41 @@ pub fn grid(understood: &mut Understood, c: &Clause, files: &Files, frame: Optio
     digest.bytes(&bytes);
     understood.files.push(SourceDigest { name: path, digest: digest.value() });
     Ok(())
+}
+
+/// A vehicle that starts beyond its survey would swim over the depth of the nearest edge, which nobody means.
+pub fn elsewhere(program: &ScenarioProgram, world: &Scenario) -> Option<Diagnostic> {
+    let Ground::Grid(grid) = &world.bottom.ground else { return None };
+    let clause = program.clauses.iter().find(|clause| clause.name == "bottom_grid")?;
+    let (start, Grid { south_west, north_east, .. }) = (world.vehicle.start, grid.as_ref());
+    let nearest = Point::new(
+        start.north.clamp(south_west.north, north_east.north.max(south_west.north)),
+        start.east.clamp(south_west.east, north_east.east.max(south_west.east)),
+    );
+    let away = start.distance(nearest);
+    // A survey that was laid by its edge may end a rounding before it.
+    if away < 1e-3 {
+        return None;
+    }
+    let message = format!(
+        "the vehicle starts {} outside this survey, which lies {:.0} to {:.0} m north and {:.0} to {:.0} m east",
+        if away < 10_000.0 { format!("{away:.1} m") } else { format!("{:.0} km", away / 1000.0) },
+        south_west.north,
+        north_east.north,
+        south_west.east,
+        north_east.east,
+    );
+    let is_laid = Clause { clause, words: &super::words(program) }.optional_point("at").is_ok_and(|at| at.is_some());
+    let finding = Diagnostic::error(Code::ScenariosClause, clause.span, message);
+    Some(match program.clauses.iter().find(|clause| clause.name == "vehicle") {
+        Some(vehicle) => finding.label(vehicle.span, "the vehicle"),
+        None => finding,
+    }
+    .help(if is_laid {
+        "move the one to the other: `at:` says where the middle of the survey lies"
+    } else {
+        "without `at` it lies where it was surveyed: say where its middle is to lie, such as `at: point(north: 0 m, east: 0 m)`"
+    }))
 }
 
 /// `pit(…)`: a hollow in the ground.

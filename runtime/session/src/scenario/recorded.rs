@@ -1,7 +1,7 @@
 //! What a scenario says of a plume that was computed elsewhere.
 
 use super::clause::Clause;
-use super::{Understood, Wrong};
+use super::{Fault, Understood, Wrong};
 use crate::files::Files;
 use albacore_geometry::{Area, Point};
 use albacore_sim::{RecordedKernel, RecordedPlume, RecordingError, RecordingHeader, Scenario};
@@ -19,13 +19,13 @@ pub const BROUGHT: [&str; 8] = ["flow", "turning", "tide", "region", "plume", "s
 pub fn recorded_plume(understood: &mut Understood, c: &Clause, files: &Files) -> Result<(), Wrong> {
     let path = c.text("file")?;
     let header = files.data(&path, HEADER_BYTES_MAX)?;
-    let header = String::from_utf8(header).map_err(|_| format!("`{path}` is no text in UTF-8"))?;
-    let header = RecordingHeader::read(&header).map_err(|e| told(&path, &e))?;
+    let header = String::from_utf8(header).map_err(|_| not_utf8(&path))?;
+    let header = RecordingHeader::read(&header).map_err(|e| told(&path, e))?;
     // The binary lies beside its header.
     let folder = path.rfind('/').map_or("", |slash| &path[..=slash]);
     let binary = format!("{folder}{}", header.binary());
-    let bytes = files.data(&binary, header.bytes() as u64)?;
-    let recording = header.decode(&bytes).map_err(|error| told(&path, &error))?;
+    let bytes = files.data(&binary, RecordingHeader::BINARY_BYTES_MAX)?;
+    let recording = header.decode(&bytes).map_err(|error| told(&path, error))?;
     let kernel = match c.clause("kernel").map(|kernel| kernel.clause.name.as_str()) {
         Some("flat") => RecordedKernel::Flat,
         _ => RecordedKernel::Pompy,
@@ -82,6 +82,12 @@ pub(crate) fn uncovered(world: &Scenario, mission: &str, area: &Area) -> Option<
     })
 }
 
-fn told(path: &str, error: &RecordingError) -> String {
-    format!("`{path}`: {error}")
+fn told(path: &str, error: RecordingError) -> Wrong {
+    let fault = |fault| Fault { message: format!("`{path}`: {fault}"), help: Some(error.help.into()) };
+    Wrong(error.faults.into_iter().map(fault).collect())
+}
+
+fn not_utf8(path: &str) -> Wrong {
+    let help = "name the header of a record, which is JSON, not its binary".to_string();
+    Wrong(vec![Fault { message: format!("`{path}` is no text in UTF-8"), help: Some(help) }])
 }

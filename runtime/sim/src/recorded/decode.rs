@@ -1,6 +1,7 @@
 //! The binary of a record made into tracks and flow, every number looked at.
 
 use super::flow::FlowRecord;
+use super::header::AGE_MAX;
 use super::{Recording, RecordingError, RecordingHeader, Track};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -9,6 +10,9 @@ use std::fmt::Write;
 const QUANTA_MAX: i64 = 1 << 24;
 /// No recorded flow is faster than this, m/s.
 const FLOW_MAX: f32 = 10.0;
+/// The mends of a binary that is another, and of one that cannot be.
+const FETCH_AGAIN: &str = "fetch header and binary again, both of one record";
+const MAKE_AGAIN: &str = "mend it where the record is made: header and binary do not fit together";
 /// So many faults of the data are told; the others are counted.
 const FAULTS_MAX: usize = 8;
 
@@ -22,7 +26,7 @@ struct Faults {
 impl RecordingHeader {
     /// The record of this header and its binary; else all that is wrong with the binary.
     pub fn decode(self, binary: &[u8]) -> Result<Recording, RecordingError> {
-        let alone = |fault: String| RecordingError { faults: vec![fault] };
+        let alone = |fault: String| RecordingError { faults: vec![fault], help: FETCH_AGAIN };
         let (wanted, given) = (self.bytes(), binary.len());
         if given < wanted {
             return Err(alone(format!("`{}` is cut short: it has {given} bytes of {wanted}", self.binary())));
@@ -40,6 +44,9 @@ impl RecordingHeader {
         let mut faults = Faults::default();
         let tracks = self.tracks(binary, &mut faults);
         let places = if faults.told.is_empty() { self.places(binary, &tracks, &mut faults) } else { Vec::new() };
+        if faults.told.is_empty() && !places.iter().any(|place| self.area.gap(self.place(*place)) >= 0.0) {
+            faults.push(String::from("no filament ever comes into `frame.operation_area_m`: the plume is empty there"));
+        }
         let velocities = floats(&binary[self.layout.flow.clone()]);
         let wild = velocities.iter().position(|v| !v.is_finite() || v.abs() > FLOW_MAX);
         if let Some(at) = wild {
@@ -71,6 +78,9 @@ impl RecordingHeader {
                 continue;
             }
             let birth = f64::from(birth);
+            if birth < -AGE_MAX {
+                faults.push(format!("filament {id} was released after {birth} s: it is older than a year"));
+            }
             // The first frame after its release, or that in which the record begins.
             let frames = birth / r.frame_interval_s;
             if !(frames <= first as f64 && (first == 0 || frames >= first as f64 - 1.0)) {
@@ -130,7 +140,7 @@ impl Faults {
         if self.more > 0 {
             self.told.push(format!("and {} more", self.more));
         }
-        if self.told.is_empty() { Ok(()) } else { Err(RecordingError { faults: self.told }) }
+        if self.told.is_empty() { Ok(()) } else { Err(RecordingError { faults: self.told, help: MAKE_AGAIN }) }
     }
 }
 

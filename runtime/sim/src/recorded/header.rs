@@ -1,6 +1,6 @@
 //! What a record says of itself, and whether its parts fit together.
 
-use super::{RecordedKernel, RecordingError};
+use super::{RecordedKernel, RecordingError, shortened};
 use albacore_geometry::math::exp;
 use albacore_geometry::{Area, Heading, Point};
 use serde::Deserialize;
@@ -10,12 +10,18 @@ use std::ops::Range;
 const FORMAT: &str = "recorded filament plume";
 /// The version of the format that is read.
 const VERSION: u32 = 1;
-/// A binary is no larger than this, bytes; in memory it takes about four times as much.
-const BINARY_BYTES_MAX: u64 = 256 * 1024 * 1024;
 /// A header is no larger than this, bytes.
 const HEADER_BYTES_MAX: usize = 4 * 1024 * 1024;
 /// A record has no more frames than this.
 const FRAMES_MAX: usize = 1_000_000;
+/// Nothing of a record lies farther from the origin, m.
+const FARTHEST_M: f64 = 1e6;
+/// No filament is older when the record begins, and each has grown to `r2_far` at this age, s: a year.
+pub(super) const AGE_MAX: f64 = 31_536_000.0;
+/// Its name is no longer than this, characters.
+const NAME_MAX: usize = 60;
+/// The mend of a header that cannot be.
+const MEND: &str = "correct it where the record is made, or fetch header and binary again";
 
 /// The header of a record whose parts fit together.
 #[derive(Clone, Debug)]
@@ -133,22 +139,25 @@ struct Section {
 }
 
 impl RecordingHeader {
+    /// A binary is no larger than this, bytes; in memory it takes about four times as much.
+    pub const BINARY_BYTES_MAX: u64 = 256 * 1024 * 1024;
+
     /// Reads a header; else all that is wrong with it.
     pub fn read(text: &str) -> Result<Self, RecordingError> {
-        let alone = |fault: String| RecordingError { faults: vec![fault] };
+        let alone = |fault: String| RecordingError { faults: vec![fault], help: MEND };
         if text.len() > HEADER_BYTES_MAX {
             return Err(alone(format!("the header is larger than {HEADER_BYTES_MAX} bytes")));
         }
         let mark: Mark = serde_json::from_str(text)
-            .map_err(|error| alone(format!("the header is not one of a recorded plume: {error}")))?;
+            .map_err(|error| alone(format!("the header is not one of a recorded plume: {}", unread(&error))))?;
         if mark.format != FORMAT {
-            return Err(alone(format!("the header's format is `{}`, not `{FORMAT}`", mark.format)));
+            return Err(alone(format!("the header's format is `{}`, not `{FORMAT}`", shortened(&mark.format))));
         }
         if mark.version != VERSION {
             return Err(alone(format!("the record is of version {}; version {VERSION} is read", mark.version)));
         }
-        let raw: Raw =
-            serde_json::from_str(text).map_err(|error| alone(format!("the header lacks something: {error}")))?;
+        let raw: Raw = serde_json::from_str(text)
+            .map_err(|error| alone(format!("the header lacks something: {}", unread(&error))))?;
         raw.checked()
     }
 
@@ -167,10 +176,22 @@ impl RecordingHeader {
         self.layout.bytes
     }
 
+    /// Where so many quanta north and east are.
+    pub(super) fn place(&self, [north, east]: [i32; 2]) -> Point {
+        let quantum = self.record.quantum_m;
+        Point::new(f64::from(north) * quantum, f64::from(east) * quantum)
+    }
+
     /// The SHA-256 of the binary, in lower-case hexadecimal digits.
     pub fn sha256(&self) -> &str {
         &self.sha256
     }
+}
+
+/// Why a text is no header; of the text itself the beginning.
+fn unread(error: &serde_json::Error) -> String {
+    let (text, place) = (error.to_string(), format!(" at line {} column {}", error.line(), error.column()));
+    shortened(text.strip_suffix(&place).unwrap_or(&text)) + &place
 }
 
 impl Raw {
@@ -181,26 +202,43 @@ impl Raw {
                 faults.push(fault);
             }
         };
+        let letters = self.case.chars().count();
+        unless(
+            (1..=NAME_MAX).contains(&letters),
+            format!("`case` has {letters} letters: it must have 1 to {NAME_MAX}"),
+        );
         let plain = !self.binary.is_empty() && !self.binary.starts_with('.') && !self.binary.contains(['/', '\\']);
-        unless(plain, format!("`binary` is `{}`: it must be the name of a file beside the header", self.binary));
-        unless(self.byte_order == "little", format!("`byte_order` is `{}`: it must be `little`", self.byte_order));
+        unless(
+            plain,
+            format!("`binary` is `{}`: it must be the name of a file beside the header", shortened(&self.binary)),
+        );
+        let order = shortened(&self.byte_order);
+        unless(self.byte_order == "little", format!("`byte_order` is `{order}`: it must be `little`"));
         let hexadecimal = self.sha256.len() == 64 && self.sha256.bytes().all(|b| b.is_ascii_hexdigit());
-        unless(hexadecimal, format!("`sha256` is `{}`: it must be 64 hexadecimal digits", self.sha256));
+        let digits = shortened(&self.sha256);
+        unless(hexadecimal, format!("`sha256` is `{digits}`: it must be 64 hexadecimal digits"));
         let r = &self.record;
-        for (name, value) in [
-            ("record.frame_interval_s", r.frame_interval_s),
-            ("record.quantum_m", r.quantum_m),
-            ("concentration.r2_far", self.concentration.r2_far),
-            ("concentration.q", self.concentration.q),
-            ("parameters.r0_m", self.parameters.r0_m),
-            ("parameters.release_per_s", self.parameters.release_per_s),
+        // What is beyond these is no plume in water: it would come to numbers that are none, or to a plume of nothing.
+        for (name, value, most) in [
+            ("record.frame_interval_s", r.frame_interval_s, 86_400.0),
+            ("record.quantum_m", r.quantum_m, 1.0),
+            ("concentration.r2_far", self.concentration.r2_far, 1e8),
+            ("concentration.q", self.concentration.q, 1e9),
+            ("parameters.r0_m", self.parameters.r0_m, 1e3),
+            ("parameters.release_per_s", self.parameters.release_per_s, 1e6),
         ] {
-            unless(value > 0.0 && value.is_finite(), format!("`{name}` is {value}: it must be above 0"));
+            unless(
+                value > 0.0 && value <= most,
+                format!("`{name}` is {value:?}: it must be above 0, and {most} at most"),
+            );
         }
         let growth = self.parameters.growth_m2_s;
+        unless((0.0..=1e4).contains(&growth), format!("`parameters.growth_m2_s` is {growth:?}: it must be 0 to 10000"));
         unless(
-            growth >= 0.0 && growth.is_finite(),
-            format!("`parameters.growth_m2_s` is {growth}: it must be 0 or more"),
+            growth == 0.0 || self.concentration.r2_far <= growth * AGE_MAX,
+            format!(
+                "`parameters.growth_m2_s` is {growth:?}: with it no filament grows to `concentration.r2_far` in a year"
+            ),
         );
         unless(
             (2..=FRAMES_MAX).contains(&r.n_frames),
@@ -215,10 +253,6 @@ impl Raw {
             ),
         );
         unless(
-            self.source.north_m.is_finite() && self.source.east_m.is_finite(),
-            String::from("`source` is not a finite number"),
-        );
-        unless(
             self.flow_grid.north_m.len() >= 2 && self.flow_grid.north_m.windows(2).all(|w| w[0] > w[1]),
             String::from("`flow_grid.north_m` must be two or more numbers that fall"),
         );
@@ -228,8 +262,18 @@ impl Raw {
         );
         let area = self.frame.operation_area_m.area();
         unless(area.is_some(), String::from("`frame.operation_area_m` is no area: each pair must rise"));
+        let Extent { north, east } = self.frame.operation_area_m;
+        let grid = self.flow_grid.north_m.iter().chain(&self.flow_grid.east_m);
+        unless(
+            grid.chain(&north).chain(&east).all(|m| m.abs() <= FARTHEST_M),
+            format!("`flow_grid` or `frame.operation_area_m` reaches farther than {FARTHEST_M} m"),
+        );
+        unless(
+            area.as_ref().is_none_or(|area| area.gap(self.source.place()) >= 0.0),
+            String::from("`source` lies outside of `frame.operation_area_m`"),
+        );
         let layout = if faults.is_empty() { self.layout(&mut faults) } else { Layout::default() };
-        let Some(area) = area.filter(|_| faults.is_empty()) else { return Err(RecordingError { faults }) };
+        let Some(area) = area.filter(|_| faults.is_empty()) else { return Err(RecordingError { faults, help: MEND }) };
         Ok(RecordingHeader {
             name: self.case,
             binary: self.binary,
@@ -272,7 +316,10 @@ impl Raw {
             flow: section("flow", "<f4", 4, &[self.record.n_frames as u64, grid[0], grid[1], 2]),
             bytes: 0,
         };
-        layout.bytes = layout.ranges().iter().map(|range| range.end).max().unwrap_or(0);
+        for fault in layout.overlaps() {
+            faults.push(fault);
+        }
+        layout.bytes = layout.ranges().iter().map(|(_, range)| range.end).max().unwrap_or(0);
         layout
     }
 
@@ -282,30 +329,47 @@ impl Raw {
             return Err(format!("the header must describe the section `{name}` once"));
         };
         if section.dtype != dtype {
-            return Err(format!("the section `{name}` is of type `{}`: it must be `{dtype}`", section.dtype));
+            let found = shortened(&section.dtype);
+            return Err(format!("the section `{name}` is of type `{found}`: it must be `{dtype}`"));
         }
         if section.shape != shape {
-            return Err(format!(
-                "the section `{name}` has the shape {:?}: the counts ask for {shape:?}",
-                section.shape
-            ));
+            let found = shortened(&format!("{:?}", section.shape));
+            return Err(format!("the section `{name}` has the shape {found}: the counts ask for {shape:?}"));
         }
         let bytes = shape.iter().try_fold(width, |bytes, n| bytes.checked_mul(*n));
         if bytes != Some(section.bytes) {
             return Err(format!("the section `{name}` has {} bytes, which do not hold its shape", section.bytes));
         }
-        let end = section.offset.checked_add(section.bytes).filter(|end| *end <= BINARY_BYTES_MAX);
+        let end = section.offset.checked_add(section.bytes).filter(|end| *end <= RecordingHeader::BINARY_BYTES_MAX);
         let (Ok(begin), Some(Ok(end))) = (usize::try_from(section.offset), end.map(usize::try_from)) else {
-            return Err(format!("the section `{name}` ends beyond {BINARY_BYTES_MAX} bytes, the most that is read"));
+            let most = RecordingHeader::BINARY_BYTES_MAX;
+            return Err(format!("the section `{name}` ends beyond {most} bytes, the most that is read"));
         };
         Ok(begin..end)
     }
 }
 
 impl Layout {
-    fn ranges(&self) -> [&Range<usize>; 8] {
+    fn ranges(&self) -> [(&'static str, &Range<usize>); 8] {
         let Layout { id, birth_s, first_frame, n_frames, north0, east0, step, flow, .. } = self;
-        [id, birth_s, first_frame, n_frames, north0, east0, step, flow]
+        [
+            ("id", id),
+            ("birth_s", birth_s),
+            ("first_frame", first_frame),
+            ("n_frames", n_frames),
+            ("north0", north0),
+            ("east0", east0),
+            ("step", step),
+            ("flow", flow),
+        ]
+    }
+
+    /// No byte is of two sections.
+    fn overlaps(&self) -> Vec<String> {
+        let mut ranges = self.ranges();
+        ranges.sort_by_key(|(_, range)| (range.start, range.end));
+        let overlap = ranges.windows(2).filter(|pair| pair[0].1.end > pair[1].1.start);
+        overlap.map(|pair| format!("the sections `{}` and `{}` overlap", pair[0].0, pair[1].0)).collect()
     }
 }
 

@@ -219,7 +219,10 @@ fn spoilt_records_are_refused_with_the_reason() {
         (said(|h, _| h["byte_order"] = json!("big")), "it must be `little`"),
         (said(|h, _| h["sha256"] = json!("abc")), "it must be 64 hexadecimal digits"),
         (said(|h, _| h["sha256"] = json!("0".repeat(64))), "is not the file that the header was written for"),
-        (said(|h, _| h["record"]["frame_interval_s"] = json!(0)), "`record.frame_interval_s` is 0: it must be above 0"),
+        (
+            said(|h, _| h["record"]["frame_interval_s"] = json!(0)),
+            "`record.frame_interval_s` is 0.0: it must be above 0",
+        ),
         (said(|h, _| h["record"]["n_frames"] = json!(1)), "it must be 2 to"),
         (said(|h, _| h["record"]["filament_frames"] = json!(1)), "each of 2 filaments has a frame at least"),
         (
@@ -232,6 +235,29 @@ fn spoilt_records_are_refused_with_the_reason() {
         (said(|h, _| h["sections"][1]["name"] = json!("birth")), "must describe the section `birth_s` once"),
         (said(|h, _| h["sections"][6]["bytes"] = json!(5)), "the section `step` has 5 bytes"),
         (said(|h, _| h["sections"][7]["offset"] = json!(u64::MAX)), "the section `flow` ends beyond"),
+        (
+            said(|h, _| h["record"]["quantum_m"] = json!(1e20)),
+            "`record.quantum_m` is 1e20: it must be above 0, and 1 at most",
+        ),
+        (said(|h, _| h["parameters"]["r0_m"] = json!(1e200)), "`parameters.r0_m` is 1e200: it must be above 0"),
+        (
+            said(|h, _| h["parameters"]["growth_m2_s"] = json!(1e308)),
+            "`parameters.growth_m2_s` is 1e308: it must be 0 to",
+        ),
+        (said(|h, _| h["parameters"]["growth_m2_s"] = json!(1e-300)), "no filament grows to `concentration.r2_far`"),
+        (said(|h, _| h["flow_grid"]["east_m"] = json!([0, 1e9])), "reaches farther than 1000000 m"),
+        (said(|h, _| h["source"]["north_m"] = json!(548)), "`source` lies outside of `frame.operation_area_m`"),
+        (said(|h, _| h["case"] = json!("")), "`case` has 0 letters"),
+        (
+            said(|h, _| h["sections"][5]["offset"] = h["sections"][4]["offset"].clone()),
+            "the sections `north0` and `east0` overlap",
+        ),
+        (said(|h, _| h["sections"][4]["offset"] = json!(33)), "the sections `north0` and `east0` overlap"),
+        (said(|_, b| put(b, 2, f32::NEG_INFINITY.to_le_bytes())), "filament 7 was released after -inf s: it is older"),
+        (
+            said(|_, b| [8, 9, 10, 11].into_iter().for_each(|word| put(b, word, 900_000_i32.to_le_bytes()))),
+            "no filament ever comes into `frame.operation_area_m`",
+        ),
         (said(|_, b| b.truncate(100)), "is cut short: it has 100 bytes of 148"),
         (said(|_, b| b.push(0)), "has 149 bytes: the header knows of 148"),
         (said(|_, b| put(b, 1, 7_i32.to_le_bytes())), "the ids do not ascend: 7 comes after 7"),
@@ -257,6 +283,29 @@ fn spoilt_records_are_refused_with_the_reason() {
         put(b, 6, 0_i32.to_le_bytes());
     });
     assert!(both.contains("do not ascend") && both.contains("filament 9 has 0 frames"), "{both}");
+}
+
+/// A header may hold a text of its full size wherever one stands.
+#[test]
+fn messages_do_not_grow_with_the_header() {
+    let long = json!("e".repeat(1_000_000));
+    let shape = json!(vec![7; 500_000]);
+    let mut spoilt: Vec<Value> = Vec::new();
+    for text in ["format", "case", "binary", "byte_order", "sha256", "version", "record"] {
+        let (mut header, _) = small();
+        header[text] = long.clone();
+        spoilt.push(header);
+    }
+    for (part, value) in [("dtype", &long), ("shape", &shape)] {
+        let (mut header, _) = small();
+        header["sha256"] = json!("0".repeat(64));
+        header["sections"][0][part] = value.clone();
+        spoilt.push(header);
+    }
+    for header in spoilt {
+        let error = RecordingHeader::read(&header.to_string()).unwrap_err();
+        assert!(error.to_string().len() < 400 && !error.help.is_empty(), "{} letters", error.to_string().len());
+    }
 }
 
 /// The laws between frames, on numbers that can be followed by hand.
