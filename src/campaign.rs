@@ -60,16 +60,15 @@ impl Campaign {
     pub fn run(&self) -> Exit {
         let planned = self.choice.script(&self.script).and_then(|script| {
             let plan = self.choice.plan(&script, &self.script)?;
-            let plan = self.faults.add(|faults| plan.with_faults(faults))?;
-            Ok((script, plan))
+            self.faults.add(|faults| plan.with_faults(faults))
         });
-        let (script, plan) = match planned {
+        let plan = match planned {
             Ok(planned) => planned,
             Err(exit) => return exit,
         };
         // What no seed can run is said before a file is begun.
         if let Err(error) = Run::new(&plan, self.seeds.first) {
-            return refused(&error, &script);
+            return refused(&error);
         }
         match self.carry_out(&plan) {
             Ok(exit) => exit,

@@ -66,7 +66,7 @@ impl Vehicle {
 
     fn far_end(&self) -> Result<FarEnd, Exit> {
         let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
-        let refused = |error| refused(&error, &script);
+        let refused = |error| refused(&error);
         let world = World::new(&script, file, name).map_err(refused)?;
         let world = self.faults.add(|faults| world.with_faults(faults))?;
         world.far_end(self.seed, self.rows).map_err(refused)

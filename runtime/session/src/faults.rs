@@ -1,8 +1,8 @@
 //! Faults from the command line: clauses as in a scenario, read and checked as one.
 
-use crate::files::{self, Files};
+use crate::files;
 use crate::plan::{Plan, PlanError};
-use crate::scenario;
+use crate::world;
 use albacore_lang::Script;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
@@ -29,15 +29,16 @@ pub fn load_faults(texts: &[String]) -> Script {
 pub(crate) fn faults(script: &Script) -> Result<Vec<Fault>, PlanError> {
     let lowered = match script.scenario(SCENARIO, None) {
         Some(Ok(lowered)) => lowered,
-        Some(Err(findings)) => return Err(PlanError::Script(findings)),
+        Some(Err(findings)) => return Err(PlanError::script(findings, script)),
         None => return Ok(Vec::new()),
     };
     if let Some(other) = lowered.clauses.iter().find(|clause| clause.name != "fault") {
         let message = format!("`--fault` takes `fault(…)`, not `{}`", other.name);
-        return Err(PlanError::Script(vec![Diagnostic::error(Code::ScenariosClause, other.span, message)]));
+        let finding = Diagnostic::error(Code::ScenariosClause, other.span, message);
+        let finding = finding.help("say it in the scenario");
+        return Err(PlanError::script(vec![finding], script));
     }
-    let understood = scenario::scenario(&lowered, &Files::of(script)).map_err(PlanError::Script)?;
-    Ok(understood.world.faults)
+    Ok(world::sound(&lowered, script)?.world.faults)
 }
 
 impl Plan {
@@ -49,9 +50,6 @@ impl Plan {
         }
         let mut scenario = (*self.scenario).clone();
         scenario.faults.extend(faults);
-        scenario.validate().map_err(|error| {
-            PlanError::Asked("the faults of the command line cannot be".into(), Some(error.faults.join("; ")))
-        })?;
         Ok(Plan { scenario: Arc::new(scenario), ..self })
     }
 }

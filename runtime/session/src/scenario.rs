@@ -4,6 +4,7 @@ mod bottom;
 mod clause;
 mod fault;
 mod flow;
+mod objected;
 mod plume;
 mod recorded;
 mod sensors;
@@ -18,6 +19,7 @@ use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 use clause::Clause;
+pub(crate) use objected::objected;
 
 /// A scenario that was understood.
 pub(crate) struct Understood {
@@ -40,6 +42,8 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
                 bottom::grid(&mut understood, &clause, files, frame)
             }
             "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
+            "vehicle" => vehicle::vehicle(&mut understood.world, &clause),
+            "fault" => fault::fault(&mut understood.world, &clause),
             _ => apply(&mut understood.world, &clause).map_err(Into::into),
         };
         if let Err(Wrong(faults)) = read {
@@ -74,6 +78,13 @@ struct Wrong(Vec<Fault>);
 struct Fault {
     message: String,
     help: Option<String>,
+}
+
+impl Wrong {
+    /// What is wrong, and its mend.
+    fn with(message: impl Into<String>, mend: impl Into<String>) -> Self {
+        Wrong(vec![Fault { message: message.into(), help: Some(mend.into()) }])
+    }
 }
 
 impl From<FileError> for Wrong {
@@ -120,7 +131,6 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "source" => plume::source(scenario, c),
         "leak" => plume::leak(scenario, c),
         "patch" => plume::patch(scenario, c),
-        "vehicle" => vehicle::vehicle(scenario, c),
         "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "handover" => vehicle::handover(scenario, c),
@@ -131,7 +141,6 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "pressure" => sensors::pressure(scenario, c),
         "dvl" => sensors::dvl(scenario, c),
         "gps" => sensors::gps(scenario, c),
-        "fault" => fault::fault(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
         other => Err(format!("the simulator knows no `{other}`")),
     }

@@ -48,7 +48,7 @@ impl Shown {
         let wanted = chosen(script, file, wanted)?;
         let (lowered, understood) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
         let world = understood.world;
-        let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&lowered.name, &error))?;
+        let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&error))?;
         let defaults = Defaults::read();
         let mut clauses = Vec::new();
         let words = scenario::words(&lowered);

@@ -49,4 +49,7 @@ pub struct Report {
     /// In simulation the distance to the nearest true source; without sources, to the deepest point of the mission's area
     /// where the bottom has pits.
     pub error_m: Option<f64>,
+    /// What that distance is from, in words.
+    #[serde(skip)]
+    pub error_from: Option<&'static str>,
 }

@@ -26,7 +26,7 @@ scenario here {{
     }
     Plan::new(&script, "such.alb", None, None).map_err(|error| match error {
         PlanError::Asked(message, help) => format!("{message}: {}", help.unwrap_or_default()),
-        PlanError::Script(findings) => findings[0].message.clone(),
+        PlanError::Script(findings, _) => findings[0].message.clone(),
     })
 }
 

@@ -30,9 +30,9 @@ pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Bottom, Compass, Dvl, Flow, Fluorometer, Gps, Grid, Ground, Handover, HullSetup, KinematicHull, Lbl, Limits,
-    Looks, Meander, Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario, ScenarioError, Sounder,
-    Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves,
+    Adcp, Bottom, Bounds, Compass, Dvl, Flow, Fluorometer, Gps, Grid, Ground, Handover, HullSetup, KinematicHull, Lbl,
+    Limits, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
+    ScenarioError, Sounder, Source, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves, Why,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

@@ -64,6 +64,8 @@ pub struct Simulator {
     pressure: Pressure,
     dvl: Dvl,
     endurance: f64,
+    /// The battery is empty.
+    spent: bool,
     computer: Computer,
     watch: Watch,
     /// The latest estimate of the current, for the computer.
@@ -99,6 +101,7 @@ impl Simulator {
             pressure: Pressure::new(&scenario.pressure, seed),
             dvl: Dvl::new(&scenario.dvl, seed),
             endurance: vehicle.endurance,
+            spent: false,
             computer: Computer::new(
                 scenario.own_mission.as_ref(),
                 scenario.handover.as_ref(),
@@ -163,7 +166,7 @@ impl Simulator {
         let flow = self.world.flow(self.vehicle.motion().position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
         let flow = flow + ailing.current;
         let command = match self.control {
-            _ if ailing.leaks => Some(self.float_up()),
+            _ if self.gives_up() => Some(self.float_up()),
             Control::InControl => self.command,
             // A fix, or a fault: it stays where it is.
             Control::Suspended => None,
@@ -188,6 +191,11 @@ impl Simulator {
             Some(error) => velocity.length() * (velocity.toward() + error).unit(),
             None => velocity,
         }
+    }
+
+    /// Whether nobody can drive it any more.
+    fn gives_up(&self) -> bool {
+        self.faults.ailing().leaks || self.spent
     }
 
     /// What a vehicle does that gives up.
@@ -324,7 +332,11 @@ impl Vehicle for Simulator {
         self.tick = Some(tick);
         self.observe();
         self.note_incidents();
-        if self.faults.ailing().leaks {
+        if !self.spent && self.time_s() >= self.endurance {
+            self.spent = true;
+            self.incidents.tell("the battery is empty: the vehicle floats up");
+        }
+        if self.gives_up() {
             self.control = Control::Released;
         }
         if self.control != Control::Released {
@@ -339,7 +351,7 @@ impl Vehicle for Simulator {
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
         self.command = None;
-        if self.faults.ailing().leaks {
+        if self.gives_up() {
             self.control = Control::Refused;
             return Ok(());
         }

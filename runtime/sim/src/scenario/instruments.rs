@@ -1,7 +1,7 @@
 //! The instruments of the vehicle itself, compass, pressure gauge, Doppler log, receiver of fixes: what a scenario says of them,
 //! and what of that cannot be. Their defaults are perfect.
 
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Bounds, Objections, Scenario};
 use albacore_geometry::Heading;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -90,28 +90,33 @@ impl Default for Gps {
 /// What of the instruments cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let Scenario { compass, pressure, dvl, gps, .. } = scenario;
-    for (name, rate) in [("compass", compass.rate), ("pressure", pressure.rate), ("dvl", dvl.rate)] {
-        objections.rate(&format!("{name}.rate"), rate);
-    }
-    objections.not_negative("compass.noise", compass.noise);
-    objections.finite("compass.bias", [compass.bias, compass.deviation]);
-    objections.finite("compass.greatest_at", [compass.greatest_at.radians(), 0.0]);
-    objections.not_negative("pressure.noise", pressure.noise);
-    objections.finite("pressure.bias", [pressure.bias, 0.0]);
-    objections.not_negative("dvl.noise", dvl.noise);
+    let mut of = objections.of("compass");
+    of.rate("rate", compass.rate);
+    of.not_negative("noise", compass.noise);
+    of.finite("bias", [compass.bias, 0.0]);
+    of.finite("deviation", [compass.deviation, 0.0]);
+    of.finite("greatest_at", [compass.greatest_at.radians(), 0.0]);
+    let mut of = objections.of("pressure");
+    of.rate("rate", pressure.rate);
+    of.not_negative("noise", pressure.noise);
+    of.finite("bias", [pressure.bias, 0.0]);
+    let mut of = objections.of("dvl");
+    of.rate("rate", dvl.rate);
+    of.not_negative("noise", dvl.noise);
     if let Some(range) = dvl.range {
-        objections.positive("dvl.range", range);
+        of.positive("range", range);
     }
     if let Some(gps) = gps {
-        objections.unless(
-            gps.every >= TICK_S && gps.every.is_finite(),
-            format!("`gps.every` is {} s: fixes cannot come more often than every tick of {TICK_S} s", gps.every),
-        );
-        objections.not_negative("gps.sigma", gps.sigma);
-        objections.not_negative("gps.above", gps.above);
-        objections.unless(
+        let mut of = objections.of("gps");
+        // A fix a tick at most.
+        of.bounds("every", gps.every, Bounds::AtLeast(TICK_S));
+        of.not_negative("sigma", gps.sigma);
+        of.not_negative("above", gps.above);
+        of.unless(
+            None,
             scenario.navigation.is_some(),
             "`gps` needs a `navigation`: without one the vehicle knows its position exactly",
+            "add `navigation(dead_reckoning())` to the scenario, or leave `gps` out",
         );
     }
 }

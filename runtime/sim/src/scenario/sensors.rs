@@ -1,7 +1,7 @@
 //! The sensors: what a scenario says of them, and what of that cannot be.
 
 use crate::scenario::instruments::EVERY_TICK;
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Bounds, Objections, Scenario, told};
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -138,61 +138,59 @@ impl Default for Sounder {
 /// What of the sensors cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     if let Some(navigation) = &scenario.navigation {
-        objections.not_negative("navigation.walk", navigation.walk);
+        objections.of("dead_reckoning").not_negative("walk", navigation.walk);
         if let Some(lbl) = &navigation.lbl {
-            objections.unless(
-                lbl.every >= TICK_S && lbl.every.is_finite(),
-                format!(
-                    "`navigation.lbl.every` is {} s: fixes cannot come more often than every tick of {TICK_S} s",
-                    lbl.every
-                ),
-            );
-            objections.not_negative("navigation.lbl.sigma", lbl.sigma);
-            objections.not_negative("navigation.lbl.gate", lbl.gate);
-            objections.share("navigation.lbl.outliers", lbl.outliers);
-            objections.not_negative("navigation.lbl.outlier", lbl.outlier);
-            objections.flow("navigation.lbl.drift", lbl.drift);
+            let mut of = objections.of("lbl");
+            // A fix a tick at most.
+            of.bounds("every", lbl.every, Bounds::AtLeast(TICK_S));
+            of.not_negative("sigma", lbl.sigma);
+            of.not_negative("gate", lbl.gate);
+            of.share("outliers", lbl.outliers);
+            of.not_negative("outlier", lbl.outlier);
+            of.flow("drift", lbl.drift);
         }
     }
     let fluorometer = &scenario.fluorometer;
-    objections.unless(
-        fluorometer.rate > 0.0 && fluorometer.rate <= FLUOROMETER_RATE_MAX,
-        format!("`fluorometer.rate` is {} Hz: it must be above 0 and at most {FLUOROMETER_RATE_MAX}", fluorometer.rate),
+    let mut of = objections.of("fluorometer");
+    of.bounds("rate", fluorometer.rate, Bounds::UpTo(0.0, FLUOROMETER_RATE_MAX));
+    of.not_negative("noise", fluorometer.noise);
+    of.not_negative("false_alarms", fluorometer.false_alarms);
+    of.unless(
+        Some("false_alarms"),
+        fluorometer.false_alarms <= fluorometer.rate || fluorometer.rate.is_nan(),
+        format!("`fluorometer` has more `false_alarms` than samples: its `rate` is {} Hz", told(fluorometer.rate)),
+        "make them fewer: a sample gives one alarm at most",
     );
-    objections.not_negative("fluorometer.noise", fluorometer.noise);
-    objections.not_negative("fluorometer.false_alarms", fluorometer.false_alarms);
-    objections.unless(
-        fluorometer.false_alarms <= fluorometer.rate,
-        "`fluorometer.false_alarms` exceeds `fluorometer.rate`: a sample gives one alarm at most",
-    );
-    objections.finite("fluorometer.ahead", [fluorometer.ahead, 0.0]);
-    objections.finite("fluorometer.bias", [fluorometer.bias, 0.0]);
-    objections.unless(
-        (0.0..=DELAY_MAX_S).contains(&fluorometer.delay),
-        format!("`fluorometer.delay` is {} s: it must be 0 to {DELAY_MAX_S}", fluorometer.delay),
-    );
-    objections.share("fluorometer.saturation", fluorometer.saturation);
+    of.finite("ahead", [fluorometer.ahead, 0.0]);
+    of.finite("bias", [fluorometer.bias, 0.0]);
+    of.bounds("delay", fluorometer.delay, Bounds::Within(0.0, DELAY_MAX_S));
+    of.share("saturation", fluorometer.saturation);
     let adcp = &scenario.adcp;
-    objections.not_negative("adcp.noise", adcp.noise);
-    objections.finite("adcp.bias", [adcp.bias, 0.0]);
-    objections.not_negative("adcp.blanking", adcp.blanking);
-    objections.positive("adcp.bin", adcp.bin);
-    objections.unless(
-        (1..=BINS_MAX).contains(&adcp.count),
-        format!("`adcp.count` is {}: it must be 1 to {BINS_MAX}", adcp.count),
-    );
+    let mut of = objections.of("adcp");
+    of.not_negative("noise", adcp.noise);
+    of.finite("bias", [adcp.bias, 0.0]);
+    of.not_negative("blanking", adcp.blanking);
+    of.positive("bin", adcp.bin);
+    of.bounds("count", f64::from(adcp.count), Bounds::Within(1.0, f64::from(BINS_MAX)));
     let sounder = &scenario.sounder;
-    objections.rate("sounder.rate", sounder.rate);
-    objections.not_negative("sounder.noise", sounder.noise);
-    objections.finite("sounder.bias", [sounder.bias, 0.0]);
-    objections.not_negative("sounder.nearest", sounder.nearest);
+    let mut of = objections.of("sounder");
+    of.rate("rate", sounder.rate);
+    of.not_negative("noise", sounder.noise);
+    of.finite("bias", [sounder.bias, 0.0]);
+    of.not_negative("nearest", sounder.nearest);
     if let Some(farthest) = sounder.farthest {
-        objections.unless(
+        of.unless(
+            Some("farthest"),
             farthest > sounder.nearest,
-            format!("`sounder.farthest` is {farthest} m: it must be above `nearest`, {} m", sounder.nearest),
+            format!(
+                "`sounder` hears from {} m at most, and not from nearer than {} m",
+                told(farthest),
+                told(sounder.nearest)
+            ),
+            "make `farthest` greater than `nearest`, or it hears nothing",
         );
     }
-    objections.share("sounder.dropouts", sounder.dropouts);
+    of.share("dropouts", sounder.dropouts);
 }
 
 /// A profiler has at most this many bins.
