@@ -60,7 +60,8 @@ impl Campaign {
     pub fn run(&self) -> Exit {
         let planned = self.choice.script(&self.script).and_then(|script| {
             let plan = self.choice.plan(&script, &self.script)?;
-            self.faults.add(|faults| plan.with_faults(faults))
+            let faults = self.faults.read()?;
+            plan.with_faults(&faults).map_err(|error| refused(&error))
         });
         let plan = match planned {
             Ok(planned) => planned,

@@ -15,7 +15,8 @@ pub struct Check {
     /// Change a parameter first: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Tell also what is worth knowing and nothing wrong: rules of one behavior that can hold in the same tick.
+    /// Tell also what is worth knowing and nothing wrong: rules of one behavior that can hold in the same tick, an area that
+    /// reaches beyond a recorded plume.
     #[arg(long)]
     notes: bool,
     /// Tell what each mission costs: the most work of one tick and the memory, and where they come from.
@@ -35,6 +36,8 @@ impl Check {
                     findings.extend(albacore_session::findings(&script));
                     if self.notes {
                         findings.extend(script.notes());
+                    } else {
+                        findings.retain(|finding| finding.severity != albacore_session::Severity::Note);
                     }
                     albacore_session::settle(&mut findings);
                     message::findings(&findings, &script.sources);

@@ -5,7 +5,7 @@ mod name;
 use crate::exit::Exit;
 use crate::test::snapshot_file;
 use crate::{message, output};
-use albacore_session::{Script, Source, Sources, run_test};
+use albacore_session::{Faults, Script, Source, Sources, run_test};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ fn laid_out(text: &str) -> String {
 fn accept(script: &Script, path: &Path) -> io::Result<()> {
     for test in script.tests().into_iter().flatten() {
         // A test that cannot be run has no snapshot; `albacore test` tells why.
-        let Ok(result) = run_test(script, &test) else { continue };
+        let Ok(result) = run_test(script, &test, &Faults::default()) else { continue };
         for (seed, trace) in &result.traces {
             let file = snapshot_file(path, &result.name, *seed);
             file.parent().map_or(Ok(()), fs::create_dir_all)?;

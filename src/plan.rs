@@ -77,10 +77,10 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// Adds what they say to a plan or a world, or tells what is wrong with them.
-    pub fn add<T>(&self, add: impl FnOnce(&Script) -> Result<T, PlanError>) -> Result<T, Exit> {
-        let faults = sound(Ok(albacore_session::load_faults(&self.texts)))?;
-        add(&faults).map_err(|error| refused(&error))
+    /// What they let go wrong, or tells what is wrong with them.
+    pub fn read(&self) -> Result<albacore_session::Faults, Exit> {
+        let script = sound(Ok(albacore_session::load_faults(&self.texts)))?;
+        albacore_session::Faults::of(&script).map_err(|error| refused(&error))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::exit::Exit;
 use crate::interruption;
 use crate::message;
 use crate::output;
-use crate::plan::Choice;
+use crate::plan::{Choice, Faults};
 use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
 use rustyline::error::ReadlineError;
 use rustyline::history::MemHistory;
@@ -28,6 +28,8 @@ pub struct Repl {
     script: Option<PathBuf>,
     #[command(flatten)]
     choice: Choice,
+    #[command(flatten)]
+    faults: Faults,
     /// The seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -36,12 +38,17 @@ pub struct Repl {
 impl Repl {
     /// Does what is typed until the person leaves.
     pub fn run(&self) -> Exit {
+        let faults = match self.faults.read() {
+            Ok(faults) => faults,
+            Err(exit) => return exit,
+        };
         let opening = Opening {
             script: self.script.as_deref(),
             mission: self.choice.mission.as_deref(),
             scenario: self.choice.scenario.as_deref(),
             seed: self.seed,
             set: &self.choice.set,
+            faults,
         };
         let mut prompt = match Prompt::open(&opening) {
             Ok(prompt) => prompt,

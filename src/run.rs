@@ -6,7 +6,7 @@ use crate::kept::Kept;
 use crate::plan::{Choice, Faults, refused};
 use crate::vehicle::told;
 use crate::{interruption, message, output};
-use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Summary, Url};
+use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Summary, WrittenUrl};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ pub struct Run {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Drive a vehicle at the end of a link instead of a simulated one: `serial:/dev/ttyUSB0?dialect=recon`,
-    /// `udp:HOST:PORT?dialect=recon`.
+    /// `udp:HOST:PORT?dialect=recon`. `dialect` may be left out where the vehicle of the mission's scenario says it.
     #[arg(long, value_name = "URL", conflicts_with_all = ["scenario", "texts"])]
     link: Option<String>,
     /// How many times faster than real time; else a simulation runs as fast as it can, and a vehicle in real time.
@@ -88,12 +88,15 @@ impl Run {
         let refused = |error| refused(&error);
         let Some(link) = &self.link else {
             let plan = self.choice.plan(script, &self.script)?;
-            let plan = self.faults.add(|faults| plan.with_faults(faults))?;
+            let plan = plan.with_faults(&self.faults.read()?).map_err(refused)?;
             let run = MissionRun::new(&plan, self.seed).map_err(refused)?;
             return Ok((plan, run));
         };
-        let url = Url::parse(link).map_err(|error| told(&error, Exit::Usage))?;
+        let usage = |error| told(&error, Exit::Usage);
+        let url = WrittenUrl::parse(link).map_err(usage)?;
         let (file, mission) = (self.script.display().to_string(), self.choice.mission.as_deref());
+        let speaks = if url.is_silent() { Plan::dialect(script, &file, mission).map_err(refused)? } else { None };
+        let url = url.of_vehicle(speaks).map_err(usage)?;
         let plan = Plan::on_link(script, &file, mission, &url.to_string()).map_err(refused)?;
         let vehicle = albacore_session::call(&url, &plan, self.rate.unwrap_or(1.0), host_clock())
             .map_err(|error| told(&error, Exit::Failed))?;

@@ -4,6 +4,7 @@ use crate::exit::Exit;
 use crate::kept::whole;
 use crate::message;
 use crate::output::print;
+use crate::plan::Faults;
 use albacore_session::{Failure, PlanError, Script, TestResult, first_difference, run_test, same_behavior};
 use std::path::{Path, PathBuf};
 
@@ -16,9 +17,12 @@ pub struct Test {
     /// Only the tests whose names contain this.
     #[arg(long, value_name = "TEXT")]
     filter: Option<String>,
-    /// Take what was found as right: write new snapshots over the old.
-    #[arg(long)]
+    /// Take what was found as right: write new snapshots over the old. They are of runs without `--fault`, and are left out with
+    /// it.
+    #[arg(long, conflicts_with = "texts")]
     accept: bool,
+    #[command(flatten)]
+    faults: Faults,
 }
 
 /// How many tests passed and failed.
@@ -43,6 +47,10 @@ impl Test {
                 }
             }
         }
+        let faults = match self.faults.read() {
+            Ok(faults) => faults,
+            Err(exit) => return exit,
+        };
         let mut count = Count::default();
         let mut exit = Exit::Well;
         for path in scripts {
@@ -58,7 +66,7 @@ impl Test {
                 exit = Exit::Script;
                 continue;
             }
-            if let Err(failed) = self.tests_of(&script, &path, &mut count) {
+            if let Err(failed) = self.tests_of(&script, &path, &faults, &mut count) {
                 exit = failed;
             }
         }
@@ -77,7 +85,13 @@ impl Test {
         }
     }
 
-    fn tests_of(&self, script: &Script, path: &Path, count: &mut Count) -> Result<(), Exit> {
+    fn tests_of(
+        &self,
+        script: &Script,
+        path: &Path,
+        faults: &albacore_session::Faults,
+        count: &mut Count,
+    ) -> Result<(), Exit> {
         for test in script.tests() {
             let test = match test {
                 Ok(test) => test,
@@ -89,7 +103,7 @@ impl Test {
             if self.filter.as_ref().is_some_and(|text| !test.name.contains(text.as_str())) {
                 continue;
             }
-            let result = match run_test(script, &test) {
+            let result = match run_test(script, &test, faults) {
                 Ok(result) => result,
                 Err(PlanError::Script(findings, sources)) => {
                     message::findings(&findings, &sources);
@@ -101,7 +115,8 @@ impl Test {
                 }
             };
             let mut problems: Vec<String> = result.failures.iter().map(told).collect();
-            for (seed, trace) in &result.traces {
+            // A snapshot is of a run in which only the scenario's own faults were.
+            for (seed, trace) in result.traces.iter().filter(|_| faults.is_empty()) {
                 problems.extend(self.compare(path, &result, *seed, trace));
             }
             let seeds = format!("seeds {}..{}", result.seeds.0, result.seeds.1);

@@ -4,27 +4,28 @@ use crate::clock::{self, Pace};
 use crate::exit::Exit;
 use crate::plan::{Faults, refused, scenario_script};
 use crate::{interruption, message};
-use albacore_session::{FarEnd, LinkError, Rows, Transport, Url, World};
+use albacore_session::{Dialect, FarEnd, LinkError, Rows, Transport, World, WrittenUrl};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The longest wait for bytes: who interrupts does not wait longer.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Serve a simulated vehicle at the far end of a link: it swims rows until a mission takes over.
+/// Serve a simulated vehicle at the far end of a link: it swims its own mission until another takes over.
 #[derive(clap::Args)]
 pub struct Vehicle {
     /// The world: a scenario that every script knows, or one of a script.
     #[arg(value_name = "SCENARIO | SCRIPT.alb[#SCENARIO]")]
     scenario: String,
-    /// Where to serve it: `pty:?dialect=recon`, `udp:0.0.0.0:23456?dialect=recon`, `serial:/dev/ttyUSB0?dialect=recon`.
+    /// Where to serve it: `pty:?dialect=recon`, `udp:0.0.0.0:23456?dialect=recon`, `serial:/dev/ttyUSB0?dialect=recon`. `dialect`
+    /// may be left out where the vehicle of the scenario says it.
     #[arg(long, value_name = "URL")]
     link: String,
     /// How many times faster than real time; give `run --link` the same.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clock::rate)]
     rate: f64,
-    /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last [default: those of
-    /// the scenario, else 200x30x6].
+    /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last [default: the
+    /// mission of the scenario, else 200x30x6].
     #[arg(long, value_name = "LENGTHxSPACINGxCOUNT")]
     rows: Option<Rows>,
     /// The seed of all that is random.
@@ -40,13 +41,17 @@ pub struct Vehicle {
 impl Vehicle {
     /// Serves until the person interrupts.
     pub fn run(&self) -> Exit {
-        let url = match Url::parse(&self.link) {
+        let url = match WrittenUrl::parse(&self.link) {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),
         };
-        let mut far_end = match self.far_end() {
+        let (mut far_end, speaks) = match self.far_end() {
             Ok(far_end) => far_end,
             Err(exit) => return exit,
+        };
+        let url = match url.of_vehicle(speaks) {
+            Ok(url) => url,
+            Err(error) => return told(&error, Exit::Usage),
         };
         let (mut transport, at) = match albacore_session::serve(&url) {
             Ok(open) => open,
@@ -64,12 +69,13 @@ impl Vehicle {
         }
     }
 
-    fn far_end(&self) -> Result<FarEnd, Exit> {
+    /// The vehicle, and what it says that it speaks.
+    fn far_end(&self) -> Result<(FarEnd, Option<Dialect>), Exit> {
         let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
         let refused = |error| refused(&error);
         let world = World::new(&script, file, name).map_err(refused)?;
-        let world = self.faults.add(|faults| world.with_faults(faults))?;
-        world.far_end(self.seed, self.rows).map_err(refused)
+        let world = world.with_faults(&self.faults.read()?).map_err(refused)?;
+        Ok((world.far_end(self.seed, self.rows).map_err(refused)?, world.dialect))
     }
 
     /// Ticks at the rate that was asked for, but in real time while a guest that drives is silent: it may only be late, and

@@ -63,6 +63,20 @@ fn corners_of_a_file_are_those_that_a_script_would_write() {
 }
 
 #[test]
+fn a_polygon_with_a_hole_is_an_area_where_the_hole_is_read_too() {
+    let (folder, holed) = (project("whole"), project("holed"));
+    let ring = "[[-75.7398, 36.1804], [-75.7396, 36.1804], [-75.7397, 36.1806], [-75.7398, 36.1804]]";
+    edit(&holed, "bay.geojson", "36.182], [-75.742, 36.178]]]", &format!("36.182], [-75.742, 36.178]], {ring}]"));
+    let script = load(&holed.join(FILES[0]), None, &[]).unwrap();
+    let found: Vec<&str> = script.findings.iter().map(|finding| finding.code.name()).collect();
+    assert_eq!(found, ["areas::file"], "nothing knows of the hole");
+    edit(&holed, FILES[0], "area_file(\"wreck.kml\")", "area_file(\"bay.geojson\", named: \"box\", hole: 1)");
+    let (whole, holed) = (plan(&folder), plan(&holed));
+    assert_eq!((holed.scenario.no_go.len(), &holed.scenario.no_go), (1, &whole.scenario.no_go));
+    assert_eq!(holed.frame().unwrap().origin, whole.frame().unwrap().origin);
+}
+
+#[test]
 fn a_start_outside_the_area_of_a_file_is_told() {
     let folder = project("outside");
     edit(&folder, FILES[0], "36°10.74'N", "36°12.74'N");

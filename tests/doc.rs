@@ -98,6 +98,28 @@ fn every_link_of_the_pages_leads_somewhere() {
     }
 }
 
+/// Some names have two meanings: a sensor, which `fault(…)` takes, and the input that comes of it.
+#[test]
+fn a_name_leads_to_what_is_meant_where_it_stands() {
+    let folder = folder("meant", &[]);
+    assert_eq!(doc_in(&folder, &["--format", "html", "--out", "pages"]).0, Some(0));
+    let pages = files(&folder.join("pages"));
+    for (page, link) in [
+        ("world", "from which <a href=\"inputs.html#input-altitude\"><code>altitude</code></a> and"),
+        ("world", "from which <a href=\"inputs.html#input-speed\"><code>speed</code></a> and"),
+        ("world", "also if it is left out), <a href=\"#clause-down\"><code>down</code></a> or"),
+        ("faults", "which: <a href=\"#clause-position\"><code>position</code></a>,"),
+        ("faults", "Of <a href=\"#clause-heading\"><code>heading</code></a>:"),
+        ("faults", "of a <a href=\"world.html#clause-fossen\"><code>fossen</code></a>"),
+        ("inputs", "<a href=\"#input-chemical\"><code>chemical</code></a>"),
+    ] {
+        assert!(pages[&format!("{page}.html")].contains(link), "{page}: {link}");
+    }
+    let to_sensors: Vec<&String> =
+        pages.iter().filter(|(_, text)| text.contains("faults.html#clause-")).map(|(name, _)| name).collect();
+    assert!(to_sensors.is_empty(), "nothing but a fault speaks of sensors: {to_sensors:?}");
+}
+
 /// A script whose comments would do things to a page, and two tables.
 const SCRIPT: &str = r#"
 //! A <b>page</b> <script>alert(1)</script> of `tour`, and [a link](javascript:x).

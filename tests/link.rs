@@ -68,14 +68,18 @@ struct Vehicle {
 impl Vehicle {
     #[track_caller]
     fn serve(link: &str, folder: &Path) -> Self {
+        Vehicle::serve_world(&format!("{EXCURSION}#bay"), link, folder)
+    }
+
+    #[track_caller]
+    fn serve_world(world: &str, link: &str, folder: &Path) -> Self {
         let log = folder.join("vehicle.log");
         let file = std::fs::File::create(&log).unwrap();
-        let world = format!("{EXCURSION}#bay");
-        let mut command = albacore(&["vehicle", &world, "--link", link, "--rows", "400x30x50"]);
+        let mut command = albacore(&["vehicle", world, "--link", link, "--rows", "400x30x50"]);
         let child = command.args(RATE).stderr(file).spawn().unwrap();
         let mut vehicle = Vehicle { child, log, link: String::new() };
         vehicle.says("link open at ");
-        vehicle.says("row 1 of 50");
+        vehicle.says("leg 1 of 50");
         let said = vehicle.said();
         vehicle.link = said.split("link open at ").nth(1).unwrap().lines().next().unwrap().to_string();
         vehicle
@@ -146,7 +150,7 @@ fn there_and_back(name: &str, link: &str) {
     let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
     assert!(matches!(journal.ending, Ending::Complete(_)), "{:?}", journal.ending);
     vehicle.says("override released");
-    vehicle.says("resumes row");
+    vehicle.says("resumes leg");
     // It can be had again.
     let again = vehicle.mission(&["--no-out"]).output().unwrap();
     assert_eq!(again.status.code(), Some(0), "{}\n{}", stderr(&again), vehicle.said());
@@ -184,7 +188,7 @@ fn a_guest_drives_in_its_overrides_alone() {
 }
 
 #[test]
-fn a_vehicle_whose_guest_is_killed_goes_back_to_its_rows() {
+fn a_vehicle_whose_guest_is_killed_goes_back_to_its_legs() {
     let folder = empty("killed");
     let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
     let out = folder.join("run");
@@ -193,7 +197,7 @@ fn a_vehicle_whose_guest_is_killed_goes_back_to_its_rows() {
     run.kill().unwrap();
     run.wait().unwrap();
     vehicle.says("override timed out: no message for 5 s");
-    vehicle.says("resumes row");
+    vehicle.says("resumes leg");
     let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
     assert!(matches!(journal.ending, Ending::CutShort(_)), "{:?}", journal.ending);
 }
@@ -208,7 +212,7 @@ fn who_interrupts_a_mission_gives_the_vehicle_back() {
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(String::from_utf8_lossy(&output.stdout).contains("interrupted"));
     vehicle.says("override released");
-    vehicle.says("resumes row");
+    vehicle.says("resumes leg");
     let (code, said) = vehicle.stop();
     assert_eq!(code, Some(0));
     assert!(!said.contains("timed out"), "{said}");
@@ -319,6 +323,25 @@ fn what_is_asked_for_wrongly_is_told() {
         2,
         "no place on the globe",
     );
+}
+
+/// The vehicle's own declaration says what it speaks, to both ends.
+#[test]
+fn the_dialect_of_a_vehicle_is_taken_where_the_url_is_silent() {
+    let folder = empty("dialect");
+    let script = "tests/link/remus.alb";
+    let vehicle = Vehicle::serve_world(&format!("{script}#quay"), "pty:", &folder);
+    assert!(vehicle.link.ends_with("?dialect=recon"), "{}", vehicle.link);
+    let silent = vehicle.link.trim_end_matches("?dialect=recon");
+    let run = albacore(&["run", script, "--no-out", "--link", silent]).args(RATE).output().unwrap();
+    assert_eq!(run.status.code(), Some(0), "{}", stderr(&run));
+    assert!(stderr(&run).contains(&format!("link open to {}", vehicle.link)), "{}", stderr(&run));
+    ends_with(&["run", script, "--no-out", "--link", "serial:/dev/x?dialect=rekon"], 2, "did you mean `recon`?");
+    ends_with(&["run", EXCURSION, "--no-out", "--link", "serial:/dev/x"], 2, "or `dialect(recon)` in the `vehicle`");
+    ends_with(&["vehicle", "duck_2003", "--link", "pty:"], 2, "does not say what the vehicle speaks");
+    let wrong = folder.join("wrong.alb");
+    std::fs::write(&wrong, "vehicle v {\n    kinematic\n    dialect(mavlink)\n}\nscenario s {\n    vehicle(v, start: point(0 m, 0 m))\n}\n").unwrap();
+    ends_with(&["check", wrong.to_str().unwrap()], 3, "there is no protocol named `mavlink`");
 }
 
 #[test]

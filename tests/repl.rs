@@ -7,10 +7,10 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// A session at the root of the repository, both its outputs in one file, as on a terminal.
-fn session(script: Option<&str>, out: &Path) -> Command {
+fn session(args: &[&str], out: &Path) -> Command {
     let both = std::fs::File::create(out).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
-    command.arg("repl").args(script).current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1");
+    command.arg("repl").args(args).current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1");
     command.stdin(Stdio::piped()).stdout(both.try_clone().unwrap()).stderr(both);
     command
 }
@@ -20,10 +20,10 @@ fn out(name: &str) -> std::path::PathBuf {
 }
 
 /// What a session answers to the lines of `tests/repl/NAME.txt`, and with what it ends.
-fn answers(name: &str, script: Option<&str>) -> (Option<i32>, String) {
+fn answers(name: &str, args: &[&str]) -> (Option<i32>, String) {
     let lines = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/repl").join(name).with_extension("txt");
     let out = out(name);
-    let mut child = session(script, &out).spawn().unwrap();
+    let mut child = session(args, &out).spawn().unwrap();
     child.stdin.take().unwrap().write_all(&std::fs::read(lines).unwrap()).unwrap();
     let code = child.wait().unwrap().code();
     (code, std::fs::read_to_string(out).unwrap())
@@ -31,28 +31,28 @@ fn answers(name: &str, script: Option<&str>) -> (Option<i32>, String) {
 
 #[test]
 fn drives_goes_back_and_drives_again() {
-    let (code, answers) = answers("drives", None);
+    let (code, answers) = answers("drives", &[]);
     insta::assert_snapshot!(answers);
     assert_eq!(code, Some(0));
 }
 
 #[test]
 fn a_mission_is_driven_and_looked_into() {
-    let (code, answers) = answers("mission", Some("missions/duck_single.alb"));
+    let (code, answers) = answers("mission", &["missions/duck_single.alb"]);
     insta::assert_snapshot!(answers);
     assert_eq!(code, Some(0));
 }
 
 #[test]
 fn what_is_declared_is_known() {
-    let (code, answers) = answers("declares", None);
+    let (code, answers) = answers("declares", &[]);
     insta::assert_snapshot!(answers);
     assert_eq!(code, Some(0));
 }
 
 #[test]
 fn several_statements_of_a_line_are_done_in_order() {
-    let (code, answers) = answers("several", None);
+    let (code, answers) = answers("several", &[]);
     insta::assert_snapshot!(answers);
     assert_eq!(code, Some(3));
 }
@@ -60,7 +60,7 @@ fn several_statements_of_a_line_are_done_in_order() {
 #[test]
 fn bytes_that_are_no_text_are_left_out() {
     let out = out("bytes");
-    let mut child = session(None, &out).spawn().unwrap();
+    let mut child = session(&[], &out).spawn().unwrap();
     child.stdin.take().unwrap().write_all(b"1 m + 1 m\nlet \xb0 = 3 m\n3 m + 4 m\n").unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(3));
     let said = std::fs::read_to_string(&out).unwrap();
@@ -72,16 +72,37 @@ fn bytes_that_are_no_text_are_left_out() {
 
 #[test]
 fn wrong_lines_are_told_and_change_nothing() {
-    let (code, answers) = answers("wrong", None);
+    let (code, answers) = answers("wrong", &[]);
     insta::assert_snapshot!(answers);
     assert_eq!(code, Some(3));
+}
+
+#[test]
+fn what_goes_wrong_is_told_and_a_vehicle_that_leaks_is_lost() {
+    let faults = ["--fault", "fault(altitude, off, from: 10 s, to: 15 s)", "--fault", "leak, from: 30 s"];
+    let (code, answers) = answers("faults", &faults);
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(3));
+}
+
+#[test]
+fn a_fault_that_is_none_opens_no_session() {
+    for (fault, code, why) in
+        [("leek", 3, "did you mean `leak`?"), ("leak, from: 9 s, to: 8 s", 2, "it must be after `from`")]
+    {
+        let out = out("no-fault");
+        let mut child = session(&["--fault", fault], &out).spawn().unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(code), "{fault}");
+        let said = std::fs::read_to_string(&out).unwrap();
+        assert!(said.contains(why), "{fault}: {said}");
+    }
 }
 
 #[test]
 #[cfg(unix)]
 fn an_interruption_stops_the_vehicle_and_not_the_session() {
     let out = out("interrupted");
-    let mut child = session(Some("missions/duck_single.alb"), &out).spawn().unwrap();
+    let mut child = session(&["missions/duck_single.alb"], &out).spawn().unwrap();
     let mut lines = child.stdin.take().unwrap();
     // Its answer to the first line shows that it listens. What comes then takes a quarter of an hour of ours: whenever the
     // interruption comes, it comes in the middle, and all that would have followed on the line is left out too.

@@ -59,15 +59,43 @@ fn the_picture_is_a_file_of_its_own() {
     assert_ne!(std::fs::read_to_string(folder.join("mine.svg")).unwrap(), picture, "another seed");
 }
 
+/// The points that a vehicle swims to by itself are listed, drawn, and swum to.
+#[test]
+fn a_mission_of_waypoints_is_shown_and_swum() {
+    let script = "tests/scenario/waypoints.alb";
+    let said = listed(&[script, "--no-out"]);
+    assert!(said.contains("points            36°10.881'N 75°44.400'W (150.0, 0.0) m\n"), "{said}");
+    assert!(said.contains("                  36°10.789'N 75°44.320'W (-20.0, 120.0) m\n"), "{said}");
+    let picture = folder("waypoints").join("lagoon.svg");
+    assert_eq!(
+        show(Path::new(env!("CARGO_MANIFEST_DIR")), &[script, "--out", picture.to_str().unwrap()]).status.code(),
+        Some(0)
+    );
+    assert!(std::fs::read_to_string(picture).unwrap().contains("its own mission"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(["test", script]).current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1");
+    let output = command.output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stdout));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("2 passed, 0 failed"));
+}
+
 #[test]
 fn what_cannot_be_shown_is_said() {
     let folder = folder("refused");
     std::fs::write(folder.join("none.alb"), "const one = 1\n").unwrap();
     std::fs::write(folder.join("wet.alb"), "scenario dry { tide(\"M2\", 20 m/s toward 0 deg) }\n").unwrap();
+    std::fs::write(folder.join("fresh.alb"), "scenario dead_sea { stratification(surface_salinity: 340 psu) }\n")
+        .unwrap();
+    std::fs::write(folder.join("both.alb"), "scenario both {\n    rows()\n    waypoints([point(1 m, 2 m)])\n}\n")
+        .unwrap();
+    std::fs::write(folder.join("nowhere.alb"), "scenario nowhere { waypoints([]) }\n").unwrap();
     for (arguments, code, expected) in [
         (&["duk_2003"][..], 2, "did you mean `duck_2003`?"),
-        (&["nowhere.alb"], 2, "there is no file `nowhere.alb`"),
+        (&["elsewhere.alb"], 2, "there is no file `elsewhere.alb`"),
         (&["none.alb"], 2, "which scenario of `none.alb` is to be shown?"),
+        (&["fresh.alb"], 3, "`surface_salinity` is in 0 psu..42 psu"),
+        (&["both.alb"], 3, "a scenario has one `rows` or one `waypoints`"),
+        (&["nowhere.alb"], 3, "there is nowhere to swim to"),
         (&["wet.alb"], 3, "it must be 10 m/s at most"),
     ] {
         let output = show(&folder, arguments);

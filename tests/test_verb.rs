@@ -105,6 +105,28 @@ fn an_expectation_that_fails_says_where_how_often_and_what_was_found() {
 }
 
 #[test]
+fn tests_are_run_with_what_goes_wrong_and_without_their_snapshots() {
+    let project = Project::new("faults", "10 s", "5 m");
+    // Without a snapshot, and with one that is of a run without the fault.
+    for accept in [false, true] {
+        if accept {
+            project.test(&["--accept"]);
+        }
+        let (code, said) = project.test(&["--fault", "compass, off"]);
+        assert_eq!((code, said.contains("takes no `compass`")), (Some(3), true), "{said}");
+        let (code, said) = project.test(&["--fault", "fault(heading, stuck, from: 1 s)"]);
+        assert_eq!((code, said.contains("1 passed, 0 failed")), (Some(0), true), "{said}");
+        let (code, said) = project.test(&["--fault", "strong_current(1 m/s toward 90 deg)"]);
+        assert_eq!((code, said.contains("held in 0 of 4 runs, 75 % wanted")), (Some(1), true), "{said}");
+        assert!(!said.contains("snapshot"), "{said}");
+    }
+    let accepted = project.snapshot();
+    let (code, said) = project.test(&["--accept", "--fault", "leak"]);
+    assert_eq!((code, said.contains("cannot be used with")), (Some(2), true), "{said}");
+    assert_eq!(project.snapshot(), accepted);
+}
+
+#[test]
 fn a_filter_that_leaves_nothing_says_so() {
     let project = Project::new("filter", "10 s", "5 m");
     let (code, said) = project.test(&["--filter", "south"]);

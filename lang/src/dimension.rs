@@ -1,34 +1,39 @@
-//! Dimensions and units. The angle is a dimension of its own, so that radians are never taken for numbers.
+//! Dimensions and units. The angle is a dimension of its own, so that radians are never taken for numbers; and so is practical
+//! salinity, which is no share of anything. Temperatures are degrees Celsius: a unit is a factor, and knows no other zero.
 
 use albacore_program::Display;
 use std::fmt;
 use std::ops::{Div, Mul};
 
-/// Powers of length, time, angle and mass, in halves: `m/s^0.5` has one.
+/// Powers of length, time, angle, mass, temperature and salinity, in halves: `m/s^0.5` has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dimension {
-    halves: [i8; 4],
+    halves: [i8; 6],
 }
 
-const SYMBOLS: [&str; 4] = ["m", "s", "rad", "kg"];
+const SYMBOLS: [&str; 6] = ["m", "s", "rad", "kg", "degC", "psu"];
 
 impl Dimension {
     /// No dimension: a plain number.
-    pub const NONE: Dimension = Dimension { halves: [0; 4] };
+    pub const NONE: Dimension = Dimension { halves: [0; 6] };
     /// Metres.
-    pub const LENGTH: Dimension = Dimension { halves: [2, 0, 0, 0] };
+    pub const LENGTH: Dimension = Dimension { halves: [2, 0, 0, 0, 0, 0] };
     /// Seconds.
-    pub const TIME: Dimension = Dimension { halves: [0, 2, 0, 0] };
+    pub const TIME: Dimension = Dimension { halves: [0, 2, 0, 0, 0, 0] };
     /// Radians.
-    pub const ANGLE: Dimension = Dimension { halves: [0, 0, 2, 0] };
+    pub const ANGLE: Dimension = Dimension { halves: [0, 0, 2, 0, 0, 0] };
     /// Kilograms.
-    pub const MASS: Dimension = Dimension { halves: [0, 0, 0, 2] };
+    pub const MASS: Dimension = Dimension { halves: [0, 0, 0, 2, 0, 0] };
+    /// Degrees Celsius.
+    pub const TEMPERATURE: Dimension = Dimension { halves: [0, 0, 0, 0, 2, 0] };
+    /// Practical salinity (PSS-78).
+    pub const SALINITY: Dimension = Dimension { halves: [0, 0, 0, 0, 0, 2] };
     /// Metres per second.
-    pub const SPEED: Dimension = Dimension { halves: [2, -2, 0, 0] };
+    pub const SPEED: Dimension = Dimension { halves: [2, -2, 0, 0, 0, 0] };
 
     /// This dimension to a power, when its halves stay whole.
     pub fn power(self, power: f64) -> Option<Dimension> {
-        let mut halves = [0; 4];
+        let mut halves = [0; 6];
         for (to, from) in halves.iter_mut().zip(self.halves) {
             let raised = f64::from(from) * power;
             if raised.fract() != 0.0 || raised.abs() > 100.0 {
@@ -63,6 +68,8 @@ impl Dimension {
             d if d == Self::TIME => shown("s", 1.0, 1),
             d if d == Self::ANGLE => shown("deg", std::f64::consts::PI / 180.0, 1),
             d if d == Self::SPEED => shown("m/s", 1.0, 2),
+            d if d == Self::TEMPERATURE => shown("degC", 1.0, 2),
+            d if d == Self::SALINITY => shown("psu", 1.0, 2),
             d if d == Self::ANGLE / Self::TIME => shown("deg/s", std::f64::consts::PI / 180.0, 1),
             d if d == Self::NONE / Self::TIME => shown("Hz", 1.0, 4),
             d => shown(&d.symbol(), 1.0, 4),
@@ -125,20 +132,22 @@ impl fmt::Display for Dimension {
 }
 
 /// Types that are a dimension and nothing more. The first name of a dimension is the one that messages use.
-pub const NAMED: [(&str, Dimension); 13] = [
+pub const NAMED: [(&str, Dimension); 15] = [
     ("Ratio", Dimension::NONE),
     ("Number", Dimension::NONE),
     ("Length", Dimension::LENGTH),
     ("Duration", Dimension::TIME),
     ("Angle", Dimension::ANGLE),
     ("Mass", Dimension::MASS),
+    ("Temperature", Dimension::TEMPERATURE),
+    ("Salinity", Dimension::SALINITY),
     ("Speed", Dimension::SPEED),
-    ("Acceleration", Dimension { halves: [2, -4, 0, 0] }),
-    ("TurnRate", Dimension { halves: [0, -2, 2, 0] }),
-    ("Frequency", Dimension { halves: [0, -2, 0, 0] }),
-    ("Surface", Dimension { halves: [4, 0, 0, 0] }),
-    ("Diffusivity", Dimension { halves: [4, -2, 0, 0] }),
-    ("RandomWalk", Dimension { halves: [2, -1, 0, 0] }),
+    ("Acceleration", Dimension { halves: [2, -4, 0, 0, 0, 0] }),
+    ("TurnRate", Dimension { halves: [0, -2, 2, 0, 0, 0] }),
+    ("Frequency", Dimension { halves: [0, -2, 0, 0, 0, 0] }),
+    ("Surface", Dimension { halves: [4, 0, 0, 0, 0, 0] }),
+    ("Diffusivity", Dimension { halves: [4, -2, 0, 0, 0, 0] }),
+    ("RandomWalk", Dimension { halves: [2, -1, 0, 0, 0, 0] }),
 ];
 
 /// A unit: how many SI units one of it is.
@@ -153,7 +162,7 @@ pub struct Unit {
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// The units that every script knows, by the word that names them.
-pub const UNITS: [(&str, Dimension, f64); 24] = [
+pub const UNITS: [(&str, Dimension, f64); 26] = [
     ("%", Dimension::NONE, 0.01),
     ("m", Dimension::LENGTH, 1.0),
     ("mm", Dimension::LENGTH, 0.001),
@@ -171,13 +180,15 @@ pub const UNITS: [(&str, Dimension, f64); 24] = [
     ("kn", Dimension::SPEED, 1852.0 / 3600.0),
     ("knot", Dimension::SPEED, 1852.0 / 3600.0),
     ("knots", Dimension::SPEED, 1852.0 / 3600.0),
-    ("Hz", Dimension { halves: [0, -2, 0, 0] }, 1.0),
-    ("kHz", Dimension { halves: [0, -2, 0, 0] }, 1000.0),
-    ("mHz", Dimension { halves: [0, -2, 0, 0] }, 0.001),
+    ("Hz", Dimension { halves: [0, -2, 0, 0, 0, 0] }, 1.0),
+    ("kHz", Dimension { halves: [0, -2, 0, 0, 0, 0] }, 1000.0),
+    ("mHz", Dimension { halves: [0, -2, 0, 0, 0, 0] }, 0.001),
     ("kg", Dimension::MASS, 1.0),
     ("g", Dimension::MASS, 0.001),
     ("mg", Dimension::MASS, 1e-6),
     ("ppm", Dimension::NONE, 1e-6),
+    ("degC", Dimension::TEMPERATURE, 1.0),
+    ("psu", Dimension::SALINITY, 1.0),
 ];
 
 /// A word of a unit with its power: `m2`, `s^0.5`, `deg`.
@@ -223,6 +234,7 @@ mod tests {
         check("m2/s", Dimension::of_type("Diffusivity").unwrap(), 1.0);
         check("m/s^0.5", Dimension::of_type("RandomWalk").unwrap(), 1.0);
         check("deg/s", Dimension::of_type("TurnRate").unwrap(), DEGREE);
+        check("degC/m", Dimension::TEMPERATURE / Dimension::LENGTH, 1.0);
         assert_eq!(unit("sec", &|_| None), None);
         assert_eq!(unit("m/t", &|_| None), None);
     }

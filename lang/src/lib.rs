@@ -201,6 +201,12 @@ impl Script {
         self.hir.scenarios.iter().filter(|s| s.span.file == ENTRY).map(|s| s.name.as_str())
     }
 
+    /// The area of a mission, in its local frame, and where it is written; none where it is not made of constants.
+    pub fn operating_area(&self, mission: &str) -> Option<(albacore_geometry::Area, source::Span)> {
+        let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
+        rules::operating_area(&self.hir, *id)
+    }
+
     /// The checked program, its types, and where a mission stands in it.
     pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;

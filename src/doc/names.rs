@@ -18,6 +18,18 @@ struct Named {
     is_value: bool,
 }
 
+impl Named {
+    /// Whether it is a part of a clause.
+    fn is_part(&self) -> bool {
+        self.word == "clause" && self.is_value
+    }
+
+    /// The anchor of its heading.
+    fn anchor(&self, name: &str) -> String {
+        anchor(&format!("{} {name}", self.word))
+    }
+}
+
 /// Where a name stands.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Use {
@@ -52,21 +64,23 @@ impl Names {
         if let Some((module, name)) = path.split_once('.')
             && let Some(at) = self.modules.iter().position(|(named, _)| named == module)
         {
-            return self.in_module(at, name, used).map(|anchor| self.from(home, at, &anchor));
+            return self.in_module(at, name, used).map(|named| self.from(home, at, &named.anchor(name)));
         }
-        let own = std::iter::once(home).chain(self.known.iter().copied());
-        own.map(|at| (at, self.in_module(at, path, used))).find_map(|(at, anchor)| Some(self.from(home, at, &anchor?)))
+        let own = self.in_module(home, path, used).map(|named| (home, named));
+        let known = self.known.iter().filter_map(|&at| Some((at, self.in_module(at, path, used)?)));
+        // A sensor is called as the input that comes of it, and means something within `fault(…)` alone: the input is meant.
+        let (at, named) = own.or_else(|| known.min_by_key(|(_, named)| named.is_part()))?;
+        Some(self.from(home, at, &named.anchor(path)))
     }
 
-    fn in_module(&self, at: usize, name: &str, used: Use) -> Option<String> {
+    fn in_module(&self, at: usize, name: &str, used: Use) -> Option<&Named> {
         let (_, names) = self.modules.get(at)?;
         let fits = |named: &&Named| match used {
             Use::Called => CALLED.contains(&named.word) || named.word == "record",
             Use::Value => named.is_value,
             Use::Told => true,
         };
-        let named = names.get(name)?.iter().find(fits)?;
-        Some(anchor(&format!("{} {name}", named.word)))
+        names.get(name)?.iter().find(fits)
     }
 
     fn from(&self, home: usize, at: usize, anchor: &str) -> String {

@@ -1,6 +1,6 @@
 //! Whether the corners of a polygon make an area: on the globe, convex, not too many; what is wrong is told by the corner.
 
-use super::{Polygon, Position, fault};
+use super::{Position, fault};
 use crate::FileFault;
 use albacore_geometry::{AREA_CORNERS_MAX, Area, Geodetic, Point, TangentFrame, Vector};
 
@@ -10,23 +10,9 @@ const LONGITUDES_MAX_DEG: f64 = 180.0;
 /// What is thinner than this, in metres, is no area but a point or a line.
 const THICKNESS_M: f64 = 1e-3;
 
-/// The corners, unless something is wrong with them: then all of it.
-pub(super) fn sound(polygon: &Polygon, path: &str) -> Result<Vec<Position>, Vec<FileFault>> {
-    let corners = &polygon.corners;
-    let what = match &polygon.name {
-        Some(name) => format!("the polygon `{name}`, {},", polygon.place),
-        None => format!("the polygon at {}", polygon.place),
-    };
+/// Whether corners make an area; else all that is wrong with them. `what` they are, messages say.
+pub(super) fn sound(corners: &[Position], what: &str) -> Result<(), Vec<FileFault>> {
     let mut faults = Vec::new();
-    if polygon.holes > 0 {
-        faults.push(fault(
-            format!("{what} has {}, and an area is whole", if polygon.holes == 1 { "a hole" } else { "holes" }),
-            format!(
-                "make of each hole a polygon with a name, and keep out of it: `no_go(\"hole\", area_file(\"{path}\", \
-                 named: \"hole\"))` in the scenario, `safety.keep_out` in the mission"
-            ),
-        ));
-    }
     if corners.len() < 3 {
         let message = format!("{what} has {} corners, and an area needs at least 3", corners.len());
         faults.push(fault(message, "add what is missing, or export it again"));
@@ -35,11 +21,11 @@ pub(super) fn sound(polygon: &Polygon, path: &str) -> Result<Vec<Position>, Vec<
         let message = format!("{what} has {} corners, and an area has at most {AREA_CORNERS_MAX}", corners.len());
         faults.push(fault(message, "simplify its outline"));
     }
-    faults.extend(beyond(corners, &what));
+    faults.extend(beyond(corners, what));
     if faults.is_empty() {
-        faults.extend(misshapen(corners, &what));
+        faults.extend(misshapen(corners, what));
     }
-    if faults.is_empty() { Ok(corners.clone()) } else { Err(faults) }
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
 /// The first corner that is nowhere on the globe.

@@ -62,14 +62,19 @@ fn object(value: &Value, path: &str, name: Option<&str>, into: &mut Contents) ->
 
 /// A polygon: its outline first, then its holes (section 3.1.6).
 fn polygon(rings: &[Value], place: &str, name: Option<&str>) -> Result<Polygon, FileFault> {
-    let outline = rings.first().and_then(Value::as_array);
-    let outline = outline.ok_or_else(|| missing(&format!("{place}[0]"), "is no list of positions"))?;
+    let corners = ring(rings.first().unwrap_or(&Value::Null), &format!("{place}[0]"))?;
+    let holes = rings.iter().enumerate().skip(1).map(|(i, hole)| ring(hole, &format!("{place}[{i}]")));
+    let holes = holes.collect::<Result<_, FileFault>>()?;
+    Ok(Polygon { name: name.map(str::to_string), place: format!("`{place}`"), corners, holes })
+}
+
+/// The corners of a ring.
+fn ring(positions: &Value, place: &str) -> Result<Vec<Position>, FileFault> {
+    let positions = positions.as_array().ok_or_else(|| missing(place, "is no list of positions"))?;
     let corner = |(i, value): (usize, &Value)| {
-        position(value).ok_or_else(|| missing(&format!("{place}[0][{i}]"), "is no longitude and latitude"))
+        position(value).ok_or_else(|| missing(&format!("{place}[{i}]"), "is no longitude and latitude"))
     };
-    let corners = outline.iter().enumerate().map(corner).collect::<Result<Vec<Position>, FileFault>>()?;
-    let (name, place) = (name.map(str::to_string), format!("`{place}`"));
-    Ok(Polygon { name, place, corners: opened(corners), holes: rings.len() - 1 })
+    positions.iter().enumerate().map(corner).collect::<Result<_, FileFault>>().map(opened)
 }
 
 fn position(value: &Value) -> Option<Position> {

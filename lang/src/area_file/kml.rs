@@ -32,17 +32,22 @@ pub(super) fn contents(text: &str) -> Result<Contents, FileFault> {
 fn polygon(node: Node) -> Result<Polygon, FileFault> {
     let placemark = node.ancestors().find(|above| is(*above, "Placemark"));
     let name = placemark.and_then(|placemark| child(placemark, "name")).map(|name| text(name).trim().to_string());
-    let outline = child(node, "outerBoundaryIs")
-        .and_then(|outer| child(outer, "LinearRing"))
-        .and_then(|ring| child(ring, "coordinates"))
-        .ok_or_else(|| broken(node, "this polygon has no outline with `coordinates`"))?;
+    let outline = child(node, "outerBoundaryIs").and_then(|outer| child(outer, "LinearRing"));
+    let corners = ring(outline, || broken(node, "this polygon has no outline with `coordinates`"))?;
+    let inner = node.children().filter(|below| is(*below, "innerBoundaryIs"));
+    let hole = |inner: Node| ring(child(inner, "LinearRing"), || broken(inner, "this hole has no `coordinates`"));
+    let holes = inner.map(hole).collect::<Result<_, FileFault>>()?;
+    Ok(Polygon { name, place: line(node), corners, holes })
+}
+
+/// The corners of a ring; `without` any, it says so.
+fn ring(ring: Option<Node>, without: impl FnOnce() -> FileFault) -> Result<Vec<Position>, FileFault> {
+    let coordinates = ring.and_then(|ring| child(ring, "coordinates")).ok_or_else(without)?;
     let corner = |tuple: &str| {
-        let what = || broken(outline, &format!("`{tuple}` is no longitude and latitude with a comma between them"));
+        let what = || broken(coordinates, &format!("`{tuple}` is no longitude and latitude with a comma between them"));
         position(tuple).ok_or_else(what)
     };
-    let corners = text(outline).split_whitespace().map(corner).collect::<Result<Vec<Position>, FileFault>>()?;
-    let holes = node.children().filter(|below| is(*below, "innerBoundaryIs")).count();
-    Ok(Polygon { name, place: line(node), corners: opened(corners), holes })
+    text(coordinates).split_whitespace().map(corner).collect::<Result<_, FileFault>>().map(opened)
 }
 
 fn position(tuple: &str) -> Option<Position> {

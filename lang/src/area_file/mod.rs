@@ -30,8 +30,19 @@ struct Polygon {
     place: String,
     /// Its corners, each once.
     corners: Vec<Position>,
-    /// How many holes it has.
-    holes: usize,
+    /// The corners of its holes.
+    holes: Vec<Vec<Position>>,
+}
+
+/// A ring of a polygon, which is an area: its outline, or one of its holes.
+#[derive(Debug)]
+pub struct Ring {
+    /// Its corners, each once.
+    pub corners: Vec<Position>,
+    /// The polygon, as messages call it.
+    pub polygon: String,
+    /// How many holes the polygon has.
+    pub holes: usize,
 }
 
 /// What a file holds.
@@ -42,13 +53,50 @@ struct Contents {
     others: BTreeSet<String>,
 }
 
-/// The corners of the area that is meant: of a file's only polygon, or of the one of a name.
-pub fn area(path: &str, bytes: &[u8], named: Option<&str>) -> Result<Vec<Position>, Vec<FileFault>> {
+/// The area that is meant: a file's only polygon, or the one of a name; its outline, or the hole of a number, from 1.
+pub fn area(path: &str, bytes: &[u8], named: Option<&str>, hole: Option<usize>) -> Result<Ring, Vec<FileFault>> {
     let in_file = |fault: FileFault| FileFault { message: format!("`{path}`: {}", fault.message), ..fault };
     let one = |fault| vec![in_file(fault)];
     let contents = contents(path, bytes).map_err(one)?;
     let polygon = choose(path, &contents, named).map_err(one)?;
-    corners::sound(polygon, path).map_err(|faults| faults.into_iter().map(in_file).collect())
+    let what = match &polygon.name {
+        Some(name) => format!("the polygon `{name}`, {},", polygon.place),
+        None => format!("the polygon at {}", polygon.place),
+    };
+    let (corners, ring) = match hole {
+        None => (Some(&polygon.corners), what.clone()),
+        Some(number) => (polygon.holes.get(number.wrapping_sub(1)), format!("hole {number} of {what}")),
+    };
+    let corners = corners.ok_or_else(|| one(no_hole(&what, polygon.holes.len())))?;
+    corners::sound(corners, &ring).map_err(|faults| faults.into_iter().map(in_file).collect::<Vec<_>>())?;
+    Ok(Ring { corners: corners.clone(), polygon: what, holes: polygon.holes.len() })
+}
+
+/// A hole is asked for that is not there.
+fn no_hole(what: &str, holes: usize) -> FileFault {
+    match holes {
+        0 => fault(format!("{what} has no hole"), "leave out `hole`"),
+        1 => fault(format!("{what} has one hole"), "write `hole: 1`"),
+        _ => fault(format!("{what} has {holes} holes"), format!("write a number from 1 to {holes}")),
+    }
+}
+
+/// The outline of a polygon is read, and not all of its holes: whoever works in the one must know of the others.
+pub fn unread(path: &str, named: Option<&str>, ring: &Ring, unread: &[usize]) -> FileFault {
+    let what = &ring.polygon;
+    let numbers: Vec<String> = unread.iter().take(LISTED_MAX).map(usize::to_string).collect();
+    let more = if unread.len() > LISTED_MAX { ", …" } else { "" };
+    let (numbers, first) = (numbers.join(", ") + more, unread.first().copied().unwrap_or(1));
+    let message = match ring.holes {
+        1 => format!("`{path}`: {what} has a hole that is read nowhere, and an area is whole"),
+        _ => format!("`{path}`: {what} has holes that are read nowhere, and an area is whole: {numbers}"),
+    };
+    let named = named.map_or(String::new(), |name| format!("named: \"{name}\", "));
+    let help = format!(
+        "read it as an area of its own, and keep out of it: `const hole_{first} = area_file(\"{path}\", {named}hole: {first})`, \
+         `no_go(\"hole {first}\", hole_{first})` in the scenario, `safety.keep_out(hole_{first})` in the mission"
+    );
+    fault(message, help)
 }
 
 /// What a file holds, by the ending of its name.

@@ -33,7 +33,7 @@ fn placemark(name: &str, coordinates: &str) -> String {
 const KML_SQUARE: &str = "-75.75,36.18,0 -75.74,36.18,0\n-75.74,36.19,0 -75.75,36.19,0 -75.75,36.18,0";
 
 fn read(path: &str, text: &str, named: Option<&str>) -> Result<Vec<Position>, Vec<FileFault>> {
-    area(path, text.as_bytes(), named)
+    area(path, text.as_bytes(), named, None).map(|ring| ring.corners)
 }
 
 /// The file is refused with one message, that begins with the file's name; the help holds this.
@@ -103,7 +103,7 @@ fn a_file_that_is_no_chart_is_told_with_its_line() {
     let endings = "areas are read from files that end in `.geojson`, `.json` or `.kml`";
     refused("a.shp", "", None, endings, "save the area as GeoJSON");
     refused("a", "", None, endings, "save the area as GeoJSON");
-    let faults = area("a.json", b"{\n\xff}", None).unwrap_err();
+    let faults = area("a.json", b"{\n\xff}", None, None).unwrap_err();
     assert_eq!(faults[0].message, "`a.json`: line 2 is no text in UTF-8");
     // Entities that multiply are never expanded.
     let bomb = "<!DOCTYPE kml [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]><kml>&b;</kml>";
@@ -169,21 +169,47 @@ fn corners_that_make_no_area_are_told_one_by_one() {
 }
 
 #[test]
-fn a_hole_and_what_else_is_wrong_are_told_together() {
-    let holed = outline(&[(0.0, 0.0), (1.0, 95.0)]).replace("]]]", "]], [], []]");
-    let faults = read("bay.json", &geojson(&[("{}", &holed)]), None).unwrap_err();
+fn all_that_is_wrong_with_an_outline_is_told_together() {
+    let faults = read("bay.json", &geojson(&[("{}", &outline(&[(0.0, 0.0), (1.0, 95.0)]))]), None).unwrap_err();
     let messages: Vec<&str> = faults.iter().map(|fault| fault.message.as_str()).collect();
     let what = "the polygon at `features[0].geometry.coordinates`";
-    assert_eq!(
-        messages,
-        [
-            format!("`bay.json`: {what} has holes, and an area is whole"),
-            format!("`bay.json`: {what} has 2 corners, and an area needs at least 3"),
-            format!("`bay.json`: corner 2 of {what} has latitude 95 and longitude 1"),
-        ]
-    );
-    assert!(faults[0].help.as_ref().unwrap().contains("`no_go(\"hole\", area_file(\"bay.json\", named: \"hole\"))`"));
-    let inner = "<innerBoundaryIs/></Polygon>";
-    let text = kml(&placemark("bay", KML_SQUARE).replace("</Polygon>", inner));
-    refused("a.kml", &text, None, "the polygon `bay`, line 3, has a hole, and an area is whole", "safety.keep_out");
+    let corner = format!("`bay.json`: corner 2 of {what} has latitude 95 and longitude 1");
+    assert_eq!(messages, [&format!("`bay.json`: {what} has 2 corners, and an area needs at least 3"), &corner]);
+}
+
+/// Two holes, the second of them no area.
+const HOLES: [&str; 2] = [
+    "[[-75.747, 36.184], [-75.745, 36.184], [-75.746, 36.186], [-75.747, 36.184]]",
+    "[[-75.744, 36.184], [-75.742, 36.186]]",
+];
+
+#[test]
+fn a_hole_is_an_area_of_its_own() {
+    let holed = outline(&SQUARE).replace("]]]", &format!("]], {}, {}]", HOLES[0], HOLES[1]));
+    let json = geojson(&[(r#"{"name": "bay"}"#, &holed)]);
+    let inner = |ring: &str| {
+        let tuples = ring.replace("], [", " ").replace(", ", ",").replace(['[', ']'], "");
+        format!("<innerBoundaryIs><LinearRing><coordinates>{tuples}</coordinates></LinearRing></innerBoundaryIs>")
+    };
+    let inner = format!("{}{}</Polygon>", inner(HOLES[0]), inner(HOLES[1]));
+    let xml = kml(&placemark("bay", KML_SQUARE).replace("</Polygon>", &inner));
+    for (path, text, place) in [("a.json", &json, "`features[0].geometry.coordinates`"), ("a.kml", &xml, "line 3")] {
+        let ring = |hole| area(path, text.as_bytes(), Some("bay"), hole);
+        let whole = ring(None).unwrap();
+        assert_eq!((whole.corners.len(), whole.holes), (4, 2));
+        let hole = ring(Some(1)).unwrap();
+        let first = Position { latitude_deg: 36.184, longitude_deg: -75.747 };
+        assert_eq!((hole.corners.len(), hole.corners[0], &hole.polygon), (3, first, &whole.polygon));
+        let message = |hole| ring(Some(hole)).unwrap_err()[0].message.clone();
+        let what = format!("the polygon `bay`, {place},");
+        assert_eq!(message(2), format!("`{path}`: hole 2 of {what} has 2 corners, and an area needs at least 3"));
+        assert_eq!([message(3), message(0)], [(); 2].map(|()| format!("`{path}`: {what} has 2 holes")));
+    }
+    let error = area("a.kml", kml(&placemark("bay", KML_SQUARE)).as_bytes(), None, Some(1)).unwrap_err();
+    assert_eq!(error[0].message, "`a.kml`: the polygon `bay`, line 3, has no hole");
+    let empty = kml(&placemark("bay", KML_SQUARE).replace("</Polygon>", "<innerBoundaryIs/></Polygon>"));
+    refused("a.kml", &empty, None, "line 7: this hole has no `coordinates`", "export");
+    let none = geojson(&[("{}", &outline(&SQUARE).replace("]]]", "]], 3]"))]);
+    let place = "`features[0].geometry.coordinates[1]` is no list of positions";
+    refused("a.json", &none, None, place, "export");
 }

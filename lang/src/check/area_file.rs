@@ -2,21 +2,40 @@
 
 use super::{Checker, ParamInfo};
 use crate::FileFault;
-use crate::area_file::{self, BYTES_MAX};
+use crate::area_file::{self, BYTES_MAX, Ring};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Builtin, Expr, ExprKind, TextPart};
 use crate::source::{Source, Span};
 use crate::syntax::tree;
 use crate::types::Type;
+use std::collections::BTreeSet;
+
+/// The polygons with holes that were read.
+#[derive(Debug, Default)]
+pub(super) struct Holed {
+    outlines: Vec<Outline>,
+    /// The holes that are areas of the script: file, polygon, number.
+    holes: BTreeSet<(String, String, usize)>,
+}
+
+/// The outline of a polygon with holes, read as an area.
+#[derive(Debug)]
+struct Outline {
+    path: String,
+    named: Option<String>,
+    ring: Ring,
+    span: Span,
+}
 
 impl Checker<'_> {
     pub(super) fn area_file(&mut self, args: &[tree::Arg], span: Span) -> Expr {
         let unnamed = self.make(ExprKind::None, Type::None, span);
         let text = |name: &str, default| ParamInfo { name: name.into(), ty: Type::Text, default, range: None, span };
-        let params = [text("file", None), text("named", Some(unnamed))];
+        let hole = ParamInfo { name: "hole".into(), ty: Type::Int, default: Some(unnamed.clone()), range: None, span };
+        let params = [text("file", None), text("named", Some(unnamed)), hole];
         let Some(values) = self.arguments("area_file", &params, args, span, None) else { return self.unknown(span) };
-        let [file, named] = values.as_slice() else { return self.unknown(span) };
+        let [file, named, hole] = values.as_slice() else { return self.unknown(span) };
         let Some(path) = self.constant_text(file) else { return self.unknown(span) };
         let named = match named.kind {
             ExprKind::None => None,
@@ -25,23 +44,54 @@ impl Checker<'_> {
                 None => return self.unknown(span),
             },
         };
-        let corners = match self.data_file(&path) {
-            Ok(bytes) => area_file::area(&path, &bytes, named.as_deref()),
+        let hole = match (&hole.kind, hole.range.constant()) {
+            (ExprKind::None, _) => None,
+            (_, Some(number)) => Some(number as usize),
+            (_, None) => {
+                let what = "the file of an area is read before the launch";
+                self.report(Diagnostic::error(Code::AreasFile, hole.span, what).help("write the number itself"));
+                return self.unknown(span);
+            }
+        };
+        let ring = match self.data_file(&path) {
+            Ok(bytes) => area_file::area(&path, &bytes, named.as_deref(), hole),
             Err(fault) => Err(vec![fault]),
         };
-        match corners {
-            Ok(corners) => self.polygon_of(&corners, span),
-            Err(faults) => {
-                for FileFault { message, help } in faults {
-                    let finding = Diagnostic::error(Code::AreasFile, span, message);
-                    self.report(match help {
-                        Some(help) => finding.help(help),
-                        None => finding,
-                    });
+        match ring {
+            Ok(ring) => {
+                let area = self.polygon_of(&ring.corners, span);
+                match hole {
+                    Some(number) => _ = self.holed.holes.insert((path, ring.polygon, number)),
+                    None if ring.holes > 0 => self.holed.outlines.push(Outline { path, named, ring, span }),
+                    None => {}
                 }
+                area
+            }
+            Err(faults) => {
+                faults.into_iter().for_each(|fault| self.report_file(fault, span));
                 self.unknown(span)
             }
         }
+    }
+
+    /// An outline is an area only for who has read its holes too, to keep out of them.
+    pub(super) fn holes_are_read(&mut self) {
+        let Holed { outlines, holes } = std::mem::take(&mut self.holed);
+        for Outline { path, named, ring, span } in outlines {
+            let is_read = |number| holes.contains(&(path.clone(), ring.polygon.clone(), number));
+            let unread: Vec<usize> = (1..=ring.holes).filter(|&number| !is_read(number)).collect();
+            if !unread.is_empty() {
+                self.report_file(area_file::unread(&path, named.as_deref(), &ring, &unread), span);
+            }
+        }
+    }
+
+    fn report_file(&mut self, FileFault { message, help }: FileFault, span: Span) {
+        let finding = Diagnostic::error(Code::AreasFile, span, message);
+        self.report(match help {
+            Some(help) => finding.help(help),
+            None => finding,
+        });
     }
 
     /// The area of corners that are known to make one.

@@ -52,6 +52,7 @@ impl<'t> Checker<'t> {
                 }
             }
         }
+        self.holes_are_read();
         if self.recursion() || self.calls_too_deep() {
             return;
         }

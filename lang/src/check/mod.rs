@@ -214,6 +214,7 @@ pub struct Checker<'t> {
     library: &'t dyn Library,
     /// The files of data that the scripts name, each read once.
     files: BTreeMap<String, Result<Vec<u8>, FileFault>>,
+    holed: area_file::Holed,
     names: Vec<BTreeMap<String, Def>>,
     consts: Vec<Lazy<'t>>,
     signals: Vec<Lazy<'t>>,
@@ -260,6 +261,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         modules,
         library,
         files: BTreeMap::new(),
+        holed: area_file::Holed::default(),
         names: modules.iter().map(|_| BTreeMap::new()).collect(),
         consts: Vec::new(),
         signals: Vec::new(),

@@ -20,12 +20,13 @@ pub(super) const CLAUSE: &str = "vehicle";
 const LIBRARY: &str = "vehicles";
 
 /// Clauses of the world: they hold for whatever vehicle swims there, and no vehicle brings them.
-const OF_THE_WORLD: [&str; 16] = [
+const OF_THE_WORLD: [&str; 17] = [
     "flow",
     "turning",
     "tide",
     "waves",
     "upper_layer",
+    "stratification",
     "region",
     "bottom",
     "bottom_grid",

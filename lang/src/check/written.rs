@@ -45,7 +45,7 @@ impl<'t> Checker<'t> {
             } else if let Some(near) = nearest_unit(&word.node, &known) {
                 finding.help(format!("did you mean `{near}`?"))
             } else {
-                finding.help("units are m, cm, km, nmi, ft, s, min, h, deg, rad, m/s, kn, Hz, %, kg, g and what they make, such as m2/s")
+                finding.help("units are m, cm, km, nmi, ft, s, min, h, deg, rad, m/s, kn, Hz, %, kg, g, degC, psu and what they make, such as m2/s")
             };
             self.report(finding);
         }
@@ -183,6 +183,8 @@ fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         "radian" | "radians" => "rad",
         "kt" | "kts" => "kn",
         "percent" => "%",
+        "celsius" | "Celsius" | "C" | "K" | "kelvin" | "degF" => "degC",
+        "PSU" | "pss" | "PSS" => "psu",
         "mps" => return Some("m/s"),
         "kmh" | "kph" | "kmph" => return Some("km/h"),
         "feet" | "foot" => "ft",

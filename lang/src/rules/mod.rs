@@ -12,6 +12,7 @@ mod unreached;
 
 pub use control::first_watch;
 pub use overlaps::check as overlaps;
+pub use places::operating_area;
 pub use unreached::check as unreached;
 
 pub use inputs::read as inputs_read;

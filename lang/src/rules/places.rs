@@ -13,13 +13,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let Some(path) = &parts.scenario else { return Vec::new() };
     let name = path.rsplit('.').next().unwrap_or(path);
     let Some(scenario) = hir.scenarios.iter().find(|s| s.name == name) else { return Vec::new() };
-    let written = activity.decls.iter().find_map(|decl| match decl {
-        crate::hir::Decl::Area(_, e) => Some(e),
-        _ => None,
-    });
-    let Some(written) = written else { return Vec::new() };
-    let frame = crate::lower::origin_of(written).map(|origin| TangentFrame { origin });
-    let Some(area) = area(written, frame) else { return Vec::new() };
+    let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
     let outside = |clause: &ClauseUse| {
         let (what, param) = match clause.name.as_str() {
             "vehicle" => ("the vehicle starts", "start"),
@@ -29,9 +23,24 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         let place = clause.args.iter().find(|(name, _)| name == param)?;
         let ClauseArg::Value(e) = &place.1 else { return None };
         let out = -area.gap(point(e, frame)?);
-        (out > 0.0).then(|| finding(&activity.name, written.span, e.span, what, out))
+        (out > 0.0).then(|| finding(&activity.name, written, e.span, what, out))
     };
     scenario.clauses.iter().filter_map(outside).collect()
+}
+
+/// The area of a mission and where it is written, if it is made of constants.
+pub fn operating_area(hir: &Hir, mission: usize) -> Option<(Area, Span)> {
+    of_mission(hir, mission).map(|(area, written, _)| (area, written))
+}
+
+/// The same, and the frame that it lies in.
+fn of_mission(hir: &Hir, mission: usize) -> Option<(Area, Span, Option<TangentFrame>)> {
+    let written = hir.activities[mission].decls.iter().find_map(|decl| match decl {
+        crate::hir::Decl::Area(_, e) => Some(e),
+        _ => None,
+    })?;
+    let frame = crate::lower::origin_of(written).map(|origin| TangentFrame { origin });
+    Some((area(written, frame)?, written.span, frame))
 }
 
 fn finding(mission: &str, area: Span, place: Span, what: &str, out_m: f64) -> Diagnostic {

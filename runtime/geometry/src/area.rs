@@ -130,6 +130,14 @@ impl Area {
     pub fn gap(&self, p: Point) -> f64 {
         self.edges().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min)
     }
+
+    /// Whether two areas have more than edges in common. Of convex polygons that have not, one lies wholly beyond an edge of the
+    /// other (the theorem of the separating axis).
+    pub fn overlaps(&self, other: &Area) -> bool {
+        let beyond_an_edge =
+            |of: &Area, area: &Area| of.edges().any(|edge| area.corners.iter().all(|&c| edge.gap(c) <= 0.0));
+        !beyond_an_edge(self, other) && !beyond_an_edge(other, self)
+    }
 }
 
 #[cfg(test)]
@@ -165,6 +173,31 @@ mod tests {
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
         assert_eq!(Area::polygon(&[p(0.0, f64::NAN), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::NotFinite));
+    }
+
+    #[test]
+    fn areas_overlap_whose_insides_meet() {
+        let square = |north, east, turned: f64| {
+            Area::rectangle(Point::new(north, east), Heading::from_degrees(turned), 10.0, 10.0).unwrap()
+        };
+        let area = square(0.0, 0.0, 0.0);
+        for (north, east, turned, meet) in [
+            (3.0, 3.0, 0.0, true),
+            (0.0, 0.0, 45.0, true),
+            (0.0, 10.1, 0.0, false),
+            (10.0, 0.0, 0.0, false),
+            // A corner of the turned one reaches 7.07 m.
+            (0.0, 12.0, 45.0, true),
+            (0.0, 12.1, 45.0, false),
+            // Corner to corner: only the edges of the turned one lie between.
+            (9.0, 9.0, 45.0, false),
+            (8.0, 8.0, 45.0, true),
+        ] {
+            let other = square(north, east, turned);
+            assert_eq!((area.overlaps(&other), other.overlaps(&area)), (meet, meet), "{north} {east} {turned}");
+        }
+        let whole = Area::rectangle(Point::ORIGIN, Heading::NORTH, 1000.0, 1000.0).unwrap();
+        assert!(whole.overlaps(&area) && area.overlaps(&whole));
     }
 
     #[test]

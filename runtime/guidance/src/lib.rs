@@ -16,6 +16,7 @@ mod law;
 mod loiter;
 mod own_plan;
 pub mod parameters;
+mod route;
 mod rows;
 mod words;
 
@@ -28,4 +29,5 @@ pub use law::{Guidance, cross_track};
 pub use loiter::{Circling, Loiter};
 pub use own_plan::{Milestone, OwnPlan};
 pub use parameters::{turning_radius, turning_radius_in_flow};
-pub use rows::{RowMission, Rows};
+pub use route::{Route, Waypoints};
+pub use rows::Rows;

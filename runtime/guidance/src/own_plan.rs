@@ -1,16 +1,16 @@
-//! What a vehicle does when nobody else drives it: its own mission, rows to and fro, and the way back to it after a guest has
-//! driven. On release it returns to the point where the guest took over, or to the closest point of its row, and goes on
+//! What a vehicle does when nobody else drives it: its own mission, leg by leg, and the way back to it after a guest has
+//! driven. On release it returns to the point where the guest took over, or to the closest point of its leg, and goes on
 //! (J. A. Farrell et al., the 2003 trials).
 
 use crate::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
-use crate::rows::{RowMission, Rows};
+use crate::route::{Route, UnderWay};
 use crate::{Goto, turning_radius};
 use albacore_geometry::{Heading, Point};
 
 /// A plan under way.
 #[derive(Clone, Debug)]
 pub struct OwnPlan {
-    rows: RowMission,
+    route: UnderWay,
     doing: Doing,
     /// Where a guest took over, until the vehicle is back there.
     break_off: Option<Point>,
@@ -19,7 +19,7 @@ pub struct OwnPlan {
 
 #[derive(Clone, Debug)]
 enum Doing {
-    Rows,
+    Legs,
     /// A guest drives.
     Away,
     Return(Goto),
@@ -29,34 +29,34 @@ enum Doing {
 /// A step in the life of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Milestone {
-    /// A row begins, of so many.
-    Row(u32, u32),
-    /// The vehicle is back where the guest took over, and goes on with a row.
+    /// A leg begins, of so many.
+    Leg(u32, u32),
+    /// The vehicle is back where the guest took over, and goes on with a leg.
     Resumed(Point, u32),
-    /// The rows are done.
+    /// The legs are done.
     Over,
 }
 
 impl OwnPlan {
-    /// Rows that begin at a place and run along a heading, the others to the right of the first.
-    pub fn new(rows: Rows, start: Point, heading: Heading) -> Self {
-        let rows = RowMission::new(rows, start, heading);
-        OwnPlan { rows, doing: Doing::Rows, break_off: None, to_closest_point: false }
+    /// A route, for a vehicle that starts at a place and heading.
+    pub fn new(route: &Route, start: Point, heading: Heading) -> Self {
+        let route = UnderWay::new(route, start, heading);
+        OwnPlan { route, doing: Doing::Legs, break_off: None, to_closest_point: false }
     }
 
-    /// The row under way, from 1 on.
-    pub fn row(&self) -> u32 {
-        self.rows.number()
+    /// The leg under way, from 1 on.
+    pub fn leg(&self) -> u32 {
+        self.route.number()
     }
 
-    /// How many rows there are.
-    pub fn rows(&self) -> u32 {
-        self.rows.count()
+    /// How many legs there are.
+    pub fn legs(&self) -> u32 {
+        self.route.count()
     }
 
     /// The speed along them, m/s over ground.
     pub fn speed(&self) -> f64 {
-        self.rows.speed()
+        self.route.speed()
     }
 
     /// Whether a guest drives.
@@ -64,17 +64,17 @@ impl OwnPlan {
         matches!(self.doing, Doing::Away)
     }
 
-    /// Whether the rows are done.
+    /// Whether the legs are done.
     pub fn is_over(&self) -> bool {
         matches!(self.doing, Doing::Over)
     }
 
-    /// Whether it returns to the closest point of its row, rather than to where the guest took over.
+    /// Whether it returns to the closest point of its leg, rather than to where the guest took over.
     pub fn returns_to_closest_point(&self) -> bool {
         self.to_closest_point
     }
 
-    /// Lets it return to the closest point of its row, or not.
+    /// Lets it return to the closest point of its leg, or not.
     pub fn return_to_closest_point(&mut self, closest: bool) {
         self.to_closest_point = closest;
     }
@@ -85,23 +85,24 @@ impl OwnPlan {
             Doing::Away | Doing::Over => return false,
             // Asked again on its way back, the vehicle still knows where its own mission waits.
             Doing::Return(_) => {}
-            Doing::Rows => self.break_off = Some(position),
+            Doing::Legs => self.break_off = Some(position),
         }
         self.doing = Doing::Away;
         true
     }
 
-    /// The guest has left: back to where it took over, or to the closest point of the row.
+    /// The guest has left: back to where it took over, or to the closest point of the leg.
     pub fn go_back(&mut self, position: Point) {
         if !self.is_left() {
             return;
         }
-        let goal = if self.to_closest_point { self.rows.closest(position) } else { self.break_off.unwrap_or(position) };
+        let goal =
+            if self.to_closest_point { self.route.closest(position) } else { self.break_off.unwrap_or(position) };
         self.break_off = Some(goal);
-        self.doing = Doing::Return(Goto::new(goal, ARRIVAL_RADIUS, turning_radius(self.rows.speed(), TURN_RATE_MAX)));
+        self.doing = Doing::Return(Goto::new(goal, ARRIVAL_RADIUS, turning_radius(self.route.speed(), TURN_RATE_MAX)));
     }
 
-    /// The course over ground to steer in the coming tick; none when a guest drives or the rows are done.
+    /// The course over ground to steer in the coming tick; none when a guest drives or the legs are done.
     pub fn step(&mut self, position: Point, course: Heading, tell: &mut dyn FnMut(Milestone)) -> Option<Heading> {
         if let Doing::Return(goto) = &mut self.doing {
             let guidance = goto.step(position, course);
@@ -109,20 +110,20 @@ impl OwnPlan {
                 return Some(guidance.course);
             }
             let from = self.break_off.take().unwrap_or(position);
-            self.rows.resume(from);
-            self.doing = Doing::Rows;
-            tell(Milestone::Resumed(from, self.rows.number()));
+            self.route.resume(from);
+            self.doing = Doing::Legs;
+            tell(Milestone::Resumed(from, self.route.number()));
         }
-        if !matches!(self.doing, Doing::Rows) {
+        if !matches!(self.doing, Doing::Legs) {
             return None;
         }
-        let before = self.rows.number();
-        let course = self.rows.step(position, course);
-        if self.rows.is_over() {
+        let before = self.route.number();
+        let course = self.route.step(position, course);
+        if self.route.is_over() {
             self.doing = Doing::Over;
             tell(Milestone::Over);
-        } else if self.rows.number() != before {
-            tell(Milestone::Row(self.rows.number(), self.rows.count()));
+        } else if self.route.number() != before {
+            tell(Milestone::Leg(self.route.number(), self.route.count()));
         }
         Some(course)
     }

@@ -1,7 +1,5 @@
-//! The vehicle's own mission: parallel rows, to and fro, as the 2003 paper's `Navigate Rows`.
+//! Parallel rows, to and fro, as the 2003 paper's `Navigate Rows`.
 
-use crate::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
-use crate::{FollowLine, turning_radius};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Line, Point};
 use serde::{Deserialize, Serialize};
@@ -49,75 +47,17 @@ impl std::str::FromStr for Rows {
     }
 }
 
-/// Rows under way.
-#[derive(Clone, Debug)]
-pub struct RowMission {
-    rows: Rows,
-    first: Line,
-    index: u32,
-    follow: FollowLine,
-}
-
-impl RowMission {
-    /// The first row begins at `start` and runs along `heading`; the others lie to the right of it.
-    pub fn new(rows: Rows, start: Point, heading: Heading) -> Self {
-        let first = Line { start, end: start + rows.length * heading.unit() };
-        RowMission { rows, first, index: 0, follow: follow(first, rows.speed) }
+impl Rows {
+    /// Each of them, to and fro: the first begins at `start` and runs along `heading`, the others lie to the right of it.
+    pub fn lines(&self, start: Point, heading: Heading) -> Vec<Line> {
+        let first = Line { start, end: start + self.length * heading.unit() };
+        let line = |index: u32| {
+            let across = f64::from(index) * self.spacing * (first.heading() + PI / 2.0).unit();
+            let line = Line { start: first.start + across, end: first.end + across };
+            if index.is_multiple_of(2) { line } else { Line { start: line.end, end: line.start } }
+        };
+        (0..self.count).map(line).collect()
     }
-
-    /// The row under way, from 1 on, as `#S` calls it a leg.
-    pub fn number(&self) -> u32 {
-        (self.index + 1).min(self.rows.count)
-    }
-
-    /// How many rows there are.
-    pub fn count(&self) -> u32 {
-        self.rows.count
-    }
-
-    /// The speed along them, m/s over ground.
-    pub fn speed(&self) -> f64 {
-        self.rows.speed
-    }
-
-    /// Whether all rows are done.
-    pub fn is_over(&self) -> bool {
-        self.index >= self.rows.count
-    }
-
-    fn line(&self) -> Line {
-        let across = f64::from(self.index) * self.rows.spacing * (self.first.heading() + PI / 2.0).unit();
-        let line = Line { start: self.first.start + across, end: self.first.end + across };
-        if self.index.is_multiple_of(2) { line } else { Line { start: line.end, end: line.start } }
-    }
-
-    /// The course over ground to steer; moves on to the next row at the end of one.
-    pub fn step(&mut self, position: Point, course: Heading) -> Heading {
-        let guidance = self.follow.step(position, course);
-        if guidance.arrived {
-            self.index += 1;
-            self.follow = follow(self.line(), self.rows.speed);
-        }
-        guidance.course
-    }
-
-    /// The point of the row that is nearest to a place.
-    pub fn closest(&self, to: Point) -> Point {
-        let line = self.line();
-        let along = (to - line.start).along(line.heading()).clamp(0.0, line.length());
-        line.start + along * line.heading().unit()
-    }
-
-    /// Goes on from a place: along what is left of the row, or to its beginning if that was not reached yet.
-    pub fn resume(&mut self, from: Point) {
-        let line = self.line();
-        let rest = if self.follow.along() { Line { start: self.closest(from), end: line.end } } else { line };
-        self.follow = follow(rest, self.rows.speed);
-    }
-}
-
-fn follow(line: Line, speed: f64) -> FollowLine {
-    FollowLine::new(line, turning_radius(speed, TURN_RATE_MAX), speed * TURN_LEAD_TIME)
 }
 
 #[cfg(test)]
@@ -137,11 +77,10 @@ mod tests {
 
     #[test]
     fn every_second_row_runs_back() {
-        let mut mission = RowMission::new("100x20x2".parse().unwrap(), Point::ORIGIN, Heading::NORTH);
-        assert_eq!(mission.line(), Line { start: Point::ORIGIN, end: Point::new(100.0, 0.0) });
-        mission.index = 1;
-        assert!(mission.line().start.distance(Point::new(100.0, 20.0)) < 1e-9);
-        assert!(mission.line().end.distance(Point::new(0.0, 20.0)) < 1e-9);
-        assert!(mission.closest(Point::new(40.0, 33.0)).distance(Point::new(40.0, 20.0)) < 1e-9);
+        let rows: Rows = "100x20x2".parse().unwrap();
+        let lines = rows.lines(Point::ORIGIN, Heading::NORTH);
+        assert_eq!((lines.len(), lines[0]), (2, Line { start: Point::ORIGIN, end: Point::new(100.0, 0.0) }));
+        assert!(lines[1].start.distance(Point::new(100.0, 20.0)) < 1e-9);
+        assert!(lines[1].end.distance(Point::new(0.0, 20.0)) < 1e-9);
     }
 }

@@ -11,4 +11,4 @@ mod url;
 
 pub use error::LinkError;
 pub use transport::{Transport, call, serve};
-pub use url::{Dialect, Place, Url};
+pub use url::{Dialect, Place, Url, WrittenUrl};

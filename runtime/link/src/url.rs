@@ -44,7 +44,15 @@ pub enum Dialect {
     Recon,
 }
 
-impl Url {
+/// A URL as it is written: what is spoken may be left to who knows the vehicle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenUrl {
+    text: String,
+    place: Place,
+    dialect: Option<Dialect>,
+}
+
+impl WrittenUrl {
     /// Reads a URL. An error says what is wrong with it and what there is instead.
     pub fn parse(text: &str) -> Result<Self, LinkError> {
         let (place, query) = text.split_once('?').unwrap_or((text, ""));
@@ -84,16 +92,42 @@ impl Url {
             }
             _ => return Err(unknown("kind of link", scheme, &SCHEMES)),
         };
-        let dialect = match get("dialect") {
-            Some("recon") => Dialect::Recon,
-            Some(other) => return Err(unknown("dialect", other, &DIALECTS)),
-            None => {
-                let sign = if query.is_empty() { '?' } else { '&' };
-                let help = format!("write `{text}{sign}dialect=recon`");
-                return Err(LinkError::new(format!("`{text}` does not say what the vehicle speaks"), help));
-            }
+        let dialect = get("dialect").map(Dialect::named).transpose()?;
+        Ok(WrittenUrl { text: text.to_string(), place, dialect })
+    }
+
+    /// Whether it leaves open what is spoken.
+    pub fn is_silent(&self) -> bool {
+        self.dialect.is_none()
+    }
+
+    /// The URL, with what the vehicle is known to speak where it does not say it itself.
+    pub fn of_vehicle(self, speaks: Option<Dialect>) -> Result<Url, LinkError> {
+        let text = &self.text;
+        let Some(dialect) = self.dialect.or(speaks) else {
+            let sign = if text.contains('?') { '&' } else { '?' };
+            let help =
+                format!("write `{text}{sign}dialect=recon`, or `dialect(recon)` in the `vehicle` of the scenario");
+            return Err(LinkError::new(format!("`{text}` does not say what the vehicle speaks"), help));
         };
-        Ok(Url { place, dialect })
+        Ok(Url { place: self.place, dialect })
+    }
+}
+
+impl Url {
+    /// Reads a URL that says what is spoken.
+    pub fn parse(text: &str) -> Result<Self, LinkError> {
+        WrittenUrl::parse(text)?.of_vehicle(None)
+    }
+}
+
+impl Dialect {
+    /// The dialect of a name.
+    pub fn named(name: &str) -> Result<Self, LinkError> {
+        match name {
+            "recon" => Ok(Dialect::Recon),
+            other => Err(unknown("dialect", other, &DIALECTS)),
+        }
     }
 }
 
@@ -192,6 +226,20 @@ mod tests {
         let udp = Url::parse("udp:[::1]:23456?dialect=recon&local=23456").unwrap();
         assert_eq!(udp.place, Place::Udp { host: "[::1]".into(), port: 23456, local: 23456 });
         assert_eq!(Url::parse("pty:?dialect=recon").unwrap().place, Place::Pty);
+    }
+
+    #[test]
+    fn a_url_that_is_silent_takes_what_the_vehicle_speaks() {
+        let url = |text: &str, speaks| WrittenUrl::parse(text).and_then(|url| url.of_vehicle(speaks));
+        let text = url("serial:/dev/x?baud=9600", Some(Dialect::Recon)).unwrap();
+        assert_eq!(text, Url::parse("serial:/dev/x?baud=9600&dialect=recon").unwrap());
+        assert_eq!(url("pty:", Some(Dialect::Recon)), Url::parse("pty:?dialect=recon"));
+        assert!(
+            WrittenUrl::parse("pty:").unwrap().is_silent()
+                && !WrittenUrl::parse("pty:?dialect=recon").unwrap().is_silent()
+        );
+        assert!(url("pty:", None).unwrap_err().help.contains("`dialect(recon)` in the `vehicle`"));
+        assert!(url("pty:?dialect=rekon", Some(Dialect::Recon)).unwrap_err().help.contains("did you mean `recon`?"));
     }
 
     #[test]

@@ -4,7 +4,8 @@
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{Controller, FrontSeat, Happening, Milestone, Rows};
-use albacore_sim::{Scenario, Simulator, VehicleSetup};
+use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
+use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 
 /// A generator for tests (SplitMix64): what goes wrong is the same in every run.
@@ -81,11 +82,15 @@ struct Pair {
 
 impl Pair {
     fn new(rows: &str, seed: u64, share: f64) -> Self {
+        Pair::of(&still_water(), rows, seed, share)
+    }
+
+    fn of(scenario: &Scenario, rows: &str, seed: u64, share: f64) -> Self {
         let rows: Rows = rows.parse().unwrap();
-        let simulator = Simulator::new(&still_water(), seed).unwrap();
+        let simulator = Simulator::new(scenario, seed).unwrap();
         let start = (Point::ORIGIN, Heading::NORTH);
         Pair {
-            vehicle: FrontSeat::new(simulator, frame(), rows, start, Vertical::Depth(3.0)),
+            vehicle: FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(3.0)),
             controller: Controller::new(frame()),
             wire: Wire { chance: Chance(seed), share },
             to_vehicle: Vec::new(),
@@ -196,6 +201,24 @@ fn the_controller_sees_what_the_vehicle_believes_as_fine_as_the_dialect_says() {
 }
 
 #[test]
+fn temperature_and_salinity_come_of_a_vehicle_that_has_a_ctd() {
+    let stratification =
+        Stratification { surface: 18.0, bottom: 8.0, surface_salinity: 31.0, thermocline: 3.0, ..Default::default() };
+    let scenario = Scenario { stratification, ctd: Some(Ctd::default()), ..still_water() };
+    let mut pair = Pair::of(&scenario, "100x30x2", 1, 0.0);
+    let mut came = Vec::new();
+    for _ in 0..100 {
+        pair.tick(None);
+        let of = |channel| pair.snapshot.samples.iter().find(|s| s.channel == channel).map(|s| s.reading[0]);
+        came.extend(of(TEMPERATURE).zip(of(SALINITY)));
+    }
+    assert_eq!(came, [(13.0, 33.0); 10], "the middle of the thermocline, once a second");
+    let mut without = Pair::new("100x30x2", 1, 0.0);
+    without.ticks(100, None);
+    assert!(without.snapshot.samples.iter().all(|s| s.channel != TEMPERATURE && s.channel != SALINITY));
+}
+
+#[test]
 fn a_bad_wire_costs_time_and_nothing_else() {
     for share in [0.01, 0.05, 0.3] {
         for seed in 1..=20 {
@@ -257,6 +280,22 @@ fn unsafe_commands_are_refused_and_noticed() {
     assert!(notices.iter().any(|n| n.contains("does not follow `#C,Depth,Depth,400.00`")), "{notices:?}");
     let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
     assert!((depth - 5.0).abs() < 0.011, "it holds what it held: {depth}");
+}
+
+#[test]
+fn a_vehicle_that_runs_aground_says_so_and_that_it_came_free() {
+    let mut pair = Pair::of(&Scenario { bottom: Bottom::flat(4.0), ..still_water() }, "100x20x2", 1, 0.0);
+    pair.controller.take_over();
+    pair.send();
+    let mut told = Vec::new();
+    for depth in [5.0, 2.0] {
+        pair.ticks(100, Some(&Command { vertical: Vertical::Depth(depth), ..EAST }));
+        told.push(pair.controller.take_notices());
+    }
+    let says = |told: &[String], what: &str| told.iter().filter(|notice| notice.as_str() == what).count();
+    let (aground, free) = ("the vehicle says: error 4, aground", "the vehicle says: error 5, free of the bottom again");
+    assert_eq!((says(&told[0], aground), says(&told[0], free)), (1, 0), "{told:?}");
+    assert_eq!((says(&told[1], aground), says(&told[1], free)), (0, 1), "{told:?}");
 }
 
 #[test]

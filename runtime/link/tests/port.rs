@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{FrontSeat, ReconVehicle, Rows};
+use albacore_link::recon::{FrontSeat, ReconVehicle, Route};
 use albacore_link::{LinkError, Transport, Url};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
@@ -56,7 +56,7 @@ fn vehicle() -> (ReconVehicle, Rc<Wire>) {
     let hull = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
-    let far_end = FrontSeat::new(simulator, frame, Rows::default(), start, Vertical::Depth(3.0));
+    let far_end = FrontSeat::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0));
     let wire = Rc::new(Wire::default());
     let desk = Desk { wire: Rc::clone(&wire), far_end, to_vehicle: Vec::new() };
     let clock = Rc::clone(&wire);

@@ -1,13 +1,13 @@
 //! Faults from the command line: clauses as in a scenario, read and checked as one.
 
-use crate::files;
-use crate::plan::{Plan, PlanError};
-use crate::world;
-use albacore_lang::Script;
+use crate::files::{self, Files};
+use crate::plan::PlanError;
+use crate::scenario;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::source::Source;
-use albacore_sim::Fault;
+use albacore_lang::source::{Source, Sources};
+use albacore_lang::{ScenarioProgram, Script};
+use albacore_sim::{Fault, Objection, Scenario};
 use std::sync::Arc;
 
 /// The scenario that the clauses of a command line make.
@@ -25,31 +25,49 @@ pub fn load_faults(texts: &[String]) -> Script {
     files::load_text(Source { name: "--fault".into(), text: text.into() })
 }
 
-/// What the script of [`load_faults`] lets go wrong.
-pub(crate) fn faults(script: &Script) -> Result<Vec<Fault>, PlanError> {
-    let lowered = match script.scenario(SCENARIO, None) {
-        Some(Ok(lowered)) => lowered,
-        Some(Err(findings)) => return Err(PlanError::script(findings, script)),
-        None => return Ok(Vec::new()),
-    };
-    if let Some(other) = lowered.clauses.iter().find(|clause| clause.name != "fault") {
-        let message = format!("`--fault` takes `fault(…)`, not `{}`", other.name);
-        let finding = Diagnostic::error(Code::ScenariosClause, other.span, message);
-        let finding = finding.help("say it in the scenario");
-        return Err(PlanError::script(vec![finding], script));
-    }
-    Ok(world::sound(&lowered, script)?.world.faults)
+/// What goes wrong in a run beside what its scenario says.
+#[derive(Clone, Debug, Default)]
+pub struct Faults {
+    faults: Vec<Fault>,
+    /// The clauses that say so, and the sources that they stand in.
+    said: Option<(ScenarioProgram, Sources)>,
 }
 
-impl Plan {
-    /// The same with the faults of a script of [`load_faults`] added to those of the scenario.
-    pub fn with_faults(self, script: &Script) -> Result<Plan, PlanError> {
-        let faults = faults(script)?;
-        if faults.is_empty() {
-            return Ok(self);
+impl Faults {
+    /// What the script of [`load_faults`] lets go wrong.
+    pub fn of(script: &Script) -> Result<Self, PlanError> {
+        let wrong = |findings| PlanError::script(findings, script);
+        let lowered = match script.scenario(SCENARIO, None) {
+            Some(lowered) => lowered.map_err(wrong)?,
+            None => return Ok(Faults::default()),
+        };
+        if let Some(other) = lowered.clauses.iter().find(|clause| clause.name != "fault") {
+            let message = format!("`--fault` takes `fault(…)`, not `{}`", other.name);
+            let finding = Diagnostic::error(Code::ScenariosClause, other.span, message);
+            return Err(wrong(vec![finding.help("say it in the scenario")]));
         }
-        let mut scenario = (*self.scenario).clone();
-        scenario.faults.extend(faults);
-        Ok(Plan { scenario: Arc::new(scenario), ..self })
+        let faults = scenario::scenario(&lowered, &Files::of(script)).map_err(wrong)?.world.faults;
+        Ok(Faults { faults, said: Some((lowered, script.sources.clone())) })
+    }
+
+    /// Whether nothing goes wrong.
+    pub fn is_empty(&self) -> bool {
+        self.faults.is_empty()
+    }
+
+    /// A scenario with these faults added to its own, if they can be in it.
+    pub(crate) fn in_scenario(&self, scenario: Arc<Scenario>) -> Result<Arc<Scenario>, PlanError> {
+        let Some((said, sources)) = self.said.as_ref().filter(|_| !self.is_empty()) else { return Ok(scenario) };
+        let mut scenario = Arc::unwrap_or_clone(scenario);
+        let own = scenario.faults.len();
+        scenario.faults.extend(&self.faults);
+        let objections = scenario.validate().err().map_or_else(Vec::new, |error| error.faults);
+        if objections.is_empty() {
+            return Ok(Arc::new(scenario));
+        }
+        // The scenario's own can be, or it would not have come so far.
+        let ours =
+            objections.into_iter().map(|objection| Objection { nth: objection.nth.saturating_sub(own), ..objection });
+        Err(PlanError::Script(ours.map(|objection| scenario::objected(said, &objection)).collect(), sources.clone()))
     }
 }

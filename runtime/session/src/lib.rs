@@ -28,11 +28,11 @@ pub use albacore_lang::fmt::format;
 pub use albacore_lang::source::{FileId, Source, Sources, Span};
 pub use albacore_lang::{Script, nearest};
 pub use albacore_link::recon::{HostClock, Rows};
-pub use albacore_link::{LinkError, Transport, Url, serve};
+pub use albacore_link::{Dialect, LinkError, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use check::findings;
-pub use faults::load_faults;
+pub use faults::{Faults, load_faults};
 pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read,
     standard_modules,

@@ -1,11 +1,15 @@
 //! What is to be run: a mission, chosen from a script, and the world that it runs in.
 
+use crate::faults::Faults;
+use crate::scenario;
 use crate::wanted::Wanted;
 use crate::world;
 use albacore_geometry::TangentFrame;
+use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::source::{Source, Sources};
 use albacore_lang::{Script, suggestion};
+use albacore_link::Dialect;
 use albacore_program::Program;
 use albacore_sim::Scenario;
 use albacore_trace::Digest;
@@ -61,13 +65,27 @@ impl Plan {
             return Err(PlanError::Asked(message, Some(help)));
         };
         let program = Arc::new(program);
-        match scenario.split_once('#') {
-            None => Plan::with(script, program, &scenario),
+        let plan = match scenario.split_once('#') {
+            None => Plan::with(script, program, &scenario)?,
             Some((file, scenario)) => {
                 let other = other_script(file, scenario, wanted)?;
                 let plan = Plan::with(&other, program, scenario)?;
-                Ok(Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan })
+                Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan }
             }
+        };
+        plan.covering(script)
+    }
+
+    /// The same, if its world knows anything of the area of its mission: a recorded one may lie elsewhere.
+    pub(crate) fn covering(self, script: &Script) -> Result<Self, PlanError> {
+        let name = &self.program.mission.name;
+        let Some((area, written)) = script.operating_area(name) else { return Ok(self) };
+        match scenario::uncovered(&self.scenario, name, &area).filter(|beyond| beyond.all) {
+            Some(beyond) => {
+                let finding = Diagnostic::error(Code::ScenariosOutside, written, beyond.message);
+                Err(PlanError::script(vec![finding.help(beyond.help)], script))
+            }
+            None => Ok(self),
         }
     }
 
@@ -82,6 +100,20 @@ impl Plan {
         }
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
         Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script) })
+    }
+
+    /// The same with faults added to those of the scenario.
+    pub fn with_faults(self, faults: &Faults) -> Result<Self, PlanError> {
+        Ok(Plan { scenario: faults.in_scenario(self.scenario)?, ..self })
+    }
+
+    /// What the vehicle speaks that the mission's own scenario says it is for, if it says so.
+    pub fn dialect(script: &Script, file: &str, mission: Option<&str>) -> Result<Option<Dialect>, PlanError> {
+        let (name, program) = chosen(script, file, mission)?;
+        let Some(own) = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone()) else {
+            return Ok(None);
+        };
+        Ok(world::scenario(script, &own, program.mission.origin)?.1.dialect)
     }
 
     /// The frame of the mission, if it lies on the globe.

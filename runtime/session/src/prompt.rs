@@ -5,27 +5,23 @@
 
 mod command;
 mod moment;
+mod opening;
 
+pub use opening::{OpenError, Opening};
+
+use crate::Script;
 use crate::files::Files;
-use crate::plan::{Plan, PlanError};
-use crate::wanted::Wanted;
-use crate::world;
-use crate::{FileError, Script};
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::prompt::{Drive, Left, Line, Named, Prompt as Lines};
-use albacore_lang::source::{Source, Sources};
+use albacore_lang::source::Sources;
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_program::{Program, number};
-use albacore_sim::{Scenario, Simulator};
-use albacore_vehicle::{TICK_S, Vehicle};
+use albacore_sim::Scenario;
+use albacore_vehicle::{Control, Snapshot, TICK_S, Vehicle};
 use command::{Command, HELP, TICKS_MAX};
 use moment::{Moment, Past, Task};
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The world when no script names one.
-const SCENARIO_AT_FIRST: &str = "calm";
 
 /// What the prompt has to say.
 pub enum Say<'a> {
@@ -68,69 +64,7 @@ pub struct Prompt {
     stopped: bool,
 }
 
-/// What a prompt is opened with.
-#[derive(Clone, Debug, Default)]
-pub struct Opening<'a> {
-    /// The script; none for an empty one.
-    pub script: Option<&'a Path>,
-    /// Its mission, when there are several.
-    pub mission: Option<&'a str>,
-    /// The world, when the mission's own is not wanted.
-    pub scenario: Option<&'a str>,
-    /// The seed of all that is random.
-    pub seed: u64,
-    /// Parameters changed, as in [`crate::load`].
-    pub set: &'a [String],
-}
-
-/// Why a prompt cannot be opened.
-pub enum OpenError {
-    /// The script cannot be read.
-    File(FileError),
-    /// The script has errors.
-    Script(Box<(Vec<Diagnostic>, Sources)>),
-    /// What was asked for does not exist or makes no sense: message and help.
-    Asked(String, Option<String>),
-}
-
 impl Prompt {
-    /// Loads a script, makes its world, and takes control of the vehicle in it.
-    pub fn open(opening: &Opening) -> Result<Self, OpenError> {
-        let (source, files, name) = match opening.script {
-            Some(path) => {
-                (crate::files::read(path).map_err(OpenError::File)?, Files::around(path), path.display().to_string())
-            }
-            None => {
-                let empty = Source { name: "<prompt>".into(), text: "".into() };
-                (empty, Files::around(Path::new("prompt.alb")), String::new())
-            }
-        };
-        let wanted = Wanted { mission: opening.mission, scenario: opening.scenario, set: opening.set };
-        let (own, _) = wanted.parted();
-        let (lines, script) = Lines::open(source, &files, &wanted.of_script(&own));
-        if !script.is_sound() {
-            return Err(OpenError::Script(Box::new((script.findings, script.sources))));
-        }
-        let refused = |error: PlanError| match error {
-            PlanError::Script(findings, sources) => OpenError::Script(Box::new((findings, sources))),
-            PlanError::Asked(what, help) => OpenError::Asked(what, help),
-        };
-        let has_mission = script.missions().next().is_some();
-        let (mission, scenario_name, scenario) = if has_mission {
-            let plan = Plan::wanted(&script, &name, &wanted).map_err(refused)?;
-            (Some(plan.program), plan.scenario_name, plan.scenario)
-        } else {
-            let wanted = opening.scenario.unwrap_or(SCENARIO_AT_FIRST);
-            let (lowered, understood) = world::scenario(&script, wanted, None).map_err(refused)?;
-            (None, lowered.name, Arc::new(understood.world))
-        };
-        let now = Moment::first(vehicle(&scenario, opening.seed)?)
-            .map_err(|error| OpenError::Asked(error.to_string(), None))?;
-        let past = Past::beginning_with(&now);
-        let (seed, names) = (opening.seed, Vec::new());
-        Ok(Prompt { files, lines, script, mission, scenario_name, scenario, seed, now, past, names, stopped: false })
-    }
-
     /// What is loaded, in one line.
     pub fn greeting(&self) -> String {
         let mission = match &self.mission {
@@ -247,7 +181,8 @@ impl Prompt {
             let name = &machine.program().inputs[*unheard as usize].name;
             return Err(format!("`{name}` has not been sensed yet; let time go by with `run 30 s`"));
         }
-        machine.step(&self.now.snapshot);
+        // It is the prompt that asks, whoever drives.
+        machine.step(&Snapshot { control: Control::InControl, ..self.now.snapshot.clone() });
         if let Some(why) = aborted(machine.events()) {
             return Err(why);
         }
@@ -279,6 +214,9 @@ impl Prompt {
         interrupted: &AtomicBool,
         say: &mut Listener,
     ) -> Answer {
+        if let Some(answer) = self.is_lost(say) {
+            return answer;
+        }
         let machine = match self.machine(&drive, known) {
             Ok(machine) => machine,
             Err(what) => return wrong(&what, say),
@@ -302,6 +240,9 @@ impl Prompt {
             say(Say::Error("no mission is loaded", Some(help)));
             return Answer::Wrong;
         };
+        if let Some(answer) = self.is_lost(say) {
+            return answer;
+        }
         let name = program.mission.name.clone();
         match self.machine_for(program) {
             Ok(machine) => {
@@ -312,6 +253,16 @@ impl Prompt {
             }
             Err(what) => wrong(&what, say),
         }
+    }
+
+    /// A vehicle that has taken control back, for a leak, does nothing more that it is told.
+    fn is_lost(&self, say: &mut Listener) -> Option<Answer> {
+        if self.now.snapshot.control == Control::InControl {
+            return None;
+        }
+        let help = "`back 30 s` goes back in time, to where it still heeds you";
+        say(Say::Error("the vehicle has taken control back", Some(help)));
+        Some(Answer::Wrong)
     }
 
     fn stop(&mut self, say: &mut Listener) {
@@ -444,13 +395,6 @@ impl Prompt {
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
     }
-}
-
-fn vehicle(scenario: &Scenario, seed: u64) -> Result<Simulator, OpenError> {
-    // At the prompt the vehicle is the person's from the first moment on.
-    let scenario = Scenario { handover: None, ..scenario.clone() };
-    Simulator::new(&scenario, seed)
-        .map_err(|error| OpenError::Asked("the scenario cannot be".into(), Some(error.to_string())))
 }
 
 fn wrong(what: &str, say: &mut Listener) -> Answer {

@@ -15,16 +15,21 @@ use albacore_geometry::TangentFrame;
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
+use albacore_link::Dialect;
 use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 use clause::Clause;
 pub(crate) use objected::objected;
 
+pub(crate) use recorded::uncovered;
+
 /// A scenario that was understood.
 pub(crate) struct Understood {
     /// The simulator's own.
     pub world: Scenario,
+    /// What its vehicle speaks at the end of a link, if that is said.
+    pub dialect: Option<Dialect>,
     /// The files of numbers that it was read from.
     pub files: Vec<SourceDigest>,
 }
@@ -32,8 +37,10 @@ pub(crate) struct Understood {
 /// The simulator's scenario; else what of it cannot be understood, and where.
 pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
-    let mut understood = Understood { world: Scenario::default(), files: Vec::new() };
-    let mut findings: Vec<Diagnostic> = two_grounds(program).into_iter().chain(two_plumes(program)).collect();
+    let mut understood = Understood { world: Scenario::default(), dialect: None, files: Vec::new() };
+    let pairs = [["bottom", "bottom_grid"], ["rows", "waypoints"]];
+    let twice = pairs.into_iter().filter_map(|pair| one_of(program, pair));
+    let mut findings: Vec<Diagnostic> = twice.chain(two_plumes(program)).collect();
     for clause in &program.clauses {
         let clause = Clause { clause, words: &words };
         let read = match clause.clause.name.as_str() {
@@ -44,6 +51,9 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
             "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
             "vehicle" => vehicle::vehicle(&mut understood.world, &clause),
             "fault" => fault::fault(&mut understood.world, &clause),
+            "dialect" => {
+                vehicle::dialect(&clause).map(|dialect| understood.dialect = Some(dialect)).map_err(Into::into)
+            }
             _ => apply(&mut understood.world, &clause).map_err(Into::into),
         };
         if let Err(Wrong(faults)) = read {
@@ -53,11 +63,12 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
     if findings.is_empty() { Ok(understood) } else { Err(findings) }
 }
 
-/// The ground is a plane or a survey: of two that are said, neither can be the one that is meant.
-fn two_grounds(program: &ScenarioProgram) -> Option<Diagnostic> {
-    let mut grounds = program.clauses.iter().filter(|c| matches!(c.name.as_str(), "bottom" | "bottom_grid"));
-    let (first, second) = (grounds.next()?, grounds.next()?);
-    let message = "a scenario has one `bottom` or one `bottom_grid`";
+/// The ground is a plane or a survey, the vehicle's own mission rows or waypoints: of two that are said, neither can be the one
+/// that is meant.
+fn one_of(program: &ScenarioProgram, names: [&str; 2]) -> Option<Diagnostic> {
+    let mut said = program.clauses.iter().filter(|c| names.contains(&c.name.as_str()));
+    let (first, second) = (said.next()?, said.next()?);
+    let message = format!("a scenario has one `{}` or one `{}`", names[0], names[1]);
     let finding = Diagnostic::error(Code::ScenariosTwice, second.span, message);
     Some(finding.label(first.span, "the first").help("leave one of them out"))
 }
@@ -123,6 +134,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "tide" => flow::tide(scenario, c),
         "waves" => flow::waves(scenario, c),
         "upper_layer" => flow::upper_layer(scenario, c),
+        "stratification" => flow::stratification(scenario, c),
         "region" => flow::region(scenario, c),
         "bottom" => bottom::bottom(scenario, c),
         "pit" => bottom::pit(scenario, c),
@@ -133,6 +145,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "patch" => plume::patch(scenario, c),
         "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
+        "waypoints" => vehicle::waypoints(scenario, c),
         "handover" => vehicle::handover(scenario, c),
         "navigation" => sensors::navigation(scenario, c),
         "fluorometer" => sensors::fluorometer(scenario, c),
@@ -141,6 +154,8 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "pressure" => sensors::pressure(scenario, c),
         "dvl" => sensors::dvl(scenario, c),
         "gps" => sensors::gps(scenario, c),
+        "battery" => sensors::battery(scenario, c),
+        "ctd" => sensors::ctd(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
         other => Err(format!("the simulator knows no `{other}`")),
     }

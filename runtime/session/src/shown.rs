@@ -37,7 +37,7 @@ pub struct ShownClause {
     pub name: String,
     /// Whether the scenario says it.
     pub is_said: bool,
-    /// Its parameters and their values (of an area each corner on a line), and whether the scenario says nothing of them.
+    /// Its parameters and their values (of an area each corner, of a list each item on a line), and whether the scenario says nothing of them.
     pub values: Vec<(String, String, bool)>,
 }
 
@@ -171,6 +171,10 @@ impl Teller<'_> {
                 let corners = corners.chunks(AREA_CORNER_WORDS as usize).take(*count as usize);
                 corners.map(|c| self.point(Point::new(c[0], c[1]))).collect::<Vec<_>>().join("\n")
             }
+            (Shape::List(item, _), [count, items @ ..]) => {
+                let items = items.chunks(item.words().max(1) as usize).take(*count as usize);
+                items.map(|words| self.text(item, words)).collect::<Vec<_>>().join("\n")
+            }
             _ => number::brief(&[], shape, words),
         }
     }
@@ -192,12 +196,14 @@ fn picture(lowered: &ScenarioProgram, scenario: &Scenario, simulator: &Simulator
     let area = scenario.region.as_ref().map(|region| region.corners().to_vec());
     let shown = area.clone().unwrap_or_else(|| vec![around(-1.0, -1.0), around(1.0, 1.0)]);
     let flow = simulator.truth().flow;
+    let legs = scenario.own_mission.iter().flat_map(|own| own.route.legs(start, scenario.vehicle.heading));
     Picture {
         title: format!("scenario {}", lowered.name),
         subtitle: vec![format!("as it is when a run with seed {seed} begins")],
         depths: Depths::sound(&shown, |p| simulator.water_depth(p)),
         area: area.unwrap_or_default(),
         area_name: String::from("region"),
+        route: legs.flat_map(|leg| [leg.start, leg.end]).collect(),
         no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
         plume: simulator.filaments().collect(),
         sources: scenario.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),

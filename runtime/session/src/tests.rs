@@ -1,5 +1,6 @@
 //! Running `test` blocks: a mission over its seeds, its expectations, and the traces that snapshots compare.
 
+use crate::faults::Faults;
 use crate::plan::{Plan, PlanError};
 use crate::run::{Run, Running};
 use crate::summary::Summary;
@@ -44,9 +45,11 @@ pub struct Failure {
 /// Examples of a failure that are told.
 const EXAMPLES_MAX: usize = 3;
 
-/// Runs one test: all its seeds, on all cores; the result does not depend on how many there are.
-pub fn run_test(script: &Script, test: &TestProgram) -> Result<TestResult, PlanError> {
+/// Runs one test: all its seeds, on all cores; the result does not depend on how many there are. `faults` are added to those of
+/// its scenario.
+pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<TestResult, PlanError> {
     let plan = Plan::with(script, Arc::new(test.mission.clone()), &test.scenario)?;
+    let plan = plan.covering(script)?.with_faults(faults)?;
     let seeds: Vec<u64> = (test.seeds.0..=test.seeds.1).collect();
     let runs: Result<Vec<Judged>, PlanError> = seeds.par_iter().map(|&seed| judge(&plan, test, seed)).collect();
     let runs = runs?;

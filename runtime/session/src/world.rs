@@ -1,13 +1,16 @@
 //! A simulated world with a vehicle in it that is served to others: the far end of a link.
 
+use crate::faults::Faults;
 use crate::files::Files;
 use crate::plan::PlanError;
 use crate::scenario::{Understood, objected};
 use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
-use albacore_link::recon::{FrontSeat, Rows};
+use albacore_link::Dialect;
+use albacore_link::recon::{FrontSeat, Route, Rows};
 use albacore_sim::{Scenario, ScenarioError, Simulator};
 use albacore_vehicle::Vertical;
+use std::sync::Arc;
 
 /// A vehicle at the surface swims its rows this far above the bottom, m.
 const ROWS_ALTITUDE: f64 = 2.0;
@@ -17,7 +20,9 @@ const ROWS_ALTITUDE: f64 = 2.0;
 pub struct World {
     /// Its name.
     pub name: String,
-    scenario: Scenario,
+    /// What its vehicle speaks, if that is said.
+    pub dialect: Option<Dialect>,
+    scenario: Arc<Scenario>,
     frame: TangentFrame,
 }
 
@@ -43,29 +48,29 @@ impl World {
                 Some(help.into()),
             ));
         };
-        Ok(World { name: lowered.name, scenario: understood.world, frame: TangentFrame { origin } })
+        let (scenario, dialect) = (Arc::new(understood.world), understood.dialect);
+        Ok(World { name: lowered.name, dialect, scenario, frame: TangentFrame { origin } })
     }
 
-    /// The same with the faults of a script of [`crate::load_faults`] added to those of the scenario.
-    pub fn with_faults(mut self, script: &Script) -> Result<Self, PlanError> {
-        self.scenario.faults.extend(crate::faults::faults(script)?);
-        Ok(self)
+    /// The same with faults added to those of the scenario.
+    pub fn with_faults(self, faults: &Faults) -> Result<Self, PlanError> {
+        Ok(World { scenario: faults.in_scenario(self.scenario)?, ..self })
     }
 
-    /// The vehicle in it, with rows to swim, else those of the scenario: the first from where it starts and along its heading, at the depth at which it
-    /// starts, or near the bottom if that is the surface.
+    /// The vehicle in it, with rows to swim, else the mission of the scenario, else rows all the same: the first from where it
+    /// starts and along its heading, at the depth at which it starts, or near the bottom if that is the surface.
     pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
         let simulator = Simulator::new(&self.scenario, seed).map_err(|error| cannot_be(&error))?;
         let vehicle = &self.scenario.vehicle;
-        let own = self.scenario.own_mission;
+        let own = self.scenario.own_mission.as_ref();
         let vertical = match (own, vehicle.depth) {
             (Some(own), _) => own.vertical,
             (None, depth) if depth > 0.0 => Vertical::Depth(depth),
             _ => Vertical::Altitude(ROWS_ALTITUDE),
         };
-        let rows = rows.or(own.map(|own| own.rows)).unwrap_or_default();
+        let route = rows.map(Route::Rows).or(own.map(|own| own.route.clone())).unwrap_or_default();
         let start = simulator.truth().position;
-        Ok(FrontSeat::new(simulator, self.frame, rows, (start, vehicle.heading), vertical))
+        Ok(FrontSeat::new(simulator, self.frame, &route, (start, vehicle.heading), vertical))
     }
 }
 

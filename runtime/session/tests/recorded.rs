@@ -1,12 +1,12 @@
 //! Scenarios that name a recorded plume: what they bring into the world, and what is said of those that cannot be.
 
-use albacore_session::{Plan, PlanError, Run, Source, findings, load_text};
+use albacore_session::{Plan, PlanError, Run, Script, Severity, Source, findings, load_text};
 
-/// A mission in a scenario of such clauses, as if it lay beside `missions/recorded.alb`.
-fn plan(clauses: &str) -> Result<Plan, String> {
+/// A mission in a scenario of such clauses, as if it lay beside `missions/recorded.alb`. Its area lies about `center`, and is as large as the record's.
+fn script(center: &str, clauses: &str) -> Script {
     let text = format!(
         "mission m in here within 5 min {{
-    area op = rectangle(center: point(north: 0 m, east: 0 m), along: 0 deg, length: 1094 m, width: 367 m)
+    area op = rectangle(center: {center}, along: 0 deg, length: 1094 m, width: 367 m)
     limits {{ altitude >= 2 m, speed <= 2.5 m/s }}
     requires {{ position, course, heading fresh 5 s, else abort }}
     with depth 3 m, speed 2 m/s
@@ -20,7 +20,11 @@ scenario here {{
 "
     );
     let name = concat!(env!("CARGO_MANIFEST_DIR"), "/../../missions/such.alb");
-    let script = load_text(Source { name: name.into(), text: text.into() });
+    load_text(Source { name: name.into(), text: text.into() })
+}
+
+fn plan(clauses: &str) -> Result<Plan, String> {
+    let script = script("point(north: 0 m, east: 0 m)", clauses);
     if let Some(finding) = findings(&script).first() {
         return Err(finding.message.clone());
     }
@@ -67,5 +71,44 @@ fn records_that_cannot_be_are_told_with_their_file() {
     ] {
         let said = plan(clauses).map_or_else(|said| said, |_| String::from("sound"));
         assert!(said.contains(expected), "{clauses}: {said}");
+    }
+}
+
+const RECORD: &str = "recorded_plume(\"recorded/case_a.json\")";
+
+#[test]
+fn an_area_where_nothing_was_recorded_is_told() {
+    for center in ["point(north: 0 m, east: 368 m)", "point(north: -5 km, east: 0 m)"] {
+        let script = script(center, RECORD);
+        let found = findings(&script);
+        assert_eq!((found.len(), found[0].severity, found[0].code.name()), (1, Severity::Error, "scenarios::outside"));
+        let Err(PlanError::Script(refused, _)) = Plan::new(&script, "such.alb", None, None) else {
+            unreachable!("it can be run")
+        };
+        let (message, help) = (refused[0].message.clone(), refused[0].help.clone().unwrap());
+        assert_eq!(message, "no part of the area of the mission `m` lies in the region of the record");
+        assert!(help.contains("-547 m to 547 m north and -184 m to 184 m east of the origin"), "{help}");
+        assert_eq!((&found[0].message, found[0].help.as_ref()), (&message, Some(&help)));
+    }
+}
+
+#[test]
+fn an_area_that_reaches_beyond_the_record_is_noted_and_can_be_run_in() {
+    for (center, said) in [
+        ("point(north: 0 m, east: 366 m)", Some("reaches 366 m beyond the region of the record")),
+        ("point(north: 12 m, east: 3 m)", Some("reaches 12 m beyond the region of the record")),
+        ("point(north: 0.1 m, east: 0 m)", None),
+        // Degrees: the record lies about the middle of the area, wherever that is.
+        ("36°10.8'N 75°44.4'W", None),
+    ] {
+        let script = script(center, RECORD);
+        let found = findings(&script);
+        assert!(found.iter().all(|finding| finding.severity == Severity::Note), "{center}");
+        let message = found.first().map(|finding| finding.message.as_str());
+        assert!(
+            message.is_some() == said.is_some() && message.is_none_or(|m| m.contains(said.unwrap())),
+            "{message:?}"
+        );
+        assert!(Plan::new(&script, "such.alb", None, None).is_ok());
     }
 }

@@ -46,7 +46,7 @@ impl Computer {
         start: (Point, Heading),
         speed_max: f64,
     ) -> Computer {
-        let plan = own.map(|own| OwnPlan::new(own.rows, start.0, start.1));
+        let plan = own.map(|own| OwnPlan::new(&own.route, start.0, start.1));
         let vertical = own.map_or(Vertical::Depth(0.0), |own| own.vertical);
         let handover = handover.cloned().unwrap_or_default();
         Computer { plan, vertical, speed_max, handover, guest: Guest::None }

@@ -11,7 +11,7 @@ mod under_way;
 pub use sensor::Sensor;
 pub(crate) use under_way::Faults;
 
-use crate::scenario::{Bounds, Objections, OfClause, Scenario, told};
+use crate::scenario::{Bounds, HullSetup, Objections, OfClause, Scenario, told};
 use albacore_geometry::Vector;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -37,6 +37,13 @@ pub enum Trouble {
     IgnoredCommands,
     /// Water gets in: the vehicle takes control back for good, and floats up.
     Leak,
+    /// Water gets into the hull, evenly for a while, and makes it heavier; the vehicle does not know.
+    Flooding {
+        /// So much in all, kg.
+        water: f64,
+        /// In this time from when the fault begins, s; 0: at once.
+        within: f64,
+    },
     /// The rudder stands at a share of its greatest deflection, positive to starboard, whatever the heading asked for.
     StuckRudder(f64),
     /// So much current is added to that of the water about the vehicle, m/s toward. The plume is not carried by it.
@@ -86,6 +93,7 @@ impl fmt::Display for Trouble {
             Trouble::Sensor(sensor, disorder) => write!(f, "{} {disorder}", sensor.name()),
             Trouble::IgnoredCommands => f.write_str("ignored commands"),
             Trouble::Leak => f.write_str("leak"),
+            Trouble::Flooding { .. } => f.write_str("flooding"),
             Trouble::StuckRudder(_) => f.write_str("stuck rudder"),
             Trouble::StrongCurrent(_) => f.write_str("strong current"),
         }
@@ -126,6 +134,16 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             Trouble::Sensor(sensor, disorder) => disorder.check(sensor, &mut of),
             Trouble::StuckRudder(share) => of.bounds("at", share, Bounds::Within(-1.0, 1.0)),
             Trouble::StrongCurrent(current) => of.flow("current", current),
+            Trouble::Flooding { water, within } => {
+                of.not_negative("water", water);
+                of.not_negative("within", within);
+                of.unless(
+                    Some("trouble"),
+                    !matches!(scenario.vehicle.hull, HullSetup::Kinematic(_)),
+                    "flooding is nothing to a `kinematic` vehicle, which knows no weight",
+                    "let the vehicle be a `fossen` or a `prestero`",
+                );
+            }
             Trouble::IgnoredCommands | Trouble::Leak => {}
         }
     }

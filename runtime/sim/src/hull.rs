@@ -25,6 +25,9 @@ use crate::scenario::{HullSetup, SubmersibleHull, VehicleSetup};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::Command;
 
+/// Acceleration of gravity, m/s2.
+const GRAVITY: f64 = 9.81;
+
 /// Where a hull is and how it moves, at a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
@@ -140,13 +143,13 @@ impl Hull {
         }
     }
 
-    /// Lets water in, so that so much buoyancy is lost, N: a hull that forces move sinks by its weight. A kinematic hull does
-    /// not know weight.
-    pub fn lose_buoyancy(&mut self, newtons: f64) {
+    /// Has so much water in it, kg, of which it becomes heavier: its inertia stays as it was, for what floods a hull in time is
+    /// little beside its mass. A kinematic hull does not know weight.
+    pub fn flood(&mut self, water: f64) {
         match self {
             Hull::Kinematic(_) => {}
-            Hull::Fossen(hull) => hull.buoyancy_loss = newtons,
-            Hull::Prestero(hull) => hull.buoyancy_loss = newtons,
+            Hull::Fossen(hull) => hull.buoyancy_loss = GRAVITY * water,
+            Hull::Prestero(hull) => hull.buoyancy_loss = GRAVITY * water,
         }
     }
 }

@@ -52,6 +52,11 @@ impl Incidents {
         self.notices.extend(told.into_iter().take(room));
     }
 
+    /// Whether the vehicle lies on the bottom.
+    pub fn is_aground(&self) -> bool {
+        self.aground
+    }
+
     /// Something else has happened.
     pub fn tell(&mut self, notice: &str) {
         if self.notices.len() < NOTICES_MAX {

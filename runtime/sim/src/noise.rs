@@ -59,6 +59,12 @@ pub enum Stream {
     Dvl = 67,
     /// The moment at which a recorded plume is begun.
     RecordStart = 80,
+    /// Noise of the temperature of the CTD.
+    CtdTemperature = 90,
+    /// Noise of the salinity of the CTD.
+    CtdSalinity = 91,
+    /// Noise of the battery's gauge.
+    Battery = 92,
 }
 
 /// One stream of random numbers of one run: a counter-based generator.

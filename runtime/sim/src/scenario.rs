@@ -7,17 +7,19 @@ mod objections;
 mod plume;
 mod sensors;
 mod source;
+mod stratification;
 mod vehicle;
 
 pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
-pub use instruments::{Compass, Dvl, Gps, Pressure};
+pub use instruments::{Battery, Compass, Ctd, Dvl, Gps, Pressure};
 pub use objections::{Bounds, Objection, ScenarioError, Why};
 pub(crate) use objections::{Objections, OfClause, rounded_down, told};
 pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
+pub use stratification::Stratification;
 pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
 use crate::fault::{self, Fault};
@@ -35,6 +37,8 @@ pub struct Scenario {
     pub region: Option<Area>,
     /// The water's motion.
     pub flow: Flow,
+    /// Its temperature and salinity.
+    pub stratification: Stratification,
     /// The water's depth.
     pub bottom: Bottom,
     /// Where the vehicle must not be.
@@ -72,6 +76,10 @@ pub struct Scenario {
     pub dvl: Dvl,
     /// The receiver of satellite fixes; none: it has none. It needs a [`Navigation`].
     pub gps: Option<Gps>,
+    /// The sensor of temperature and salinity; none: the vehicle has none.
+    pub ctd: Option<Ctd>,
+    /// The battery and its gauge.
+    pub battery: Battery,
     /// What goes wrong. Default nothing.
     pub faults: Vec<Fault>,
 }
@@ -86,6 +94,7 @@ impl Scenario {
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let mut objections = Objections::default();
         flow::check(self, &mut objections);
+        stratification::check(self, &mut objections);
         bottom::check(self, &mut objections);
         // An area that was read from a file has not met its constructor.
         if let Some(Err(error)) = self.region.as_ref().map(|region| Area::polygon(region.corners())) {

@@ -1,6 +1,9 @@
 //! What the vehicle's instruments make of the truth.
 
+mod battery;
 mod compass;
+mod ctd;
+mod delay;
 mod dvl;
 mod fluorometer;
 mod position;
@@ -9,7 +12,9 @@ mod profiler;
 mod rate;
 mod sounder;
 
+pub use battery::Battery;
 pub use compass::Compass;
+pub use ctd::Ctd;
 pub use dvl::Dvl;
 pub use fluorometer::Fluorometer;
 pub use position::Positioning;

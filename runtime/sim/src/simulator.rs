@@ -6,17 +6,16 @@ use crate::hull::Hull;
 use crate::incidents::Incidents;
 use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
-use crate::sensors::{Compass, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
+use crate::sensors::{Battery, Compass, Ctd, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
+    VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
-/// Ticks between battery readings.
-const BATTERY_TICKS: u64 = 100;
 /// Ticks between what the vehicle tells of its own mission.
 const MODE_TICKS: u64 = 10;
 /// A sample this near a tick, in ticks, is taken on it.
@@ -63,6 +62,8 @@ pub struct Simulator {
     compass: Compass,
     pressure: Pressure,
     dvl: Dvl,
+    ctd: Option<Ctd>,
+    battery: Battery,
     endurance: f64,
     /// The battery is empty.
     spent: bool,
@@ -88,7 +89,7 @@ impl Simulator {
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
-            channels: channels::all(),
+            channels: if scenario.ctd.is_some() { channels::all() } else { channels::without_ctd() },
             vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),
@@ -100,6 +101,8 @@ impl Simulator {
             compass: Compass::new(&scenario.compass, seed),
             pressure: Pressure::new(&scenario.pressure, seed),
             dvl: Dvl::new(&scenario.dvl, seed),
+            ctd: scenario.ctd.as_ref().map(|ctd| Ctd::new(ctd, seed)),
+            battery: Battery::new(&scenario.battery, seed),
             endurance: vehicle.endurance,
             spent: false,
             computer: Computer::new(
@@ -176,6 +179,7 @@ impl Simulator {
         let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
         self.intake = self.intake_now();
         self.vehicle.stick_rudder(ailing.rudder);
+        self.vehicle.flood(ailing.water);
         self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
         let motion = self.vehicle.motion();
         let altitude = self.world.water_depth(motion.position) - motion.depth;
@@ -186,7 +190,8 @@ impl Simulator {
     /// The velocity over ground as the Doppler log measures it and the compass turns it, m/s.
     fn measured_velocity(&self, tick: u64) -> Vector {
         let motion = self.vehicle.motion();
-        let velocity = self.dvl.noisy(tick, motion.ground_velocity).unwrap_or(motion.ground_velocity);
+        let velocity =
+            self.dvl.imperfect(tick, motion.ground_velocity, motion.heading).unwrap_or(motion.ground_velocity);
         match self.compass.error(tick, motion.heading) {
             Some(error) => velocity.length() * (velocity.toward() + error).unit(),
             None => velocity,
@@ -263,23 +268,23 @@ impl Simulator {
 
     fn measure(&mut self, tick: u64, snapshot: &mut Snapshot) {
         let truth = self.truth;
-        let echo = self.sounder.reading(tick, truth.altitude);
+        let echo = self.sounder.told(tick, truth.altitude);
         let (position, sigma) = self.positioning.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
         let compass = truth.heading + self.compass.error(tick, truth.heading).unwrap_or(0.0);
-        let has_velocity = self.dvl.tells(tick, truth.altitude);
         let velocity = self.measured_velocity(tick);
-        if has_velocity {
+        let velocity = self.dvl.told(tick, truth.altitude, velocity);
+        if let Some(velocity) = velocity {
             snapshot.push(COURSE, &[velocity.toward().radians()]);
         }
-        if self.compass.tells(tick) {
-            snapshot.push(HEADING, &[compass.radians()]);
+        if let Some(heading) = self.compass.told(tick, compass) {
+            snapshot.push(HEADING, &[heading.radians()]);
         }
-        if has_velocity {
+        if let Some(velocity) = velocity {
             snapshot.push(SPEED, &[velocity.length()]);
         }
         let depth = (truth.depth + self.world.wave_head(truth.position, truth.altitude, self.time_s())).max(0.0);
-        let depth = self.pressure.reading(tick, depth);
+        let depth = self.pressure.told(tick, depth);
         if let Some(depth) = depth {
             snapshot.push(DEPTH, &[depth]);
         }
@@ -298,13 +303,18 @@ impl Simulator {
         };
         let (time, current) = (self.time_s(), self.faults.ailing().current);
         let flow_at = |height| self.world.flow(truth.position, height, time) + current;
-        if let Some(flow) = self.profiler.measure(tick, &view, flow_at) {
+        if let Some(flow) = self.profiler.told(tick, &view, flow_at) {
             self.flow = flow;
             snapshot.push(FLOW, &[flow.north, flow.east]);
         }
         self.sample_chemical(tick, snapshot);
-        if tick.is_multiple_of(BATTERY_TICKS) {
-            let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
+        let water = |depth| self.world.stratification().at(depth);
+        if let Some((temperature, salinity)) = self.ctd.as_mut().and_then(|ctd| ctd.told(tick, truth.depth, water)) {
+            snapshot.push(TEMPERATURE, &[temperature]);
+            snapshot.push(SALINITY, &[salinity]);
+        }
+        let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
+        if let Some(charge) = self.battery.reading(tick, charge) {
             snapshot.push(BATTERY, &[charge]);
         }
         if tick.is_multiple_of(MODE_TICKS)
@@ -385,6 +395,10 @@ impl Vehicle for Simulator {
         self.control = Control::Released;
         self.command = None;
         Ok(())
+    }
+
+    fn is_aground(&self) -> bool {
+        self.incidents.is_aground()
     }
 
     fn notices(&mut self) -> Vec<String> {

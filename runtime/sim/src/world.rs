@@ -1,7 +1,7 @@
 //! All that is there without the vehicle: water, plume and bottom, in time.
 
 use crate::recorded::Playback;
-use crate::scenario::{Bottom, Scenario, UpperFlow};
+use crate::scenario::{Bottom, Scenario, Stratification, UpperFlow};
 use crate::simulated::Simulated;
 use crate::survey::Survey;
 use crate::water::Sea;
@@ -14,6 +14,7 @@ pub struct World {
     carrier: Carrier,
     upper: Option<UpperFlow>,
     sea: Option<Sea>,
+    stratification: Stratification,
     bottom: Bottom,
 }
 
@@ -36,7 +37,7 @@ impl World {
         let (upper, bottom) = (scenario.flow.upper.clone(), scenario.bottom.clone());
         let depth = bottom.depth_at(scenario.vehicle.start);
         let sea = scenario.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
-        World { carrier, upper, sea, bottom }
+        World { carrier, upper, sea, stratification: scenario.stratification.clone(), bottom }
     }
 
     /// Why the world cannot go on to a tick, if it cannot.
@@ -68,6 +69,11 @@ impl World {
     /// What waves make a pressure sensor read too deep, m, at a point, a height above the bottom (m) and a time.
     pub fn wave_head(&self, p: Point, height: f64, time: f64) -> f64 {
         self.sea.as_ref().map_or(0.0, |sea| sea.head(p, height, time))
+    }
+
+    /// Its temperature and salinity.
+    pub fn stratification(&self) -> &Stratification {
+        &self.stratification
     }
 
     /// The water's depth, m.

@@ -139,6 +139,45 @@ fn an_impossible_profiler_is_refused() {
     assert!(error.to_string().contains("`bin` of `adcp` is 0: it must be above 0"), "{error}");
 }
 
+/// What a late instrument tells is what a prompt one told so much earlier.
+#[test]
+fn late_instruments_tell_what_was() {
+    let channels = ["heading", "speed", "course", "depth", "altitude", "flow"];
+    let prompt = scenario();
+    let (late, delay) = (15, 1.5);
+    let mut tardy = prompt.clone();
+    tardy.compass.delay = delay;
+    tardy.dvl.delay = delay;
+    tardy.pressure.delay = delay;
+    tardy.sounder.delay = delay;
+    tardy.adcp.delay = delay;
+    for channel in channels {
+        let [before, after] = [&prompt, &tardy].map(|scenario| driven(scenario, 60, channel).unwrap());
+        // The last flow of a minute is told at 58 s.
+        let fewer = if channel == "flow" { 0 } else { late };
+        assert!(
+            before.len() > 15 && before.len() - fewer == after.len(),
+            "{channel}: {} {}",
+            before.len(),
+            after.len()
+        );
+        assert_eq!(before[..after.len()], after[..], "{channel}");
+    }
+}
+
+#[test]
+fn a_profiler_looks_as_often_as_told_and_a_log_errs_ahead() {
+    let scenario = Scenario { adcp: Adcp { rate: 2.0, looks: Looks::Both, ..Adcp::default() }, ..scenario() };
+    let flows = driven(&scenario, 60, "flow").unwrap().len();
+    assert!((100..=112).contains(&flows), "two a second, once ten are heard under way: {flows}");
+    let speed = |bias| {
+        let mut scenario = scenario.clone();
+        scenario.dvl.bias = bias;
+        driven(&scenario, 60, "speed").unwrap()[599][0]
+    };
+    assert!((speed(0.1) - speed(0.0) - 0.1).abs() < 1e-3);
+}
+
 #[test]
 fn a_fix_makes_the_position_jump() {
     let lbl = Lbl { every: 60.0, ..Lbl::default() };

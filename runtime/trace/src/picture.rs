@@ -37,6 +37,8 @@ pub struct Picture {
     pub area_name: String,
     /// Where the vehicle must not be: names and corners. They may leave the chart.
     pub no_go: Vec<(String, Vec<Point>)>,
+    /// Where the vehicle goes by itself: the corners of its way, in order.
+    pub route: Vec<Point>,
     /// Filaments of the plume: where, and how wide (radius in metres).
     pub plume: Vec<(Point, f64)>,
     /// Where the vehicle went, each with an index into `behaviors`.
@@ -96,6 +98,7 @@ impl Picture {
             .area
             .iter()
             .copied()
+            .chain(self.route.iter().copied())
             .chain(self.track.iter().map(|(p, _)| *p))
             .chain(places)
             .chain(self.start)

@@ -4,7 +4,7 @@
 use crate::Channel;
 
 /// What is measured, in the order of the channel numbers: name, and how many numbers.
-const CHANNELS: [(&str, usize); 11] = [
+const CHANNELS: [(&str, usize); 13] = [
     ("position", 3),     // m north, m east, standard deviation in m an axis
     ("course", 1),       // rad over ground
     ("heading", 1),      // rad
@@ -16,6 +16,8 @@ const CHANNELS: [(&str, usize); 11] = [
     ("chemical", 1),     // ratio of full scale
     ("battery", 1),      // ratio
     ("vehicle_mode", 1), // the place in the library's `enum VehicleMode`
+    ("temperature", 1),  // degrees Celsius
+    ("salinity", 1),     // practical salinity
 ];
 
 /// Where the vehicle believes to be.
@@ -40,8 +42,19 @@ pub const CHEMICAL: u16 = 8;
 pub const BATTERY: u16 = 9;
 /// What the vehicle's own mission is about.
 pub const VEHICLE_MODE: u16 = 10;
+/// The temperature of the water, degrees Celsius.
+pub const TEMPERATURE: u16 = 11;
+/// The practical salinity of the water.
+pub const SALINITY: u16 = 12;
 
 /// All of them.
 pub fn all() -> Vec<Channel> {
     CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect()
+}
+
+/// Those of a vehicle without a CTD. A mission that requires what it does not measure is refused before it begins.
+pub fn without_ctd() -> Vec<Channel> {
+    let mut channels = all();
+    channels.truncate(usize::from(TEMPERATURE));
+    channels
 }

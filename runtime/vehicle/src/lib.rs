@@ -128,6 +128,11 @@ pub trait Vehicle {
     /// Gives control back. Always the last act of a mission.
     fn release(&mut self) -> Result<(), VehicleError>;
 
+    /// Whether it lies on the bottom and knows so.
+    fn is_aground(&self) -> bool {
+        false
+    }
+
     /// What a person should hear of the link since they were last told. No mission can read it.
     fn notices(&mut self) -> Vec<String> {
         Vec::new()

@@ -11,7 +11,8 @@ use super::vehicle_time::{Stamp, VehicleTime};
 use albacore_geometry::math::atan2;
 use albacore_geometry::{Heading, TangentFrame, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
+    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
+    VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
 use std::collections::VecDeque;
@@ -188,7 +189,11 @@ impl Controller {
                 let comma = if text.is_empty() { "" } else { ", " };
                 self.notice(format!("the vehicle says: error {code}{comma}{text}"));
             }
-            FromVehicle::Ctd(_) | FromVehicle::Version(_) | FromVehicle::Other(_) => {}
+            FromVehicle::Ctd(ctd) => {
+                self.gather(TEMPERATURE, &[ctd.temperature]);
+                self.gather(SALINITY, &[ctd.salinity]);
+            }
+            FromVehicle::Version(_) | FromVehicle::Other(_) => {}
         }
     }
 

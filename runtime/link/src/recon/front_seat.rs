@@ -1,22 +1,23 @@
-//! The vehicle's side: its own computer in the front seat, which swims rows until a guest asks to drive.
+//! The vehicle's side: its own computer in the front seat, which follows a route of its own until a guest asks to drive.
 //!
 //! It serves any [`Vehicle`], one tick at a time, and is a function of the bytes that come in these ticks. On release, and when
-//! the guest is silent for 5 s, it returns to the point where the guest took over and goes on with its rows (the 2003 paper).
+//! the guest is silent for 5 s, it returns to the point where the guest took over and goes on with its leg (the 2003 paper).
 
 use super::controller::FULL_SCALE_VOLTS;
 use super::fields::DAY_MS;
 use super::frame::{Deframer, seal};
+use super::happening::Happening;
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
+use super::seawater;
 use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_guidance::{Milestone, OwnPlan, Rows, through_water};
+use albacore_guidance::{Milestone, OwnPlan, Route, through_water};
 use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
-use std::fmt;
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
-const TIMEOUT_TICKS: u64 = 50;
+pub(super) const TIMEOUT_TICKS: u64 = 50;
 /// Ticks without a message after which who serves faster than real time should wait for the guest.
 const PATIENCE_TICKS: u64 = 10;
 /// Ticks between messages of the profiler.
@@ -36,48 +37,8 @@ const CAPACITY_WH: f64 = 1000.0;
 const NOT_IN_OVERRIDE: u32 = 1;
 const OUT_OF_BOUNDS: u32 = 2;
 const NOT_SERVED: u32 = 3;
-
-/// What happened, for who watches.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
-    /// A step in the life of the vehicle's own plan.
-    Plan(Milestone),
-    /// A guest drives; from where, and on which row.
-    Taken(Point, u32),
-    /// The guest has given control back.
-    Released,
-    /// The guest is silent.
-    TimedOut,
-    /// Something that was asked for is not done, and why.
-    Refused(String, &'static str),
-    /// What the vehicle gave notice of.
-    Notice(String),
-    /// The vehicle has given up: it takes no commands any more, from nobody.
-    GivenUp,
-}
-
-impl fmt::Display for Happening {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seconds = TIMEOUT_TICKS as f64 * TICK_S;
-        match self {
-            Happening::Plan(Milestone::Row(row, of)) => write!(f, "row {row} of {of}"),
-            Happening::Taken(at, row) => {
-                write!(f, "override taken at ({:.1}, {:.1}) m, on row {row}", at.north, at.east)
-            }
-            Happening::Released => f.write_str("override released; returns to the break-off point"),
-            Happening::TimedOut => {
-                write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
-            }
-            Happening::Plan(Milestone::Resumed(at, row)) => {
-                write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes row {row}", at.north, at.east)
-            }
-            Happening::Plan(Milestone::Over) => f.write_str("the rows are done: mission over"),
-            Happening::Notice(notice) => f.write_str(notice),
-            Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
-            Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
-        }
-    }
-}
+const AGROUND: u32 = 4;
+const FREE_AGAIN: u32 = 5;
 
 /// What a guest has asked for; it holds until something else is asked for.
 #[derive(Clone, Copy)]
@@ -108,7 +69,7 @@ pub struct FrontSeat<V> {
     vehicle: V,
     frame: TangentFrame,
     plan: OwnPlan,
-    /// What it holds on its rows.
+    /// What it holds on its legs.
     vertical: Vertical,
     /// What the guest wants who drives; none while the vehicle follows its own plan.
     goals: Option<Goals>,
@@ -122,6 +83,8 @@ pub struct FrontSeat<V> {
     unreadable: u64,
     /// The vehicle has taken itself back, from us too: it leaks, say.
     given_up: bool,
+    /// Whether the vehicle lay on the bottom in the last tick.
+    aground: bool,
     /// Why something was refused last, and when.
     refused: Option<(&'static str, u64)>,
     out: Vec<u8>,
@@ -129,10 +92,10 @@ pub struct FrontSeat<V> {
 }
 
 impl<V: Vehicle> FrontSeat<V> {
-    /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its rows.
-    pub fn new(vehicle: V, frame: TangentFrame, rows: Rows, start: (Point, Heading), vertical: Vertical) -> Self {
-        let plan = OwnPlan::new(rows, start.0, start.1);
-        let happenings = vec![Happening::Plan(Milestone::Row(1, plan.rows()))];
+    /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its route.
+    pub fn new(vehicle: V, frame: TangentFrame, route: &Route, start: (Point, Heading), vertical: Vertical) -> Self {
+        let plan = OwnPlan::new(route, start.0, start.1);
+        let happenings = vec![Happening::Plan(Milestone::Leg(1, plan.legs()))];
         FrontSeat {
             vehicle,
             frame,
@@ -148,6 +111,7 @@ impl<V: Vehicle> FrontSeat<V> {
             command: None,
             unreadable: 0,
             given_up: false,
+            aground: false,
             refused: None,
             out: Vec::new(),
             happenings,
@@ -202,6 +166,7 @@ impl<V: Vehicle> FrontSeat<V> {
             self.happenings.push(Happening::GivenUp);
         }
         self.tell_samples();
+        self.tell_grounding();
         self.hear(bytes);
         if !self.given_up {
             let command = self.steer();
@@ -249,7 +214,7 @@ impl<V: Vehicle> FrontSeat<V> {
         if self.given_up || !self.plan.leave(self.senses.position) {
             return;
         }
-        self.happenings.push(Happening::Taken(self.senses.position, self.plan.row()));
+        self.happenings.push(Happening::Taken(self.senses.position, self.plan.leg()));
         let (heading, speed) = (self.senses.heading, self.plan.speed());
         self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.vertical });
     }
@@ -308,7 +273,7 @@ impl<V: Vehicle> FrontSeat<V> {
         }
     }
 
-    /// A course over ground at the rows' speed, through water that moves.
+    /// A course over ground at the route's speed, through water that moves.
     fn over_ground(&self, course: Heading) -> Command {
         let flow = self.senses.flow.unwrap_or(Vector::ZERO);
         let water = through_water(course, self.plan.speed(), flow, SPEED_MAX);
@@ -319,6 +284,7 @@ impl<V: Vehicle> FrontSeat<V> {
     fn tell_samples(&mut self) {
         let snapshot = std::mem::take(&mut self.snapshot);
         let heading = self.senses.heading;
+        let (mut temperature, mut salinity) = (None, None);
         // On the wire there is no number for what is none.
         for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
             let Some(channel) = self.vehicle.channels().get(sample.channel as usize) else { continue };
@@ -337,13 +303,28 @@ impl<V: Vehicle> FrontSeat<V> {
                     let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);
                     self.say(&FromVehicle::Battery { capacity, available, percent });
                 }
+                "temperature" => temperature = Some(a),
+                "salinity" => salinity = Some(a),
                 _ => {}
             }
+        }
+        if let (Some(temperature), Some(salinity)) = (temperature, salinity) {
+            self.say(&FromVehicle::Ctd(seawater::ctd(temperature, salinity, self.senses.depth)));
         }
         self.senses.turn_rate = (self.senses.heading - heading) / TICK_S;
         self.snapshot = snapshot;
         if self.tick.is_multiple_of(ADCP_TICKS) {
             self.tell_adcp();
+        }
+    }
+
+    /// Says once that the vehicle has run aground, and that it has come free: its state has no flag for it.
+    fn tell_grounding(&mut self) {
+        let aground = self.vehicle.is_aground();
+        if aground != self.aground {
+            let (code, what) = if aground { (AGROUND, "aground") } else { (FREE_AGAIN, "free of the bottom again") };
+            self.say(&FromVehicle::Error(code, what.to_string()));
+            self.aground = aground;
         }
     }
 
@@ -398,7 +379,7 @@ impl<V: Vehicle> FrontSeat<V> {
             heading_rate: s.turn_rate,
             heading_goal: goal.map_or(s.heading, |c| c.heading),
             mode: self.mode(),
-            leg: Some(self.plan.row()),
+            leg: Some(self.plan.leg()),
         }));
     }
 

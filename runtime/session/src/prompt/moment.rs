@@ -2,10 +2,11 @@
 
 use albacore_lang::prompt::{Left, Named};
 use albacore_machine::{Event, Machine, Outcome};
+use albacore_navigation::Vigil;
 use albacore_program::number;
 use albacore_sim::Simulator;
 use albacore_trace::{BehaviorTrace, Header};
-use albacore_vehicle::{Command, Sample, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 use std::collections::VecDeque;
 
 /// What was sensed in so many ticks is kept for what begins later: 20 s, longer than any sensor is silent.
@@ -26,6 +27,11 @@ pub struct Moment {
     pub tick: u64,
     pub task: Option<Task>,
     recent: VecDeque<(u64, Vec<Sample>)>,
+    /// What the vehicle was last told.
+    command: Option<Command>,
+    vigil: Vigil,
+    /// What the vehicle gave notice of and what was noticed of it, with its tick, and is not told yet.
+    notices: Vec<(u64, String)>,
 }
 
 /// What is under way: a line, or the mission of the script.
@@ -85,7 +91,17 @@ impl Moment {
         let mut snapshot = Snapshot::default();
         vehicle.sense(&mut snapshot)?;
         vehicle.take_over()?;
-        let mut moment = Moment { vehicle, snapshot, tick: 0, task: None, recent: VecDeque::new() };
+        let mut moment = Moment {
+            vehicle,
+            snapshot,
+            tick: 0,
+            task: None,
+            recent: VecDeque::new(),
+            command: None,
+            vigil: Vigil::default(),
+            notices: Vec::new(),
+        };
+        moment.note();
         moment.sense()?;
         Ok(moment)
     }
@@ -97,7 +113,15 @@ impl Moment {
         }
         self.vehicle.sense(&mut self.snapshot)?;
         self.tick += 1;
+        self.note();
         Ok(())
+    }
+
+    /// Notes what this tick gives notice of, as a run does.
+    fn note(&mut self) {
+        let sightings = self.vigil.look(self.tick, &self.snapshot, self.command.as_ref());
+        let notices = self.vehicle.notices().into_iter().chain(sightings.iter().map(ToString::to_string));
+        self.notices.extend(notices.map(|notice| (self.tick, notice)));
     }
 
     /// What was sensed lately, this tick left out.
@@ -107,6 +131,9 @@ impl Moment {
 
     /// Lets a tick go by; or, when what is under way ends in it, tells so: the tick then belongs to what comes next.
     pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Option<End>, VehicleError> {
+        for (tick, notice) in self.notices.drain(..) {
+            say(&format!("{}  vehicle  {notice}", number::seconds(tick)));
+        }
         let mut command = None;
         if let Some(task) = &mut self.task {
             command = task.machine.step(&self.snapshot);
@@ -116,8 +143,12 @@ impl Moment {
                 return Ok(Some(end));
             }
         }
-        let command = command.unwrap_or_else(|| self.still());
-        self.vehicle.command(&command)?;
+        // One that has taken control back, for a leak, does as it likes.
+        if self.snapshot.control == Control::InControl {
+            let command = command.unwrap_or_else(|| self.still());
+            self.vehicle.command(&command)?;
+            self.command = Some(command);
+        }
         self.sense()?;
         Ok(None)
     }

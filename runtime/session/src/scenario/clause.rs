@@ -39,6 +39,13 @@ impl<'a> Clause<'a> {
         Ok(Point::new(self.word(at), self.word(at + 1)))
     }
 
+    /// A list of points: how many there are, then each.
+    pub fn points(&self, name: &str) -> Result<Vec<Point>, String> {
+        let at = self.slot(name)?;
+        let slots = (0..self.word(at) as u32).map(|i| at + 1 + 2 * i);
+        Ok(slots.map(|slot| Point::new(self.word(slot), self.word(slot + 1))).collect())
+    }
+
     /// A point that may be absent.
     pub fn optional_point(&self, name: &str) -> Result<Option<Point>, String> {
         let at = self.slot(name)?;

@@ -20,6 +20,7 @@ fn trouble(c: &Clause) -> Result<Trouble, Wrong> {
     let own = match name {
         "ignored_commands" => Some(Trouble::IgnoredCommands),
         "leak" => Some(Trouble::Leak),
+        "flooding" => Some(Trouble::Flooding { water: t.number("water")?, within: t.number("within")? }),
         "stuck_rudder" => Some(Trouble::StuckRudder(t.number("at")?)),
         "strong_current" => Some(Trouble::StrongCurrent(t.vector("current")?)),
         _ => None,

@@ -1,7 +1,7 @@
-//! What a scenario says of the water's motion and of where it is computed.
+//! What a scenario says of the water: its motion, where that is computed, its layers.
 
 use super::clause::Clause;
-use albacore_sim::{Meander, Scenario, Tide, UpperFlow, Waves};
+use albacore_sim::{Meander, Scenario, Stratification, Tide, UpperFlow, Waves};
 
 /// `flow(…)`: where the water goes, and how that wanders.
 pub fn flow(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -61,5 +61,18 @@ pub fn upper_layer(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         moves: c.number("moves")?,
         period: c.number("period")?,
     });
+    Ok(())
+}
+
+/// `stratification(…)`: its temperature and salinity.
+pub fn stratification(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.stratification = Stratification {
+        surface: c.number("surface")?,
+        bottom: c.number("bottom")?,
+        surface_salinity: c.number("surface_salinity")?,
+        bottom_salinity: c.number("bottom_salinity")?,
+        thermocline: c.number("thermocline")?,
+        thickness: c.number("thickness")?,
+    };
     Ok(())
 }

@@ -1,7 +1,9 @@
 //! What a scenario says of the sensors.
 
 use super::clause::Clause;
-use albacore_sim::{Adcp, Compass, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder};
+use albacore_sim::{
+    Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder,
+};
 
 /// `navigation(…)`: how the vehicle knows its position.
 pub fn navigation(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
@@ -17,6 +19,7 @@ pub fn navigation(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
             outliers: lbl.number("outliers")?,
             outlier: lbl.number("outlier")?,
             drift: lbl.vector("drift")?,
+            delay: lbl.number("delay")?,
         });
     }
     scenario.navigation = Some(navigation);
@@ -51,6 +54,8 @@ pub fn adcp(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         bin: c.number("bin")?,
         count: c.number("count")? as u32,
         looks,
+        rate: c.number("rate")?,
+        delay: c.number("delay")?,
     };
     Ok(())
 }
@@ -64,6 +69,7 @@ pub fn sounder(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         farthest: above_nothing(c.number("farthest")?),
         dropouts: c.number("dropouts")?,
         rate: c.number("rate")?,
+        delay: c.number("delay")?,
     };
     Ok(())
 }
@@ -76,25 +82,63 @@ pub fn compass(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         deviation: c.number("deviation")?,
         greatest_at: c.heading("greatest_at")?,
         rate: c.number("rate")?,
+        delay: c.number("delay")?,
     };
     Ok(())
 }
 
 /// `pressure(…)`: the pressure gauge.
 pub fn pressure(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.pressure = Pressure { noise: c.number("noise")?, bias: c.number("bias")?, rate: c.number("rate")? };
+    scenario.pressure = Pressure {
+        noise: c.number("noise")?,
+        bias: c.number("bias")?,
+        rate: c.number("rate")?,
+        delay: c.number("delay")?,
+    };
     Ok(())
 }
 
 /// `dvl(…)`: the Doppler log.
 pub fn dvl(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.dvl = Dvl { noise: c.number("noise")?, range: above_nothing(c.number("range")?), rate: c.number("rate")? };
+    scenario.dvl = Dvl {
+        noise: c.number("noise")?,
+        bias: c.number("bias")?,
+        range: above_nothing(c.number("range")?),
+        rate: c.number("rate")?,
+        delay: c.number("delay")?,
+    };
     Ok(())
 }
 
 /// `gps(…)`: satellite fixes at the surface.
 pub fn gps(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.gps = Some(Gps { every: c.number("every")?, sigma: c.number("sigma")?, above: c.number("above")? });
+    scenario.gps = Some(Gps {
+        every: c.number("every")?,
+        sigma: c.number("sigma")?,
+        above: c.number("above")?,
+        bias: c.vector("bias")?,
+        delay: c.number("delay")?,
+    });
+    Ok(())
+}
+
+/// `battery(…)`: the gauge of its charge.
+pub fn battery(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.battery = Battery { rate: c.number("rate")?, noise: c.number("noise")?, bias: c.number("bias")? };
+    Ok(())
+}
+
+/// `ctd(…)`: temperature and salinity.
+pub fn ctd(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    scenario.ctd = Some(Ctd {
+        rate: c.number("rate")?,
+        temperature_noise: c.number("temperature_noise")?,
+        temperature_bias: c.number("temperature_bias")?,
+        salinity_noise: c.number("salinity_noise")?,
+        salinity_bias: c.number("salinity_bias")?,
+        above: c.number("above")?,
+        delay: c.number("delay")?,
+    });
     Ok(())
 }
 

@@ -2,7 +2,8 @@
 
 use super::Wrong;
 use super::clause::Clause;
-use albacore_guidance::Rows;
+use albacore_guidance::{Route, Rows, Waypoints};
+use albacore_link::Dialect;
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{Handover, HullSetup, KinematicHull, Limits, OwnMission, Scenario, SubmersibleHull, VehicleSetup};
 use albacore_vehicle::Vertical;
@@ -65,16 +66,33 @@ pub fn limits(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
 
 /// `rows(…)`: its own mission.
 pub fn rows(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    let depth = c.number("depth")?;
-    let vertical = if depth > 0.0 { Vertical::Depth(depth) } else { Vertical::Altitude(c.number("altitude")?) };
     let rows = Rows {
         length: c.number("length")?,
         spacing: c.number("spacing")?,
         count: c.number("count")? as u32,
         speed: c.number("speed")?,
     };
-    scenario.own_mission = Some(OwnMission { rows, vertical });
+    own_mission(scenario, c, Route::Rows(rows))
+}
+
+/// `waypoints(…)`: its own mission.
+pub fn waypoints(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+    let waypoints = Waypoints { points: c.points("points")?, speed: c.number("speed")? };
+    own_mission(scenario, c, Route::Waypoints(waypoints))
+}
+
+/// A route, and what is held on it.
+fn own_mission(scenario: &mut Scenario, c: &Clause, route: Route) -> Result<(), String> {
+    let depth = c.number("depth")?;
+    let vertical = if depth > 0.0 { Vertical::Depth(depth) } else { Vertical::Altitude(c.number("altitude")?) };
+    scenario.own_mission = Some(OwnMission { route, vertical });
     Ok(())
+}
+
+/// `dialect(…)`: what it speaks at the end of a link.
+pub fn dialect(c: &Clause) -> Result<Dialect, String> {
+    let speaks = c.clause("speaks").ok_or("a dialect needs a name: write `dialect(recon)`")?;
+    Dialect::named(&speaks.clause.name).map_err(|error| error.message)
 }
 
 /// `handover(…)`: how its computer answers.

@@ -176,7 +176,7 @@ pub fn steps(steps: &[(String, Vec<Band>)]) -> String {
             chart.line(&points, colour, "stroke-width=\"1.5\"");
         }
         if band == 1 {
-            chart.legend((250.0, 18.0), &colours);
+            chart.legend((200.0, 18.0), &colours);
         }
     }
     svg.finish()

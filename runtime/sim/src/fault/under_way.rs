@@ -13,6 +13,8 @@ pub(crate) struct Ailing {
     pub deaf: bool,
     /// Water has got in. It stays in when the fault is over.
     pub leaks: bool,
+    /// So much water is in the hull, kg. It stays in, too.
+    pub water: f64,
     /// Where the rudder is stuck: a share of its greatest deflection, positive to starboard.
     pub rudder: Option<f64>,
     /// Current beside that of the water, m/s toward.
@@ -62,6 +64,9 @@ impl Faults {
             }
             known.in_force = in_force;
             match known.fault.trouble {
+                Trouble::Flooding { water, within } => {
+                    ailing.water += water * filled((tick as f64).min(to) - from, within / TICK_S);
+                }
                 _ if !in_force => {}
                 Trouble::Sensor(..) => {}
                 Trouble::IgnoredCommands => ailing.deaf = true,
@@ -100,6 +105,11 @@ impl Faults {
     pub fn take_notices(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)
     }
+}
+
+/// The share of the water that is in after so many ticks, when all of it is in `within` so many.
+fn filled(after: f64, within: f64) -> f64 {
+    if after < within { (after / within).max(0.0) } else { f64::from(u8::from(after >= 0.0)) }
 }
 
 /// The depth of the water is the sum of what is told of depth and altitude in the same tick, and not told without both.
@@ -154,6 +164,27 @@ mod tests {
         (0..5).for_each(|tick| faults.advance_to(tick));
         assert!(faults.ailing().leaks);
         assert_eq!(faults.ailing().current, Vector::new(1.5, 0.0));
+    }
+
+    #[test]
+    fn a_hull_fills_evenly_and_what_is_in_stays_in() {
+        let flooding = |water, within| Trouble::Flooding { water, within };
+        let list = [
+            fault(flooding(2.0, 1.0), 0.5, None),
+            fault(flooding(4.0, 1.0), 0.5, Some(1.0)),
+            fault(flooding(8.0, 0.0), 2.0, Some(2.1)),
+        ];
+        let mut faults = Faults::new(&list, 1);
+        let water: Vec<f64> = (0..30)
+            .map(|tick| {
+                faults.advance_to(tick);
+                faults.ailing().water
+            })
+            .collect();
+        for (tick, kilograms) in [(0, 0.0), (5, 0.0), (8, 1.8), (10, 3.0), (15, 4.0), (19, 4.0), (20, 12.0), (29, 12.0)]
+        {
+            assert!((water[tick] - kilograms).abs() < 1e-12, "{tick}: {}", water[tick]);
+        }
     }
 
     #[test]

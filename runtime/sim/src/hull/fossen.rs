@@ -6,6 +6,7 @@
 
 mod cross_flow;
 
+use super::GRAVITY;
 use super::mass::InverseMass;
 use super::six_dof::{Attitude, Controls, Load, Plant, Six};
 use super::surface::Body;
@@ -13,9 +14,8 @@ use albacore_geometry::Vector;
 use albacore_geometry::math::{PI, atan2, exp, ln};
 use cross_flow::CrossFlow;
 
-/// Density of the water, kg/m3, and acceleration of gravity, m/s2.
+/// Density of the water, kg/m3.
 const DENSITY: f64 = 1026.0;
-const GRAVITY: f64 = 9.81;
 /// Length and diameter of the hull, m.
 const LENGTH: f64 = 1.6;
 const DIAMETER: f64 = 0.19;

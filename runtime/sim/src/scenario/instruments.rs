@@ -1,8 +1,8 @@
-//! The instruments of the vehicle itself, compass, pressure gauge, Doppler log, receiver of fixes: what a scenario says of them,
-//! and what of that cannot be. Their defaults are perfect.
+//! The instruments of the vehicle itself, compass, pressure gauge, Doppler log, receiver of fixes, CTD: what a scenario says of
+//! them, and what of that cannot be. Their defaults are perfect.
 
 use crate::scenario::{Bounds, Objections, Scenario};
-use albacore_geometry::Heading;
+use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
@@ -24,11 +24,13 @@ pub struct Compass {
     pub deviation: f64,
     /// The heading of the greatest deviation, clockwise.
     pub greatest_at: Heading,
+    /// Between a sample and its being told, s. Default 0.
+    pub delay: f64,
 }
 
 impl Default for Compass {
     fn default() -> Self {
-        Compass { rate: EVERY_TICK, noise: 0.0, bias: 0.0, deviation: 0.0, greatest_at: Heading::NORTH }
+        Compass { rate: EVERY_TICK, noise: 0.0, bias: 0.0, deviation: 0.0, greatest_at: Heading::NORTH, delay: 0.0 }
     }
 }
 
@@ -42,11 +44,13 @@ pub struct Pressure {
     pub noise: f64,
     /// Its constant error, m of water: too deep.
     pub bias: f64,
+    /// Between a sample and its being told, s. Default 0.
+    pub delay: f64,
 }
 
 impl Default for Pressure {
     fn default() -> Self {
-        Pressure { rate: EVERY_TICK, noise: 0.0, bias: 0.0 }
+        Pressure { rate: EVERY_TICK, noise: 0.0, bias: 0.0, delay: 0.0 }
     }
 }
 
@@ -58,14 +62,18 @@ pub struct Dvl {
     pub rate: f64,
     /// Standard deviation of each component of a sample, m/s.
     pub noise: f64,
+    /// Its constant error, m/s: so much too fast ahead. Default 0.
+    pub bias: f64,
     /// It sees the bottom from so high at most, m. Beyond it tells nothing, and dead reckoning goes on with the velocity that it
     /// told last. Default none: from any height.
     pub range: Option<f64>,
+    /// Between a sample and its being told, s; dead reckoning has it at once. Default 0.
+    pub delay: f64,
 }
 
 impl Default for Dvl {
     fn default() -> Self {
-        Dvl { rate: EVERY_TICK, noise: 0.0, range: None }
+        Dvl { rate: EVERY_TICK, noise: 0.0, bias: 0.0, range: None, delay: 0.0 }
     }
 }
 
@@ -79,30 +87,94 @@ pub struct Gps {
     pub sigma: f64,
     /// The antenna is out of the water above this depth, m. Default 0.3.
     pub above: f64,
+    /// The constant error of its fixes, m. Default none.
+    pub bias: Vector,
+    /// Between a fix's moment and its coming, s. Default 0.
+    pub delay: f64,
 }
 
 impl Default for Gps {
     fn default() -> Self {
-        Gps { every: 1.0, sigma: 5.0, above: 0.3 }
+        Gps { every: 1.0, sigma: 5.0, above: 0.3, bias: Vector::ZERO, delay: 0.0 }
+    }
+}
+
+/// The gauge of the battery's charge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Battery {
+    /// Samples a second. Default 0.1.
+    pub rate: f64,
+    /// Standard deviation of its noise, share of a full charge. Default 0.
+    pub noise: f64,
+    /// Its constant error, share of a full charge: too full. Default 0.
+    pub bias: f64,
+}
+
+impl Default for Battery {
+    fn default() -> Self {
+        Battery { rate: 0.1, noise: 0.0, bias: 0.0 }
+    }
+}
+
+/// The CTD: conductivity and temperature, and the practical salinity that is derived from them and the pressure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ctd {
+    /// Samples a second. Default 1.
+    pub rate: f64,
+    /// Standard deviation of a temperature, degrees Celsius. Default 0.
+    pub temperature_noise: f64,
+    /// Its constant error, degrees Celsius: too warm. Default 0.
+    pub temperature_bias: f64,
+    /// Standard deviation of a salinity. Default 0.
+    pub salinity_noise: f64,
+    /// Its constant error: too salty. Default 0.
+    pub salinity_bias: f64,
+    /// Above this depth its cell runs dry, and it tells nothing, m. Default 0.2.
+    pub above: f64,
+    /// Between a sample and its being told, s. Default 0.
+    pub delay: f64,
+}
+
+impl Default for Ctd {
+    fn default() -> Self {
+        Ctd {
+            rate: 1.0,
+            temperature_noise: 0.0,
+            temperature_bias: 0.0,
+            salinity_noise: 0.0,
+            salinity_bias: 0.0,
+            above: 0.2,
+            delay: 0.0,
+        }
     }
 }
 
 /// What of the instruments cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    let Scenario { compass, pressure, dvl, gps, .. } = scenario;
+    let Scenario { compass, pressure, dvl, gps, battery, ctd, .. } = scenario;
     let mut of = objections.of("compass");
     of.rate("rate", compass.rate);
+    of.delay("delay", compass.delay);
     of.not_negative("noise", compass.noise);
     of.finite("bias", [compass.bias, 0.0]);
     of.finite("deviation", [compass.deviation, 0.0]);
     of.finite("greatest_at", [compass.greatest_at.radians(), 0.0]);
     let mut of = objections.of("pressure");
     of.rate("rate", pressure.rate);
+    of.delay("delay", pressure.delay);
     of.not_negative("noise", pressure.noise);
     of.finite("bias", [pressure.bias, 0.0]);
+    let mut of = objections.of("battery");
+    of.rate("rate", battery.rate);
+    of.not_negative("noise", battery.noise);
+    of.finite("bias", [battery.bias, 0.0]);
     let mut of = objections.of("dvl");
     of.rate("rate", dvl.rate);
+    of.delay("delay", dvl.delay);
     of.not_negative("noise", dvl.noise);
+    of.finite("bias", [dvl.bias, 0.0]);
     if let Some(range) = dvl.range {
         of.positive("range", range);
     }
@@ -112,11 +184,23 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         of.bounds("every", gps.every, Bounds::AtLeast(TICK_S));
         of.not_negative("sigma", gps.sigma);
         of.not_negative("above", gps.above);
+        of.finite("bias", [gps.bias.north, gps.bias.east]);
+        of.delay("delay", gps.delay);
         of.unless(
             None,
             scenario.navigation.is_some(),
             "`gps` needs a `navigation`: without one the vehicle knows its position exactly",
             "add `navigation(dead_reckoning())` to the scenario, or leave `gps` out",
         );
+    }
+    if let Some(ctd) = ctd {
+        let mut of = objections.of("ctd");
+        of.rate("rate", ctd.rate);
+        of.not_negative("temperature_noise", ctd.temperature_noise);
+        of.not_negative("salinity_noise", ctd.salinity_noise);
+        of.finite("temperature_bias", [ctd.temperature_bias, 0.0]);
+        of.finite("salinity_bias", [ctd.salinity_bias, 0.0]);
+        of.not_negative("above", ctd.above);
+        of.delay("delay", ctd.delay);
     }
 }

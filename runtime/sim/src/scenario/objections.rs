@@ -162,6 +162,11 @@ impl OfClause<'_> {
         self.bounds(param, value, Bounds::Within(0.0, 1.0));
     }
 
+    /// The way from a sensor to who reads it, s.
+    pub fn delay(&mut self, param: &'static str, value: f64) {
+        self.bounds(param, value, Bounds::Within(0.0, DELAY_MAX_S));
+    }
+
     pub fn finite(&mut self, param: &'static str, values: [f64; 2]) {
         let message = format!("`{param}` of `{}` is not finite", self.clause);
         self.unless(Some(param), values.iter().all(|v| v.is_finite()), message, "give a number");
@@ -172,6 +177,8 @@ impl OfClause<'_> {
     }
 }
 
+/// The longest delay of a sensor, s.
+const DELAY_MAX_S: f64 = 600.0;
 /// The fastest flow, m/s: tidal races reach 8.
 const FLOW_MAX: f64 = 10.0;
 

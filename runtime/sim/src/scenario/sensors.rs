@@ -39,11 +39,13 @@ pub struct Lbl {
     pub outlier: f64,
     /// The transponders drift with this velocity, m/s, and all fixes with them. Default none.
     pub drift: Vector,
+    /// Between a fix's moment and its coming, s. Default 0.
+    pub delay: f64,
 }
 
 impl Default for Lbl {
     fn default() -> Self {
-        Lbl { every: 120.0, sigma: 2.0, gate: 0.0, outliers: 0.0, outlier: 50.0, drift: Vector::ZERO }
+        Lbl { every: 120.0, sigma: 2.0, gate: 0.0, outliers: 0.0, outlier: 50.0, drift: Vector::ZERO, delay: 0.0 }
     }
 }
 
@@ -73,7 +75,7 @@ impl Default for Fluorometer {
     }
 }
 
-/// The flow sensor: an acoustic Doppler current profiler that looks up and down by turns, 1 s each. Its defaults are those of the
+/// The flow sensor: an acoustic Doppler current profiler that looks up and down by turns. Its defaults are those of the
 /// 2005 paper's Appendix B.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -90,11 +92,15 @@ pub struct Adcp {
     pub count: u32,
     /// Which looks the flow is estimated from. Default upward.
     pub looks: Looks,
+    /// Looks a second. Default 1.
+    pub rate: f64,
+    /// Between a look and the estimate that it enters, s. Default 0.
+    pub delay: f64,
 }
 
 impl Default for Adcp {
     fn default() -> Self {
-        Adcp { noise: 0.05, bias: 0.0, blanking: 0.75, bin: 0.5, count: 1, looks: Looks::Up }
+        Adcp { noise: 0.05, bias: 0.0, blanking: 0.75, bin: 0.5, count: 1, looks: Looks::Up, rate: 1.0, delay: 0.0 }
     }
 }
 
@@ -102,12 +108,12 @@ impl Default for Adcp {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Looks {
-    /// Upward: every 2 s, as the 2005 paper has it.
+    /// Upward: every other one, as the 2005 paper has it.
     #[default]
     Up,
-    /// Downward: every 2 s.
+    /// Downward: every other one.
     Down,
-    /// Both: every second.
+    /// Both.
     Both,
 }
 
@@ -127,11 +133,13 @@ pub struct Sounder {
     pub farthest: Option<f64>,
     /// The share of echoes that are lost. Default 0.
     pub dropouts: f64,
+    /// Between an echo and its being told, s. Default 0.
+    pub delay: f64,
 }
 
 impl Default for Sounder {
     fn default() -> Self {
-        Sounder { rate: EVERY_TICK, noise: 0.0, bias: 0.0, nearest: 0.0, farthest: None, dropouts: 0.0 }
+        Sounder { rate: EVERY_TICK, noise: 0.0, bias: 0.0, nearest: 0.0, farthest: None, dropouts: 0.0, delay: 0.0 }
     }
 }
 
@@ -148,6 +156,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             of.share("outliers", lbl.outliers);
             of.not_negative("outlier", lbl.outlier);
             of.flow("drift", lbl.drift);
+            of.delay("delay", lbl.delay);
         }
     }
     let fluorometer = &scenario.fluorometer;
@@ -163,7 +172,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     );
     of.finite("ahead", [fluorometer.ahead, 0.0]);
     of.finite("bias", [fluorometer.bias, 0.0]);
-    of.bounds("delay", fluorometer.delay, Bounds::Within(0.0, DELAY_MAX_S));
+    of.delay("delay", fluorometer.delay);
     of.share("saturation", fluorometer.saturation);
     let adcp = &scenario.adcp;
     let mut of = objections.of("adcp");
@@ -172,6 +181,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     of.not_negative("blanking", adcp.blanking);
     of.positive("bin", adcp.bin);
     of.bounds("count", f64::from(adcp.count), Bounds::Within(1.0, f64::from(BINS_MAX)));
+    of.rate("rate", adcp.rate);
+    of.delay("delay", adcp.delay);
     let sounder = &scenario.sounder;
     let mut of = objections.of("sounder");
     of.rate("rate", sounder.rate);
@@ -191,11 +202,10 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         );
     }
     of.share("dropouts", sounder.dropouts);
+    of.delay("delay", sounder.delay);
 }
 
 /// A profiler has at most this many bins.
 const BINS_MAX: u32 = 128;
-/// The longest way from the intake to the sensor, s.
-const DELAY_MAX_S: f64 = 600.0;
 /// A chemical sensor gives at most this many samples a second.
 const FLUOROMETER_RATE_MAX: f64 = 1000.0;

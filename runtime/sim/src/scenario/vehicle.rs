@@ -4,7 +4,7 @@ use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
 use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
-use albacore_guidance::Rows;
+use albacore_guidance::Route;
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 
@@ -179,12 +179,12 @@ impl SubmersibleHull {
     }
 }
 
-/// A vehicle's own mission: rows from where it starts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// A vehicle's own mission.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OwnMission {
-    /// The rows: the first begins at the start and runs along the vehicle's heading there.
-    pub rows: Rows,
-    /// What it holds on them.
+    /// Where it goes, from where it starts: of rows the first runs along its heading there.
+    pub route: Route,
+    /// What it holds on the way.
     pub vertical: Vertical,
 }
 
@@ -245,6 +245,15 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             format!("make `altitude` {} m at most, or start in deeper water", rounded_down(water)),
         );
         of.not_negative("speed", limits.speed.unwrap_or(0.0));
+    }
+    if let Some(Route::Waypoints(waypoints)) = scenario.own_mission.as_ref().map(|own| &own.route) {
+        let mut of = objections.of("waypoints");
+        let (message, mend) = ("there is nowhere to swim to", "give a point at least");
+        of.unless(Some("points"), !waypoints.points.is_empty(), message, mend);
+        for point in &waypoints.points {
+            of.finite("points", [point.north, point.east]);
+        }
+        of.positive("speed", waypoints.speed);
     }
     let mut of = objections.of(v.hull.clause());
     of.positive("endurance", v.endurance);

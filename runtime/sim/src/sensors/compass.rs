@@ -1,5 +1,6 @@
 //! The compass: what it makes of the true heading.
 
+use super::delay::Delay;
 use super::rate::is_due;
 use crate::noise::{Noise, Stream};
 use crate::scenario;
@@ -11,17 +12,22 @@ use albacore_geometry::math::cos;
 pub struct Compass {
     settings: scenario::Compass,
     noise: Noise,
+    delay: Delay<Heading>,
 }
 
 impl Compass {
     /// The compass of a run.
     pub fn new(settings: &scenario::Compass, seed: u64) -> Self {
-        Compass { settings: settings.clone(), noise: Noise::new(seed, Stream::Compass) }
+        Compass {
+            settings: settings.clone(),
+            noise: Noise::new(seed, Stream::Compass),
+            delay: Delay::new(settings.delay),
+        }
     }
 
-    /// Whether it tells its heading at a tick.
-    pub fn tells(&self, tick: u64) -> bool {
-        is_due(self.settings.rate, tick)
+    /// What it tells at a tick, when it reads `heading`.
+    pub fn told(&mut self, tick: u64, heading: Heading) -> Option<Heading> {
+        self.delay.pass(tick, is_due(self.settings.rate, tick).then_some(heading))
     }
 
     /// How far it is off at a tick on a heading, rad clockwise; none for a perfect one.

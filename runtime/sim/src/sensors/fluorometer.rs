@@ -1,9 +1,9 @@
 //! The chemical sensor: noise, saturation and false alarms, at its own rate.
 
+use super::delay::Delay;
 use crate::noise::{Noise, Stream};
 use crate::scenario;
 use albacore_vehicle::TICK_S;
-use std::collections::VecDeque;
 
 /// What a false alarm reads at least, ratio of full scale.
 const FALSE_ALARM: f64 = 0.10;
@@ -17,8 +17,7 @@ pub struct Fluorometer {
     noise: Noise,
     alarms: Noise,
     next: u64,
-    /// Readings on their way, and the tick at which each comes.
-    tube: VecDeque<(u64, f64)>,
+    tube: Delay<f64>,
 }
 
 impl Fluorometer {
@@ -29,7 +28,7 @@ impl Fluorometer {
             noise: Noise::new(seed, Stream::Fluorometer),
             alarms: Noise::new(seed, Stream::FalseAlarm),
             next: 0,
-            tube: VecDeque::new(),
+            tube: Delay::new(settings.delay),
         }
     }
 
@@ -46,13 +45,12 @@ impl Fluorometer {
 
     /// Sends a reading on its way.
     pub fn send(&mut self, tick: u64, reading: f64) {
-        self.tube.push_back((tick + (self.settings.delay / TICK_S).round() as u64, reading));
+        self.tube.send(tick, reading);
     }
 
     /// The next reading that has come by a tick.
     pub fn told(&mut self, tick: u64) -> Option<f64> {
-        let has_come = self.tube.front().is_some_and(|(comes, _)| *comes <= tick);
-        if has_come { self.tube.pop_front().map(|(_, reading)| reading) } else { None }
+        self.tube.told(tick)
     }
 
     /// The reading of a sample where the truth is `concentration`; both are ratios of full scale.
@@ -96,16 +94,5 @@ mod tests {
         assert!(dull.reading(1, 0.35) == 0.4 && (dull.reading(1, 0.2) - 0.3).abs() < 1e-12);
         let mean = (0..n).map(|k| sensor.reading(k, 0.5)).sum::<f64>() / n as f64;
         assert!((mean - 0.5).abs() < 1e-4);
-    }
-
-    #[test]
-    fn readings_come_as_late_as_told_and_in_order() {
-        let mut sensor = Fluorometer::new(&scenario::Fluorometer { delay: 3.0, ..Default::default() }, 1);
-        let mut told = Vec::new();
-        for tick in 0..100 {
-            sensor.send(tick, tick as f64);
-            told.extend(sensor.told(tick).map(|reading| (tick, reading)));
-        }
-        assert!(told.len() == 70 && told.iter().all(|(tick, reading)| *tick as f64 == reading + 30.0));
     }
 }

@@ -1,5 +1,6 @@
 //! What the vehicle believes of its position: dead reckoning with noisy velocity, and noisy acoustic fixes.
 
+use super::delay::Delay;
 use crate::noise::{Noise, Stream};
 use crate::scenario::{Gps, Lbl, Navigation};
 use albacore_geometry::math::TAU;
@@ -22,6 +23,9 @@ struct Reckoned {
     outliers: Noise,
     gps: Option<Gps>,
     gps_noise: Noise,
+    /// Fixes on their way.
+    lbl_fixes: Delay<Point>,
+    gps_fixes: Delay<Point>,
     /// The velocity that the Doppler log told last, m/s.
     velocity: Vector,
 }
@@ -39,6 +43,8 @@ impl Positioning {
             outliers: Noise::new(seed, Stream::LblOutlier),
             gps: gps.cloned(),
             gps_noise: Noise::new(seed, Stream::Gps),
+            lbl_fixes: Delay::new(navigation.lbl.as_ref().map_or(0.0, |lbl| lbl.delay)),
+            gps_fixes: Delay::new(gps.map_or(0.0, |gps| gps.delay)),
             velocity: Vector::ZERO,
         }))
     }
@@ -57,15 +63,17 @@ impl Positioning {
         }
         if let Some(lbl) = &own.lbl {
             let ticks = ((lbl.every / TICK_S).round() as u64).max(1);
-            if tick.is_multiple_of(ticks) {
-                let fix = position + lbl.sigma * pair(own.fix_noise) + lbl_error(lbl, tick, own.outliers);
+            let fix = || position + lbl.sigma * pair(own.fix_noise) + lbl_error(lbl, tick, own.outliers);
+            if let Some(fix) = own.lbl_fixes.pass(tick, tick.is_multiple_of(ticks).then(fix)) {
                 own.reckoning.fix(fix, lbl.sigma, lbl.gate);
             }
         }
-        if let Some(gps) = own.gps.as_ref().filter(|gps| depth < gps.above) {
+        if let Some(gps) = &own.gps {
             let ticks = ((gps.every / TICK_S).round() as u64).max(1);
-            if tick.is_multiple_of(ticks) {
-                own.reckoning.fix(position + gps.sigma * pair(own.gps_noise), gps.sigma, 0.0);
+            let fix = || position + gps.sigma * pair(own.gps_noise) + gps.bias;
+            let hears = depth < gps.above && tick.is_multiple_of(ticks);
+            if let Some(fix) = own.gps_fixes.pass(tick, hears.then(fix)) {
+                own.reckoning.fix(fix, gps.sigma, 0.0);
             }
         }
     }
@@ -137,12 +145,29 @@ mod tests {
         assert!((drifted[5999].north - 60.0).abs() < 1e-9);
     }
 
+    /// A late fix tells where the vehicle was, and takes it back by its way since.
+    #[test]
+    fn a_late_fix_is_of_where_the_vehicle_was() {
+        let lbl = Lbl { every: 10.0, sigma: 0.0, delay: 2.0, ..Lbl::default() };
+        let mut own = Positioning::new(Some(&Navigation { walk: 0.0, lbl: Some(lbl) }), None, Point::ORIGIN, 1);
+        let at = |tick: u64| Point::new(0.2 * tick as f64, 0.0);
+        let errors: Vec<f64> = (1..=130)
+            .map(|tick| {
+                own.step(tick, Some(Vector::new(2.0, 0.0)), at(tick), 3.0);
+                (own.belief(at(tick)).0 - at(tick)).north
+            })
+            .collect();
+        assert!(errors[118].abs() < 1e-9 && (errors[119] + 4.0).abs() < 1e-9, "{:?}", &errors[115..]);
+    }
+
     #[test]
     fn satellites_are_heard_at_the_surface_only() {
         let gps = Gps::default();
         let errors = believed(None, Some(&gps), 0.1);
         let deviation = (errors.iter().map(|e| e.dot(*e)).sum::<f64>() / 12_000.0).sqrt();
         assert!((deviation - 5.0).abs() < 0.2, "{deviation}");
+        let off = believed(None, Some(&Gps { sigma: 0.0, bias: Vector::new(3.0, -2.0), ..gps.clone() }), 0.1);
+        assert_eq!(off[100], Vector::new(3.0, -2.0));
         assert!(believed(None, Some(&gps), 0.4).iter().all(|error| *error == Vector::ZERO));
     }
 

@@ -1,5 +1,6 @@
 //! The pressure gauge: how deep the vehicle is, by the weight of the water over it.
 
+use super::delay::Delay;
 use super::rate::is_due;
 use crate::noise::{Noise, Stream};
 use crate::scenario;
@@ -9,16 +10,26 @@ use crate::scenario;
 pub struct Pressure {
     settings: scenario::Pressure,
     noise: Noise,
+    delay: Delay<f64>,
 }
 
 impl Pressure {
     /// The gauge of a run.
     pub fn new(settings: &scenario::Pressure, seed: u64) -> Self {
-        Pressure { settings: settings.clone(), noise: Noise::new(seed, Stream::Pressure) }
+        Pressure {
+            settings: settings.clone(),
+            noise: Noise::new(seed, Stream::Pressure),
+            delay: Delay::new(settings.delay),
+        }
+    }
+
+    /// What it tells at a tick when the true depth is `depth`, m.
+    pub fn told(&mut self, tick: u64, depth: f64) -> Option<f64> {
+        self.delay.pass(tick, self.reading(tick, depth))
     }
 
     /// What it makes of a true depth at a tick, m, when it tells anything: never less than nothing.
-    pub fn reading(&self, tick: u64, depth: f64) -> Option<f64> {
+    fn reading(&self, tick: u64, depth: f64) -> Option<f64> {
         let s = &self.settings;
         let noise = if s.noise > 0.0 { s.noise * self.noise.gaussian(tick) } else { 0.0 };
         let is_perfect = s.noise == 0.0 && s.bias == 0.0;
@@ -33,7 +44,7 @@ mod tests {
 
     #[test]
     fn bias_and_noise_are_as_told_and_a_perfect_gauge_tells_the_truth() {
-        let gauge = Pressure::new(&scenario::Pressure { noise: 0.1, bias: 0.5, rate: 5.0 }, 1);
+        let gauge = Pressure::new(&scenario::Pressure { noise: 0.1, bias: 0.5, rate: 5.0, ..Default::default() }, 1);
         let errors: Vec<f64> = (0..20_000).filter_map(|tick| Some(gauge.reading(tick, 3.0)? - 3.0)).collect();
         assert_eq!(errors.len(), 10_000);
         let mean = errors.iter().sum::<f64>() / 1e4;

@@ -1,12 +1,12 @@
 //! The acoustic Doppler current profiler, which looks up and down by turns, and the flow estimate fed by it.
 
+use super::delay::Delay;
+use super::rate::{is_due, sample};
 use crate::noise::{Noise, Stream};
 use crate::scenario::{Adcp, Looks};
 use albacore_geometry::{Heading, Vector};
 use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate};
 
-/// Ticks of a turn: a message comes every second, of the upward and of the downward look by turns (the 2005 paper, App. B).
-const TURN_TICKS: u64 = 10;
 /// Near the bottom the echo of the side lobes, which go straight down, drowns that of the beams, which go 20 degrees aslant: the
 /// last 1 - cos 20 deg of the altitude cannot be measured (Teledyne RD Instruments, Principles of Operation, 2011).
 const SIDE_LOBE_SHARE: f64 = 0.06;
@@ -40,21 +40,27 @@ pub struct Profiler {
     /// Of each bin, one stream.
     noise: Vec<Noise>,
     estimate: FlowEstimate,
+    delay: Delay<Vector>,
 }
 
 impl Profiler {
     /// The profiler of a run.
     pub fn new(settings: &Adcp, seed: u64) -> Self {
         let noise = (0..settings.count).map(|bin| Noise::sub(seed, Stream::Adcp, bin)).collect();
-        Profiler { settings: settings.clone(), noise, estimate: FlowEstimate::new() }
+        Profiler { settings: settings.clone(), noise, estimate: FlowEstimate::new(), delay: Delay::new(settings.delay) }
     }
 
-    /// The mean flow, m/s toward, if a message comes at this tick and enough have been heard; `flow_at` is the velocity of the
-    /// water at a height above the bottom (m).
+    /// The mean flow that it tells at a tick, m/s toward; `flow_at` is the velocity of the water at a height above the bottom (m).
+    pub fn told(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
+        let mean = self.measure(tick, view, flow_at);
+        self.delay.pass(tick, mean)
+    }
+
+    /// The mean flow, m/s toward, if a message comes at this tick and enough have been heard.
     ///
     /// All noise is put on the velocity through the water: a flow sample is the difference of both, so no more can be told
     /// from it. A look without a valid bin tells an exact zero, which the estimate takes for a missing value: the mean stays.
-    pub fn measure(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
+    fn measure(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
         let look = self.look(tick)?;
         self.estimate.hear(&AdcpMessage {
             over_ground: BodyVelocity::of_tangent(view.ground_velocity, view.heading),
@@ -66,9 +72,10 @@ impl Profiler {
         self.estimate.mean()
     }
 
-    /// Where it looks at this tick, if a message comes and is listened to.
+    /// Where it looks at this tick, if a message comes and is listened to: of the upward and of the downward look by turns (the
+    /// 2005 paper, App. B).
     fn look(&self, tick: u64) -> Option<Look> {
-        let turn = tick.is_multiple_of(TURN_TICKS).then_some(tick / TURN_TICKS)?;
+        let turn = is_due(self.settings.rate, tick).then_some(sample(self.settings.rate, tick))?;
         let look = if turn.is_multiple_of(2) { Look::Up } else { Look::Down };
         let is_heard = match self.settings.looks {
             Looks::Up => look == Look::Up,

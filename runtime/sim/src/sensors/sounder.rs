@@ -1,5 +1,6 @@
 //! The echo sounder: how far the bottom is, where it hears an echo.
 
+use super::delay::Delay;
 use super::rate::is_due;
 use crate::noise::{Noise, Stream};
 use crate::scenario::Sounder;
@@ -10,17 +11,23 @@ pub struct EchoSounder {
     settings: Sounder,
     noise: Noise,
     dropouts: Noise,
+    delay: Delay<f64>,
 }
 
 impl EchoSounder {
     /// The sounder of a run.
     pub fn new(settings: &Sounder, seed: u64) -> Self {
         let (noise, dropouts) = (Noise::new(seed, Stream::Sounder), Noise::new(seed, Stream::SounderDropout));
-        EchoSounder { settings: settings.clone(), noise, dropouts }
+        EchoSounder { settings: settings.clone(), noise, dropouts, delay: Delay::new(settings.delay) }
+    }
+
+    /// What it tells at a tick when the true altitude is `altitude`, m.
+    pub fn told(&mut self, tick: u64, altitude: f64) -> Option<f64> {
+        self.delay.pass(tick, self.reading(tick, altitude))
     }
 
     /// What it makes of a true altitude at a tick, m, when it hears an echo: never less than nothing.
-    pub fn reading(&self, tick: u64, altitude: f64) -> Option<f64> {
+    fn reading(&self, tick: u64, altitude: f64) -> Option<f64> {
         let s = &self.settings;
         let is_lost = s.dropouts > 0.0 && self.dropouts.uniform(tick) < s.dropouts;
         let is_near = altitude >= s.nearest && s.farthest.is_none_or(|farthest| altitude <= farthest);

@@ -37,6 +37,7 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     for (_, corners) in &picture.no_go {
         no_go(svg, &outline(corners, frame));
     }
+    route(svg, &outline(&picture.route, frame));
     detections(svg, picture, frame);
     track(svg, runs);
     marks(svg, picture, frame, runs);
@@ -56,6 +57,13 @@ pub fn no_go(svg: &mut Svg, corners: &[(f64, f64)]) {
     if corners.len() > 2 {
         let attributes = format!("fill=\"{NO_GO}\" fill-opacity=\"0.12\" stroke=\"{NO_GO}\" stroke-width=\"1.3\"");
         svg.path(corners, true, &attributes);
+    }
+}
+
+/// The way that a vehicle goes by itself.
+pub fn route(svg: &mut Svg, corners: &[(f64, f64)]) {
+    if corners.len() > 1 {
+        svg.path(corners, false, "fill=\"none\" stroke=\"#6b6b6b\" stroke-width=\"1.6\" stroke-dasharray=\"2 4\"");
     }
 }
 

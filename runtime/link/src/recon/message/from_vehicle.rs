@@ -101,9 +101,9 @@ pub struct Adcp {
 pub struct Ctd {
     /// Degrees Celsius.
     pub temperature: f64,
-    /// Conductivity.
+    /// Conductivity; the public sources give no unit, ours sends S/m.
     pub conductivity: f64,
-    /// Salinity.
+    /// Practical salinity.
     pub salinity: f64,
     /// Depth, m.
     pub depth: f64,

@@ -202,10 +202,10 @@ fn a_stuck_propeller_and_stern_plane_stay_where_they_are() {
 }
 
 #[test]
-fn a_leak_sinks_it_to_the_bottom_where_it_lies() {
+fn a_flooded_hull_sinks_to_the_bottom_where_it_lies() {
     for (name, hull) in HULLS {
         let mut trial = Trial::new(hull());
-        trial.hull.lose_buoyancy(30.0);
+        trial.hull.flood(3.0);
         let way = trial.obey(None, 300.0);
         let end = way.last().unwrap();
         assert_eq!(end.depth, 50.0, "{name}");

@@ -1,0 +1,49 @@
+//! What happens at the vehicle's side, and how it is told.
+
+use super::front_seat::TIMEOUT_TICKS;
+use albacore_geometry::Point;
+use albacore_guidance::Milestone;
+use albacore_vehicle::TICK_S;
+use std::fmt;
+
+/// What happened, for who watches.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happening {
+    /// A step in the life of the vehicle's own plan.
+    Plan(Milestone),
+    /// A guest drives; from where, and on which leg.
+    Taken(Point, u32),
+    /// The guest has given control back.
+    Released,
+    /// The guest is silent.
+    TimedOut,
+    /// Something that was asked for is not done, and why.
+    Refused(String, &'static str),
+    /// What the vehicle gave notice of.
+    Notice(String),
+    /// The vehicle has given up: it takes no commands any more, from nobody.
+    GivenUp,
+}
+
+impl fmt::Display for Happening {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seconds = TIMEOUT_TICKS as f64 * TICK_S;
+        match self {
+            Happening::Plan(Milestone::Leg(leg, of)) => write!(f, "leg {leg} of {of}"),
+            Happening::Taken(at, leg) => {
+                write!(f, "override taken at ({:.1}, {:.1}) m, on leg {leg}", at.north, at.east)
+            }
+            Happening::Released => f.write_str("override released; returns to the break-off point"),
+            Happening::TimedOut => {
+                write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
+            }
+            Happening::Plan(Milestone::Resumed(at, leg)) => {
+                write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes leg {leg}", at.north, at.east)
+            }
+            Happening::Plan(Milestone::Over) => f.write_str("the last leg is done: mission over"),
+            Happening::Notice(notice) => f.write_str(notice),
+            Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
+            Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
+        }
+    }
+}

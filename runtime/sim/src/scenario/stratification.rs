@@ -1,0 +1,86 @@
+//! The temperature and the salinity of the water over its depth: what a scenario says of them, and what of that cannot be.
+
+use crate::scenario::{Bounds, Objections, Scenario};
+use albacore_geometry::math::tanh;
+use serde::{Deserialize, Serialize};
+
+/// Two water masses, one above the other, and the layer between them in which the one passes into the other: everywhere and
+/// always the same. Between them temperature and salinity go as the hyperbolic tangent of the depth, the profile of the mixing
+/// layer in the stability theory of stratified flows (Hazel 1972, J. Fluid Mech. 51, 39-61).
+///
+/// The default is mixed water of 10 degrees and a practical salinity of 35.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Stratification {
+    /// Temperature far above the thermocline, degrees Celsius.
+    pub surface: f64,
+    /// And far below it.
+    pub bottom: f64,
+    /// Practical salinity (PSS-78) far above the thermocline.
+    pub surface_salinity: f64,
+    /// And far below it.
+    pub bottom_salinity: f64,
+    /// The depth of its middle, m.
+    pub thermocline: f64,
+    /// Its thickness, m: in its middle the temperature changes as if all of the change were evenly spread over so much.
+    pub thickness: f64,
+}
+
+impl Default for Stratification {
+    fn default() -> Self {
+        Stratification {
+            surface: 10.0,
+            bottom: 10.0,
+            surface_salinity: 35.0,
+            bottom_salinity: 35.0,
+            thermocline: 10.0,
+            thickness: 4.0,
+        }
+    }
+}
+
+impl Stratification {
+    /// Temperature (degrees Celsius) and practical salinity at a depth (m).
+    pub fn at(&self, depth: f64) -> (f64, f64) {
+        // How much of the lower water it is, 0 to 1; the slope of half the tangent of 2 x / h is 1 / h in the middle.
+        let lower = 0.5 * (1.0 + tanh(2.0 * (depth - self.thermocline) / self.thickness));
+        let between = |above: f64, below: f64| above + lower * (below - above);
+        (between(self.surface, self.bottom), between(self.surface_salinity, self.bottom_salinity))
+    }
+}
+
+/// What of the water's layers cannot be.
+pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+    let s = &scenario.stratification;
+    let mut of = objections.of("stratification");
+    for (name, value) in [("surface", s.surface), ("bottom", s.bottom)] {
+        of.bounds(name, value, TEMPERATURES);
+    }
+    for (name, value) in [("surface_salinity", s.surface_salinity), ("bottom_salinity", s.bottom_salinity)] {
+        of.bounds(name, value, SALINITIES);
+    }
+    of.not_negative("thermocline", s.thermocline);
+    of.positive("thickness", s.thickness);
+}
+
+/// Sea water freezes below, and no sea is warmer, degrees Celsius.
+const TEMPERATURES: Bounds = Bounds::Within(-2.0, 40.0);
+/// The practical salinity scale ends at 42.
+const SALINITIES: Bounds = Bounds::Within(0.0, 42.0);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_water_is_that_of_the_surface_far_above_and_falls_as_steeply_as_it_says_in_the_middle() {
+        let water = Stratification { surface: 18.0, bottom: 10.0, surface_salinity: 31.0, ..Stratification::default() };
+        assert_eq!(water.at(10.0), (14.0, 33.0));
+        let ((warm, fresh), (cold, salt)) = (water.at(0.0), water.at(20.0));
+        assert!((warm - 18.0).abs() < 1e-3 && (fresh - 31.0).abs() < 1e-3, "{warm} {fresh}");
+        assert!((cold - 10.0).abs() < 1e-3 && (salt - 35.0).abs() < 1e-3, "{cold} {salt}");
+        let slope = (water.at(10.01).0 - water.at(9.99).0) / 0.02;
+        assert!((slope - -8.0 / 4.0).abs() < 1e-4, "{slope}");
+        assert_eq!(Stratification::default().at(3.0), (10.0, 35.0));
+    }
+}
