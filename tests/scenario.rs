@@ -175,5 +175,5 @@ fn parameters_of_the_world_that_is_named_are_set() {
     ends(&["scenario", "show", "worlds.alb#race", "--no-out", "--set", "speed=10 cm/s"], 0, "0.1 m/s toward 90 deg");
     ends(&["scenario", "show", "duck_2003", "--no-out", "--set", "step=2s"], 0, "step              2 s");
     let campaign = ["campaign", "box.alb", "--in", "worlds.alb#race", "--seeds", "1", "--out", "table.csv", "--set"];
-    ends(&[&campaign[..], &["race.speed=10 cm/s"]].concat(), 0, "1 run");
+    ends(&[&campaign[..], &["race.speed=10 cm/s"]].concat(), 0, "1 completed");
 }

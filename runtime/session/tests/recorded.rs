@@ -62,7 +62,7 @@ fn records_that_cannot_be_are_told_with_their_file() {
         ("recorded_plume(\"recorded\")", "`recorded` is a folder"),
         ("recorded_plume(\"recorded/case_a.bin\")", "`recorded/case_a.bin` has 9.0 MB: 4.194304 MB are read at most"),
         ("recorded_plume(\"box.alb\")", "`box.alb`: the header is not one of a recorded plume"),
-        ("recorded_plume(\"recorded/case_a.json\", start: 2 h)", "`recorded_plume.start` is up to 7200 s"),
+        ("recorded_plume(\"recorded/case_a.json\", start: 2 h)", "the run begins up to 7200 s into the record"),
         (
             "recorded_plume(\"recorded/case_a.json\")\n    flow(10 cm/s toward 90 deg)",
             "the record brings its own `flow`",
