@@ -133,7 +133,7 @@ impl<'a> Lowering<'a> {
                 ClauseArg::Value(e) => e.span,
             };
             // A default stands where the clause is declared.
-            let is_default = matches!(arg, ClauseArg::Value(e) if e.span.file != clause.span.file);
+            let is_default = span.file != clause.span.file;
             args.push(ScenarioArg { name: name.clone(), value, span, is_default });
         }
         ScenarioClause { name: clause.name.clone(), place: self.sources.place(clause.span), span: clause.span, args }

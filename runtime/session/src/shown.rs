@@ -141,7 +141,9 @@ impl Teller<'_> {
         });
         told.push(ShownClause { name: name.clone(), is_said, values: values.collect() });
         for arg in &clause.args {
-            if let ScenarioValue::Clause(nested) = &arg.value {
+            if let ScenarioValue::Clause(nested) = &arg.value
+                && !nested.args.is_empty()
+            {
                 self.tell(nested, &name, is_said, told);
             }
         }
@@ -154,7 +156,8 @@ impl Teller<'_> {
                 let words = self.words.get(*slot as usize..).unwrap_or(&[]);
                 Some(self.text(shape, words.get(..shape.words() as usize).unwrap_or(words)))
             }
-            ScenarioValue::Clause(_) => None,
+            // What has no parameters is said by its name.
+            ScenarioValue::Clause(value) => value.args.is_empty().then(|| value.name.clone()),
         }
     }
 

@@ -5,6 +5,7 @@ use crate::files::Files;
 use crate::plan::PlanError;
 use crate::scenario::{Understood, objected};
 use albacore_geometry::{Geodetic, TangentFrame};
+use albacore_lang::diagnostic::{Diagnostic, settle};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
 use albacore_link::Dialect;
 use albacore_link::recon::{FrontSeat, Route, Rows};
@@ -97,8 +98,13 @@ pub(crate) fn scenario(
         Some(Err(findings)) => return Err(PlanError::script(findings, script)),
         None => {
             let known: Vec<&str> = script.scenarios().collect();
+            let own: Vec<&str> = script.own_scenarios().collect();
             let message = format!("there is no scenario `{wanted}`");
-            return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
+            let help = match wanted.ends_with(".alb") {
+                true => Some(format!("name one of the file: `{wanted}#NAME`")),
+                false => suggestion(wanted, known.iter().copied()).or_else(|| suggestion(wanted, own.iter().copied())),
+            };
+            return Err(PlanError::Asked(message, help));
         }
     };
     let understood = sound(&lowered, script)?;
@@ -107,7 +113,10 @@ pub(crate) fn scenario(
 
 /// The numbers of a scenario of a script, if there can be such a world: else all that cannot be, at its place.
 pub(crate) fn sound(lowered: &ScenarioProgram, script: &Script) -> Result<Understood, PlanError> {
-    let wrong = |findings| PlanError::script(findings, script);
+    let wrong = |mut findings: Vec<Diagnostic>| {
+        settle(&mut findings);
+        PlanError::script(findings, script)
+    };
     let understood = crate::scenario::scenario(lowered, &Files::of(script)).map_err(wrong)?;
     let objections = understood.world.validate().err().map_or_else(Vec::new, |error| error.faults);
     if objections.is_empty() {

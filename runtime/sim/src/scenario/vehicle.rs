@@ -229,7 +229,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     } else {
         scenario.bottom.depth_at(v.start)
     };
-    check_start(v, water, &mut objections.of("vehicle"));
+    // Of a grid without water it has been told.
+    let has_water = objections.0.iter().all(|objection| objection.clause != "bottom_grid");
+    check_start(v, if has_water { water } else { f64::NAN }, &mut objections.of("vehicle"));
     if let Some(limits) = &scenario.limits {
         let mut of = objections.of("limits");
         of.not_negative("depth", limits.depth.unwrap_or(0.0));
