@@ -221,8 +221,8 @@ fn what_is_no_fault_is_told_with_what_would_be_one() {
         ("off", "`off` is a trouble of a sensor"),
         ("position", "does not say what is wrong"),
         ("position, leak", "leave `position` out"),
-        ("chemical, jump(10 m)", "only the position can"),
-        ("speed, saturated", "only the heading can"),
+        ("chemical, jump(10 m)", "only `position` can"),
+        ("speed, saturated", "only `heading` can"),
         ("flow, off, from: 9 s, to: 8 s", "make `to` later than `from`"),
     ] {
         assert!(refused(text).contains(why), "{text}: {}", refused(text));

@@ -151,21 +151,21 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 
 impl Disorder {
     fn check(self, sensor: Sensor, of: &mut OfClause) {
-        let mut only_of = |only: Sensor| {
+        let mut only_of = |only: Sensor, what: &str| {
             of.unless(
                 Some("trouble"),
                 sensor == only,
-                format!("the {} cannot be {self}: only the {} can", sensor.name(), only.name()),
+                format!("`{}` cannot {what}: only `{}` can", sensor.name(), only.name()),
                 format!("write `{}`, or choose another trouble", only.name()),
             );
         };
         match self {
             Disorder::Jump(by) => {
-                only_of(Sensor::Position);
+                only_of(Sensor::Position, "jump");
                 of.finite("by", [by.north, by.east]);
             }
             Disorder::Saturated(rate) => {
-                only_of(Sensor::Heading);
+                only_of(Sensor::Heading, "be saturated");
                 of.not_negative("rate", rate);
             }
             Disorder::Wrong(size) => of.finite("size", [size, 0.0]),
