@@ -60,7 +60,7 @@ fn second(bencher: Bencher, kind: Kind) {
             let heading = Heading::from_degrees(if odd { 120.0 } else { 30.0 });
             let vertical = Vertical::Depth(if odd { 8.0 } else { 5.0 });
             let command = Command { heading, speed: 2.0, vertical };
-            hull.step(tick, black_box(Some(&command)), flow, |_| 20.0);
+            assert!(hull.step(tick, black_box(Some(&command)), flow, |_| 20.0).is_ok());
             tick += 1;
         }
     });

@@ -3,6 +3,7 @@
 mod actuators;
 mod autopilot;
 mod fossen;
+mod grounding;
 mod kinematics;
 mod mass;
 mod prestero;
@@ -48,6 +49,13 @@ pub struct Motion {
     /// Whether the bottom held it in the last tick.
     pub aground: bool,
 }
+
+/// Why a hull can't go on: its equations ran away, for the steps of their integration are too long for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the motion of the hull cannot be computed: take a shorter `step`, or less of `turns_max`, `fin_max` and `speed_max`"
+)]
+pub struct RanAway;
 
 /// Where a hull is before its first tick, at rest in the water.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -116,9 +124,18 @@ impl Hull {
 
     /// Lets one tick go by, in water that moves with `flow`. Without a command the propeller stops and the fins are neutral.
     /// `water_depth` tells the depth of the water at a point.
-    pub fn step(&mut self, tick: u64, command: Option<&Command>, flow: Vector, water_depth: impl Fn(Point) -> f64) {
+    pub fn step(
+        &mut self,
+        tick: u64,
+        command: Option<&Command>,
+        flow: Vector,
+        water_depth: impl Fn(Point) -> f64,
+    ) -> Result<(), RanAway> {
         match self {
-            Hull::Kinematic(hull) => hull.step(tick, command, flow, water_depth),
+            Hull::Kinematic(hull) => {
+                hull.step(tick, command, flow, water_depth);
+                Ok(())
+            }
             Hull::Fossen(hull) => hull.step(command, flow, water_depth),
             Hull::Prestero(hull) => hull.step(command, flow, water_depth),
         }

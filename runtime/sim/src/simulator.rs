@@ -163,7 +163,7 @@ impl Simulator {
     }
 
     /// Moves the world from the last tick to this one.
-    fn advance(&mut self, tick: u64) {
+    fn advance(&mut self, tick: u64) -> Result<(), VehicleError> {
         self.world.advance_to(tick);
         let ailing = *self.faults.ailing();
         let flow = self.world.flow(self.vehicle.motion().position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
@@ -180,11 +180,14 @@ impl Simulator {
         self.intake = self.intake_now();
         self.vehicle.stick_rudder(ailing.rudder);
         self.vehicle.flood(ailing.water);
-        self.vehicle.step(tick, command.as_ref(), flow, |p| self.world.water_depth(p));
+        self.vehicle
+            .step(tick, command.as_ref(), flow, |p| self.world.water_depth(p))
+            .map_err(|why| VehicleError(why.to_string()))?;
         let motion = self.vehicle.motion();
         let altitude = self.world.water_depth(motion.position) - motion.depth;
         let measured = if self.dvl.has_lock(altitude) { Some(self.measured_velocity(tick)) } else { None };
         self.positioning.step(tick, measured, motion.position, motion.depth);
+        Ok(())
     }
 
     /// The velocity over ground as the Doppler log measures it and the compass turns it, m/s.
@@ -337,7 +340,7 @@ impl Vehicle for Simulator {
         }
         self.faults.advance_to(tick);
         if tick > 0 {
-            self.advance(tick);
+            self.advance(tick)?;
         }
         self.tick = Some(tick);
         self.observe();

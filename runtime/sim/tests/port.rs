@@ -89,7 +89,7 @@ fn impossible_scenarios_are_refused_with_every_reason() {
     bad.fluorometer.noise = f64::NAN;
     let error = Simulator::new(&bad, 1).unwrap_err();
     assert_eq!(error.faults.len(), 3, "{error}");
-    assert!(error.to_string().contains("`turn_rate` of `kinematic` is 0: it must be above 0"), "{error}");
+    assert!(error.to_string().contains("`turn_rate` of `kinematic` is 0: it must be 0.0017"), "{error}");
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn an_impossible_profiler_is_refused() {
     let adcp = Adcp { bias: f64::NAN, blanking: -1.0, bin: 0.0, count: 0, ..Adcp::default() };
     let error = Simulator::new(&Scenario { adcp, ..scenario() }, 1).unwrap_err();
     assert_eq!(error.faults.len(), 4, "{error}");
-    assert!(error.to_string().contains("`bin` of `adcp` is 0: it must be above 0"), "{error}");
+    assert!(error.to_string().contains("`bin` of `adcp` is 0: it must be 0.1 to 100"), "{error}");
 }
 
 /// What a late instrument tells is what a prompt one told so much earlier.
@@ -372,6 +372,32 @@ fn impossible_hulls_and_limits_are_refused() {
         bad.vehicle.hull = hull;
         bad.limits = None;
         assert_eq!(bad.validate(), Ok(()));
+    }
+}
+
+#[test]
+fn hulls_and_instruments_have_bounds() {
+    let fossen =
+        |turns_max, speed_max| HullSetup::Fossen(SubmersibleHull { turns_max, speed_max, ..SubmersibleHull::fossen() });
+    let kinematic = KinematicHull { speed_max: 1e6, acceleration: 1e11, ..KinematicHull::default() };
+    let lbl = Lbl { drift: Vector::new(10.0, 0.0), sigma: 1e9, gate: 1e9, every: 1e9, ..Lbl::default() };
+    let sensors = Scenario {
+        navigation: Some(Navigation { walk: 1e6, lbl: Some(lbl) }),
+        fluorometer: Fluorometer { noise: 1e6, ahead: 1e9, ..Fluorometer::default() },
+        limits: Some(Limits { altitude: 1e9, ..Limits::default() }),
+        ..scenario()
+    };
+    let with = |hull| Scenario { vehicle: VehicleSetup { hull, ..VehicleSetup::default() }, ..scenario() };
+    for (bad, faults) in [
+        (with(fossen(3000.0, 80.0)), 2),
+        (with(fossen(300.0, 16.0)), 2),
+        (with(fossen(f64::NAN, f64::NAN)), 2),
+        (with(HullSetup::Kinematic(kinematic)), 2),
+        (sensors, 8),
+    ] {
+        let said = bad.validate().unwrap_err();
+        assert_eq!(said.faults.len(), faults, "{said}");
+        assert!(said.faults.iter().all(|fault| fault.to_string().contains("it must be")), "{said}");
     }
 }
 

@@ -58,7 +58,7 @@ impl Gains {
 }
 
 /// The steepest pitch asked for, rad.
-const PITCH_MAX: f64 = 25.0 * PI / 180.0;
+pub(super) const PITCH_MAX: f64 = 25.0 * PI / 180.0;
 /// The most that lasting errors may come to: rudder, and pitch, rad.
 const RUDDER_TRIM_MAX: f64 = 5.0 * PI / 180.0;
 const PITCH_TRIM_MAX: f64 = 15.0 * PI / 180.0;
@@ -136,7 +136,7 @@ impl Autopilot {
     pub fn steer(&mut self, sensed: &Sensed, command: Option<&Command>) -> Controls {
         self.watch_bottom(sensed.water_depth);
         let Some(command) = command else {
-            (self.rudder_trim, self.pitch_trim, self.speed_trim) = (0.0, 0.0, 0.0);
+            self.start_afresh();
             return Controls::default();
         };
         let speed = sensed.speed.max(SPEED_MIN);
@@ -149,6 +149,11 @@ impl Autopilot {
             stern: self.stern(wanted_depth.max(0.0) - sensed.depth, sinking / speed, sensed, speed),
             rpm: self.rpm(command.speed.clamp(0.0, self.speed_max), sensed.speed),
         }
+    }
+
+    /// Forgets what errors have lasted: of what held the hull meanwhile nothing is to be held against it.
+    pub fn start_afresh(&mut self) {
+        (self.rudder_trim, self.pitch_trim, self.speed_trim) = (0.0, 0.0, 0.0);
     }
 
     fn rudder(&mut self, error: f64, rate: f64, speed: f64) -> f64 {
@@ -195,8 +200,9 @@ impl Autopilot {
         }
         let error = wanted - speed;
         let asked = self.rpm_per_speed * (wanted + SPEED_GAIN * error + self.speed_trim);
-        if asked < self.rpm_max || error < 0.0 {
-            self.speed_trim += SPEED_INTEGRAL * error.clamp(-SPEED_LASTS, SPEED_LASTS) * TICK_S;
+        // At full turns it can go no faster; and what is too fast by much slows down by its drag alone, however few they are.
+        if (asked < self.rpm_max || error < 0.0) && error > -SPEED_LASTS {
+            self.speed_trim += SPEED_INTEGRAL * error.min(SPEED_LASTS) * TICK_S;
         }
         asked.clamp(0.0, self.rpm_max)
     }
@@ -228,3 +234,26 @@ fn rpm_per_speed<P: Plant>(plant: &P) -> f64 {
 /// Where the search for turns begins, and how often its interval is halved.
 const RPM_HIGH: f64 = 20_000.0;
 const BISECTIONS: u32 = 60;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::{Crossflow, Fossen, Prestero};
+
+    /// Turns asked for at a speed, after half a minute in which the hull was far too fast for them.
+    fn after_coasting(mut autopilot: Autopilot) -> [f64; 2] {
+        let before = autopilot.rpm(0.8, 0.8);
+        (0..300).for_each(|_| assert!(autopilot.rpm(0.8, 2.4) <= 0.0));
+        [before, autopilot.rpm(0.8, 0.8)]
+    }
+
+    #[test]
+    fn what_only_drag_can_mend_is_not_counted() {
+        let limits = ActuatorLimits { rpm: 2500.0, ..ActuatorLimits::default() };
+        let fossen = Autopilot::new(&Fossen::new(), Gains::FOSSEN, &limits, 2.5);
+        let prestero = Autopilot::new(&Prestero::new(Crossflow::Corrected), Gains::PRESTERO, &limits, 2.5);
+        for [before, after] in [after_coasting(fossen), after_coasting(prestero)] {
+            assert!((before - after).abs() < 1e-9 && before > 100.0, "{before} and {after} turns a minute");
+        }
+    }
+}

@@ -46,15 +46,23 @@ impl Kinematics {
         let reached = v.position + TICK_S * ground_velocity;
         self.motion.heading = self.turned(middle, wanted_heading, TICK_S / 2.0);
 
-        let water = water_depth(reached);
         let wobble = self.jitter.step(tick);
-        let wanted_depth = match command.map(|c| c.vertical) {
-            Some(Vertical::Depth(depth)) => depth,
-            Some(Vertical::Altitude(altitude)) => water - altitude + wobble,
-            None => v.depth,
+        let depth_after = |time: f64, water: f64| {
+            let wanted = match command.map(|c| c.vertical) {
+                Some(Vertical::Depth(depth)) => depth,
+                Some(Vertical::Altitude(altitude)) => water - altitude + wobble,
+                None => v.depth,
+            };
+            approached(v.depth, wanted, self.settings.depth_rate * time).max(0.0)
         };
-        let depth = approached(v.depth, wanted_depth, self.settings.depth_rate * TICK_S).max(0.0);
-        let aground = depth >= water;
+        let mut water = water_depth(reached);
+        let mut aground = depth_after(TICK_S, water) >= water;
+        if v.aground {
+            let ahead = water_depth(v.position + CLEARS_S * (wanted_speed * middle.unit() + flow));
+            aground = aground || depth_after(CLEARS_S, ahead) >= ahead;
+            water = water.min(ahead);
+        }
+        let depth = depth_after(TICK_S, water);
         self.motion = if aground {
             let depth = depth.min(water_depth(v.position));
             Motion { speed: 0.0, ground_velocity: Vector::ZERO, depth, aground, ..self.motion }
@@ -72,6 +80,10 @@ impl Kinematics {
         }
     }
 }
+
+/// A vehicle that is aground goes on when what it is told leads clear of the bottom for so long at the speed that it is told, s:
+/// from rest it would creep up to where it struck, and strike again.
+const CLEARS_S: f64 = 1.0;
 
 /// The heading after `time` seconds of turning: at the rate limit while the error is large, then closing it exponentially.
 /// Exact, so that two half steps are one whole step.

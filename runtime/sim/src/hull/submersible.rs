@@ -2,9 +2,10 @@
 
 use super::actuators::{ActuatorLimits, Actuators};
 use super::autopilot::{Autopilot, Gains, Sensed};
+use super::grounding::{Grounding, Told, pivot};
 use super::six_dof::{Attitude, Controls, Plant, State, Surroundings, runge_kutta};
 use super::surface::{Body, Surface};
-use super::{Berth, Motion};
+use super::{Berth, Motion, RanAway};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_vehicle::{Command, TICK_S};
 
@@ -32,6 +33,9 @@ pub struct Submersible<P> {
     pub buoyancy_loss: f64,
     autopilot: Autopilot,
     surface: Surface,
+    /// Its length, m.
+    length: f64,
+    grounding: Option<Grounding>,
     steps: u32,
     motion: Motion,
 }
@@ -48,6 +52,8 @@ impl<P: Plant> Submersible<P> {
             actuators: Actuators::new(settings.limits, TICK_S / f64::from(settings.steps)),
             autopilot: Autopilot::new(&plant, settings.gains, &settings.limits, settings.speed_max),
             surface: Surface::new(body),
+            length: body.length,
+            grounding: None,
             plant,
             state,
             buoyancy_loss: 0.0,
@@ -78,36 +84,54 @@ impl<P: Plant> Submersible<P> {
         self.actuators.within_limits(&wanted)
     }
 
-    /// Lets one tick go by, in water that moves with `flow`. `water_depth` tells the depth of the water at a point.
-    pub fn step(&mut self, command: Option<&Command>, flow: Vector, water_depth: impl Fn(Point) -> f64) {
+    /// Lets one tick go by, in water that moves with `flow`. `water_depth` tells the depth of the water at a point. If the
+    /// equations run away, it stays where it was.
+    ///
+    /// Where the bottom stops it, it is aground: it stays where it was, at rest, until what is commanded leads up or away.
+    pub fn step(
+        &mut self,
+        command: Option<&Command>,
+        flow: Vector,
+        water_depth: impl Fn(Point) -> f64,
+    ) -> Result<(), RanAway> {
         let before = self.motion.position;
         let goal = self.controls(command, water_depth(before));
         let around = Surroundings { current: flow, buoyancy_loss: self.buoyancy_loss, surface: Some(self.surface) };
         let h = TICK_S / f64::from(self.steps);
+        let mut state = self.state;
         for _ in 0..self.steps {
             let controls = self.actuators.step(&goal);
-            self.state = runge_kutta(&self.plant, &self.state, &controls, &around, h);
+            state = runge_kutta(&self.plant, &state, &controls, &around, h);
         }
-        self.state.pose[5] = wrap_angle(self.state.pose[5]);
-        let aground = self.rest_on(water_depth(Point::new(self.state.pose[0], self.state.pose[1])));
-        self.observe(before, flow, aground);
+        if !state.velocity.iter().all(|rate| rate.abs() <= RATE_MAX) {
+            return Err(RanAway);
+        }
+        state.pose[5] = wrap_angle(state.pose[5]);
+        self.meet_bottom(state, command, water_depth);
+        self.observe(before, flow);
+        Ok(())
     }
 
-    /// The bottom stops it and holds it: it can only rise from there. Whether it does.
-    fn rest_on(&mut self, bottom: f64) -> bool {
-        if self.state.pose[2] <= bottom {
-            return false;
+    /// Takes the state that a tick would lead to, as far as the bottom lets it.
+    fn meet_bottom(&mut self, mut state: State, command: Option<&Command>, water_depth: impl Fn(Point) -> f64) {
+        let before = self.state.pose;
+        let told = match (&self.grounding, command) {
+            (Some(grounding), Some(command)) => Some(grounding.told(&before, command, self.length, &water_depth)),
+            _ => None,
+        };
+        if told == Some(Told::Stay) {
+            state = State { pose: before, ..State::default() };
+        } else {
+            self.grounding = Grounding::after(self.grounding, &before, &mut state, water_depth);
         }
-        self.state.pose[2] = bottom;
-        let attitude = Attitude::of(&self.state.pose);
-        let [u, v, w, ..] = self.state.velocity;
-        let [_, _, down] = attitude.to_ned([u, v, w]);
-        let [u, v, w] = attitude.to_body([0.0, 0.0, down.min(0.0)]);
-        self.state.velocity[..3].copy_from_slice(&[u, v, w]);
-        true
+        if self.grounding.is_some() {
+            self.autopilot.start_afresh();
+            pivot(&mut state, &before, command.map(|command| command.heading), told == Some(Told::Up));
+        }
+        self.state = state;
     }
 
-    fn observe(&mut self, before: Point, flow: Vector, aground: bool) {
+    fn observe(&mut self, before: Point, flow: Vector) {
         let [north, east, depth, roll, pitch, yaw] = self.state.pose;
         let position = Point::new(north, east);
         let [ahead, ..] = Attitude::of(&self.state.pose).to_body([flow.north, flow.east, 0.0]);
@@ -120,10 +144,13 @@ impl<P: Plant> Submersible<P> {
             depth: depth.max(0.0),
             speed: self.state.velocity[0] - ahead,
             ground_velocity: (1.0 / TICK_S) * (position - before),
-            aground,
+            aground: self.grounding.is_some(),
         };
     }
 }
+
+/// No hull moves so fast or turns so fast, m/s and rad/s: the equations have run away.
+const RATE_MAX: f64 = 100.0;
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,8 @@
 //! The instruments of the vehicle itself, compass, pressure gauge, Doppler log, receiver of fixes, CTD: what a scenario says of
 //! them, and what of that cannot be. Their defaults are perfect.
 
-use crate::scenario::{Bounds, Objections, Scenario};
+use crate::scenario::{Objections, Scenario};
+use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -157,34 +158,33 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let mut of = objections.of("compass");
     of.rate("rate", compass.rate);
     of.delay("delay", compass.delay);
-    of.not_negative("noise", compass.noise);
-    of.finite("bias", [compass.bias, 0.0]);
-    of.finite("deviation", [compass.deviation, 0.0]);
+    of.within("noise", compass.noise, 0.0..=radians(45.0));
+    of.within("bias", compass.bias, -PI..=PI);
+    of.within("deviation", compass.deviation, 0.0..=radians(90.0));
     of.finite("greatest_at", [compass.greatest_at.radians(), 0.0]);
     let mut of = objections.of("pressure");
     of.rate("rate", pressure.rate);
     of.delay("delay", pressure.delay);
-    of.not_negative("noise", pressure.noise);
-    of.finite("bias", [pressure.bias, 0.0]);
+    of.within("noise", pressure.noise, 0.0..=10.0);
+    of.within("bias", pressure.bias, -100.0..=100.0);
     let mut of = objections.of("battery");
     of.rate("rate", battery.rate);
-    of.not_negative("noise", battery.noise);
-    of.finite("bias", [battery.bias, 0.0]);
+    of.within("noise", battery.noise, 0.0..=1.0);
+    of.within("bias", battery.bias, -1.0..=1.0);
     let mut of = objections.of("dvl");
     of.rate("rate", dvl.rate);
     of.delay("delay", dvl.delay);
-    of.not_negative("noise", dvl.noise);
-    of.finite("bias", [dvl.bias, 0.0]);
+    of.within("noise", dvl.noise, 0.0..=1.0);
+    of.within("bias", dvl.bias, -1.0..=1.0);
     if let Some(range) = dvl.range {
-        of.positive("range", range);
+        of.within("range", range, 0.0..=1000.0);
     }
     if let Some(gps) = gps {
         let mut of = objections.of("gps");
-        // A fix a tick at most.
-        of.bounds("every", gps.every, Bounds::AtLeast(TICK_S));
-        of.not_negative("sigma", gps.sigma);
-        of.not_negative("above", gps.above);
-        of.finite("bias", [gps.bias.north, gps.bias.east]);
+        of.within("every", gps.every, TICK_S..=3600.0);
+        of.within("sigma", gps.sigma, 0.0..=1000.0);
+        of.within("above", gps.above, 0.0..=10.0);
+        of.within("bias", gps.bias.length(), 0.0..=1000.0);
         of.delay("delay", gps.delay);
         of.unless(
             None,
@@ -196,11 +196,11 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     if let Some(ctd) = ctd {
         let mut of = objections.of("ctd");
         of.rate("rate", ctd.rate);
-        of.not_negative("temperature_noise", ctd.temperature_noise);
-        of.not_negative("salinity_noise", ctd.salinity_noise);
-        of.finite("temperature_bias", [ctd.temperature_bias, 0.0]);
-        of.finite("salinity_bias", [ctd.salinity_bias, 0.0]);
-        of.not_negative("above", ctd.above);
+        of.within("temperature_noise", ctd.temperature_noise, 0.0..=10.0);
+        of.within("salinity_noise", ctd.salinity_noise, 0.0..=10.0);
+        of.within("temperature_bias", ctd.temperature_bias, -10.0..=10.0);
+        of.within("salinity_bias", ctd.salinity_bias, -10.0..=10.0);
+        of.within("above", ctd.above, 0.0..=10.0);
         of.delay("delay", ctd.delay);
     }
 }

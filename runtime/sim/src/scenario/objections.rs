@@ -4,6 +4,7 @@
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// Why a scenario cannot be simulated: all that was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -57,7 +58,11 @@ impl Bounds {
                 Bounds::Above(low) => x > low,
                 Bounds::AtLeast(low) => x >= low,
                 Bounds::AtMost(high) => x <= high,
-                Bounds::Within(low, high) => (low..=high).contains(&x),
+                // What was computed to be one of them is within them, but for rounding.
+                Bounds::Within(low, high) => {
+                    let slack = ROUNDING * low.abs().max(high.abs());
+                    x >= low - slack && x <= high + slack
+                }
                 Bounds::UpTo(low, high) => x > low && x <= high,
             }
     }
@@ -152,6 +157,11 @@ impl OfClause<'_> {
         self.bounds(param, value, Bounds::AtLeast(0.0));
     }
 
+    pub fn within(&mut self, param: &'static str, value: f64, bounds: RangeInclusive<f64>) {
+        let (low, high) = bounds.into_inner();
+        self.bounds(param, value, Bounds::Within(low, high));
+    }
+
     /// Samples a second of what is read at ticks: one a tick at most.
     pub fn rate(&mut self, param: &'static str, rate: f64) {
         self.bounds(param, rate, Bounds::UpTo(0.0, 1.0 / TICK_S));
@@ -181,6 +191,8 @@ impl OfClause<'_> {
 const DELAY_MAX_S: f64 = 600.0;
 /// The fastest flow, m/s: tidal races reach 8.
 const FLOW_MAX: f64 = 10.0;
+/// What units of a script may lose, as a share.
+const ROUNDING: f64 = 1e-12;
 
 /// A number as a person writes it: four decimals at most, and no zeros at the end.
 pub(crate) fn told(x: f64) -> String {

@@ -1,7 +1,7 @@
 //! The sensors: what a scenario says of them, and what of that cannot be.
 
 use crate::scenario::instruments::EVERY_TICK;
-use crate::scenario::{Bounds, Objections, Scenario, told};
+use crate::scenario::{Objections, Scenario, told};
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -146,49 +146,52 @@ impl Default for Sounder {
 /// What of the sensors cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     if let Some(navigation) = &scenario.navigation {
-        objections.of("dead_reckoning").not_negative("walk", navigation.walk);
+        objections.of("dead_reckoning").within("walk", navigation.walk, 0.0..=10.0);
         if let Some(lbl) = &navigation.lbl {
             let mut of = objections.of("lbl");
-            // A fix a tick at most.
-            of.bounds("every", lbl.every, Bounds::AtLeast(TICK_S));
-            of.not_negative("sigma", lbl.sigma);
-            of.not_negative("gate", lbl.gate);
+            of.within("every", lbl.every, TICK_S..=DAY_S);
+            of.within("sigma", lbl.sigma, 0.0..=1000.0);
+            of.within("gate", lbl.gate, 0.0..=10_000.0);
             of.share("outliers", lbl.outliers);
-            of.not_negative("outlier", lbl.outlier);
-            of.flow("drift", lbl.drift);
+            of.within("outlier", lbl.outlier, 0.0..=10_000.0);
+            of.within("drift", lbl.drift.length(), 0.0..=LBL_DRIFT_MAX);
             of.delay("delay", lbl.delay);
         }
     }
     let fluorometer = &scenario.fluorometer;
     let mut of = objections.of("fluorometer");
-    of.bounds("rate", fluorometer.rate, Bounds::UpTo(0.0, FLUOROMETER_RATE_MAX));
-    of.not_negative("noise", fluorometer.noise);
-    of.not_negative("false_alarms", fluorometer.false_alarms);
+    for (name, value, bounds) in [
+        ("rate", fluorometer.rate, 0.01..=1000.0),
+        ("noise", fluorometer.noise, 0.0..=1.0),
+        ("false_alarms", fluorometer.false_alarms, 0.0..=1000.0),
+        ("ahead", fluorometer.ahead, -10.0..=10.0),
+        ("bias", fluorometer.bias, -1.0..=1.0),
+        ("saturation", fluorometer.saturation, 0.0..=1.0),
+    ] {
+        of.within(name, value, bounds);
+    }
+    of.delay("delay", fluorometer.delay);
     of.unless(
         Some("false_alarms"),
         fluorometer.false_alarms <= fluorometer.rate || fluorometer.rate.is_nan(),
         format!("`fluorometer` has more `false_alarms` than samples: its `rate` is {} Hz", told(fluorometer.rate)),
         "make them fewer: a sample gives one alarm at most",
     );
-    of.finite("ahead", [fluorometer.ahead, 0.0]);
-    of.finite("bias", [fluorometer.bias, 0.0]);
-    of.delay("delay", fluorometer.delay);
-    of.share("saturation", fluorometer.saturation);
     let adcp = &scenario.adcp;
     let mut of = objections.of("adcp");
-    of.not_negative("noise", adcp.noise);
-    of.finite("bias", [adcp.bias, 0.0]);
-    of.not_negative("blanking", adcp.blanking);
-    of.positive("bin", adcp.bin);
-    of.bounds("count", f64::from(adcp.count), Bounds::Within(1.0, f64::from(BINS_MAX)));
+    of.within("noise", adcp.noise, 0.0..=1.0);
+    of.within("bias", adcp.bias, -1.0..=1.0);
+    of.within("blanking", adcp.blanking, 0.0..=100.0);
+    of.within("bin", adcp.bin, 0.1..=100.0);
+    of.within("count", f64::from(adcp.count), 1.0..=f64::from(BINS_MAX));
     of.rate("rate", adcp.rate);
     of.delay("delay", adcp.delay);
     let sounder = &scenario.sounder;
     let mut of = objections.of("sounder");
     of.rate("rate", sounder.rate);
-    of.not_negative("noise", sounder.noise);
-    of.finite("bias", [sounder.bias, 0.0]);
-    of.not_negative("nearest", sounder.nearest);
+    of.within("noise", sounder.noise, 0.0..=10.0);
+    of.within("bias", sounder.bias, -100.0..=100.0);
+    of.within("nearest", sounder.nearest, 0.0..=100.0);
     if let Some(farthest) = sounder.farthest {
         of.unless(
             Some("farthest"),
@@ -207,5 +210,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 
 /// A profiler has at most this many bins.
 const BINS_MAX: u32 = 128;
-/// A chemical sensor gives at most this many samples a second.
-const FLUOROMETER_RATE_MAX: f64 = 1000.0;
+/// Transponders drift no faster than this, m/s.
+const LBL_DRIFT_MAX: f64 = 1.0;
+/// The longest time between fixes, s.
+const DAY_S: f64 = 86_400.0;

@@ -2,11 +2,12 @@
 
 use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
 use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
-use albacore_geometry::math::PI;
+use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::Route;
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
 /// The vehicle, and where it is when the run begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -127,6 +128,12 @@ pub struct SubmersibleHull {
 }
 
 impl SubmersibleHull {
+    /// What its propeller may turn at most, 1/s. Lift and drag are those of slow water: beyond twice what the published hulls do
+    /// nothing is known of them.
+    pub const TURNS_MAX: RangeInclusive<f64> = 1.0..=60.0;
+    /// What it may go at most, m/s: no more than so many turns give.
+    pub const SPEED_MAX: RangeInclusive<f64> = 0.1..=6.0;
+
     /// The published limits of the plant after Fossen: 1525 turns a minute.
     pub fn fossen() -> Self {
         SubmersibleHull { speed_max: 2.5, fin_max: 15.0 * PI / 180.0, turns_max: 25.42, step: 0.01 }
@@ -155,9 +162,9 @@ impl SubmersibleHull {
 
     /// What of it cannot be; `possible` is the speed that its greatest turns give, m/s.
     fn check(&self, possible: f64, of: &mut OfClause) {
-        of.positive("speed_max", self.speed_max);
+        of.within("speed_max", self.speed_max, Self::SPEED_MAX);
         of.bounds("fin_max", self.fin_max, Bounds::UpTo(0.0, FIN_MAX));
-        of.positive("turns_max", self.turns_max);
+        of.within("turns_max", self.turns_max, Self::TURNS_MAX);
         of.unless(
             Some("speed_max"),
             self.speed_max <= possible || !possible.is_finite(),
@@ -234,11 +241,11 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     check_start(v, if has_water { water } else { f64::NAN }, &mut objections.of("vehicle"));
     if let Some(limits) = &scenario.limits {
         let mut of = objections.of("limits");
-        of.not_negative("depth", limits.depth.unwrap_or(0.0));
-        of.not_negative("altitude", limits.altitude);
+        of.within("depth", limits.depth.unwrap_or(0.0), DEPTHS);
+        of.within("altitude", limits.altitude, ALTITUDES);
         of.unless(
             Some("altitude"),
-            !(limits.altitude > water && water > 0.0),
+            !(limits.altitude > water && water > 0.0 && ALTITUDES.contains(&limits.altitude)),
             format!(
                 "the vehicle keeps {} m from the bottom, and starts where the water is {} m deep",
                 told(limits.altitude),
@@ -246,7 +253,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             ),
             format!("make `altitude` {} m at most, or start in deeper water", rounded_down(water)),
         );
-        of.not_negative("speed", limits.speed.unwrap_or(0.0));
+        of.within("speed", limits.speed.unwrap_or(0.0), 0.0..=20.0);
     }
     if let Some(Route::Waypoints(waypoints)) = scenario.own_mission.as_ref().map(|own| &own.route) {
         let mut of = objections.of("waypoints");
@@ -258,7 +265,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         of.positive("speed", waypoints.speed);
     }
     let mut of = objections.of(v.hull.clause());
-    of.positive("endurance", v.endurance);
+    of.within("endurance", v.endurance, 1.0..=ENDURANCE_MAX_S);
     match &v.hull {
         HullSetup::Kinematic(hull) => check_kinematic(hull, &mut of),
         HullSetup::Fossen(hull) => hull.check(hull::speed_possible(&Fossen::new(), hull.rpm_max()), &mut of),
@@ -273,7 +280,7 @@ fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
     of.finite("start", [v.start.north, v.start.east]);
     of.finite("heading", [v.heading.radians(), 0.0]);
     of.not_negative("spread", v.start_spread);
-    of.not_negative("depth", v.depth);
+    of.within("depth", v.depth, DEPTHS);
     let (may, most) = (if v.start_spread > 0.0 { "may start" } else { "starts" }, rounded_down(water));
     of.unless(Some("start"), water != 0.0, format!("the vehicle {may} on land"), "move `start` into the water");
     of.unless(
@@ -285,23 +292,28 @@ fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
 }
 
 fn check_kinematic(hull: &KinematicHull, of: &mut OfClause) {
-    for (name, value) in [
-        ("speed_max", hull.speed_max),
-        ("turn_rate", hull.turn_rate),
-        ("acceleration", hull.acceleration),
-        ("depth_rate", hull.depth_rate),
-        ("wobble_time", hull.altitude_jitter_time),
+    for (name, value, bounds) in [
+        ("speed_max", hull.speed_max, 0.1..=20.0),
+        ("turn_rate", hull.turn_rate, radians(0.1)..=radians(360.0)),
+        ("acceleration", hull.acceleration, 0.001..=10.0),
+        ("depth_rate", hull.depth_rate, 0.01..=10.0),
+        ("wobble", hull.altitude_jitter, 0.0..=10.0),
+        ("wobble_max", hull.altitude_jitter_max, 0.0..=10.0),
+        ("wobble_time", hull.altitude_jitter_time, TICK_S..=3600.0),
+        // No script says it.
+        ("heading_time", hull.heading_time, TICK_S..=60.0),
     ] {
-        of.positive(name, value);
+        of.within(name, value, bounds);
     }
-    // No script says it.
-    let seconds = told(hull.heading_time);
-    of.unless(None, hull.heading_time > 0.0, format!("the hull turns in {seconds} s"), "it must be above 0 s");
-    of.not_negative("wobble", hull.altitude_jitter);
-    of.not_negative("wobble_max", hull.altitude_jitter_max);
 }
 
 /// The greatest angle of a fin, rad: beyond it no fin lifts.
 const FIN_MAX: f64 = 1.0;
 /// So many steps of integration in a tick: with fewer the roll of a hull is not followed, with more nothing is gained.
-const STEPS: std::ops::RangeInclusive<f64> = 2.0..=100.0;
+const STEPS: RangeInclusive<f64> = 2.0..=100.0;
+/// From the surface to the deepest trench, m.
+const DEPTHS: RangeInclusive<f64> = 0.0..=11_000.0;
+/// What an echo sounder of such a vehicle could see, m.
+const ALTITUDES: RangeInclusive<f64> = 0.0..=1000.0;
+/// The longest that a battery lasts, s: longer than any vehicle's has.
+const ENDURANCE_MAX_S: f64 = 1e4 * 3600.0;
