@@ -61,16 +61,15 @@ impl Campaign {
         let planned = self.choice.script(&self.script).and_then(|script| {
             let plan = self.choice.plan(&script, &self.script)?;
             let faults = self.faults.read()?;
-            let plan = plan.with_faults(&faults).map_err(|error| refused(&error, &script))?;
-            Ok((script, plan))
+            plan.with_faults(&faults).map_err(|error| refused(&error))
         });
-        let (script, plan) = match planned {
+        let plan = match planned {
             Ok(planned) => planned,
             Err(exit) => return exit,
         };
         // What no seed can run is said before a file is begun.
         if let Err(error) = Run::new(&plan, self.seeds.first) {
-            return refused(&error, &script);
+            return refused(&error);
         }
         match self.carry_out(&plan) {
             Ok(exit) => exit,

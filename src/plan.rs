@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use crate::message;
-use albacore_session::{FileError, Plan, PlanError, Script};
+use albacore_session::{FileError, Plan, PlanError, Script, Wanted};
 use std::path::Path;
 
 /// A script that the verb only looks at, or a module of the standard library by its bare name.
@@ -29,8 +29,10 @@ pub fn scenario_script<'a>(named: &'a str, set: &[String]) -> Result<(Script, &'
         None => (None, Some(named)),
     };
     let script = match file {
-        Some(file) => sound(albacore_session::load(Path::new(file), None, set))?,
-        None => sound(Ok(albacore_session::load_library(set)))?,
+        Some(file) => {
+            sound(albacore_session::load_for(Path::new(file), &Wanted { mission: None, scenario: name, set }))?
+        }
+        None => sound(Ok(albacore_session::load_library(named, set)))?,
     };
     Ok((script, file.unwrap_or_default(), name))
 }
@@ -44,7 +46,7 @@ pub struct Choice {
     /// The scenario, by its name or as `FILE.alb#NAME`; else the one that the mission names.
     #[arg(long = "in", value_name = "SCENARIO")]
     pub scenario: Option<String>,
-    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
+    /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`, `duck_2003.step=2s`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
 }
@@ -52,14 +54,17 @@ pub struct Choice {
 impl Choice {
     /// Loads the script, or says what is wrong and how the program ends.
     pub fn script(&self, path: &Path) -> Result<Script, Exit> {
-        sound(albacore_session::load(path, self.mission.as_deref(), &self.set))
+        sound(albacore_session::load_for(path, &self.wanted()))
+    }
+
+    fn wanted(&self) -> Wanted<'_> {
+        Wanted { mission: self.mission.as_deref(), scenario: self.scenario.as_deref(), set: &self.set }
     }
 
     /// Plans the mission in a simulated world, or says what stands in the way.
     pub fn plan(&self, script: &Script, path: &Path) -> Result<Plan, Exit> {
         let file = path.display().to_string();
-        let plan = Plan::new(script, &file, self.mission.as_deref(), self.scenario.as_deref());
-        plan.map_err(|error| refused(&error, script))
+        Plan::wanted(script, &file, &self.wanted()).map_err(|error| refused(&error))
     }
 }
 
@@ -75,15 +80,15 @@ impl Faults {
     /// What they let go wrong, or tells what is wrong with them.
     pub fn read(&self) -> Result<albacore_session::Faults, Exit> {
         let script = sound(Ok(albacore_session::load_faults(&self.texts)))?;
-        albacore_session::Faults::of(&script).map_err(|error| refused(&error, &script))
+        albacore_session::Faults::of(&script).map_err(|error| refused(&error))
     }
 }
 
 /// Says why a script cannot be run as asked.
-pub fn refused(error: &PlanError, script: &Script) -> Exit {
+pub fn refused(error: &PlanError) -> Exit {
     match error {
-        PlanError::Script(findings) => {
-            message::findings(findings, &script.sources);
+        PlanError::Script(findings, sources) => {
+            message::findings(findings, sources);
             message::more(findings);
             Exit::Script
         }

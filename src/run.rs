@@ -85,7 +85,7 @@ impl Run {
 
     /// The plan, and a run of it at its first tick: in a simulated world or on a link.
     fn prepare(&self, script: &Script) -> Result<(Plan, MissionRun), Exit> {
-        let refused = |error| refused(&error, script);
+        let refused = |error| refused(&error);
         let Some(link) = &self.link else {
             let plan = self.choice.plan(script, &self.script)?;
             let plan = plan.with_faults(&self.faults.read()?).map_err(refused)?;
@@ -193,8 +193,8 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
         if let (Some(north), Some(east)) = (report.north_m, report.east_m) {
             text.push_str(&format!(" at ({north:.1}, {east:.1}) m"));
         }
-        if let Some(error) = report.error_m {
-            text.push_str(&format!(", {error:.1} m from the true one"));
+        if let (Some(error), Some(from)) = (report.error_m, report.error_from) {
+            text.push_str(&format!(", {error:.1} m from {from}"));
         }
         text.push('\n');
     }

@@ -54,7 +54,7 @@ impl Scenario {
 impl Show {
     fn run(&self) -> Exit {
         let shown = scenario_script(&self.scenario, &self.set).and_then(|(script, file, name)| {
-            Shown::new(&script, file, name, self.seed).map_err(|error| refused(&error, &script))
+            Shown::new(&script, file, name, self.seed).map_err(|error| refused(&error))
         });
         let shown = match shown {
             Ok(shown) => shown,

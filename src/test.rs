@@ -105,8 +105,8 @@ impl Test {
             }
             let result = match run_test(script, &test, faults) {
                 Ok(result) => result,
-                Err(PlanError::Script(findings)) => {
-                    message::findings(&findings, &script.sources);
+                Err(PlanError::Script(findings, sources)) => {
+                    message::findings(&findings, &sources);
                     return Err(Exit::Script);
                 }
                 Err(PlanError::Asked(what, help)) => {

@@ -72,7 +72,7 @@ impl Vehicle {
     /// The vehicle, and what it says that it speaks.
     fn far_end(&self) -> Result<(FarEnd, Option<Dialect>), Exit> {
         let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
-        let refused = |error| refused(&error, &script);
+        let refused = |error| refused(&error);
         let world = World::new(&script, file, name).map_err(refused)?;
         let world = world.with_faults(&self.faults.read()?).map_err(refused)?;
         Ok((world.far_end(self.seed, self.rows).map_err(refused)?, world.dialect))

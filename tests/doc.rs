@@ -107,7 +107,7 @@ fn a_name_leads_to_what_is_meant_where_it_stands() {
     for (page, link) in [
         ("world", "from which <a href=\"inputs.html#input-altitude\"><code>altitude</code></a> and"),
         ("world", "from which <a href=\"inputs.html#input-speed\"><code>speed</code></a> and"),
-        ("world", "also if it is left out), <a href=\"#clause-down\"><code>down</code></a> or"),
+        ("world", "<code>up</code></a>, <a href=\"#clause-down\"><code>down</code></a> or"),
         ("faults", "which: <a href=\"#clause-position\"><code>position</code></a>,"),
         ("faults", "Of <a href=\"#clause-heading\"><code>heading</code></a>:"),
         ("faults", "of a <a href=\"world.html#clause-fossen\"><code>fossen</code></a>"),

@@ -12,7 +12,7 @@ mod faults {
     pub mod page;
 }
 
-use albacore_session::{Faults, Outcome, Plan, PlanError, Run, Running, load, load_faults};
+use albacore_session::{Diagnostic, Faults, Outcome, Plan, PlanError, Run, Running, load, load_faults};
 use faults::guard::{Guard, Problems};
 use std::path::Path;
 
@@ -183,7 +183,9 @@ fn a_flooded_vehicle_holds_its_depth_or_sinks() {
     }
     let faults = Faults::of(&load_faults(&["flooding".into()])).unwrap();
     match plan(None).with_faults(&faults) {
-        Err(PlanError::Asked(_, help)) => assert!(help.unwrap_or_default().contains("it must be a `fossen`")),
+        Err(PlanError::Script(findings, _)) => {
+            assert!(findings[0].help.as_ref().unwrap().contains("a `fossen`"), "{findings:?}");
+        }
         _ => unreachable!("a kinematic vehicle took in water"),
     }
 }
@@ -208,17 +210,20 @@ fn what_is_no_fault_is_told_with_what_would_be_one() {
         assert_eq!(told(text), "", "{text}");
         match Faults::of(&load(text)).and_then(|faults| plan.with_faults(&faults)) {
             Err(PlanError::Asked(_, help)) => help.unwrap_or_default(),
-            Err(PlanError::Script(findings)) => findings.iter().map(|f| f.message.clone()).collect(),
+            Err(PlanError::Script(findings, _)) => {
+                let said = |f: &Diagnostic| format!("{}: {}", f.message, f.help.clone().unwrap_or_default());
+                findings.iter().map(said).collect()
+            }
             Ok(_) => String::from("nothing"),
         }
     };
     for (text, why) in [
         ("off", "`off` is a trouble of a sensor"),
-        ("position", "what is wrong?"),
+        ("position", "does not say what is wrong"),
         ("position, leak", "leave `position` out"),
-        ("chemical, jump(10 m)", "only the position can"),
-        ("speed, saturated", "only the heading can"),
-        ("flow, off, from: 9 s, to: 8 s", "it must be after `from`"),
+        ("chemical, jump(10 m)", "only `position` can"),
+        ("speed, saturated", "only `heading` can"),
+        ("flow, off, from: 9 s, to: 8 s", "make `to` later than `from`"),
     ] {
         assert!(refused(text).contains(why), "{text}: {}", refused(text));
     }

@@ -88,7 +88,7 @@ fn what_goes_wrong_is_told_and_a_vehicle_that_leaks_is_lost() {
 #[test]
 fn a_fault_that_is_none_opens_no_session() {
     for (fault, code, why) in
-        [("leek", 3, "did you mean `leak`?"), ("leak, from: 9 s, to: 8 s", 2, "it must be after `from`")]
+        [("leek", 3, "did you mean `leak`?"), ("leak, from: 9 s, to: 8 s", 3, "make `to` later than `from`")]
     {
         let out = out("no-fault");
         let mut child = session(&["--fault", fault], &out).spawn().unwrap();

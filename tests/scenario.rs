@@ -102,12 +102,85 @@ fn what_cannot_be_shown_is_said() {
         (&["none.alb"], 2, "which scenario of `none.alb` is to be shown?"),
         (&["fresh.alb"], 3, "`surface_salinity` is in 0 psu..42 psu"),
         (&["both.alb"], 3, "a scenario has one `rows` or one `waypoints`"),
-        (&["nowhere.alb"], 2, "`waypoints.points` is empty"),
-        (&["wet.alb"], 2, "`tide M2: amplitude` is 20 m/s: it must be 10 m/s at most"),
+        (&["nowhere.alb"], 3, "there is nowhere to swim to"),
+        (&["wet.alb"], 3, "it must be 10 m/s at most"),
     ] {
         let output = show(&folder, arguments);
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!((output.status.code(), output.stdout.len()), (Some(code), 0), "{said}");
         assert!(said.contains(expected), "{said}");
     }
+}
+
+/// A world with a parameter that makes it impossible, and one that is none of its own.
+const RACE: &str = "scenario race(speed: Speed = 20 m/s) {
+    flow(speed toward 90 deg)
+    bottom(from: 20 m, to: 20 m)
+    vehicle(kinematic, start: point(north: -60 m, east: -40 m), depth: 3 m)
+}
+scenario pond { vehicle(kinematic, start: point(north: 0 m, east: 0 m)) }
+";
+
+fn albacore(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(arguments).current_dir(folder).env("NO_COLOR", "1").stdin(Stdio::null());
+    command.output().unwrap()
+}
+
+/// A folder with [`RACE`] and a mission.
+fn raced(name: &str) -> PathBuf {
+    let folder = folder(name);
+    std::fs::write(folder.join("worlds.alb"), RACE).unwrap();
+    std::fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/missions/box.alb"), folder.join("box.alb")).unwrap();
+    folder
+}
+
+/// Whoever runs a mission in a world that cannot be is told as `check` tells: file, line, place and mend.
+#[test]
+fn an_impossible_world_is_told_alike_by_every_verb() {
+    let folder = raced("alike");
+    let told = |arguments: &[&str]| {
+        let output = albacore(&folder, arguments);
+        assert_eq!(output.status.code(), Some(3), "{arguments:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let checked = told(&["check", "worlds.alb"]);
+    insta::assert_snapshot!(checked);
+    for arguments in [
+        &["run", "box.alb", "--in", "worlds.alb#race", "--no-out"][..],
+        &["campaign", "box.alb", "--in", "worlds.alb#race", "--seeds", "1..2", "--out", "table.csv"],
+        &["repl", "box.alb", "--in", "worlds.alb#race"],
+        &["vehicle", "worlds.alb#race", "--link", "pty:?dialect=recon"],
+        &["scenario", "show", "worlds.alb#race", "--no-out"],
+    ] {
+        assert_eq!(told(arguments), checked, "{arguments:?}");
+    }
+    // A test runs in a scenario of its own file.
+    let both = std::fs::read_to_string(folder.join("box.alb"))
+        .unwrap()
+        .replace("25 cm/s toward 90 deg)", "20 m/s toward 90 deg)");
+    std::fs::write(folder.join("box.alb"), both).unwrap();
+    assert_eq!(told(&["test", "box.alb"]), told(&["check", "box.alb"]));
+}
+
+/// `--set` reaches the scenario that is named, in whatever file it is.
+#[test]
+fn parameters_of_the_world_that_is_named_are_set() {
+    let folder = raced("set");
+    let ends = |arguments: &[&str], code: i32, expected: &str| {
+        let output = albacore(&folder, arguments);
+        let said = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    };
+    let elsewhere = ["run", "box.alb", "--no-out", "--in", "worlds.alb#race", "--set"];
+    ends(&[&elsewhere[..], &["race.speed=10 cm/s"]].concat(), 0, "completed");
+    ends(&[&elsewhere[..], &["race.speed=3 m"]].concat(), 3, "is a Length");
+    ends(&[&elsewhere[..], &["race.sped=3 m/s"]].concat(), 3, "did you mean `speed`?");
+    ends(&[&elsewhere[..], &["speed=10 cm/s"]].concat(), 3, "`--set DECLARATION.PARAMETER=VALUE`");
+    ends(&["run", "box.alb", "--no-out", "--in", "duck_2003", "--set", "stp=2s"], 3, "did you mean `step`?");
+    ends(&["scenario", "show", "worlds.alb#race", "--no-out", "--set", "speed=10 cm/s"], 0, "0.1 m/s toward 90 deg");
+    ends(&["scenario", "show", "duck_2003", "--no-out", "--set", "step=2s"], 0, "step              2 s");
+    let campaign = ["campaign", "box.alb", "--in", "worlds.alb#race", "--seeds", "1", "--out", "table.csv", "--set"];
+    ends(&[&campaign[..], &["race.speed=10 cm/s"]].concat(), 0, "1 completed");
 }

@@ -82,21 +82,48 @@ pub struct Script {
     broken: Broken,
 }
 
-/// Reads and checks a script. `set` changes parameters: `lambda=6s` of the mission or its scenario, `cpt_2005.beta=30deg`
-/// of a declaration. `mission` is the mission that is meant, when there are several.
-pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[String]) -> Script {
+/// What of a script is meant, and changed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wanted<'a> {
+    /// The mission, when there are several.
+    pub mission: Option<&'a str>,
+    /// The scenario.
+    pub scenario: Where<'a>,
+    /// Parameters that are changed: `lambda=6s` of the mission or its scenario, `cpt_2005.beta=30deg` of a declaration.
+    pub set: &'a [String],
+}
+
+/// The scenario that is meant.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Where<'a> {
+    /// The mission's own.
+    #[default]
+    Own,
+    /// Another one that the script knows.
+    Named(&'a str),
+    /// One of another script, where its parameters are changed.
+    Elsewhere,
+}
+
+/// Reads and checks a script, with what is wanted of it.
+pub fn load_for(entry: Source, library: &dyn Library, wanted: &Wanted) -> Script {
     let mut loader = Loader::new(library);
     loader.read_all(entry);
-    finish(&mut loader, mission, set)
+    finish(&mut loader, wanted)
+}
+
+/// The same for a mission in its own scenario.
+pub fn load(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[String]) -> Script {
+    load_for(entry, library, &Wanted { mission, set, ..Wanted::default() })
 }
 
 /// Checks what was read.
-fn finish(loader: &mut Loader, mission: Option<&str>, set: &[String]) -> Script {
+fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     let Loader { sources, modules, unread, .. } = loader;
     let mut findings = std::mem::take(&mut loader.findings);
     let main = &modules[MAIN].tree;
-    let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), mission);
-    let overrides = overrides(sources, set, chosen.as_ref(), &mut findings);
+    let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), wanted.mission);
+    let overrides = overrides(sources, wanted, main, chosen.as_ref(), &mut findings);
     let checked = check::check(modules, loader.library, overrides.clone());
     let echoes = Echoes::of(unread, sources);
     let later = checked.findings.into_iter().filter(|f| !echoes.holds_back(f, sources));
@@ -255,12 +282,13 @@ fn chosen_mission(tree: &tree::File, file: &str, asked: Option<&str>) -> Option<
 /// Reads `--set` texts, each as a source of its own, so that messages can point into it.
 fn overrides(
     sources: &mut Sources,
-    set: &[String],
+    wanted: &Wanted,
+    main: &tree::File,
     mission: Option<&tree::Activity>,
     findings: &mut Vec<Diagnostic>,
 ) -> Vec<Override> {
     let mut overrides = Vec::new();
-    for text in set {
+    for text in wanted.set {
         let source = Source { name: format!("--set {text}").into(), text: text.as_str().into() };
         let Some((place, value)) = text.split_once('=') else {
             let file = sources.add(source);
@@ -278,7 +306,7 @@ fn overrides(
             Ok(value) => {
                 let (declarations, param) = match place.trim().rsplit_once('.') {
                     Some((declaration, param)) => (vec![declaration.to_string()], param.to_string()),
-                    None => (owners_of(place.trim(), mission), place.trim().to_string()),
+                    None => (owners_of(place.trim(), wanted, main, mission), place.trim().to_string()),
                 };
                 let place = Span { file, start: 0, end: place.trim_end().len() as u32 };
                 overrides.push(Override { declarations, param, place, value, found: None });
@@ -289,16 +317,30 @@ fn overrides(
     overrides
 }
 
-/// A plain name is a parameter of the mission, or else of its scenario.
-fn owners_of(param: &str, mission: Option<&tree::Activity>) -> Vec<String> {
-    let Some(mission) = mission else { return Vec::new() };
-    let mut owners = vec![mission.name.node.clone()];
-    if !mission.params.iter().any(|p| p.name.node == param)
-        && let ActivityKind::Mission { scenario: Some(path), .. } = &mission.kind
-    {
-        owners.extend(path.parts.last().map(|name| name.node.clone()));
-    }
-    owners
+/// A plain name is a parameter of the mission, or else of the scenario that it runs in; in a script without missions of the
+/// only scenario.
+fn owners_of(param: &str, wanted: &Wanted, main: &tree::File, mission: Option<&tree::Activity>) -> Vec<String> {
+    let own = mission.and_then(|mission| match &mission.kind {
+        ActivityKind::Mission { scenario: Some(path), .. } => path.parts.last().map(|name| name.node.clone()),
+        _ => None,
+    });
+    let scenario = match wanted.scenario {
+        Where::Named(name) => name.rsplit('.').next().map(str::to_string),
+        Where::Own if mission.is_none() => only_scenario(main),
+        Where::Own => own,
+        Where::Elsewhere => None,
+    };
+    let has_it = mission.is_some_and(|mission| mission.params.iter().any(|p| p.name.node == param));
+    let mission = mission.map(|mission| mission.name.node.clone());
+    mission.into_iter().chain(scenario.filter(|_| !has_it)).collect()
+}
+
+fn only_scenario(main: &tree::File) -> Option<String> {
+    let mut scenarios = main.items.iter().filter_map(|item| match item {
+        Item::Scenario { name, .. } => Some(name.node.clone()),
+        _ => None,
+    });
+    scenarios.next().filter(|_| scenarios.next().is_none())
 }
 
 /// The file that is run is always the first.

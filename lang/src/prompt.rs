@@ -16,7 +16,7 @@ use crate::loader::Loader;
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax::{self, tree};
 use crate::types::TypeTable;
-use crate::{Library, Script, lower, rules};
+use crate::{Library, Script, Wanted, lower, rules};
 use albacore_geometry::Geodetic;
 use albacore_program::{Program, Slot};
 use std::collections::BTreeMap;
@@ -77,10 +77,10 @@ pub struct Read {
 
 impl Prompt {
     /// Loads a script for a prompt: what was found wrong with it is in the script, and may be nothing that a prompt minds.
-    pub fn open(entry: Source, library: &dyn Library, mission: Option<&str>, set: &[String]) -> (Prompt, Script) {
+    pub fn open(entry: Source, library: &dyn Library, wanted: &Wanted) -> (Prompt, Script) {
         let mut loader = Loader::new(library);
         loader.read_all(entry);
-        let script = crate::finish(&mut loader, mission, set);
+        let script = crate::finish(&mut loader, wanted);
         let Loader { sources, modules, known, .. } = loader;
         let mut prompt =
             Prompt { sources, modules, known, overrides: script.overrides.clone(), with: Vec::new(), lines: 0 };

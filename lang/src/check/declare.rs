@@ -134,7 +134,7 @@ impl<'t> Checker<'t> {
                     TyKind::Named { path, .. } => Some(path.text()),
                     TyKind::List { .. } => None,
                 });
-                self.clauses.push(ClauseInfo { signature, nested: Vec::new(), kind });
+                self.clauses.push(ClauseInfo { signature, nested: Vec::new(), otherwise: Vec::new(), kind });
                 self.define(m, name, Def::Clause(self.clauses.len() - 1));
             }
             Item::Fn(f) => {

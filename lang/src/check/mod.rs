@@ -136,10 +136,12 @@ struct Signature {
 }
 
 /// A clause that scenarios may hold.
-struct ClauseInfo {
+struct ClauseInfo<'t> {
     signature: Signature,
     /// For each parameter the kind of clause that is its value, when it takes a clause.
     nested: Vec<Option<String>>,
+    /// And the clause that it is when none is given.
+    otherwise: Vec<Option<&'t tree::Expr>>,
     /// A clause of a kind is the value of another clause's parameter, not a clause of its own.
     kind: Option<String>,
 }
@@ -218,7 +220,7 @@ pub struct Checker<'t> {
     signals: Vec<Lazy<'t>>,
     /// How many constants and signals wait for others.
     waiting: usize,
-    clauses: Vec<ClauseInfo>,
+    clauses: Vec<ClauseInfo<'t>>,
     vehicles: Vec<vehicle::VehicleInfo>,
     /// What vehicles bring into the scenario that is being checked.
     fitted: Vec<hir::ClauseUse>,

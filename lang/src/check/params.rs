@@ -98,10 +98,11 @@ impl<'t> Checker<'t> {
         let named = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" nor ");
         let Override { declarations, param, place, .. } = unused;
         let finding = |message: String| Diagnostic::error(Code::SetUnknown, *place, message);
+        let is_plain = place.end as usize == param.len();
         let finding = match declarations.as_slice() {
             [] => finding(format!("whose parameter is `{param}`?"))
                 .help("choose the mission with `--mission`, or write `--set DECLARATION.PARAMETER=VALUE`"),
-            [only] if params.is_empty() => {
+            [only] if params.is_empty() && !is_plain => {
                 let known: Vec<String> = owners.iter().map(|(owner, _)| short(owner)).collect();
                 let help = self.suggestion(&short(only), known.iter().map(String::as_str));
                 let help =

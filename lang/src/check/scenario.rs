@@ -49,6 +49,7 @@ impl<'t> Checker<'t> {
                 infos.extend(self.params(m, std::slice::from_ref(param), None));
             }
         }
+        self.clauses[id].otherwise = params.iter().map(|param| param.default.as_ref()).collect();
         self.clauses[id].signature.params = infos;
         self.clauses[id].nested = nested;
     }
@@ -171,9 +172,10 @@ impl<'t> Checker<'t> {
             self.report(finding);
             return None;
         };
-        let (name, params, nested) = {
+        let (name, params, nested, otherwise) = {
             let clause = &self.clauses[id];
-            (clause.signature.name.clone(), clause.signature.params.clone(), clause.nested.clone())
+            let signature = &clause.signature;
+            (signature.name.clone(), signature.params.clone(), clause.nested.clone(), clause.otherwise.clone())
         };
         let kind = &self.clauses[id].kind;
         let is_of_vehicle =
@@ -230,15 +232,10 @@ impl<'t> Checker<'t> {
                     K::Name(name) => name.as_str(),
                     _ => "this",
                 };
-                let message = format!("there is no {kind} named `{written}`");
-                let known: Vec<String> = self
-                    .clauses
-                    .iter()
-                    .filter(|c| c.kind.as_ref() == Some(&kind))
-                    .map(|c| c.signature.name.clone())
-                    .collect();
+                let or_vehicle = if name == super::vehicle::CLAUSE { " and no vehicle" } else { "" };
+                let message = format!("there is no {kind}{or_vehicle} named `{written}`");
                 let finding = Diagnostic::error(Code::ScenariosClause, head.span, message);
-                let finding = match self.suggestion(written, known.iter().map(String::as_str)) {
+                let finding = match self.help_with_value(&name, &kind, written) {
                     Some(help) => finding.help(help),
                     None => finding,
                 };
@@ -247,11 +244,29 @@ impl<'t> Checker<'t> {
                 plain_args.push(arg.clone());
             }
         }
+        for ((param, nested), otherwise) in params.iter().zip(&nested).zip(otherwise) {
+            let is_given = values.iter().any(|(given, _)| *given == param.name);
+            if let Some(otherwise) = otherwise.filter(|_| nested.is_some() && !is_given && !failed) {
+                let used = self.clause_use(otherwise, Standing::Value);
+                values.extend(used.map(|used| (param.name.clone(), ClauseArg::Nested(used))));
+            }
+        }
         let plain: Vec<super::ParamInfo> =
             params.iter().zip(&nested).filter(|(_, n)| n.is_none()).map(|(p, _)| p.clone()).collect();
         let checked = self.arguments(&name, &plain, &plain_args, e.span, None).filter(|_| !failed)?;
         values.extend(plain.into_iter().map(|p| p.name).zip(checked.into_iter().map(ClauseArg::Value)));
         Some(ClauseUse { name, span: e.span, args: values })
+    }
+
+    /// What may be meant by a name that no value of a clause has.
+    fn help_with_value(&self, clause: &str, kind: &str, written: &str) -> Option<String> {
+        let of_kind = |c: &&super::ClauseInfo| c.kind.as_deref() == Some(kind);
+        let known: Vec<&str> = self.clauses.iter().filter(of_kind).map(|c| c.signature.name.as_str()).collect();
+        if clause == super::vehicle::CLAUSE && self.vehicle_kinds().iter().any(|k| k == kind) {
+            self.help_with_vehicle(written, &known)
+        } else {
+            self.suggestion(written, known)
+        }
     }
 
     /// The clause that an expression names, of a kind that fits: `flow` is a clause, and in `fault(flow, off)` a sensor.

@@ -7,12 +7,38 @@ use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
-use crate::source::Span;
+use crate::source::{FileId, Source, Span};
+use crate::suggest;
+use crate::syntax;
 use crate::syntax::tree::{self, ExprKind, Item};
 use crate::types::Type;
 
 /// The clause with which a scenario names a vehicle.
-const CLAUSE: &str = "vehicle";
+pub(super) const CLAUSE: &str = "vehicle";
+
+/// The module of the standard library that holds vehicles.
+const LIBRARY: &str = "vehicles";
+
+/// Clauses of the world: they hold for whatever vehicle swims there, and no vehicle brings them.
+const OF_THE_WORLD: [&str; 17] = [
+    "flow",
+    "turning",
+    "tide",
+    "waves",
+    "upper_layer",
+    "stratification",
+    "region",
+    "bottom",
+    "bottom_grid",
+    "pit",
+    "no_go",
+    "plume",
+    "source",
+    "leak",
+    "patch",
+    "recorded_plume",
+    CLAUSE,
+];
 
 /// A vehicle, as far as it is checked.
 #[derive(Clone, Debug)]
@@ -45,8 +71,20 @@ impl<'t> Checker<'t> {
     }
 
     fn check_vehicle(&mut self, m: usize, id: usize, name: &tree::Name, body: &'t tree::Block) {
-        let (clauses, _) = self.within(Scope::new(m, Setting::Constant), |c| c.clause_lines(body, Standing::Vehicle));
+        let (mut clauses, _) =
+            self.within(Scope::new(m, Setting::Constant), |c| c.clause_lines(body, Standing::Vehicle));
         self.clauses_once(&clauses);
+        clauses.retain(|used| {
+            let is_own = !(OF_THE_WORLD.contains(&used.name.as_str()) && self.stands_alone(&used.name));
+            if !is_own {
+                let message = format!("`{}` is of the world, not of a vehicle", used.name);
+                let finding = Diagnostic::error(Code::ScenariosClause, used.span, message);
+                self.report(
+                    finding.help("move it into the scenario: a vehicle says how it moves, its instruments, its limits"),
+                );
+            }
+            is_own
+        });
         let kind = |c: &Self, used: &ClauseUse| {
             let info = c.clauses.iter().find(|info| info.signature.name == used.name && info.kind.is_some());
             info.and_then(|info| info.kind.clone()).filter(|_| !c.stands_alone(&used.name))
@@ -102,6 +140,54 @@ impl<'t> Checker<'t> {
         }
     }
 
+    /// What may be meant by a name that neither a hull nor a vehicle has here: a vehicle of a module, or one that can be imported.
+    pub(super) fn help_with_vehicle(&self, written: &str, hulls: &[&str]) -> Option<String> {
+        let own = self.vehicles_of(self.scope.module).into_iter().map(|name| (name.clone(), name));
+        let imports = &self.modules[self.scope.module].imports;
+        let imported = imports.iter().flat_map(|(module, &at)| {
+            self.vehicles_of(at).into_iter().map(move |name| (format!("{module}.{name}"), name))
+        });
+        let known: Vec<(String, String)> = own.chain(imported).collect();
+        let library = if imports.contains_key(LIBRARY) { Vec::new() } else { self.library_vehicles() };
+        let names = known.iter().map(|(_, name)| name.as_str());
+        let near =
+            suggest::nearest(written, hulls.iter().copied().chain(names).chain(library.iter().map(String::as_str)));
+        let path = near.and_then(|near| known.iter().find(|(_, name)| name == near)).map(|(path, _)| path);
+        Some(match (near, path) {
+            (_, Some(path)) => format!("did you mean `{path}`?"),
+            (Some(near), None) if hulls.contains(&near) => format!("did you mean `{near}`?"),
+            (Some(near), None) => {
+                format!("write `use {LIBRARY}` at the top of the file, and `{LIBRARY}.{near}` here")
+            }
+            (None, None) => {
+                let paths = known.iter().map(|(path, _)| path.as_str());
+                let all: Vec<&str> = hulls.iter().copied().chain(paths).collect();
+                let paths: Vec<String> = library.iter().map(|name| format!("{LIBRARY}.{name}")).collect();
+                let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+                let more = if paths.is_empty() {
+                    ""
+                } else {
+                    &format!(", and with `use {LIBRARY}` {}", suggest::listed(&paths))
+                };
+                format!("there is {}{more}", suggest::listed(&all))
+            }
+        })
+    }
+
+    /// The vehicles that a module declares.
+    fn vehicles_of(&self, module: usize) -> Vec<String> {
+        let items = self.modules[module].tree.items.iter();
+        items.filter_map(vehicle_name).collect()
+    }
+
+    /// Those of the standard library, for who has not imported them.
+    fn library_vehicles(&self) -> Vec<String> {
+        let nowhere = Source { name: "".into(), text: "".into() };
+        let Ok(source) = self.library.module(&nowhere, &[LIBRARY.to_string()]) else { return Vec::new() };
+        let parsed = syntax::parse(FileId(0), &source.text);
+        parsed.file.items.iter().filter_map(vehicle_name).collect()
+    }
+
     /// Whether `module.name` stands for nothing at all, which is told: it would be taken for another argument.
     pub(super) fn misses_vehicle(&mut self, e: &tree::Expr) -> bool {
         let is_member = matches!(e.kind, ExprKind::Member(..));
@@ -136,4 +222,8 @@ impl<'t> Checker<'t> {
         let said: Vec<String> = clauses.iter().map(|clause| clause.name.clone()).collect();
         clauses.extend(std::mem::take(&mut self.fitted).into_iter().filter(|clause| !said.contains(&clause.name)));
     }
+}
+
+fn vehicle_name(item: &Item) -> Option<String> {
+    if let Item::Vehicle { name, .. } = item { Some(name.node.clone()) } else { None }
 }

@@ -45,6 +45,8 @@ pub struct ScenarioArg {
     pub name: String,
     /// What it is.
     pub value: ScenarioValue,
+    /// Where it stands.
+    pub span: Span,
     /// Whether the scenario says nothing of it.
     pub is_default: bool,
 }
@@ -126,9 +128,13 @@ impl<'a> Lowering<'a> {
                     }
                 },
             };
+            let span = match arg {
+                ClauseArg::Nested(inner) => inner.span,
+                ClauseArg::Value(e) => e.span,
+            };
             // A default stands where the clause is declared.
-            let is_default = matches!(arg, ClauseArg::Value(e) if e.span.file != clause.span.file);
-            args.push(ScenarioArg { name: name.clone(), value, is_default });
+            let is_default = span.file != clause.span.file;
+            args.push(ScenarioArg { name: name.clone(), value, span, is_default });
         }
         ScenarioClause { name: clause.name.clone(), place: self.sources.place(clause.span), span: clause.span, args }
     }

@@ -3,7 +3,7 @@
 //!
 //! Only a declaration whose brackets do not fit is looked at: in any other the margins mean nothing.
 
-use super::errors::begins_item;
+use super::errors::line_begins_item;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
@@ -246,9 +246,7 @@ fn lines(text: &[u8]) -> Vec<Line> {
 /// The lines of each declaration: one begins at the left margin.
 fn declarations<'a>(text: &[u8], lines: &'a [Line]) -> Vec<&'a [Line]> {
     let begins = |line: &Line| {
-        let content = &text[line.start..line.end];
-        let word = content.split(|b| !b.is_ascii_alphanumeric() && *b != b'_').next().unwrap_or_default();
-        line.margin() == 0 && std::str::from_utf8(word).is_ok_and(begins_item)
+        line.margin() == 0 && std::str::from_utf8(&text[line.start..line.end]).is_ok_and(line_begins_item)
     };
     let starts: Vec<usize> = (0..lines.len()).filter(|&at| at == 0 || begins(&lines[at])).collect();
     let ends = starts.iter().skip(1).copied().chain([lines.len()]);
@@ -297,6 +295,12 @@ mod tests {
         check("fn f \n  a\n}\n", "fn f{\n  a\n}\n", &["a `{` is missing after this"]);
         check("fn f\n  a: B,\n) {\n}\n", "fn f(  a: B,\n) {\n}\n", &["a `(` is missing after this"]);
         check("fn f {\n  on a b }\n}\n", "fn f {\n  on a b  \n}\n", &["this `}` closes nothing"]);
+    }
+
+    #[test]
+    fn a_clause_at_the_margin_begins_no_declaration() {
+        let scenario = "scenario s {\nvehicle(kinematic)\nflow(a)\n}\n";
+        check(scenario, scenario, &[]);
     }
 
     #[test]

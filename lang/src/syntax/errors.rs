@@ -22,6 +22,12 @@ pub fn begins_item(word: &str) -> bool {
     ITEM_WORDS.contains(&word)
 }
 
+/// Whether a line at the left margin begins an item: `vehicle ours {` does, and `vehicle(…)` is a clause of a scenario.
+pub(super) fn line_begins_item(line: &str) -> bool {
+    let word = line.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+    begins_item(word) && !line[word.len()..].trim_start_matches([' ', '\t']).starts_with('(')
+}
+
 /// Words that may begin a clause of a block.
 pub(super) const CLAUSE_WORDS: [&str; 32] = [
     "behavior", "with", "signal", "memory", "let", "var", "on", "start", "area", "limits", "requires", "recovery",

@@ -7,7 +7,7 @@ mod nesting;
 
 use super::braces;
 use super::deceptive::{self, deceives};
-use super::errors::begins_item;
+use super::errors::{begins_item, line_begins_item};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
@@ -216,7 +216,7 @@ impl<'a> Scanner<'a> {
         // In a strategy a behavior may stand at the margin too; in round brackets nothing is declared.
         let block = self.open.iter().rposition(|open| open.bracket == '{').map_or(0, |at| at + 1);
         let level = if ITEM_WORDS.contains(&word.as_str()) { 0 } else { block };
-        if self.open.len() > level && begins_item(&word) {
+        if self.open.len() > level && line_begins_item(self.rest()) {
             self.all_unclosed(level);
             self.chained = 0;
             // The newline before this item was swallowed when a round bracket was open: give it back.

@@ -98,7 +98,7 @@ impl Campaign {
 fn summary(plan: &Plan, seed: u64, stop: &AtomicBool) -> Result<Option<Summary>, String> {
     let mut run = Run::new(plan, seed).map_err(|error| match error {
         PlanError::Asked(what, _) => what,
-        PlanError::Script(findings) => findings.into_iter().map(|f| f.message).collect::<Vec<_>>().join("; "),
+        PlanError::Script(findings, _) => findings.into_iter().map(|f| f.message).collect::<Vec<_>>().join("; "),
     })?;
     while run.step() == Running::On {
         if stop.load(Ordering::Relaxed) {

@@ -1,6 +1,6 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
-use crate::files::Files;
+use crate::plan::PlanError;
 use crate::world;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
@@ -31,12 +31,10 @@ fn scenario(script: &Script, name: &str) -> Vec<Diagnostic> {
         Some(Err(findings)) => return findings,
         None => return Vec::new(),
     };
-    match crate::scenario::scenario(&lowered, &Files::of(script)) {
-        Err(findings) => findings,
-        Ok(understood) => match understood.world.validate() {
-            Err(error) => error.faults.iter().map(|fault| of_fault(&lowered, fault)).collect(),
-            Ok(()) => uncovered(script, name, &lowered, &understood.world),
-        },
+    match world::sound(&lowered, script) {
+        Err(PlanError::Script(findings, _)) => findings,
+        Err(PlanError::Asked(..)) => Vec::new(),
+        Ok(understood) => uncovered(script, name, &lowered, &understood.world),
     }
 }
 
@@ -53,23 +51,4 @@ fn uncovered(script: &Script, name: &str, scenario: &ScenarioProgram, world: &Sc
         Some(finding.label(span, "the record").help(beyond.help))
     });
     found.collect()
-}
-
-/// A fault of the simulator's, at the clause that it names.
-fn of_fault(scenario: &ScenarioProgram, fault: &str) -> Diagnostic {
-    let named = fault.split(|c: char| !c.is_alphanumeric() && c != '_').find(|word| !word.is_empty()).unwrap_or("");
-    let clause = scenario.clauses.iter().find(|clause| clause.name == named.trim_end_matches('s'));
-    let span = clause.map_or(scenario.span, |c| c.span);
-    let found = |message: &str| Diagnostic::error(Code::ScenariosWorld, span, message);
-    // What must be is the mend; what is needed and missing is another clause.
-    match fault.rsplit_once(": ") {
-        Some((message, must)) if must.starts_with("it must") => found(message).help(must),
-        _ if fault.contains("flow.mean` is 0") => {
-            found(fault).help("add `flow(12 cm/s toward 140 deg)` to the scenario")
-        }
-        _ => match fault.split_once(" a `").and_then(|(_, needed)| needed.split_once('`')) {
-            Some((needed, _)) => found(fault).help(format!("add `{needed}(…)` to the scenario")),
-            None => found(fault),
-        },
-    }
 }

@@ -3,11 +3,11 @@
 use crate::files::{self, Files};
 use crate::plan::PlanError;
 use crate::scenario;
-use albacore_lang::Script;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::source::Source;
-use albacore_sim::{Fault, Scenario};
+use albacore_lang::source::{Source, Sources};
+use albacore_lang::{ScenarioProgram, Script};
+use albacore_sim::{Fault, Objection, Scenario};
 use std::sync::Arc;
 
 /// The scenario that the clauses of a command line make.
@@ -27,42 +27,47 @@ pub fn load_faults(texts: &[String]) -> Script {
 
 /// What goes wrong in a run beside what its scenario says.
 #[derive(Clone, Debug, Default)]
-pub struct Faults(Vec<Fault>);
+pub struct Faults {
+    faults: Vec<Fault>,
+    /// The clauses that say so, and the sources that they stand in.
+    said: Option<(ScenarioProgram, Sources)>,
+}
 
 impl Faults {
     /// What the script of [`load_faults`] lets go wrong.
     pub fn of(script: &Script) -> Result<Self, PlanError> {
+        let wrong = |findings| PlanError::script(findings, script);
         let lowered = match script.scenario(SCENARIO, None) {
-            Some(Ok(lowered)) => lowered,
-            Some(Err(findings)) => return Err(PlanError::Script(findings)),
+            Some(lowered) => lowered.map_err(wrong)?,
             None => return Ok(Faults::default()),
         };
         if let Some(other) = lowered.clauses.iter().find(|clause| clause.name != "fault") {
             let message = format!("`--fault` takes `fault(…)`, not `{}`", other.name);
-            return Err(PlanError::Script(vec![Diagnostic::error(Code::ScenariosClause, other.span, message)]));
+            let finding = Diagnostic::error(Code::ScenariosClause, other.span, message);
+            return Err(wrong(vec![finding.help("say it in the scenario")]));
         }
-        let understood = scenario::scenario(&lowered, &Files::of(script)).map_err(PlanError::Script)?;
-        Ok(Faults(understood.world.faults))
+        let faults = scenario::scenario(&lowered, &Files::of(script)).map_err(wrong)?.world.faults;
+        Ok(Faults { faults, said: Some((lowered, script.sources.clone())) })
     }
 
     /// Whether nothing goes wrong.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.faults.is_empty()
     }
 
     /// A scenario with these faults added to its own, if they can be in it.
     pub(crate) fn in_scenario(&self, scenario: Arc<Scenario>) -> Result<Arc<Scenario>, PlanError> {
-        if self.is_empty() {
-            return Ok(scenario);
-        }
+        let Some((said, sources)) = self.said.as_ref().filter(|_| !self.is_empty()) else { return Ok(scenario) };
         let mut scenario = Arc::unwrap_or_clone(scenario);
-        scenario.faults.extend(&self.0);
-        match scenario.validate() {
-            Ok(()) => Ok(Arc::new(scenario)),
-            Err(error) => {
-                let help = Some(error.faults.join("; "));
-                Err(PlanError::Asked("the faults of the command line cannot be".into(), help))
-            }
+        let own = scenario.faults.len();
+        scenario.faults.extend(&self.faults);
+        let objections = scenario.validate().err().map_or_else(Vec::new, |error| error.faults);
+        if objections.is_empty() {
+            return Ok(Arc::new(scenario));
         }
+        // The scenario's own can be, or it would not have come so far.
+        let ours =
+            objections.into_iter().map(|objection| Objection { nth: objection.nth.saturating_sub(own), ..objection });
+        Err(PlanError::Script(ours.map(|objection| scenario::objected(said, &objection)).collect(), sources.clone()))
     }
 }

@@ -1,5 +1,6 @@
 //! Where scripts come from: the project's folder, then the standard library inside the binary, nowhere else.
 
+use crate::wanted::Wanted;
 use albacore_lang::source::{SOURCE_BYTES_MAX, Source};
 use albacore_lang::{FileFault, Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
@@ -43,11 +44,16 @@ pub struct Files {
     root: PathBuf,
 }
 
-/// Reads and checks a script file. `mission` and `set` are as in [`albacore_lang::load`].
-pub fn load(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script, FileError> {
+/// Reads and checks a script file, with what is wanted of it.
+pub fn load_for(path: &Path, wanted: &Wanted) -> Result<Script, FileError> {
     let source = read(path)?;
-    let files = Files::around(path);
-    Ok(albacore_lang::load(source, &files, mission, set))
+    let (own, _) = wanted.parted();
+    Ok(albacore_lang::load_for(source, &Files::around(path), &wanted.of_script(&own)))
+}
+
+/// The same for a mission in its own scenario.
+pub fn load(path: &Path, mission: Option<&str>, set: &[String]) -> Result<Script, FileError> {
+    load_for(path, &Wanted { mission, set, ..Wanted::default() })
 }
 
 /// Reads and checks a script file, or a module of the standard library. A bare name, without a dot or a folder, is a
@@ -88,10 +94,11 @@ pub fn load_text(source: Source) -> Script {
 }
 
 /// A script without a file of its own: it knows what every script knows, the worlds of the standard library among it. `set`
-/// changes their parameters.
-pub fn load_library(set: &[String]) -> Script {
+/// changes the parameters of one of them.
+pub fn load_library(scenario: &str, set: &[String]) -> Script {
     let nothing = Source { name: "the standard library".into(), text: "".into() };
-    albacore_lang::load(nothing, &Files::around(Path::new("")), None, set)
+    let wanted = Wanted { mission: None, scenario: Some(scenario), set };
+    albacore_lang::load_for(nothing, &Files::around(Path::new("")), &wanted.of_script(set))
 }
 
 /// Reads a source file as text.

@@ -16,6 +16,7 @@ mod scenario;
 mod shown;
 mod summary;
 mod tests;
+mod wanted;
 mod world;
 
 pub use albacore_diagram as diagram;
@@ -33,7 +34,8 @@ pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use check::findings;
 pub use faults::{Faults, load_faults};
 pub use files::{
-    FileError, Files, is_known_everywhere, load, load_library, load_or_module, load_text, read, standard_modules,
+    FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read,
+    standard_modules,
 };
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
@@ -41,4 +43,5 @@ pub use run::{Run, Running};
 pub use shown::{Shown, ShownClause};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, run_test};
+pub use wanted::Wanted;
 pub use world::{FarEnd, World};

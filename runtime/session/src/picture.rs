@@ -40,10 +40,9 @@ impl Sketch {
             summary.outcome.replace('_', " "),
             number::seconds(summary.ticks).trim()
         )];
-        let sought = if world.deepest.is_some() { "deepest point" } else { "nearest true one" };
         for report in &summary.reports {
-            let error =
-                report.error_m.map(|e| format!(", {} from the {sought}", number::metres(e))).unwrap_or_default();
+            let error = report.error_m.zip(report.error_from);
+            let error = error.map(|(e, from)| format!(", {} from {from}", number::metres(e))).unwrap_or_default();
             subtitle.push(format!("{} declared at {} s{error}", report.name, number::fixed(report.t_s, 1)));
         }
         Picture {

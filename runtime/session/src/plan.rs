@@ -2,10 +2,12 @@
 
 use crate::faults::Faults;
 use crate::scenario;
+use crate::wanted::Wanted;
 use crate::world;
 use albacore_geometry::TangentFrame;
+use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::source::Source;
+use albacore_lang::source::{Source, Sources};
 use albacore_lang::{Script, suggestion};
 use albacore_link::Dialect;
 use albacore_program::Program;
@@ -31,31 +33,43 @@ pub struct Plan {
 /// Why a script cannot be run as asked.
 #[derive(Debug)]
 pub enum PlanError {
-    /// The script has errors.
-    Script(Vec<Diagnostic>),
+    /// The script, or the one that the scenario is in, has errors; with the sources that they point into.
+    Script(Vec<Diagnostic>, Sources),
     /// What was asked for does not exist or makes no sense: message and help.
     Asked(String, Option<String>),
+}
+
+impl PlanError {
+    /// What is wrong with a script.
+    pub(crate) fn script(findings: Vec<Diagnostic>, script: &Script) -> Self {
+        PlanError::Script(findings, script.sources.clone())
+    }
 }
 
 impl Plan {
     /// Chooses the mission (by name, else the one named like the file, else the only one) and the scenario (by name, or as
     /// `file.alb#name`, else the mission's own).
     pub fn new(script: &Script, file: &str, mission: Option<&str>, scenario: Option<&str>) -> Result<Self, PlanError> {
-        let (name, program) = chosen(script, file, mission)?;
+        Plan::wanted(script, file, &Wanted { mission, scenario, set: &[] })
+    }
+
+    /// The same, with the parameters of a scenario of another script changed.
+    pub fn wanted(script: &Script, file: &str, wanted: &Wanted) -> Result<Self, PlanError> {
+        let (name, program) = chosen(script, file, wanted.mission)?;
         let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
         let known: Vec<&str> = script.scenarios().collect();
-        let Some(wanted) = scenario.map(str::to_string).or(own) else {
+        let Some(scenario) = wanted.scenario.map(str::to_string).or(own) else {
             let message = format!("in which world does the mission `{name}` run?");
             let help =
                 format!("name one with `--in`, or write `mission {name} in SCENARIO`; there is {}", known.join(", "));
             return Err(PlanError::Asked(message, Some(help)));
         };
         let program = Arc::new(program);
-        let plan = match wanted.split_once('#') {
-            None => Plan::with(script, program, &wanted)?,
-            Some((file, wanted)) => {
-                let other = other_script(file)?;
-                let plan = Plan::with(&other, program, wanted)?;
+        let plan = match scenario.split_once('#') {
+            None => Plan::with(script, program, &scenario)?,
+            Some((file, scenario)) => {
+                let other = other_script(file, scenario, wanted)?;
+                let plan = Plan::with(&other, program, scenario)?;
                 Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan }
             }
         };
@@ -65,10 +79,12 @@ impl Plan {
     /// The same, if its world knows anything of the area of its mission: a recorded one may lie elsewhere.
     pub(crate) fn covering(self, script: &Script) -> Result<Self, PlanError> {
         let name = &self.program.mission.name;
-        let area = script.operating_area(name);
-        let beyond = area.and_then(|(area, _)| scenario::uncovered(&self.scenario, name, &area));
-        match beyond.filter(|beyond| beyond.all) {
-            Some(beyond) => Err(PlanError::Asked(beyond.message, Some(beyond.help))),
+        let Some((area, written)) = script.operating_area(name) else { return Ok(self) };
+        match scenario::uncovered(&self.scenario, name, &area).filter(|beyond| beyond.all) {
+            Some(beyond) => {
+                let finding = Diagnostic::error(Code::ScenariosOutside, written, beyond.message);
+                Err(PlanError::script(vec![finding.help(beyond.help)], script))
+            }
             None => Ok(self),
         }
     }
@@ -115,14 +131,12 @@ impl Plan {
 }
 
 /// A script whose scenario alone is wanted.
-fn other_script(file: &str) -> Result<Script, PlanError> {
-    let script =
-        crate::load(Path::new(file), None, &[]).map_err(|error| PlanError::Asked(error.message, error.help))?;
-    if script.is_sound() {
-        return Ok(script);
-    }
-    let help = format!("`albacore check {file}` tells which");
-    Err(PlanError::Asked(format!("`{file}` has errors"), Some(help)))
+fn other_script(file: &str, scenario: &str, wanted: &Wanted) -> Result<Script, PlanError> {
+    let set = wanted.parted().1;
+    let wanted = Wanted { mission: None, scenario: Some(scenario), set: &set };
+    let script = crate::load_for(Path::new(file), &wanted);
+    let script = script.map_err(|error| PlanError::Asked(error.message, error.help))?;
+    if script.is_sound() { Ok(script) } else { Err(PlanError::script(script.findings.clone(), &script)) }
 }
 
 /// The mission that is meant, by its name, and ready to run.
@@ -153,7 +167,7 @@ fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String,
     };
     match script.mission(&name) {
         Some(Ok(program)) => Ok((name, program)),
-        Some(Err(findings)) => Err(PlanError::Script(findings)),
+        Some(Err(findings)) => Err(PlanError::script(findings, script)),
         None => Err(PlanError::Asked(format!("`{file}` has no mission `{name}`"), None)),
     }
 }

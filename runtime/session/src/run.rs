@@ -5,6 +5,7 @@ use crate::journal::Keeper;
 use crate::picture;
 use crate::plan::{Plan, PlanError};
 use crate::summary::{Report, Summary};
+use crate::world;
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_machine::{Event, Machine, Outcome, Wish};
 use albacore_navigation::Vigil;
@@ -65,8 +66,7 @@ pub enum Running {
 impl Run {
     /// A run in the plan's world with a seed, at its first tick.
     pub fn new(plan: &Plan, seed: u64) -> Result<Self, PlanError> {
-        let simulator = Simulator::new(&plan.scenario, seed)
-            .map_err(|error| PlanError::Asked("the scenario cannot be".into(), Some(error.faults.join("; "))))?;
+        let simulator = Simulator::new(&plan.scenario, seed).map_err(|error| world::cannot_be(&error))?;
         let start = simulator.truth().position;
         Run::with(plan, seed, Craft::Simulated(Box::new(simulator)), Some(start))
     }
@@ -184,6 +184,16 @@ impl Run {
     fn deepest_sought(&self) -> Option<Point> {
         let world = &self.plan.scenario;
         self.deepest.filter(|_| world.sources.is_empty() && world.bottom.has_hollows())
+    }
+
+    /// What there is to be found, as far as anybody knows: the place that is nearest to another, and what it is.
+    fn sought(&self, to: Point) -> Option<(Point, &'static str)> {
+        let source = match self.plan.scenario.sources.as_slice() {
+            [_] => "the source",
+            _ => "the nearest source",
+        };
+        let nearest = self.nearest_source(to).map(|at| (at, source));
+        nearest.or(self.deepest_sought().map(|at| (at, "the deepest point of the area")))
     }
 
     /// The corners of the mission's area, once it has one.
@@ -414,7 +424,7 @@ impl Run {
         let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
         let frame = self.plan.frame();
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
-        let error_m = place.and_then(|p| Some(self.nearest_source(p).or(self.deepest_sought())?.distance(p)));
+        let sought = place.and_then(|p| self.sought(p));
         if let Some(place) = place {
             self.picture.declared(&site.name, place);
         }
@@ -425,7 +435,8 @@ impl Run {
             east_m: place.map(|p| p.east),
             latitude_deg: globe.map(|g| g.latitude_deg()),
             longitude_deg: globe.map(|g| g.longitude_deg()),
-            error_m,
+            error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
+            error_from: sought.map(|(_, what)| what),
         });
     }
 

@@ -4,6 +4,7 @@ mod bottom;
 mod clause;
 mod fault;
 mod flow;
+mod objected;
 mod plume;
 mod recorded;
 mod sensors;
@@ -19,6 +20,7 @@ use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 use clause::Clause;
+pub(crate) use objected::objected;
 
 pub(crate) use recorded::uncovered;
 
@@ -47,6 +49,8 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
                 bottom::grid(&mut understood, &clause, files, frame)
             }
             "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
+            "vehicle" => vehicle::vehicle(&mut understood.world, &clause),
+            "fault" => fault::fault(&mut understood.world, &clause),
             "dialect" => {
                 vehicle::dialect(&clause).map(|dialect| understood.dialect = Some(dialect)).map_err(Into::into)
             }
@@ -88,6 +92,13 @@ struct Wrong(Vec<Fault>);
 struct Fault {
     message: String,
     help: Option<String>,
+}
+
+impl Wrong {
+    /// What is wrong, and its mend.
+    fn with(message: impl Into<String>, mend: impl Into<String>) -> Self {
+        Wrong(vec![Fault { message: message.into(), help: Some(mend.into()) }])
+    }
 }
 
 impl From<FileError> for Wrong {
@@ -135,7 +146,6 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "source" => plume::source(scenario, c),
         "leak" => plume::leak(scenario, c),
         "patch" => plume::patch(scenario, c),
-        "vehicle" => vehicle::vehicle(scenario, c),
         "limits" => vehicle::limits(scenario, c),
         "rows" => vehicle::rows(scenario, c),
         "waypoints" => vehicle::waypoints(scenario, c),
@@ -149,7 +159,6 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "gps" => sensors::gps(scenario, c),
         "battery" => sensors::battery(scenario, c),
         "ctd" => sensors::ctd(scenario, c),
-        "fault" => fault::fault(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
         other => Err(format!("the simulator knows no `{other}`")),
     }

@@ -48,7 +48,7 @@ impl Shown {
         let wanted = chosen(script, file, wanted)?;
         let (lowered, understood) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
         let world = understood.world;
-        let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&lowered.name, &error))?;
+        let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&error))?;
         let defaults = Defaults::read();
         let mut clauses = Vec::new();
         let words = scenario::words(&lowered);
@@ -146,7 +146,9 @@ impl Teller<'_> {
         });
         told.push(ShownClause { name: name.clone(), is_said, values: values.collect() });
         for arg in &clause.args {
-            if let ScenarioValue::Clause(nested) = &arg.value {
+            if let ScenarioValue::Clause(nested) = &arg.value
+                && !nested.args.is_empty()
+            {
                 self.tell(nested, &name, is_said, told);
             }
         }
@@ -159,7 +161,8 @@ impl Teller<'_> {
                 let words = self.words.get(*slot as usize..).unwrap_or(&[]);
                 Some(self.text(shape, words.get(..shape.words() as usize).unwrap_or(words)))
             }
-            ScenarioValue::Clause(_) => None,
+            // What has no parameters is said by its name.
+            ScenarioValue::Clause(value) => value.args.is_empty().then(|| value.name.clone()),
         }
     }
 

@@ -47,6 +47,9 @@ pub struct Report {
     /// Where on the globe.
     pub longitude_deg: Option<f64>,
     /// In simulation the distance to the nearest true source; without sources, to the deepest point of the mission's area
-    /// where the bottom has pits.
+    /// where the bottom has pits or was surveyed.
     pub error_m: Option<f64>,
+    /// What that distance is from, in words.
+    #[serde(skip)]
+    pub error_from: Option<&'static str>,
 }

@@ -3,8 +3,9 @@
 use crate::faults::Faults;
 use crate::files::Files;
 use crate::plan::PlanError;
-use crate::scenario::Understood;
+use crate::scenario::{Understood, objected};
 use albacore_geometry::{Geodetic, TangentFrame};
+use albacore_lang::diagnostic::{Diagnostic, settle};
 use albacore_lang::{ScenarioProgram, Script, suggestion};
 use albacore_link::Dialect;
 use albacore_link::recon::{FrontSeat, Route, Rows};
@@ -60,7 +61,7 @@ impl World {
     /// The vehicle in it, with rows to swim, else the mission of the scenario, else rows all the same: the first from where it
     /// starts and along its heading, at the depth at which it starts, or near the bottom if that is the surface.
     pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
-        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| cannot_be(&self.name, &error))?;
+        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| cannot_be(&error))?;
         let vehicle = &self.scenario.vehicle;
         let own = self.scenario.own_mission.as_ref();
         let vertical = match (own, vehicle.depth) {
@@ -80,7 +81,7 @@ pub(crate) fn place_of(script: &Script, scenario: &str) -> Result<Option<Geodeti
     let Some(mission) = script.missions().find(runs_in_it) else { return Ok(None) };
     match script.mission(&mission.name) {
         Some(Ok(program)) => Ok(program.mission.origin),
-        Some(Err(findings)) => Err(PlanError::Script(findings)),
+        Some(Err(findings)) => Err(PlanError::script(findings, script)),
         None => Ok(None),
     }
 }
@@ -94,19 +95,37 @@ pub(crate) fn scenario(
 ) -> Result<(ScenarioProgram, Understood), PlanError> {
     let lowered = match script.scenario(wanted, origin) {
         Some(Ok(lowered)) => lowered,
-        Some(Err(findings)) => return Err(PlanError::Script(findings)),
+        Some(Err(findings)) => return Err(PlanError::script(findings, script)),
         None => {
             let known: Vec<&str> = script.scenarios().collect();
+            let own: Vec<&str> = script.own_scenarios().collect();
             let message = format!("there is no scenario `{wanted}`");
-            return Err(PlanError::Asked(message, suggestion(wanted, known.iter().copied())));
+            let help = match wanted.ends_with(".alb") {
+                true => Some(format!("name one of the file: `{wanted}#NAME`")),
+                false => suggestion(wanted, known.iter().copied()).or_else(|| suggestion(wanted, own.iter().copied())),
+            };
+            return Err(PlanError::Asked(message, help));
         }
     };
-    let understood = crate::scenario::scenario(&lowered, &Files::of(script)).map_err(PlanError::Script)?;
-    understood.world.validate().map_err(|error| cannot_be(&lowered.name, &error))?;
+    let understood = sound(&lowered, script)?;
     Ok((lowered, understood))
 }
 
-/// What is said of a scenario with impossible physics.
-pub(crate) fn cannot_be(name: &str, error: &ScenarioError) -> PlanError {
-    PlanError::Asked(format!("the scenario `{name}` cannot be"), Some(error.faults.join("; ")))
+/// The numbers of a scenario of a script, if there can be such a world: else all that cannot be, at its place.
+pub(crate) fn sound(lowered: &ScenarioProgram, script: &Script) -> Result<Understood, PlanError> {
+    let wrong = |mut findings: Vec<Diagnostic>| {
+        settle(&mut findings);
+        PlanError::script(findings, script)
+    };
+    let understood = crate::scenario::scenario(lowered, &Files::of(script)).map_err(wrong)?;
+    let objections = understood.world.validate().err().map_or_else(Vec::new, |error| error.faults);
+    if objections.is_empty() {
+        return Ok(understood);
+    }
+    Err(wrong(objections.iter().map(|objection| objected(lowered, objection)).collect()))
+}
+
+/// What is said of a world that turns out to be impossible only when it is begun.
+pub(crate) fn cannot_be(error: &ScenarioError) -> PlanError {
+    PlanError::Asked("the scenario cannot be".into(), Some(error.to_string()))
 }

@@ -41,7 +41,7 @@ fn plan(folder: &Path, clauses: &str) -> Result<Plan, PlanError> {
 
 fn refused(folder: &Path, clauses: &str) -> Vec<Diagnostic> {
     match plan(folder, clauses) {
-        Err(PlanError::Script(findings)) => findings,
+        Err(PlanError::Script(findings, _)) => findings,
         other => unreachable!("{other:?}"),
     }
 }

@@ -30,7 +30,7 @@ fn plan(clauses: &str) -> Result<Plan, String> {
     }
     Plan::new(&script, "such.alb", None, None).map_err(|error| match error {
         PlanError::Asked(message, help) => format!("{message}: {}", help.unwrap_or_default()),
-        PlanError::Script(findings) => findings[0].message.clone(),
+        PlanError::Script(findings, _) => findings[0].message.clone(),
     })
 }
 
@@ -62,7 +62,7 @@ fn records_that_cannot_be_are_told_with_their_file() {
         ("recorded_plume(\"recorded\")", "`recorded` is a folder"),
         ("recorded_plume(\"recorded/case_a.bin\")", "`recorded/case_a.bin` has 9.0 MB: 4.194304 MB are read at most"),
         ("recorded_plume(\"box.alb\")", "`box.alb`: the header is not one of a recorded plume"),
-        ("recorded_plume(\"recorded/case_a.json\", start: 2 h)", "`recorded_plume.start` is up to 7200 s"),
+        ("recorded_plume(\"recorded/case_a.json\", start: 2 h)", "the run begins up to 7200 s into the record"),
         (
             "recorded_plume(\"recorded/case_a.json\")\n    flow(10 cm/s toward 90 deg)",
             "the record brings its own `flow`",
@@ -110,9 +110,10 @@ fn an_area_where_nothing_was_recorded_is_told() {
         let script = script(center, RECORD);
         let found = findings(&script);
         assert_eq!((found.len(), found[0].severity, found[0].code.name()), (1, Severity::Error, "scenarios::outside"));
-        let Err(PlanError::Asked(message, Some(help))) = Plan::new(&script, "such.alb", None, None) else {
+        let Err(PlanError::Script(refused, _)) = Plan::new(&script, "such.alb", None, None) else {
             unreachable!("it can be run")
         };
+        let (message, help) = (refused[0].message.clone(), refused[0].help.clone().unwrap());
         assert_eq!(message, "no part of the area of the mission `m` lies in the region of the record");
         assert!(help.contains("-547 m to 547 m north and -184 m to 184 m east of the origin"), "{help}");
         assert_eq!((&found[0].message, found[0].help.as_ref()), (&message, Some(&help)));

@@ -11,7 +11,7 @@ mod under_way;
 pub use sensor::Sensor;
 pub(crate) use under_way::Faults;
 
-use crate::scenario::{HullSetup, Objections, Scenario};
+use crate::scenario::{Bounds, HullSetup, Objections, OfClause, Scenario, told};
 use albacore_geometry::Vector;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -119,28 +119,29 @@ impl fmt::Display for Disorder {
 
 /// What of the faults cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    for fault in &scenario.faults {
-        let name = |what: &str| format!("fault {fault}: {what}");
-        objections.not_negative(&name("from"), fault.from);
+    for (i, fault) in scenario.faults.iter().enumerate() {
+        let mut of = objections.nth("fault", i);
+        of.not_negative("from", fault.from);
         if let Some(to) = fault.to {
-            objections.unless(
+            of.unless(
+                Some("to"),
                 to > fault.from && to.is_finite(),
-                format!("`{}` is {to} s: it must be after `from`, {} s", name("to"), fault.from),
+                format!("this fault is over at {} s, and begins at {} s", told(to), told(fault.from)),
+                "make `to` later than `from`, or leave it out for a fault that lasts",
             );
         }
         match fault.trouble {
-            Trouble::Sensor(sensor, disorder) => disorder.check(sensor, &name, objections),
-            Trouble::StuckRudder(share) => objections.unless(
-                (-1.0..=1.0).contains(&share),
-                format!("`{}` is {share}: a rudder goes from -1 to 1", name("rudder")),
-            ),
-            Trouble::StrongCurrent(current) => objections.flow(&name("current"), current),
+            Trouble::Sensor(sensor, disorder) => disorder.check(sensor, &mut of),
+            Trouble::StuckRudder(share) => of.bounds("at", share, Bounds::Within(-1.0, 1.0)),
+            Trouble::StrongCurrent(current) => of.flow("current", current),
             Trouble::Flooding { water, within } => {
-                objections.not_negative(&name("water"), water);
-                objections.not_negative(&name("within"), within);
-                objections.unless(
+                of.not_negative("water", water);
+                of.not_negative("within", within);
+                of.unless(
+                    Some("trouble"),
                     !matches!(scenario.vehicle.hull, HullSetup::Kinematic(_)),
-                    format!("`fault {fault}` is nothing to a `kinematic` vehicle, which knows no weight: it must be a `fossen` or a `prestero`"),
+                    "flooding is nothing to a `kinematic` vehicle, which knows no weight",
+                    "let the vehicle be a `fossen` or a `prestero`",
                 );
             }
             Trouble::IgnoredCommands | Trouble::Leak => {}
@@ -149,28 +150,30 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 }
 
 impl Disorder {
-    fn check(self, sensor: Sensor, name: &dyn Fn(&str) -> String, objections: &mut Objections) {
-        let mut only_of = |only: Sensor| {
-            objections.unless(
+    fn check(self, sensor: Sensor, of: &mut OfClause) {
+        let mut only_of = |only: Sensor, what: &str| {
+            of.unless(
+                Some("trouble"),
                 sensor == only,
-                format!("the {} cannot be {self}: only the {} can", sensor.name(), only.name()),
+                format!("`{}` cannot {what}: only `{}` can", sensor.name(), only.name()),
+                format!("write `{}`, or choose another trouble", only.name()),
             );
         };
         match self {
             Disorder::Jump(by) => {
-                only_of(Sensor::Position);
-                objections.finite(&name("by"), [by.north, by.east]);
+                only_of(Sensor::Position, "jump");
+                of.finite("by", [by.north, by.east]);
             }
             Disorder::Saturated(rate) => {
-                only_of(Sensor::Heading);
-                objections.not_negative(&name("rate"), rate);
+                only_of(Sensor::Heading, "be saturated");
+                of.not_negative("rate", rate);
             }
-            Disorder::Wrong(size) => objections.finite(&name("size"), [size, 0.0]),
-            Disorder::Slow(every) => objections.positive(&name("every"), every),
-            Disorder::Delayed(by) => objections.positive(&name("by"), by),
+            Disorder::Wrong(size) => of.finite("size", [size, 0.0]),
+            Disorder::Slow(every) => of.positive("every", every),
+            Disorder::Delayed(by) => of.positive("by", by),
             Disorder::Intermittent { on, off } => {
-                objections.positive(&name("on"), on);
-                objections.positive(&name("off"), off);
+                of.positive("heard", on);
+                of.positive("silent", off);
             }
             Disorder::Off | Disorder::Stuck | Disorder::Garbage | Disorder::NotANumber => {}
         }

@@ -57,6 +57,13 @@ impl Incidents {
         self.aground
     }
 
+    /// Something else has happened.
+    pub fn tell(&mut self, notice: &str) {
+        if self.notices.len() < NOTICES_MAX {
+            self.notices.push(notice.to_string());
+        }
+    }
+
     /// What has happened since this was last asked.
     pub fn take(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)

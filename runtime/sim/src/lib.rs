@@ -30,9 +30,10 @@ pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Battery, Bottom, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, Handover, HullSetup, KinematicHull,
-    Lbl, Limits, Looks, Meander, Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
-    ScenarioError, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves,
+    Adcp, Battery, Bottom, Bounds, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, Handover, HullSetup,
+    KinematicHull, Lbl, Limits, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume,
+    Pressure, Scenario, ScenarioError, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow,
+    VehicleSetup, Waves, Why,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

@@ -13,8 +13,8 @@ mod vehicle;
 pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub use instruments::{Battery, Compass, Ctd, Dvl, Gps, Pressure};
-pub(crate) use objections::Objections;
-pub use objections::ScenarioError;
+pub use objections::{Bounds, Objection, ScenarioError, Why};
+pub(crate) use objections::{Objections, OfClause, rounded_down, told};
 pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;
@@ -98,11 +98,13 @@ impl Scenario {
         bottom::check(self, &mut objections);
         // An area that was read from a file has not met its constructor.
         if let Some(Err(error)) = self.region.as_ref().map(|region| Area::polygon(region.corners())) {
-            objections.0.push(format!("`region`: {error}"));
+            let mut of = objections.of("region");
+            of.unless(Some("area"), false, error.to_string(), "give its corners one after the other, round it");
         }
-        for zone in &self.no_go {
+        for (i, zone) in self.no_go.iter().enumerate() {
             if let Err(error) = Area::polygon(zone.area.corners()) {
-                objections.0.push(format!("`no_go` {}: {error}", zone.name));
+                let mut of = objections.nth("no_go", i);
+                of.unless(Some("area"), false, error.to_string(), "give its corners one after the other, round it");
             }
         }
         // What follows looks at the region and the flow's direction.

@@ -65,6 +65,8 @@ pub struct Simulator {
     ctd: Option<Ctd>,
     battery: Battery,
     endurance: f64,
+    /// The battery is empty.
+    spent: bool,
     computer: Computer,
     watch: Watch,
     /// The latest estimate of the current, for the computer.
@@ -102,6 +104,7 @@ impl Simulator {
             ctd: scenario.ctd.as_ref().map(|ctd| Ctd::new(ctd, seed)),
             battery: Battery::new(&scenario.battery, seed),
             endurance: vehicle.endurance,
+            spent: false,
             computer: Computer::new(
                 scenario.own_mission.as_ref(),
                 scenario.handover.as_ref(),
@@ -166,7 +169,7 @@ impl Simulator {
         let flow = self.world.flow(self.vehicle.motion().position, self.truth.altitude, (tick as f64 - 0.5) * TICK_S);
         let flow = flow + ailing.current;
         let command = match self.control {
-            _ if ailing.leaks => Some(self.float_up()),
+            _ if self.gives_up() => Some(self.float_up()),
             Control::InControl => self.command,
             // A fix, or a fault: it stays where it is.
             Control::Suspended => None,
@@ -196,6 +199,11 @@ impl Simulator {
             Some(error) => velocity.length() * (velocity.toward() + error).unit(),
             None => velocity,
         }
+    }
+
+    /// Whether nobody can drive it any more.
+    fn gives_up(&self) -> bool {
+        self.faults.ailing().leaks || self.spent
     }
 
     /// What a vehicle does that gives up.
@@ -337,7 +345,11 @@ impl Vehicle for Simulator {
         self.tick = Some(tick);
         self.observe();
         self.note_incidents();
-        if self.faults.ailing().leaks {
+        if !self.spent && self.time_s() >= self.endurance {
+            self.spent = true;
+            self.incidents.tell("the battery is empty: the vehicle floats up");
+        }
+        if self.gives_up() {
             self.control = Control::Released;
         }
         if self.control != Control::Released {
@@ -352,7 +364,7 @@ impl Vehicle for Simulator {
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
         self.command = None;
-        if self.faults.ailing().leaks {
+        if self.gives_up() {
             self.control = Control::Refused;
             return Ok(());
         }

@@ -4,7 +4,7 @@ use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
     Adcp, Bottom, Flow, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Looks, Navigation, Pit,
-    Plane, Scenario, Simulator, Sounder, SubmersibleHull, UpperFlow, VehicleSetup, presets,
+    Plane, Scenario, Simulator, Sounder, Source, SubmersibleHull, Times, UpperFlow, VehicleSetup, presets,
 };
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::error::Error;
@@ -89,7 +89,7 @@ fn impossible_scenarios_are_refused_with_every_reason() {
     bad.fluorometer.noise = f64::NAN;
     let error = Simulator::new(&bad, 1).unwrap_err();
     assert_eq!(error.faults.len(), 3, "{error}");
-    assert!(error.to_string().contains("`vehicle.turn_rate` is 0"));
+    assert!(error.to_string().contains("`turn_rate` of `kinematic` is 0: it must be 0.0017"), "{error}");
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn an_impossible_profiler_is_refused() {
     let adcp = Adcp { bias: f64::NAN, blanking: -1.0, bin: 0.0, count: 0, ..Adcp::default() };
     let error = Simulator::new(&Scenario { adcp, ..scenario() }, 1).unwrap_err();
     assert_eq!(error.faults.len(), 4, "{error}");
-    assert!(error.to_string().contains("`adcp.bin` is 0: it must be 0.1 to 100"), "{error}");
+    assert!(error.to_string().contains("`bin` of `adcp` is 0: it must be 0.1 to 100"), "{error}");
 }
 
 /// What a late instrument tells is what a prompt one told so much earlier.
@@ -205,22 +205,75 @@ fn impossible_plumes_are_refused() {
         scenario.validate().unwrap_err().to_string()
     };
     for (fault, expected) in [
-        (fault(&|s| s.flow.mean = Vector::ZERO), "needs a flow to carry it"),
+        (fault(&|s| s.flow.mean = Vector::ZERO), "needs a `flow` that carries it"),
         (fault(&|s| s.region = None), "`plume` needs a `region`"),
-        (fault(&|s| s.plume = None), "`sources` need a `plume`"),
+        (fault(&|s| s.plume = None), "a `source` needs a `plume`"),
         (fault(&|s| s.sources[0].at = Point::new(5000.0, 0.0)), "outside the `region`"),
-        (fault(&|s| s.sources[0].height = 4.0), "over the `plume.layer` of 3.5 m"),
-        (fault(&|s| s.sources[0].rate = 1000.0), "at most 200000 are simulated"),
-        (fault(&|s| s.plume.as_mut().unwrap().layer = None), "`plume.vertical` needs a `plume.layer`"),
-        (fault(&|s| s.plume.as_mut().unwrap().step = 0.25), "whole number of ticks"),
-        (fault(&|s| s.flow.meander.as_mut().unwrap().viscosity = 1.0), "need 3.9 or more"),
-        (fault(&|s| s.flow.meander.as_mut().unwrap().cell = 1.0), "more than 40000 nodes"),
-        (fault(&|s| s.flow.meander.as_mut().unwrap().damping = 1.0), "must be between 0 and 1"),
+        (fault(&|s| s.sources[0].height = 4.0), "and the `layer` of the plume 3.5 m high"),
+        (fault(&|s| s.sources[0].rate = 1000.0), "filaments are alive at a time"),
+        (fault(&|s| s.plume.as_mut().unwrap().layer = None), "`vertical` of `plume` needs a `layer`"),
+        (fault(&|s| s.plume.as_mut().unwrap().step = 0.25), "`step` of `plume` is 0.25 s"),
+        (
+            fault(&|s| s.flow.meander.as_mut().unwrap().viscosity = 1.0),
+            "too little for cells of 20 m in a flow of up to",
+        ),
+        (fault(&|s| s.flow.meander.as_mut().unwrap().cell = 1.0), "make more than 40000 nodes"),
+        (fault(&|s| s.flow.meander.as_mut().unwrap().damping = 1.0), "`damping` of `flow` is 1"),
     ] {
         assert!(fault.contains(expected), "{fault}");
     }
     assert_eq!(presets::duck_2003().validate(), Ok(()));
     assert_eq!(presets::duck_2003_flat().validate(), Ok(()));
+}
+
+/// The clauses and parameters that a scenario's objections name.
+fn objected(scenario: &Scenario) -> Vec<(&'static str, usize, Option<&'static str>)> {
+    let faults = scenario.validate().err().map_or_else(Vec::new, |error| error.faults);
+    faults.iter().map(|fault| (fault.clause, fault.nth, fault.param)).collect()
+}
+
+#[test]
+fn chemical_where_there_is_no_water_is_refused() {
+    let changed = |change: &dyn Fn(&mut Scenario)| {
+        let mut scenario = presets::duck_2003();
+        change(&mut scenario);
+        objected(&scenario)
+    };
+    let layer = |s: &mut Scenario, high| s.plume.as_mut().unwrap().layer = Some(high);
+    assert_eq!(changed(&|s| layer(s, 1e9)), [("plume", 0, Some("layer"))]);
+    assert_eq!(changed(&|s| s.sources[0].height = 500.0), [("source", 0, Some("height"))]);
+    let twin = |s: &mut Scenario| s.sources.extend([Source { to: Some(s.sources[0].at), ..s.sources[0].clone() }]);
+    assert_eq!(changed(&twin), [("leak", 0, Some("name"))]);
+    // What has always released may have ceased before the run; what begins later may not.
+    assert_eq!(changed(&|s| s.sources[0].when.ends = -1000.0), []);
+    let backward = |s: &mut Scenario| s.sources[0].when = Times { begins: 10.0, ends: 5.0, ..Times::default() };
+    assert_eq!(changed(&backward), [("source", 0, Some("ends"))]);
+    let ashore = Scenario { limits: Some(Limits { altitude: 100.0, ..Limits::default() }), ..scenario() };
+    assert_eq!(objected(&ashore), [("limits", 0, Some("altitude"))]);
+    let mut stepped = presets::duck_2003();
+    stepped.plume.as_mut().unwrap().step = 1000.0;
+    assert_eq!(objected(&stepped), [("plume", 0, Some("step"))], "and nothing of a step that no script can say");
+}
+
+#[test]
+fn a_vehicle_whose_battery_is_empty_floats_up() {
+    let mut short = scenario();
+    short.vehicle.endurance = 10.0;
+    short.vehicle.depth = 3.0;
+    let mut simulator = Simulator::new(&short, 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    simulator.take_over().unwrap();
+    let mut released = Vec::new();
+    for tick in 0..300 {
+        simulator.sense(&mut snapshot).unwrap();
+        released.extend((snapshot.control == Control::Released).then_some(tick));
+    }
+    assert_eq!(released.first(), Some(&100));
+    assert_eq!(simulator.notices(), ["the battery is empty: the vehicle floats up"]);
+    assert_eq!(simulator.truth().depth, 0.0);
+    simulator.take_over().unwrap();
+    simulator.sense(&mut snapshot).unwrap();
+    assert_eq!(snapshot.control, Control::Released);
 }
 
 #[test]
@@ -307,8 +360,8 @@ fn impossible_hulls_and_limits_are_refused() {
     assert_eq!(said.faults.len(), 5, "{said}");
     for expected in [
         "its `turns_max` of 25.42 Hz gives 2.55 m/s at most",
-        "must be a whole number of steps",
-        "`limits.depth` is -1",
+        "`step` of `fossen` is 30 ms",
+        "`depth` of `limits` is -1",
     ] {
         assert!(said.to_string().contains(expected), "{said}");
     }
@@ -344,7 +397,7 @@ fn hulls_and_instruments_have_bounds() {
     ] {
         let said = bad.validate().unwrap_err();
         assert_eq!(said.faults.len(), faults, "{said}");
-        assert!(said.faults.iter().all(|fault| fault.contains("it must be")), "{said}");
+        assert!(said.faults.iter().all(|fault| fault.to_string().contains("it must be")), "{said}");
     }
 }
 
@@ -359,7 +412,7 @@ fn impossible_pits_and_starts_are_refused() {
     bad.sounder.noise = f64::NAN;
     let said = bad.validate().unwrap_err();
     assert_eq!(said.faults.len(), 4, "{said}");
-    assert!(said.to_string().contains("`pit pit: depth` is -1") && said.to_string().contains("below the bottom"));
+    assert!(said.to_string().contains("`depth` of `pit` is -1") && said.to_string().contains("below the bottom"));
 }
 
 /// Four cells of a bottom that rises northward out of the water.
@@ -415,6 +468,6 @@ fn grids_that_cannot_be_and_starts_on_land_are_refused() {
         Grid { north_east: Point::new(-100.0, 100.0), ..shoal() },
     ] {
         let bad = Scenario { bottom: on(wrong), ..Scenario::default() };
-        assert!(said(&bad).contains("`bottom_grid"), "{}", said(&bad));
+        assert!(bad.validate().unwrap_err().faults.iter().any(|f| f.clause == "bottom_grid"), "{}", said(&bad));
     }
 }

@@ -6,6 +6,7 @@ use crate::FileError;
 use crate::faults::Faults;
 use crate::files::Files;
 use crate::plan::{Plan, PlanError};
+use crate::wanted::Wanted;
 use crate::world;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::prompt::Prompt as Lines;
@@ -56,17 +57,19 @@ impl Prompt {
                 (empty, Files::around(Path::new("prompt.alb")), String::new())
             }
         };
-        let (lines, script) = Lines::open(source, &files, opening.mission, opening.set);
+        let wanted = Wanted { mission: opening.mission, scenario: opening.scenario, set: opening.set };
+        let (own, _) = wanted.parted();
+        let (lines, script) = Lines::open(source, &files, &wanted.of_script(&own));
         if !script.is_sound() {
             return Err(OpenError::Script(Box::new((script.findings, script.sources))));
         }
         let refused = |error: PlanError| match error {
-            PlanError::Script(findings) => OpenError::Script(Box::new((findings, script.sources.clone()))),
+            PlanError::Script(findings, sources) => OpenError::Script(Box::new((findings, sources))),
             PlanError::Asked(what, help) => OpenError::Asked(what, help),
         };
         let has_mission = script.missions().next().is_some();
         let (mission, scenario_name, scenario) = if has_mission {
-            let plan = Plan::new(&script, &name, opening.mission, opening.scenario).map_err(refused)?;
+            let plan = Plan::wanted(&script, &name, &wanted).map_err(refused)?;
             (Some(plan.program), plan.scenario_name, plan.scenario)
         } else {
             let wanted = opening.scenario.unwrap_or(SCENARIO_AT_FIRST);
@@ -86,5 +89,5 @@ fn vehicle(scenario: &Scenario, seed: u64) -> Result<Simulator, OpenError> {
     // At the prompt the vehicle is the person's from the first moment on.
     let scenario = Scenario { handover: None, ..scenario.clone() };
     Simulator::new(&scenario, seed)
-        .map_err(|error| OpenError::Asked("the scenario cannot be".into(), Some(error.faults.join("; "))))
+        .map_err(|error| OpenError::Asked("the scenario cannot be".into(), Some(error.to_string())))
 }

@@ -1,17 +1,21 @@
 //! What a scenario says of what goes wrong.
 
+use super::Wrong;
 use super::clause::Clause;
 use albacore_sim::{Disorder, Fault, Scenario, Sensor, Trouble};
 
 /// `fault(…)`: something that goes wrong for a while.
-pub fn fault(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
+pub fn fault(scenario: &mut Scenario, c: &Clause) -> Result<(), Wrong> {
     let (from, to) = (c.number("from")?, c.number("to")?);
     scenario.faults.push(Fault { trouble: trouble(c)?, from, to: (to > 0.0).then_some(to) });
     Ok(())
 }
 
-fn trouble(c: &Clause) -> Result<Trouble, String> {
-    let t = c.clause("trouble").ok_or("what is wrong? Write `fault(position, off)` or `fault(leak)`")?;
+fn trouble(c: &Clause) -> Result<Trouble, Wrong> {
+    let t = c.clause("trouble");
+    let t = t.ok_or_else(|| {
+        Wrong::with("this does not say what is wrong", "write `fault(position, off)` or `fault(leak)`, for example")
+    })?;
     let name = t.clause.name.as_str();
     let own = match name {
         "ignored_commands" => Some(Trouble::IgnoredCommands),
@@ -25,10 +29,14 @@ fn trouble(c: &Clause) -> Result<Trouble, String> {
         (Some(trouble), None) => Ok(trouble),
         (Some(_), Some(sensor)) => {
             let sensor = &sensor.clause.name;
-            Err(format!("`{name}` is a trouble of the vehicle, not of `{sensor}`: leave `{sensor}` out"))
+            let message = format!("`{name}` is a trouble of the vehicle, not of `{sensor}`");
+            Err(Wrong::with(message, format!("leave `{sensor}` out")))
         }
         (None, Some(sensor)) => Ok(Trouble::Sensor(self::sensor(&sensor)?, disorder(&t)?)),
-        (None, None) => Err(format!("`{name}` is a trouble of a sensor: write `fault(position, {name})`")),
+        (None, None) => {
+            let message = format!("`{name}` is a trouble of a sensor");
+            Err(Wrong::with(message, format!("say of which: `fault(position, {name})`, for example")))
+        }
     }
 }
 

@@ -12,7 +12,7 @@ pub fn plume(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         initial_radius: c.number("initial_radius")?,
         diffusivity: c.number("diffusivity")?,
         vertical: c.number("vertical")?,
-        layer: (layer > 0.0).then_some(layer),
+        layer: (layer != 0.0).then_some(layer),
         step: c.number("step")?,
         graded: c.number("graded")? != 0.0,
     });

@@ -1,5 +1,6 @@
 //! What a scenario says of the vehicle, its own mission and its computer.
 
+use super::Wrong;
 use super::clause::Clause;
 use albacore_guidance::{Route, Rows, Waypoints};
 use albacore_link::Dialect;
@@ -8,8 +9,11 @@ use albacore_sim::{Handover, HullSetup, KinematicHull, Limits, OwnMission, Scena
 use albacore_vehicle::Vertical;
 
 /// `vehicle(…)`: how it moves and where it starts.
-pub fn vehicle(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    let model = c.clause("model").ok_or("a vehicle needs a model: write `vehicle(kinematic, start: …)`")?;
+pub fn vehicle(scenario: &mut Scenario, c: &Clause) -> Result<(), Wrong> {
+    let model = c.clause("model");
+    let model = model.ok_or_else(|| {
+        Wrong::with("this does not say how the vehicle moves", "write `vehicle(kinematic, start: …)`, for example")
+    })?;
     scenario.vehicle = VehicleSetup {
         hull: hull(&model)?,
         start: c.point("start")?,

@@ -1,7 +1,7 @@
 //! A record as the world of a scenario.
 
 use super::Recording;
-use crate::scenario::{Objections, Scenario, Source};
+use crate::scenario::{Objections, Scenario, Source, told};
 use std::sync::Arc;
 
 /// The papers' threshold of detection, ratio of full scale: with it a record saturates the sensor at 25 thresholds.
@@ -73,16 +73,21 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let Some(recorded) = &scenario.recording else { return };
     let flow = &scenario.flow;
     let own_flow = flow.meander.is_some() || flow.turning != 0.0 || !flow.tides.is_empty();
-    objections.unless(
+    let mut of = objections.of("recorded_plume");
+    of.unless(
+        None,
         scenario.plume.is_none() && !own_flow,
-        "`recorded_plume` brings its own plume and its own flow: leave out `plume`, and all of `flow` but an upper layer and waves",
+        "`recorded_plume` brings its own plume and its own flow",
+        "leave out `plume`, and all of `flow` but an upper layer and waves",
     );
-    objections.positive("recorded_plume.threshold", recorded.threshold);
-    objections.not_negative("recorded_plume.start", recorded.start);
-    objections.not_negative("recorded_plume.start_spread", recorded.start_spread);
+    of.positive("threshold", recorded.threshold);
+    of.not_negative("start", recorded.start);
+    of.not_negative("start_spread", recorded.start_spread);
     let (latest, duration) = (recorded.start + recorded.start_spread, recorded.recording.duration());
-    objections.unless(
+    of.unless(
+        Some("start"),
         latest < duration,
-        format!("`recorded_plume.start` is up to {latest} s: it must be before the record ends, at {duration} s"),
+        format!("the run begins up to {} s into the record, and that ends at {} s", told(latest), told(duration)),
+        "make `start` and `start_spread` smaller",
     );
 }

@@ -1,6 +1,6 @@
 //! The water's depth: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Objections, Scenario, told};
 use albacore_geometry::{Area, Heading, Point};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -100,39 +100,56 @@ pub struct NoGo {
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     match &scenario.bottom.ground {
         Ground::Plane(plane) => {
-            objections.positive("bottom.from", plane.from);
-            objections.positive("bottom.to", plane.to);
-            objections.positive("bottom.across", plane.across);
-            objections.finite("bottom.toward", [plane.toward.radians(), 0.0]);
+            let mut of = objections.of("bottom");
+            of.positive("from", plane.from);
+            of.positive("to", plane.to);
+            of.positive("across", plane.across);
+            of.finite("toward", [plane.toward.radians(), 0.0]);
         }
         Ground::Grid(grid) => check_grid(grid, objections),
     }
-    for pit in &scenario.bottom.pits {
-        let name = &pit.name;
-        objections.finite(&format!("pit {name}: at"), [pit.at.north, pit.at.east]);
+    for (i, pit) in scenario.bottom.pits.iter().enumerate() {
+        let mut of = objections.nth("pit", i);
+        of.finite("at", [pit.at.north, pit.at.east]);
         // A pit only deepens, so that the water is nowhere shallower than the ground lets it be.
-        objections.positive(&format!("pit {name}: depth"), pit.depth);
-        objections.positive(&format!("pit {name}: radius"), pit.radius);
+        of.positive("depth", pit.depth);
+        of.positive("radius", pit.radius);
     }
 }
 
 fn check_grid(grid: &Grid, objections: &mut Objections) {
     let (south_west, size) = (grid.south_west, grid.north_east - grid.south_west);
-    objections.finite("bottom_grid: its south-western corner", [south_west.north, south_west.east]);
-    objections.positive("bottom_grid: its extent northward", size.north);
-    objections.positive("bottom_grid: its extent eastward", size.east);
-    let cells = u64::from(grid.rows) * u64::from(grid.columns);
-    objections.unless(
-        grid.rows >= 2 && grid.columns >= 2 && cells == grid.depths.len() as u64,
-        format!(
-            "`bottom_grid` has {} depths in {} rows of {}: it must have two rows of two at least, and all of them",
-            grid.depths.len(),
-            grid.rows,
-            grid.columns
-        ),
+    let mut of = objections.of("bottom_grid");
+    of.unless(
+        None,
+        south_west.north.is_finite() && south_west.east.is_finite(),
+        "the grid lies nowhere: its south-western corner is not finite",
+        "give it a place with `at:`",
     );
-    objections.unless(
+    of.unless(
+        None,
+        size.north > 0.0 && size.east > 0.0 && size.north.is_finite() && size.east.is_finite(),
+        format!("the grid is {} m long northward and {} m eastward", told(size.north), told(size.east)),
+        "it must have an extent: look at its axes and at `scale`",
+    );
+    let cells = u64::from(grid.rows) * u64::from(grid.columns);
+    of.unless(
+        None,
+        grid.rows >= 2 && grid.columns >= 2 && cells == grid.depths.len() as u64,
+        format!("the grid has {} depths in {} rows of {}", grid.depths.len(), grid.rows, grid.columns),
+        "it must have two rows of two at least, and all of them",
+    );
+    of.unless(
+        None,
         grid.depths.iter().all(|depth| depth.is_finite()),
-        "`bottom_grid` has a depth that is not a finite number",
+        "the grid has a depth that is not a finite number",
+        "look for it in the file",
+    );
+    of.unless(
+        None,
+        grid.depths.iter().any(|depth| *depth > 0.0 || !depth.is_finite()),
+        "all of the grid is land: no number of the file is below the surface",
+        "numbers are heights above the surface unless the file says that they are depths: write the word `depth` in the head \
+         line of a CSV file, or give the variable of a NetCDF file `positive = \"down\"`",
     );
 }

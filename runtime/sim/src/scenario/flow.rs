@@ -1,7 +1,7 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::LONGEST_PLUME_STEP_S;
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Bounds, Objections, Scenario, rounded_down, told};
 use crate::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
 use albacore_geometry::{Heading, Vector};
@@ -139,37 +139,38 @@ impl Default for Meander {
 
 /// The mean and the upper flow.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    objections.flow("flow.mean", scenario.flow.mean);
+    objections.of("flow").flow("mean", scenario.flow.mean);
     check_current(&scenario.flow, objections);
     if let Some(upper) = &scenario.flow.upper {
-        objections.flow("flow.upper.mean", upper.mean);
-        objections.not_negative("flow.upper.above", upper.above);
-        objections.not_negative("flow.upper.moves", upper.moves);
-        objections.positive("flow.upper.period", upper.period);
+        let mut layer = objections.of("upper_layer");
+        layer.flow("flow", upper.mean);
+        layer.not_negative("above", upper.above);
+        layer.not_negative("moves", upper.moves);
+        layer.positive("period", upper.period);
     }
 }
 
 /// What the whole water does alike.
 fn check_current(flow: &Flow, objections: &mut Objections) {
-    objections.unless(
-        flow.turning.abs() <= TURNING_MAX,
-        format!("`flow.turning` is {} rad/s: it must be {TURNING_MAX} at most", flow.turning),
-    );
-    for tide in &flow.tides {
-        let name = &tide.name;
-        objections.flow(&format!("tide {name}: amplitude"), tide.amplitude);
-        objections.positive(&format!("tide {name}: period"), tide.period);
-        objections.finite(&format!("tide {name}: high"), [tide.high, 0.0]);
+    objections.of("turning").bounds("rate", flow.turning, Bounds::Within(-TURNING_MAX, TURNING_MAX));
+    for (i, tide) in flow.tides.iter().enumerate() {
+        let mut of = objections.nth("tide", i);
+        of.flow("flood", tide.amplitude);
+        of.positive("period", tide.period);
+        of.finite("high", [tide.high, 0.0]);
     }
     let Some(waves) = &flow.waves else { return };
-    objections.positive("flow.waves.period", waves.period);
-    objections.finite("flow.waves.toward", [waves.toward.radians(), 0.0]);
+    let mut of = objections.of("waves");
+    of.positive("period", waves.period);
+    of.finite("toward", [waves.toward.radians(), 0.0]);
+    of.not_negative("height", waves.height);
     // Steeper waves than one in ten break; their length is at most that in deep water.
     let steepest = 0.1 * 9.81 * waves.period * waves.period / TAU;
-    objections.not_negative("flow.waves.height", waves.height);
-    objections.unless(
+    of.unless(
+        Some("height"),
         waves.height <= steepest || steepest.is_nan(),
-        format!("`flow.waves.height` is {} m: waves of {} s break above {steepest:.2} m", waves.height, waves.period),
+        format!("waves {} m high break when their period is {} s", told(waves.height), told(waves.period)),
+        format!("make them {} m high at most, or their `period` longer", rounded_down(steepest)),
     );
 }
 
@@ -177,33 +178,49 @@ fn check_current(flow: &Flow, objections: &mut Objections) {
 pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
     let Some(meander) = &scenario.flow.meander else { return };
     let before = objections.0.len();
-    objections.unless(scenario.region.is_some(), "`flow.meander` needs a `region`: the flow wanders on a grid over it");
-    objections.unless(scenario.flow.mean.length() > 0.0, "`flow.meander` needs a mean flow: `flow.mean` is 0");
-    objections.unless(
-        (0.0..=DIRECTION_SD_MAX).contains(&meander.direction_sd),
-        format!("`flow.meander.direction_sd` is {} rad: it must be 0 to {DIRECTION_SD_MAX}", meander.direction_sd),
+    let mut of = objections.of("flow");
+    of.unless(
+        Some("meander"),
+        scenario.region.is_some(),
+        "a `flow` with a `meander` needs a `region`: it wanders on a grid over it",
+        "add `region(…)` to the scenario, or leave `meander` out",
     );
-    objections.positive("flow.meander.period", meander.period);
-    objections.unless(
+    of.unless(
+        Some("mean"),
+        scenario.flow.mean.length() > 0.0,
+        "a flow of 0 m/s cannot meander",
+        "give it a speed, or leave `meander` out",
+    );
+    of.bounds("meander", meander.direction_sd, Bounds::Within(0.0, DIRECTION_SD_MAX));
+    of.positive("period", meander.period);
+    of.unless(
+        Some("damping"),
         meander.damping > 0.0 && meander.damping < 1.0,
-        format!("`flow.meander.damping` is {}: it must be between 0 and 1", meander.damping),
+        format!("`damping` of `flow` is {}", told(meander.damping)),
+        "it must be between 0 and 1",
     );
-    objections.positive("flow.meander.viscosity", meander.viscosity);
-    objections.positive("flow.meander.cell", meander.cell);
-    objections.not_negative("flow.meander.margin", meander.margin);
-    let least = scenario.plume.as_ref().map_or(0.0, |plume| plume.step).max(LONGEST_PLUME_STEP_S / 2.0);
-    objections.unless(
+    of.positive("viscosity", meander.viscosity);
+    of.positive("cell", meander.cell);
+    of.not_negative("margin", meander.margin);
+    // A plume whose own step cannot be is told of there.
+    let plume = scenario.plume.as_ref().map_or(0.0, |plume| plume.step.min(LONGEST_PLUME_STEP_S));
+    let least = plume.max(LONGEST_PLUME_STEP_S / 2.0);
+    of.unless(
+        None,
         meander.step >= least && meander.step <= FLOW_STEP_MAX_S,
-        format!("`flow.meander.step` is {} s: it must be {least} to {FLOW_STEP_MAX_S}", meander.step),
+        format!("the time step of the meander is {} s", told(meander.step)),
+        format!("it must be {} s to {FLOW_STEP_MAX_S} s", told(least)),
     );
     if objections.0.len() == before {
         let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
-        objections.0.extend(mesh_fault(meander, &frame, scenario.flow.speed()));
+        if let Some(fault) = mesh_fault(meander, &frame, scenario.flow.speed()) {
+            objections.of("flow").unless(Some(fault.param), false, fault.message, fault.mend);
+        }
     }
 }
 
-/// The widest meander, rad: beyond it the flow turns round, and the plume with it.
-const DIRECTION_SD_MAX: f64 = 1.0;
+/// The widest meander, rad: 60 degrees. Beyond it the flow turns round, and the plume with it.
+const DIRECTION_SD_MAX: f64 = 60.0 * (PI / 180.0);
 /// The fastest turning of the mean flow, rad/s: once round in a quarter of an hour.
 const TURNING_MAX: f64 = 0.007;
 /// The longest step of the flow field, s.

@@ -155,45 +155,52 @@ impl Default for Ctd {
 /// What of the instruments cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let Scenario { compass, pressure, dvl, gps, battery, ctd, .. } = scenario;
-    for (name, rate) in
-        [("compass", compass.rate), ("pressure", pressure.rate), ("dvl", dvl.rate), ("battery", battery.rate)]
-    {
-        objections.rate(&format!("{name}.rate"), rate);
-    }
-    for (name, delay) in [("compass", compass.delay), ("pressure", pressure.delay), ("dvl", dvl.delay)] {
-        objections.delay(&format!("{name}.delay"), delay);
-    }
-    objections.within("battery.noise", battery.noise, 0.0..=1.0);
-    objections.within("battery.bias", battery.bias, -1.0..=1.0);
-    objections.within("dvl.bias", dvl.bias, -1.0..=1.0);
-    objections.within("compass.noise", compass.noise, 0.0..=radians(45.0));
-    objections.within("compass.bias", compass.bias, -PI..=PI);
-    objections.within("compass.deviation", compass.deviation, 0.0..=radians(90.0));
-    objections.finite("compass.greatest_at", [compass.greatest_at.radians(), 0.0]);
-    objections.within("pressure.noise", pressure.noise, 0.0..=10.0);
-    objections.within("pressure.bias", pressure.bias, -100.0..=100.0);
-    objections.within("dvl.noise", dvl.noise, 0.0..=1.0);
+    let mut of = objections.of("compass");
+    of.rate("rate", compass.rate);
+    of.delay("delay", compass.delay);
+    of.within("noise", compass.noise, 0.0..=radians(45.0));
+    of.within("bias", compass.bias, -PI..=PI);
+    of.within("deviation", compass.deviation, 0.0..=radians(90.0));
+    of.finite("greatest_at", [compass.greatest_at.radians(), 0.0]);
+    let mut of = objections.of("pressure");
+    of.rate("rate", pressure.rate);
+    of.delay("delay", pressure.delay);
+    of.within("noise", pressure.noise, 0.0..=10.0);
+    of.within("bias", pressure.bias, -100.0..=100.0);
+    let mut of = objections.of("battery");
+    of.rate("rate", battery.rate);
+    of.within("noise", battery.noise, 0.0..=1.0);
+    of.within("bias", battery.bias, -1.0..=1.0);
+    let mut of = objections.of("dvl");
+    of.rate("rate", dvl.rate);
+    of.delay("delay", dvl.delay);
+    of.within("noise", dvl.noise, 0.0..=1.0);
+    of.within("bias", dvl.bias, -1.0..=1.0);
     if let Some(range) = dvl.range {
-        objections.within("dvl.range", range, 0.0..=1000.0);
+        of.within("range", range, 0.0..=1000.0);
     }
     if let Some(gps) = gps {
-        objections.within("gps.every", gps.every, TICK_S..=3600.0);
-        objections.within("gps.sigma", gps.sigma, 0.0..=1000.0);
-        objections.within("gps.above", gps.above, 0.0..=10.0);
-        objections.within("gps.bias", gps.bias.length(), 0.0..=1000.0);
-        objections.delay("gps.delay", gps.delay);
-        objections.unless(
+        let mut of = objections.of("gps");
+        of.within("every", gps.every, TICK_S..=3600.0);
+        of.within("sigma", gps.sigma, 0.0..=1000.0);
+        of.within("above", gps.above, 0.0..=10.0);
+        of.within("bias", gps.bias.length(), 0.0..=1000.0);
+        of.delay("delay", gps.delay);
+        of.unless(
+            None,
             scenario.navigation.is_some(),
             "`gps` needs a `navigation`: without one the vehicle knows its position exactly",
+            "add `navigation(dead_reckoning())` to the scenario, or leave `gps` out",
         );
     }
     if let Some(ctd) = ctd {
-        objections.rate("ctd.rate", ctd.rate);
-        objections.within("ctd.temperature_noise", ctd.temperature_noise, 0.0..=10.0);
-        objections.within("ctd.salinity_noise", ctd.salinity_noise, 0.0..=10.0);
-        objections.within("ctd.temperature_bias", ctd.temperature_bias, -10.0..=10.0);
-        objections.within("ctd.salinity_bias", ctd.salinity_bias, -10.0..=10.0);
-        objections.within("ctd.above", ctd.above, 0.0..=10.0);
-        objections.delay("ctd.delay", ctd.delay);
+        let mut of = objections.of("ctd");
+        of.rate("rate", ctd.rate);
+        of.within("temperature_noise", ctd.temperature_noise, 0.0..=10.0);
+        of.within("salinity_noise", ctd.salinity_noise, 0.0..=10.0);
+        of.within("temperature_bias", ctd.temperature_bias, -10.0..=10.0);
+        of.within("salinity_bias", ctd.salinity_bias, -10.0..=10.0);
+        of.within("above", ctd.above, 0.0..=10.0);
+        of.delay("delay", ctd.delay);
     }
 }

@@ -1,7 +1,7 @@
 //! The plume: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::{LONGEST_PLUME_STEP_S, stays_in_layer};
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Objections, Scenario, told};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
@@ -42,29 +42,47 @@ impl Default for Plume {
 /// What of the plume cannot be, once region and flow are sound.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let Some(plume) = &scenario.plume else { return };
-    objections.unless(scenario.region.is_some(), "`plume` needs a `region`: its filaments live there");
-    objections.unless(scenario.flow.speed() > 0.0, "`plume` needs a flow to carry it: `flow.mean` is 0");
-    objections.not_negative("plume.growth", plume.growth);
-    objections.positive("plume.initial_radius", plume.initial_radius);
-    objections.not_negative("plume.diffusivity", plume.diffusivity);
-    objections.not_negative("plume.vertical", plume.vertical);
+    let mut of = objections.of("plume");
+    let has_region = scenario.region.is_some();
+    of.unless(
+        None,
+        has_region,
+        "`plume` needs a `region`: its filaments live there",
+        "add `region(…)` to the scenario",
+    );
+    of.unless(
+        None,
+        scenario.flow.speed() > 0.0,
+        "`plume` needs a `flow` that carries it",
+        "give the scenario one: `flow(12 cm/s toward 140 deg)`, for example",
+    );
+    of.not_negative("growth", plume.growth);
+    of.positive("initial_radius", plume.initial_radius);
+    of.not_negative("diffusivity", plume.diffusivity);
+    of.not_negative("vertical", plume.vertical);
     match plume.layer {
+        // A script says 0 m for a flat plume.
         Some(layer) => {
-            objections.positive("plume.layer", layer);
-            objections.unless(
+            of.not_negative("layer", layer);
+            of.unless(
+                Some("vertical"),
                 stays_in_layer(plume, LONGEST_PLUME_STEP_S) || layer <= 0.0,
-                format!("`plume.vertical` mixes a `plume.layer` of {layer} m within seconds: leave both out for a flat plume"),
+                format!("`vertical` of `plume` mixes a `layer` of {} m within seconds", told(layer)),
+                "make `vertical` smaller, or leave both out for a flat plume",
             );
         }
-        None => objections
-            .unless(plume.vertical <= 0.0, "`plume.vertical` needs a `plume.layer`: the height that holds the plume"),
+        None => of.unless(
+            Some("vertical"),
+            plume.vertical <= 0.0,
+            "`vertical` of `plume` needs a `layer`: the height that holds the plume",
+            "add one, such as `layer: 3.5 m`, or leave `vertical` out",
+        ),
     }
     let ticks = plume.step / TICK_S;
-    objections.unless(
+    of.unless(
+        Some("step"),
         plume.step >= TICK_S && plume.step <= LONGEST_PLUME_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
-        format!(
-            "`plume.step` is {} s: it must be a whole number of ticks of {TICK_S} s, {LONGEST_PLUME_STEP_S} s at most",
-            plume.step
-        ),
+        format!("`step` of `plume` is {} s", told(plume.step)),
+        format!("it must be a whole number of ticks of {TICK_S} s, and {LONGEST_PLUME_STEP_S} s at most"),
     );
 }

@@ -1,7 +1,7 @@
 //! The sensors: what a scenario says of them, and what of that cannot be.
 
 use crate::scenario::instruments::EVERY_TICK;
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Objections, Scenario, told};
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -146,57 +146,66 @@ impl Default for Sounder {
 /// What of the sensors cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     if let Some(navigation) = &scenario.navigation {
-        objections.within("navigation.walk", navigation.walk, 0.0..=10.0);
+        objections.of("dead_reckoning").within("walk", navigation.walk, 0.0..=10.0);
         if let Some(lbl) = &navigation.lbl {
-            objections.within("navigation.lbl.every", lbl.every, TICK_S..=DAY_S);
-            objections.within("navigation.lbl.sigma", lbl.sigma, 0.0..=1000.0);
-            objections.within("navigation.lbl.gate", lbl.gate, 0.0..=10_000.0);
-            objections.share("navigation.lbl.outliers", lbl.outliers);
-            objections.within("navigation.lbl.outlier", lbl.outlier, 0.0..=10_000.0);
-            objections.within("navigation.lbl.drift", lbl.drift.length(), 0.0..=LBL_DRIFT_MAX);
-            objections.delay("navigation.lbl.delay", lbl.delay);
+            let mut of = objections.of("lbl");
+            of.within("every", lbl.every, TICK_S..=DAY_S);
+            of.within("sigma", lbl.sigma, 0.0..=1000.0);
+            of.within("gate", lbl.gate, 0.0..=10_000.0);
+            of.share("outliers", lbl.outliers);
+            of.within("outlier", lbl.outlier, 0.0..=10_000.0);
+            of.within("drift", lbl.drift.length(), 0.0..=LBL_DRIFT_MAX);
+            of.delay("delay", lbl.delay);
         }
     }
     let fluorometer = &scenario.fluorometer;
+    let mut of = objections.of("fluorometer");
     for (name, value, bounds) in [
-        ("fluorometer.rate", fluorometer.rate, 0.01..=1000.0),
-        ("fluorometer.noise", fluorometer.noise, 0.0..=1.0),
-        ("fluorometer.false_alarms", fluorometer.false_alarms, 0.0..=1000.0),
-        ("fluorometer.ahead", fluorometer.ahead, -10.0..=10.0),
-        ("fluorometer.bias", fluorometer.bias, -1.0..=1.0),
-        ("fluorometer.saturation", fluorometer.saturation, 0.0..=1.0),
+        ("rate", fluorometer.rate, 0.01..=1000.0),
+        ("noise", fluorometer.noise, 0.0..=1.0),
+        ("false_alarms", fluorometer.false_alarms, 0.0..=1000.0),
+        ("ahead", fluorometer.ahead, -10.0..=10.0),
+        ("bias", fluorometer.bias, -1.0..=1.0),
+        ("saturation", fluorometer.saturation, 0.0..=1.0),
     ] {
-        objections.within(name, value, bounds);
+        of.within(name, value, bounds);
     }
-    objections.delay("fluorometer.delay", fluorometer.delay);
-    objections.unless(
-        fluorometer.false_alarms <= fluorometer.rate,
-        "`fluorometer.false_alarms` exceeds `fluorometer.rate`: a sample gives one alarm at most",
+    of.delay("delay", fluorometer.delay);
+    of.unless(
+        Some("false_alarms"),
+        fluorometer.false_alarms <= fluorometer.rate || fluorometer.rate.is_nan(),
+        format!("`fluorometer` has more `false_alarms` than samples: its `rate` is {} Hz", told(fluorometer.rate)),
+        "make them fewer: a sample gives one alarm at most",
     );
     let adcp = &scenario.adcp;
-    objections.within("adcp.noise", adcp.noise, 0.0..=1.0);
-    objections.within("adcp.bias", adcp.bias, -1.0..=1.0);
-    objections.within("adcp.blanking", adcp.blanking, 0.0..=100.0);
-    objections.within("adcp.bin", adcp.bin, 0.1..=100.0);
-    objections.unless(
-        (1..=BINS_MAX).contains(&adcp.count),
-        format!("`adcp.count` is {}: it must be 1 to {BINS_MAX}", adcp.count),
-    );
-    objections.rate("adcp.rate", adcp.rate);
-    objections.delay("adcp.delay", adcp.delay);
+    let mut of = objections.of("adcp");
+    of.within("noise", adcp.noise, 0.0..=1.0);
+    of.within("bias", adcp.bias, -1.0..=1.0);
+    of.within("blanking", adcp.blanking, 0.0..=100.0);
+    of.within("bin", adcp.bin, 0.1..=100.0);
+    of.within("count", f64::from(adcp.count), 1.0..=f64::from(BINS_MAX));
+    of.rate("rate", adcp.rate);
+    of.delay("delay", adcp.delay);
     let sounder = &scenario.sounder;
-    objections.rate("sounder.rate", sounder.rate);
-    objections.within("sounder.noise", sounder.noise, 0.0..=10.0);
-    objections.within("sounder.bias", sounder.bias, -100.0..=100.0);
-    objections.within("sounder.nearest", sounder.nearest, 0.0..=100.0);
+    let mut of = objections.of("sounder");
+    of.rate("rate", sounder.rate);
+    of.within("noise", sounder.noise, 0.0..=10.0);
+    of.within("bias", sounder.bias, -100.0..=100.0);
+    of.within("nearest", sounder.nearest, 0.0..=100.0);
     if let Some(farthest) = sounder.farthest {
-        objections.unless(
+        of.unless(
+            Some("farthest"),
             farthest > sounder.nearest,
-            format!("`sounder.farthest` is {farthest} m: it must be above `nearest`, {} m", sounder.nearest),
+            format!(
+                "`sounder` hears from {} m at most, and not from nearer than {} m",
+                told(farthest),
+                told(sounder.nearest)
+            ),
+            "make `farthest` greater than `nearest`, or it hears nothing",
         );
     }
-    objections.share("sounder.dropouts", sounder.dropouts);
-    objections.delay("sounder.delay", sounder.delay);
+    of.share("dropouts", sounder.dropouts);
+    of.delay("delay", sounder.delay);
 }
 
 /// A profiler has at most this many bins.

@@ -1,7 +1,7 @@
 //! What releases chemical, or has released it: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::spin_up_begin;
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -101,79 +101,138 @@ impl Default for Source {
     }
 }
 
-/// What of the sources cannot be, once region and flow are sound.
+/// What of the sources cannot be, once region, flow and bottom are sound.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     // A record's source is there to be told of.
-    let sources = !scenario.sources.is_empty() && scenario.recording.is_none();
-    for (some, what) in [(sources, "sources"), (!scenario.patches.is_empty(), "patches")] {
-        objections
-            .unless(!some || scenario.plume.is_some(), format!("`{what}` need a `plume`: without one nothing spreads"));
+    if scenario.recording.is_some() {
+        return;
     }
     let before = objections.0.len();
-    let layer = scenario.plume.as_ref().and_then(|plume| plume.layer);
-    let place = |what: &str, at: Point, height: f64, objections: &mut Objections| {
-        objections.finite(&format!("{what}: at"), [at.north, at.east]);
-        objections.not_negative(&format!("{what}: height"), height);
-        if let Some(region) = &scenario.region {
-            let gap = region.gap(at);
-            objections.unless(gap >= 0.0 || gap.is_nan(), format!("{what} is {:.1} m outside the `region`", -gap));
-        }
-        if let Some(layer) = layer {
-            objections.unless(
-                height <= layer || height.is_nan(),
-                format!("{what} is {height} m above the bottom, over the `plume.layer` of {layer} m"),
-            );
-        }
-    };
-    for source in &scenario.sources {
-        let name = format!("source `{}`", source.name);
-        place(&name, source.at, source.height, objections);
+    let mut names = Vec::new();
+    for (i, source) in scenario.sources.iter().enumerate() {
+        // A script tells them apart, each with its own count.
+        let is_leak = |source: &&Source| source.to.is_some();
+        let leaks = scenario.sources[..i].iter().filter(is_leak).count();
+        let (clause, nth) = if is_leak(&source) { ("leak", leaks) } else { ("source", i - leaks) };
+        let mut of = objections.nth(clause, nth);
+        check_source(source, &mut of);
+        of.name(&source.name, &names);
+        names.push(source.name.as_str());
+        let first = if source.to.is_some() { "from" } else { "at" };
+        check_place(scenario, &mut of, first, source.at, source.height);
         if let Some(to) = source.to {
-            place(&format!("the other end of {name}"), to, source.height, objections);
+            check_place(scenario, &mut of, "to", to, source.height);
         }
-        objections.positive(&format!("{name}: rate"), source.rate);
-        objections.positive(&format!("{name}: peak"), source.peak);
-        objections.not_negative(&format!("{name}: reference_age"), source.reference_age);
-        let times = &source.when;
-        objections.finite(&format!("{name}: begins"), [times.begins, 0.0]);
-        objections.unless(
-            times.ends == 0.0 || times.ends > times.begins,
-            format!("{name} ends at {} s, before it begins", times.ends),
-        );
-        objections.not_negative(&format!("{name}: on"), times.on);
-        objections.not_negative(&format!("{name}: off"), times.off);
-        objections.unless(
-            times.off == 0.0 || times.on > 0.0,
-            format!("{name} is off for {} s at a time and never on: say for how long it is `on`", times.off),
-        );
     }
-    for patch in &scenario.patches {
-        let name = format!("patch `{}`", patch.name);
-        place(&name, patch.at, patch.height, objections);
-        objections.not_negative(&format!("{name}: radius"), patch.radius);
-        objections.not_negative(&format!("{name}: age"), patch.age);
-        objections.positive(&format!("{name}: peak"), patch.peak);
-        objections.not_negative(&format!("{name}: reference_age"), patch.reference_age);
+    for (i, patch) in scenario.patches.iter().enumerate() {
+        let mut of = objections.nth("patch", i);
+        of.name(&patch.name, &scenario.patches[..i].iter().map(|p| p.name.as_str()).collect::<Vec<_>>());
+        check_place(scenario, &mut of, "at", patch.at, patch.height);
+        of.not_negative("radius", patch.radius);
+        of.not_negative("age", patch.age);
+        of.positive("peak", patch.peak);
+        of.not_negative("peak_age", patch.reference_age);
     }
+    check_layer(scenario, objections);
     if objections.0.len() == before && scenario.plume.is_some() && scenario.flow.speed() > 0.0 {
         check_size(scenario, objections);
+    }
+}
+
+/// A source by itself.
+fn check_source(source: &Source, of: &mut OfClause) {
+    of.positive("rate", source.rate);
+    of.positive("peak", source.peak);
+    of.not_negative("peak_age", source.reference_age);
+    let times = &source.when;
+    of.finite("begins", [times.begins, 0.0]);
+    // One that has begun long before the run may have ended before it.
+    of.unless(
+        Some("ends"),
+        times.ends == 0.0 || times.begins == 0.0 || times.ends > times.begins,
+        format!("`{}` ends at {} s, and begins at {} s", source.name, told(times.ends), told(times.begins)),
+        "let it begin before it ends",
+    );
+    of.not_negative("on", times.on);
+    of.not_negative("off", times.off);
+    of.unless(
+        Some("off"),
+        times.off == 0.0 || times.on > 0.0,
+        format!("`{}` is off for {} s at a time, and never on", source.name, told(times.off)),
+        "say for how long it is `on`, such as `on: 5 min`",
+    );
+}
+
+/// Whether chemical can be at a place, so high above the bottom.
+fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: Point, height: f64) {
+    of.unless(
+        None,
+        scenario.plume.is_some(),
+        format!("a `{}` needs a `plume`: without one nothing spreads", of.clause()),
+        "add `plume()` to the scenario",
+    );
+    of.finite(param, [at.north, at.east]);
+    of.not_negative("height", height);
+    if let Some(region) = &scenario.region {
+        let gap = region.gap(at);
+        of.unless(
+            Some(param),
+            gap >= 0.0 || gap.is_nan(),
+            format!("this is {:.1} m outside the `region`", -gap),
+            "move it into the region, or make that larger: outside nothing spreads",
+        );
+    }
+    let water = scenario.bottom.depth_at(at);
+    of.unless(Some(param), water > 0.0 || water.is_nan(), "this is on land", "move it into the water");
+    of.unless(
+        Some("height"),
+        height <= water || water <= 0.0 || !height.is_finite(),
+        format!("this is {} m above the bottom, where the water is {} m deep", told(height), rounded_down(water)),
+        format!("make `height` {} m at most", rounded_down(water)),
+    );
+    if let Some(layer) = scenario.plume.as_ref().and_then(|plume| plume.layer) {
+        of.unless(
+            Some("height"),
+            height <= layer || height > water || layer <= 0.0 || height.is_nan(),
+            format!("this is {} m above the bottom, and the `layer` of the plume {} m high", told(height), told(layer)),
+            "make `height` smaller, or the layer higher",
+        );
+    }
+}
+
+/// Whether the layer that holds the plume is below the surface where the chemical comes from.
+fn check_layer(scenario: &Scenario, objections: &mut Objections) {
+    let Some(layer) = scenario.plume.as_ref().and_then(|plume| plume.layer) else { return };
+    let sources = scenario.sources.iter().map(|source| (&source.name, source.at));
+    let places = sources.chain(scenario.patches.iter().map(|patch| (&patch.name, patch.at)));
+    let mut waters = places.map(|(name, at)| (name, scenario.bottom.depth_at(at)));
+    if let Some((name, water)) = waters.find(|(_, water)| *water > 0.0 && layer > *water) {
+        let most = rounded_down(water);
+        objections.of("plume").unless(
+            Some("layer"),
+            false,
+            format!("the `layer` of the plume is {} m high: at `{name}` the water is {most} m deep", told(layer)),
+            format!("make it {most} m at most, or leave `layer` and `vertical` out for a flat plume"),
+        );
     }
 }
 
 /// Whether there is more plume than can be computed.
 fn check_size(scenario: &Scenario, objections: &mut Objections) {
     let transit = -spin_up_begin(scenario);
-    objections.unless(
+    objections.of("flow").unless(
+        Some("mean"),
         transit <= SPIN_UP_MAX_S,
-        format!("the flow is so slow that the plume takes {transit:.0} s to cross the region: at most {SPIN_UP_MAX_S} s are simulated"),
+        format!("the flow is so slow that the plume takes {transit:.0} s to cross the region"),
+        format!("make it faster, or the region smaller: {SPIN_UP_MAX_S} s are simulated at most"),
     );
     let released = transit * scenario.sources.iter().map(|source| source.rate).sum::<f64>();
     let filaments = released + scenario.patches.iter().map(|patch| f64::from(patch.filaments)).sum::<f64>();
-    objections.unless(
+    objections.of("plume").unless(
+        None,
         filaments <= FILAMENTS_MAX,
-        format!(
-            "the sources' `rate` makes about {filaments:.0} filaments at a time: at most {FILAMENTS_MAX} are simulated"
-        ),
+        format!("the sources release so much that about {filaments:.0} filaments are alive at a time"),
+        format!("make their `rate` smaller, or the region: {FILAMENTS_MAX} filaments are simulated at most"),
     );
 }
 

@@ -1,6 +1,6 @@
 //! The temperature and the salinity of the water over its depth: what a scenario says of them, and what of that cannot be.
 
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Bounds, Objections, Scenario};
 use albacore_geometry::math::tanh;
 use serde::{Deserialize, Serialize};
 
@@ -52,34 +52,21 @@ impl Stratification {
 /// What of the water's layers cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let s = &scenario.stratification;
+    let mut of = objections.of("stratification");
     for (name, value) in [("surface", s.surface), ("bottom", s.bottom)] {
-        objections.unless(
-            TEMPERATURES.contains(&value),
-            format!(
-                "`stratification.{name}` is {value} degC: sea water has {} to {} degC",
-                TEMPERATURES.start(),
-                TEMPERATURES.end()
-            ),
-        );
+        of.bounds(name, value, TEMPERATURES);
     }
     for (name, value) in [("surface_salinity", s.surface_salinity), ("bottom_salinity", s.bottom_salinity)] {
-        objections.unless(
-            SALINITIES.contains(&value),
-            format!(
-                "`stratification.{name}` is {value}: practical salinity is {} to {}",
-                SALINITIES.start(),
-                SALINITIES.end()
-            ),
-        );
+        of.bounds(name, value, SALINITIES);
     }
-    objections.not_negative("stratification.thermocline", s.thermocline);
-    objections.positive("stratification.thickness", s.thickness);
+    of.not_negative("thermocline", s.thermocline);
+    of.positive("thickness", s.thickness);
 }
 
 /// Sea water freezes below, and no sea is warmer, degrees Celsius.
-const TEMPERATURES: std::ops::RangeInclusive<f64> = -2.0..=40.0;
+const TEMPERATURES: Bounds = Bounds::Within(-2.0, 40.0);
 /// The practical salinity scale ends at 42.
-const SALINITIES: std::ops::RangeInclusive<f64> = 0.0..=42.0;
+const SALINITIES: Bounds = Bounds::Within(0.0, 42.0);
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,7 @@
 //! The vehicle, its own mission and its computer: what a scenario says of them, and what of that cannot be.
 
 use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::Route;
@@ -58,6 +58,15 @@ impl Default for HullSetup {
 }
 
 impl HullSetup {
+    /// Its clause in a script.
+    fn clause(&self) -> &'static str {
+        match self {
+            HullSetup::Kinematic(_) => "kinematic",
+            HullSetup::Fossen(_) => "fossen",
+            HullSetup::Prestero(..) => "prestero",
+        }
+    }
+
     /// Its greatest speed through the water, m/s.
     pub fn speed_max(&self) -> f64 {
         match self {
@@ -152,29 +161,27 @@ impl SubmersibleHull {
     }
 
     /// What of it cannot be; `possible` is the speed that its greatest turns give, m/s.
-    fn check(&self, possible: f64, objections: &mut Objections) {
-        objections.within("vehicle.hull.speed_max", self.speed_max, Self::SPEED_MAX);
-        objections.unless(
-            self.fin_max > 0.0 && self.fin_max <= FIN_MAX,
-            format!("`vehicle.hull.fin_max` is {} rad: it must be above 0 and at most {FIN_MAX}", self.fin_max),
-        );
-        objections.within("vehicle.hull.turns_max", self.turns_max, Self::TURNS_MAX);
-        objections.unless(
+    fn check(&self, possible: f64, of: &mut OfClause) {
+        of.within("speed_max", self.speed_max, Self::SPEED_MAX);
+        of.bounds("fin_max", self.fin_max, Bounds::UpTo(0.0, FIN_MAX));
+        of.within("turns_max", self.turns_max, Self::TURNS_MAX);
+        of.unless(
+            Some("speed_max"),
             self.speed_max <= possible || !possible.is_finite(),
             format!(
-                "`vehicle.hull.speed_max` is {} m/s: its `turns_max` of {} Hz gives {possible:.2} m/s at most",
-                self.speed_max, self.turns_max
+                "`{}` cannot swim {} m/s: its `turns_max` of {} Hz gives {possible:.2} m/s at most",
+                of.clause(),
+                told(self.speed_max),
+                told(self.turns_max)
             ),
+            "make `speed_max` smaller, or `turns_max` greater",
         );
         let steps = TICK_S / self.step;
-        objections.unless(
+        of.unless(
+            Some("step"),
             STEPS.contains(&steps.round()) && (steps - steps.round()).abs() < 1e-9,
-            format!(
-                "`vehicle.hull.step` is {} s: a tick of {TICK_S} s must be a whole number of steps, {} to {}",
-                self.step,
-                STEPS.start(),
-                STEPS.end()
-            ),
+            format!("`step` of `{}` is {} ms", of.clause(), told(self.step * 1000.0)),
+            format!("a tick of 100 ms must be a whole number of steps, {} to {}", STEPS.start(), STEPS.end()),
         );
     }
 }
@@ -223,58 +230,80 @@ pub struct Limits {
 /// What of the vehicle cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let v = &scenario.vehicle;
-    objections.finite("vehicle.start", [v.start.north, v.start.east]);
-    objections.finite("vehicle.heading", [v.heading.radians(), 0.0]);
-    objections.not_negative("vehicle.start_spread", v.start_spread);
-    objections.within("vehicle.depth", v.depth, DEPTHS);
     // Where the start is scattered it may be anywhere: as shallow as the ground is there.
     let water = if v.start_spread > 0.0 {
         scenario.bottom.shallowest_within(v.start_spread, v.start)
     } else {
         scenario.bottom.depth_at(v.start)
     };
-    objections.unless(water != 0.0, "`vehicle.start` is, or may be, on land: the vehicle starts aground");
-    objections.unless(
-        v.depth <= water || !water.is_finite(),
-        format!(
-            "`vehicle.depth` is {} m where the water is {water} m deep: the vehicle starts below the bottom",
-            v.depth
-        ),
-    );
-    objections.within("vehicle.endurance", v.endurance, 1.0..=ENDURANCE_MAX_S);
+    // Of a grid without water it has been told.
+    let has_water = objections.0.iter().all(|objection| objection.clause != "bottom_grid");
+    check_start(v, if has_water { water } else { f64::NAN }, &mut objections.of("vehicle"));
     if let Some(limits) = &scenario.limits {
-        objections.within("limits.depth", limits.depth.unwrap_or(1.0), DEPTHS);
-        objections.within("limits.altitude", limits.altitude, ALTITUDES);
-        objections.within("limits.speed", limits.speed.unwrap_or(1.0), 0.0..=20.0);
+        let mut of = objections.of("limits");
+        of.within("depth", limits.depth.unwrap_or(0.0), DEPTHS);
+        of.within("altitude", limits.altitude, ALTITUDES);
+        of.unless(
+            Some("altitude"),
+            !(limits.altitude > water && water > 0.0 && ALTITUDES.contains(&limits.altitude)),
+            format!(
+                "the vehicle keeps {} m from the bottom, and starts where the water is {} m deep",
+                told(limits.altitude),
+                rounded_down(water)
+            ),
+            format!("make `altitude` {} m at most, or start in deeper water", rounded_down(water)),
+        );
+        of.within("speed", limits.speed.unwrap_or(0.0), 0.0..=20.0);
     }
     if let Some(Route::Waypoints(waypoints)) = scenario.own_mission.as_ref().map(|own| &own.route) {
-        objections.unless(!waypoints.points.is_empty(), "`waypoints.points` is empty: there is nowhere to swim to");
+        let mut of = objections.of("waypoints");
+        let (message, mend) = ("there is nowhere to swim to", "give a point at least");
+        of.unless(Some("points"), !waypoints.points.is_empty(), message, mend);
         for point in &waypoints.points {
-            objections.finite("waypoints.points", [point.north, point.east]);
+            of.finite("points", [point.north, point.east]);
         }
-        objections.positive("waypoints.speed", waypoints.speed);
+        of.positive("speed", waypoints.speed);
     }
+    let mut of = objections.of(v.hull.clause());
+    of.within("endurance", v.endurance, 1.0..=ENDURANCE_MAX_S);
     match &v.hull {
-        HullSetup::Kinematic(hull) => check_kinematic(hull, objections),
-        HullSetup::Fossen(hull) => hull.check(hull::speed_possible(&Fossen::new(), hull.rpm_max()), objections),
+        HullSetup::Kinematic(hull) => check_kinematic(hull, &mut of),
+        HullSetup::Fossen(hull) => hull.check(hull::speed_possible(&Fossen::new(), hull.rpm_max()), &mut of),
         HullSetup::Prestero(hull, crossflow) => {
-            hull.check(hull::speed_possible(&Prestero::new(*crossflow), hull.rpm_max()), objections);
+            hull.check(hull::speed_possible(&Prestero::new(*crossflow), hull.rpm_max()), &mut of);
         }
     }
 }
 
-fn check_kinematic(hull: &KinematicHull, objections: &mut Objections) {
+/// Whether it can start there; `water` is the depth of the water (m), the least that it may be.
+fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
+    of.finite("start", [v.start.north, v.start.east]);
+    of.finite("heading", [v.heading.radians(), 0.0]);
+    of.not_negative("spread", v.start_spread);
+    of.within("depth", v.depth, DEPTHS);
+    let (may, most) = (if v.start_spread > 0.0 { "may start" } else { "starts" }, rounded_down(water));
+    of.unless(Some("start"), water != 0.0, format!("the vehicle {may} on land"), "move `start` into the water");
+    of.unless(
+        Some("depth"),
+        v.depth <= water || water == 0.0 || !water.is_finite() || !v.depth.is_finite(),
+        format!("the vehicle {may} below the bottom: {} m deep in {most} m of water", told(v.depth)),
+        format!("make `depth` {most} m at most, or start in deeper water"),
+    );
+}
+
+fn check_kinematic(hull: &KinematicHull, of: &mut OfClause) {
     for (name, value, bounds) in [
-        ("vehicle.speed_max", hull.speed_max, 0.1..=20.0),
-        ("vehicle.turn_rate", hull.turn_rate, radians(0.1)..=radians(360.0)),
-        ("vehicle.heading_time", hull.heading_time, TICK_S..=60.0),
-        ("vehicle.acceleration", hull.acceleration, 0.001..=10.0),
-        ("vehicle.depth_rate", hull.depth_rate, 0.01..=10.0),
-        ("vehicle.altitude_jitter", hull.altitude_jitter, 0.0..=10.0),
-        ("vehicle.altitude_jitter_max", hull.altitude_jitter_max, 0.0..=10.0),
-        ("vehicle.altitude_jitter_time", hull.altitude_jitter_time, TICK_S..=3600.0),
+        ("speed_max", hull.speed_max, 0.1..=20.0),
+        ("turn_rate", hull.turn_rate, radians(0.1)..=radians(360.0)),
+        ("acceleration", hull.acceleration, 0.001..=10.0),
+        ("depth_rate", hull.depth_rate, 0.01..=10.0),
+        ("wobble", hull.altitude_jitter, 0.0..=10.0),
+        ("wobble_max", hull.altitude_jitter_max, 0.0..=10.0),
+        ("wobble_time", hull.altitude_jitter_time, TICK_S..=3600.0),
+        // No script says it.
+        ("heading_time", hull.heading_time, TICK_S..=60.0),
     ] {
-        objections.within(name, value, bounds);
+        of.within(name, value, bounds);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The grid of a flow field: its nodes, its spacing, and the step that is stable on it.
 
-use crate::scenario::Meander;
+use crate::scenario::{Meander, rounded_down, told};
 use crate::water::frame::FlowFrame;
 
 /// A grid has at most this many nodes.
@@ -32,27 +32,43 @@ pub struct Nodes {
     pub v: Vec<f64>,
 }
 
+/// Why a meander cannot be computed on its grid.
+pub struct MeshFault {
+    /// The parameter of a scenario's `flow` that is to be changed.
+    pub param: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub mend: String,
+}
+
 /// Why a meander cannot be computed on its grid, if it cannot.
-pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Option<String> {
+pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Option<MeshFault> {
+    let fault = |param: &'static str, message: String, mend: String| Some(MeshFault { param, message, mend });
     // Centred differences oscillate when a cell's Peclet number u dx / (k/2) exceeds 2.
     let fastest = fastest(meander, mean_speed);
     let least = fastest * meander.cell;
     if meander.viscosity < least {
-        return Some(format!(
-            "`flow.meander.viscosity` is {} m2/s: cells of {} m in a flow of up to {fastest:.2} m/s need {least:.1} or more",
-            meander.viscosity, meander.cell
-        ));
+        let message = format!(
+            "`viscosity` of `flow` is {} m2/s: too little for cells of {} m in a flow of up to {fastest:.2} m/s",
+            told(meander.viscosity),
+            told(meander.cell)
+        );
+        let (enough, smaller) = ((least * 10.0).ceil() / 10.0, rounded_down(meander.viscosity / fastest));
+        return fault("viscosity", message, format!("make it {enough} m2/s or more, or `cell` {smaller} m or less"));
     }
     let nodes = (frame.length / meander.cell + 1.0) * (frame.width / meander.cell + 1.0);
     if nodes > NODES_MAX {
-        return Some(format!(
-            "`flow.meander.cell` is {} m: over the region that makes more than {NODES_MAX} nodes",
-            meander.cell
-        ));
+        let cell = told(meander.cell);
+        let message = format!("cells of {cell} m over the region make more than {NODES_MAX} nodes");
+        return fault("cell", message, "make `cell` larger, or the region smaller".into());
     }
     let mesh = Mesh::new(meander, frame, mean_speed);
-    (mesh.substeps > SUBSTEPS_MAX)
-        .then(|| format!("`flow.meander` needs more than {SUBSTEPS_MAX} sub-steps to be stable: make the cells larger or the step shorter"))
+    if mesh.substeps > SUBSTEPS_MAX {
+        let message = format!("a flow that meanders so needs more than {SUBSTEPS_MAX} sub-steps to be stable");
+        return fault("cell", message, "make `cell` larger, or `viscosity` smaller".into());
+    }
+    None
 }
 
 /// The speed to be ready for, m/s.
