@@ -160,7 +160,7 @@ impl Hull {
         }
     }
 
-    /// Has so much water in it, kg, of which it becomes heavier: its inertia stays as it was, for what floods a hull in time is
+    /// Has so much water in it, kg, of which it becomes heavier, or lighter where that is below 0: its inertia stays as it was, for what floods a hull in time is
     /// little beside its mass. A kinematic hull does not know weight.
     pub fn flood(&mut self, water: f64) {
         match self {

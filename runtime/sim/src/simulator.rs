@@ -46,6 +46,9 @@ pub struct Truth {
     pub concentration: f64,
 }
 
+/// What a vehicle lets go of that gives up, kg in the water: it floats up then though it be as heavy as the water.
+const DROP_WEIGHT_KG: f64 = 2.0;
+
 /// A simulated vehicle in a simulated world.
 #[derive(Clone, Debug)]
 pub struct Simulator {
@@ -72,6 +75,8 @@ pub struct Simulator {
     /// The latest estimate of the current, for the computer.
     flow: Vector,
     control: Control,
+    /// The same as it was told last.
+    told: Control,
     command: Option<Command>,
     truth: Truth,
     incidents: Incidents,
@@ -114,6 +119,7 @@ impl Simulator {
             watch: Watch::new(scenario.limits.as_ref(), vehicle.hull.speed_max()),
             flow: Vector::ZERO,
             control: Control::Disconnected,
+            told: Control::Disconnected,
             command: None,
             truth: Truth::default(),
             incidents: Incidents::new(&scenario.no_go),
@@ -179,7 +185,7 @@ impl Simulator {
         let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
         self.intake = self.intake_now();
         self.vehicle.stick_rudder(ailing.rudder);
-        self.vehicle.flood(ailing.water);
+        self.vehicle.flood(ailing.water - if self.gives_up() { DROP_WEIGHT_KG } else { 0.0 });
         self.vehicle
             .step(tick, command.as_ref(), flow, |p| self.world.water_depth(p))
             .map_err(|why| VehicleError(why.to_string()))?;
@@ -350,13 +356,17 @@ impl Vehicle for Simulator {
             self.incidents.tell("the battery is empty: the vehicle floats up");
         }
         if self.gives_up() {
-            self.control = Control::Released;
-        }
-        if self.control != Control::Released {
+            // Who has asked, and has not been told yet that he drives, is to have an answer.
+            let drives = matches!(self.told, Control::InControl | Control::Suspended);
+            let has_asked = matches!(self.control, Control::Requesting | Control::InControl);
+            let is_refused = self.control == Control::Refused || has_asked && !drives;
+            self.control = if is_refused { Control::Refused } else { Control::Released };
+        } else if self.control != Control::Released {
             self.control = self.computer.answer(seconds(tick), self.known().position);
         }
         snapshot.samples.clear();
         snapshot.control = self.control;
+        self.told = self.control;
         self.measure(tick, snapshot);
         self.faults.filter(tick, &mut snapshot.samples);
         Ok(())

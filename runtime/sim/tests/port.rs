@@ -3,8 +3,9 @@
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Adcp, Bottom, Flow, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Looks, Navigation, Pit,
-    Plane, Scenario, Simulator, Sounder, Source, SubmersibleHull, Times, UpperFlow, VehicleSetup, presets,
+    Adcp, Bottom, Fault, Flow, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Looks, Navigation,
+    Pit, Plane, Scenario, Simulator, Sounder, Source, SubmersibleHull, Times, Trouble, UpperFlow, VehicleSetup,
+    presets,
 };
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::error::Error;
@@ -165,6 +166,39 @@ fn late_instruments_tell_what_was() {
     }
 }
 
+/// It lets go of a weight: a hull that is as heavy as the water would stay where it is.
+#[test]
+fn whatever_moves_it_a_vehicle_that_leaks_floats_up_and_refuses_who_asks() {
+    let leak = |from| Fault { trouble: Trouble::Leak, from, to: None };
+    for hull in [
+        HullSetup::Kinematic(KinematicHull::default()),
+        HullSetup::Fossen(SubmersibleHull::fossen()),
+        HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected),
+    ] {
+        let vehicle = VehicleSetup { hull, depth: 6.0, ..VehicleSetup::default() };
+        let world = Scenario { bottom: Bottom::flat(30.0), vehicle, ..Scenario::default() };
+        let mut snapshot = Snapshot::default();
+        let mut simulator = Simulator::new(&Scenario { faults: vec![leak(10.0)], ..world.clone() }, 1).unwrap();
+        simulator.sense(&mut snapshot).unwrap();
+        simulator.take_over().unwrap();
+        simulator.command(&Command { heading: Heading::NORTH, speed: 1.5, vertical: Vertical::Depth(6.0) }).unwrap();
+        (0..3000).for_each(|_| simulator.sense(&mut snapshot).unwrap());
+        assert_eq!(snapshot.control, Control::Released);
+        assert!(simulator.truth().depth < 0.5, "{} m deep", simulator.truth().depth);
+
+        for from in [0.0, 0.1] {
+            let leaking = Scenario { faults: vec![leak(from)], ..world.clone() };
+            let mut simulator = Simulator::new(&leaking, 1).unwrap();
+            simulator.sense(&mut snapshot).unwrap();
+            simulator.take_over().unwrap();
+            for _ in 0..3 {
+                simulator.sense(&mut snapshot).unwrap();
+                assert_eq!(snapshot.control, Control::Refused, "who asks is not kept waiting: from {from} s");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_profiler_looks_as_often_as_told_and_a_log_errs_ahead() {
     let scenario = Scenario { adcp: Adcp { rate: 2.0, looks: Looks::Both, ..Adcp::default() }, ..scenario() };
@@ -273,7 +307,7 @@ fn a_vehicle_whose_battery_is_empty_floats_up() {
     assert_eq!(simulator.truth().depth, 0.0);
     simulator.take_over().unwrap();
     simulator.sense(&mut snapshot).unwrap();
-    assert_eq!(snapshot.control, Control::Released);
+    assert_eq!(snapshot.control, Control::Refused);
 }
 
 #[test]
