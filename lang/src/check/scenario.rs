@@ -205,7 +205,10 @@ impl<'t> Checker<'t> {
                 continue;
             }
             let takes = |kind: Option<&String>| kind.is_some() && nested.iter().any(|n| n.as_ref() == kind);
-            if let Some(inner) = self.clause_of_kind(head, takes).or_else(|| self.clause_of_kind(head, |_| true)) {
+            // A parameter of the scenario goes before a clause of its name, but where just such a clause is wanted.
+            let is_local = matches!(&head.kind, K::Name(name) if self.local(name).is_some());
+            let any = |_: Option<&String>| !is_local;
+            if let Some(inner) = self.clause_of_kind(head, takes).or_else(|| self.clause_of_kind(head, any)) {
                 let inner_name = self.clauses[inner].signature.name.clone();
                 // Where it goes: the parameter of its label, else the first whose type it is.
                 let kind = self.clauses[inner].kind.clone();

@@ -1,5 +1,7 @@
 //! One run of a mission, tick by tick, with its journal, trace, digest and picture: in a simulated world or on a link.
 
+mod report;
+
 use crate::craft::{Craft, Odometer};
 use crate::journal::Keeper;
 use crate::picture;
@@ -9,7 +11,7 @@ use crate::world;
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_machine::{Event, Machine, Outcome, Wish};
 use albacore_navigation::Vigil;
-use albacore_program::{AREA_WORDS, PROGRAM_VERSION, Shape};
+use albacore_program::{AREA_WORDS, PROGRAM_VERSION};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Closing, JournalHeader};
 use albacore_trace::{BehaviorTrace, Depths, Digest, Header, Picture, Release};
@@ -184,16 +186,6 @@ impl Run {
     fn deepest_sought(&self) -> Option<Point> {
         let world = &self.plan.scenario;
         self.deepest.filter(|_| world.sources.is_empty() && world.bottom.has_hollows())
-    }
-
-    /// What there is to be found, as far as anybody knows: the place that is nearest to another, and what it is.
-    fn sought(&self, to: Point) -> Option<(Point, &'static str)> {
-        let source = match self.plan.scenario.sources.as_slice() {
-            [_] => "the source",
-            _ => "the nearest source",
-        };
-        let nearest = self.nearest_source(to).map(|at| (at, source));
-        nearest.or(self.deepest_sought().map(|at| (at, "the deepest point of the area")))
     }
 
     /// The corners of the mission's area, once it has one.
@@ -418,28 +410,6 @@ impl Run {
         }
     }
 
-    fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
-        let program = Arc::clone(&self.plan.program);
-        let site = &program.reports[site as usize];
-        let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
-        let frame = self.plan.frame();
-        let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
-        let sought = place.and_then(|p| self.sought(p));
-        if let Some(place) = place {
-            self.picture.declared(&site.name, place);
-        }
-        self.reports.push(Report {
-            name: site.name.clone(),
-            t_s: tick as f64 / (1.0 / TICK_S),
-            north_m: place.map(|p| p.north),
-            east_m: place.map(|p| p.east),
-            latitude_deg: globe.map(|g| g.latitude_deg()),
-            longitude_deg: globe.map(|g| g.longitude_deg()),
-            error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
-            error_from: sought.map(|(_, what)| what),
-        });
-    }
-
     /// The result; `wall_s` is measured by who ran it.
     pub fn summary(&self, wall_s: f64) -> Summary {
         let outcome = self.machine.outcome().map_or("running", Outcome::name);
@@ -482,24 +452,5 @@ impl Run {
             ..Picture::default()
         };
         self.picture.svg(&summary, world)
-    }
-}
-
-/// The point that a reported value is, or begins with.
-fn first_point(shape: Option<&Shape>, words: &[f64]) -> Option<Point> {
-    let point = |at: usize| Some(Point::new(*words.get(at)?, *words.get(at + 1)?));
-    match shape? {
-        Shape::Point => point(0),
-        Shape::Record(_, fields) => {
-            let mut at = 0;
-            for (_, shape) in fields {
-                if matches!(shape, Shape::Point) {
-                    return point(at);
-                }
-                at += shape.words() as usize;
-            }
-            None
-        }
-        _ => None,
     }
 }

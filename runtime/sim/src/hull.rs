@@ -160,8 +160,8 @@ impl Hull {
         }
     }
 
-    /// Has so much water in it, kg, of which it becomes heavier, or lighter where that is below 0: its inertia stays as it was, for what floods a hull in time is
-    /// little beside its mass. A kinematic hull does not know weight.
+    /// Has so much water in it, kg, of which it becomes heavier, or lighter where that is below 0. Its inertia stays as it was, for
+    /// what floods a hull in time is little beside its mass. A kinematic hull does not know weight.
     pub fn flood(&mut self, water: f64) {
         match self {
             Hull::Kinematic(_) => {}

@@ -1,0 +1,62 @@
+//! What a mission reports, and how far it is from what there is to be found.
+
+use super::Run;
+use crate::summary::Report;
+use albacore_geometry::Point;
+use albacore_program::Shape;
+use albacore_vehicle::TICK_S;
+use std::sync::Arc;
+
+impl Run {
+    /// Takes down what was reported at a place of the program.
+    pub(super) fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
+        let program = Arc::clone(&self.plan.program);
+        let site = &program.reports[site as usize];
+        let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
+        let frame = self.plan.frame();
+        let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
+        let sought = place.and_then(|p| self.sought(p));
+        if let Some(place) = place {
+            self.picture.declared(&site.name, place);
+        }
+        self.reports.push(Report {
+            name: site.name.clone(),
+            t_s: tick as f64 / (1.0 / TICK_S),
+            north_m: place.map(|p| p.north),
+            east_m: place.map(|p| p.east),
+            latitude_deg: globe.map(|g| g.latitude_deg()),
+            longitude_deg: globe.map(|g| g.longitude_deg()),
+            error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
+            error_from: sought.map(|(_, what)| what),
+        });
+    }
+
+    /// What there is to be found, as far as anybody knows: the place that is nearest to another, and what it is.
+    fn sought(&self, to: Point) -> Option<(Point, &'static str)> {
+        let source = match self.plan.scenario.sources.as_slice() {
+            [_] => "the source",
+            _ => "the nearest source",
+        };
+        let nearest = self.nearest_source(to).map(|at| (at, source));
+        nearest.or(self.deepest_sought().map(|at| (at, "the deepest point of the area")))
+    }
+}
+
+/// The point that a reported value is, or begins with.
+fn first_point(shape: Option<&Shape>, words: &[f64]) -> Option<Point> {
+    let point = |at: usize| Some(Point::new(*words.get(at)?, *words.get(at + 1)?));
+    match shape? {
+        Shape::Point => point(0),
+        Shape::Record(_, fields) => {
+            let mut at = 0;
+            for (_, shape) in fields {
+                if matches!(shape, Shape::Point) {
+                    return point(at);
+                }
+                at += shape.words() as usize;
+            }
+            None
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,142 @@
+//! What instruments tell.
+
+use super::{driven, names, scenario};
+use albacore_geometry::{Point, Vector};
+use albacore_sim::{
+    Adcp, Bottom, Fluorometer, Lbl, Looks, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow, presets,
+};
+use albacore_vehicle::{Snapshot, Vehicle};
+
+#[test]
+fn each_channel_at_its_own_rate() {
+    let mut simulator = Simulator::new(&scenario(), 1).unwrap();
+    let mut snapshot = Snapshot::default();
+    let mut counts = std::collections::BTreeMap::<String, usize>::new();
+    for _ in 0..=600 {
+        simulator.sense(&mut snapshot).unwrap();
+        for name in names(&simulator, &snapshot) {
+            *counts.entry(name).or_default() += 1;
+        }
+    }
+    for name in ["position", "course", "heading", "speed", "depth", "altitude", "water_depth", "chemical"] {
+        assert_eq!(counts[name], 601, "{name}");
+    }
+    assert_eq!(counts["battery"], 7);
+}
+
+#[test]
+fn the_flow_is_estimated_once_the_vehicle_moves() {
+    let flows = driven(&scenario(), 400, "flow").unwrap();
+    // Messages every 2 s; valid from 0.4 m/s over ground on, reached within 2 s; ten are needed.
+    assert!((188..=191).contains(&flows.len()), "{}", flows.len());
+    let last = flows.last().unwrap();
+    assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "the mean of 100 with 0.05 m/s each: {last:?}");
+}
+
+/// The 2005 paper's own trouble: near the boundary of two currents the upward profiler reads the upper one.
+#[test]
+fn a_low_boundary_deceives_the_profiler() {
+    let mut layered = scenario();
+    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() });
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!((last[0] - 0.2).abs() < 0.02 && last[1].abs() < 0.02, "{last:?}");
+    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 3.5, ..UpperFlow::default() });
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
+}
+
+/// The remedy: what is below the vehicle is in the same layer as the vehicle, as long as there is a bin above the bottom.
+#[test]
+fn a_downward_look_is_not_deceived_by_a_low_boundary() {
+    let upper = UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() };
+    let mut layered = scenario();
+    layered.flow.upper = Some(upper);
+    layered.adcp.looks = Looks::Down;
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
+    layered.adcp.looks = Looks::Both;
+    let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
+    assert!((last[0] - 0.1).abs() < 0.02 && (last[1] - 0.05).abs() < 0.02, "of neither layer: {last:?}");
+    // It begins at 2 m: nothing of the 2 m below can be measured, once the vehicle is down there.
+    layered.adcp = Adcp { blanking: 2.0, looks: Looks::Down, ..Adcp::default() };
+    layered.vehicle.depth = 8.0;
+    assert_eq!(driven(&layered, 400, "flow").unwrap(), Vec::<[f64; 4]>::new());
+}
+
+/// What a late instrument tells is what a prompt one told so much earlier.
+#[test]
+fn late_instruments_tell_what_was() {
+    let channels = ["heading", "speed", "course", "depth", "altitude", "flow"];
+    let prompt = scenario();
+    let (late, delay) = (15, 1.5);
+    let mut tardy = prompt.clone();
+    tardy.compass.delay = delay;
+    tardy.dvl.delay = delay;
+    tardy.pressure.delay = delay;
+    tardy.sounder.delay = delay;
+    tardy.adcp.delay = delay;
+    for channel in channels {
+        let [before, after] = [&prompt, &tardy].map(|scenario| driven(scenario, 60, channel).unwrap());
+        // The last flow of a minute is told at 58 s.
+        let fewer = if channel == "flow" { 0 } else { late };
+        assert!(
+            before.len() > 15 && before.len() - fewer == after.len(),
+            "{channel}: {} {}",
+            before.len(),
+            after.len()
+        );
+        assert_eq!(before[..after.len()], after[..], "{channel}");
+    }
+}
+
+#[test]
+fn a_profiler_looks_as_often_as_told_and_a_log_errs_ahead() {
+    let scenario = Scenario { adcp: Adcp { rate: 2.0, looks: Looks::Both, ..Adcp::default() }, ..scenario() };
+    let flows = driven(&scenario, 60, "flow").unwrap().len();
+    assert!((100..=112).contains(&flows), "two a second, once ten are heard under way: {flows}");
+    let speed = |bias| {
+        let mut scenario = scenario.clone();
+        scenario.dvl.bias = bias;
+        driven(&scenario, 60, "speed").unwrap()[599][0]
+    };
+    assert!((speed(0.1) - speed(0.0) - 0.1).abs() < 1e-3);
+}
+
+#[test]
+fn a_fix_makes_the_position_jump() {
+    let lbl = Lbl { every: 60.0, ..Lbl::default() };
+    let navigated = Scenario { navigation: Some(Navigation { walk: 0.05, lbl: Some(lbl) }), ..scenario() };
+    let positions = driven(&navigated, 100, "position").unwrap();
+    assert_eq!(positions[0][2], 0.0);
+    assert!((positions[599][2] - 0.05 * 59.9_f64.sqrt()).abs() < 1e-9);
+    assert_eq!(positions[600][2], 2.0);
+    let perfect = driven(&scenario(), 100, "position").unwrap();
+    assert!(perfect.iter().all(|p| p[2] == 0.0));
+}
+
+#[test]
+fn a_fast_chemical_sensor_gives_several_samples_a_tick() {
+    let fast =
+        Scenario { fluorometer: Fluorometer { rate: 50.0, ..Fluorometer::default() }, ..presets::duck_2003_flat() };
+    assert_eq!(driven(&fast, 10, "chemical").unwrap().len(), 496, "0 to 9.9 s");
+}
+
+#[test]
+fn over_a_pit_the_water_is_deeper_and_echoes_are_as_noisy_as_told() {
+    let pit = Pit { at: Point::new(60.0, 3.0), depth: 2.0, radius: 15.0, ..Pit::default() };
+    let bottom = Bottom { pits: vec![pit], ..Bottom::flat(10.0) };
+    let mut over = Scenario { bottom, ..scenario() };
+    let exact = driven(&over, 60, "water_depth").unwrap();
+    let deepest = exact.iter().map(|sample| sample[0]).fold(0.0, f64::max);
+    assert!((deepest - 12.0).abs() < 0.02 && (exact[0][0] - 10.0).abs() < 0.01, "{deepest}");
+
+    over.sounder = Sounder { noise: 0.05, ..Sounder::default() };
+    let errors: Vec<f64> = driven(&over, 60, "water_depth")
+        .unwrap()
+        .iter()
+        .zip(&exact)
+        .map(|(noisy, exact)| noisy[0] - exact[0])
+        .collect();
+    let deviation = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+    assert!((deviation - 0.05).abs() < 0.005, "{deviation}");
+}

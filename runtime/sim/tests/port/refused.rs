@@ -1,0 +1,177 @@
+//! What no simulator can be made of.
+
+use super::{scenario, shoal};
+use albacore_geometry::{Point, Vector};
+use albacore_sim::hull::Crossflow;
+use albacore_sim::{
+    Adcp, Bottom, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Navigation, Pit, Plane, Scenario,
+    Simulator, Source, SubmersibleHull, Times, VehicleSetup, presets,
+};
+use std::sync::Arc;
+
+#[test]
+fn impossible_scenarios_are_refused_with_every_reason() {
+    let mut bad = scenario();
+    bad.vehicle.hull = HullSetup::Kinematic(KinematicHull { turn_rate: 0.0, ..KinematicHull::default() });
+    bad.vehicle.depth = 11.0;
+    bad.fluorometer.noise = f64::NAN;
+    let error = Simulator::new(&bad, 1).unwrap_err();
+    assert_eq!(error.faults.len(), 3, "{error}");
+    assert!(error.to_string().contains("`turn_rate` of `kinematic` is 0: it must be 0.0017"), "{error}");
+}
+
+#[test]
+fn impossible_plumes_are_refused() {
+    let fault = |change: &dyn Fn(&mut Scenario)| {
+        let mut scenario = presets::duck_2003();
+        change(&mut scenario);
+        scenario.validate().unwrap_err().to_string()
+    };
+    for (fault, expected) in [
+        (fault(&|s| s.flow.mean = Vector::ZERO), "needs a `flow` that carries it"),
+        (fault(&|s| s.region = None), "`plume` needs a `region`"),
+        (fault(&|s| s.plume = None), "a `source` needs a `plume`"),
+        (fault(&|s| s.sources[0].at = Point::new(5000.0, 0.0)), "outside the `region`"),
+        (fault(&|s| s.sources[0].height = 4.0), "and the `layer` of the plume 3.5 m high"),
+        (fault(&|s| s.sources[0].rate = 1000.0), "filaments are alive at a time"),
+        (fault(&|s| s.plume.as_mut().unwrap().layer = None), "`vertical` of `plume` needs a `layer`"),
+        (fault(&|s| s.plume.as_mut().unwrap().step = 0.25), "`step` of `plume` is 0.25 s"),
+        (
+            fault(&|s| s.flow.meander.as_mut().unwrap().viscosity = 1.0),
+            "too little for cells of 20 m in a flow of up to",
+        ),
+        (fault(&|s| s.flow.meander.as_mut().unwrap().cell = 1.0), "make more than 40000 nodes"),
+        (fault(&|s| s.flow.meander.as_mut().unwrap().damping = 1.0), "`damping` of `flow` is 1"),
+    ] {
+        assert!(fault.contains(expected), "{fault}");
+    }
+    assert_eq!(presets::duck_2003().validate(), Ok(()));
+    assert_eq!(presets::duck_2003_flat().validate(), Ok(()));
+}
+
+/// The clauses and parameters that a scenario's objections name.
+fn objected(scenario: &Scenario) -> Vec<(&'static str, usize, Option<&'static str>)> {
+    let faults = scenario.validate().err().map_or_else(Vec::new, |error| error.faults);
+    faults.iter().map(|fault| (fault.clause, fault.nth, fault.param)).collect()
+}
+
+#[test]
+fn chemical_where_there_is_no_water_is_refused() {
+    let changed = |change: &dyn Fn(&mut Scenario)| {
+        let mut scenario = presets::duck_2003();
+        change(&mut scenario);
+        objected(&scenario)
+    };
+    let layer = |s: &mut Scenario, high| s.plume.as_mut().unwrap().layer = Some(high);
+    assert_eq!(changed(&|s| layer(s, 1e9)), [("plume", 0, Some("layer"))]);
+    assert_eq!(changed(&|s| s.sources[0].height = 500.0), [("source", 0, Some("height"))]);
+    let twin = |s: &mut Scenario| s.sources.extend([Source { to: Some(s.sources[0].at), ..s.sources[0].clone() }]);
+    assert_eq!(changed(&twin), [("leak", 0, Some("name"))]);
+    // What has always released may have ceased before the run; what begins later may not.
+    assert_eq!(changed(&|s| s.sources[0].when.ends = -1000.0), []);
+    let backward = |s: &mut Scenario| s.sources[0].when = Times { begins: 10.0, ends: 5.0, ..Times::default() };
+    assert_eq!(changed(&backward), [("source", 0, Some("ends"))]);
+    let ashore = Scenario { limits: Some(Limits { altitude: 100.0, ..Limits::default() }), ..scenario() };
+    assert_eq!(objected(&ashore), [("limits", 0, Some("altitude"))]);
+    let mut stepped = presets::duck_2003();
+    stepped.plume.as_mut().unwrap().step = 1000.0;
+    assert_eq!(objected(&stepped), [("plume", 0, Some("step"))], "and nothing of a step that no script can say");
+}
+
+#[test]
+fn an_impossible_profiler_is_refused() {
+    let adcp = Adcp { bias: f64::NAN, blanking: -1.0, bin: 0.0, count: 0, ..Adcp::default() };
+    let error = Simulator::new(&Scenario { adcp, ..scenario() }, 1).unwrap_err();
+    assert_eq!(error.faults.len(), 4, "{error}");
+    assert!(error.to_string().contains("`bin` of `adcp` is 0: it must be 0.1 to 100"), "{error}");
+}
+
+#[test]
+fn impossible_hulls_and_limits_are_refused() {
+    let mut bad = scenario();
+    let hull = SubmersibleHull { speed_max: 2.6, fin_max: 2.0, step: 0.03, ..SubmersibleHull::fossen() };
+    bad.vehicle.hull = HullSetup::Fossen(hull);
+    bad.limits = Some(Limits { depth: Some(-1.0), altitude: f64::NAN, speed: None });
+    let said = bad.validate().unwrap_err();
+    assert_eq!(said.faults.len(), 5, "{said}");
+    for expected in [
+        "its `turns_max` of 25.42 Hz gives 2.55 m/s at most",
+        "`step` of `fossen` is 30 ms",
+        "`depth` of `limits` is -1",
+    ] {
+        assert!(said.to_string().contains(expected), "{said}");
+    }
+    for hull in [
+        HullSetup::Fossen(SubmersibleHull::fossen()),
+        HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::AsPrinted),
+    ] {
+        bad.vehicle.hull = hull;
+        bad.limits = None;
+        assert_eq!(bad.validate(), Ok(()));
+    }
+}
+
+#[test]
+fn hulls_and_instruments_have_bounds() {
+    let fossen =
+        |turns_max, speed_max| HullSetup::Fossen(SubmersibleHull { turns_max, speed_max, ..SubmersibleHull::fossen() });
+    let kinematic = KinematicHull { speed_max: 1e6, acceleration: 1e11, ..KinematicHull::default() };
+    let lbl = Lbl { drift: Vector::new(10.0, 0.0), sigma: 1e9, gate: 1e9, every: 1e9, ..Lbl::default() };
+    let sensors = Scenario {
+        navigation: Some(Navigation { walk: 1e6, lbl: Some(lbl) }),
+        fluorometer: Fluorometer { noise: 1e6, ahead: 1e9, ..Fluorometer::default() },
+        limits: Some(Limits { altitude: 1e9, ..Limits::default() }),
+        ..scenario()
+    };
+    let with = |hull| Scenario { vehicle: VehicleSetup { hull, ..VehicleSetup::default() }, ..scenario() };
+    for (bad, faults) in [
+        (with(fossen(3000.0, 80.0)), 2),
+        (with(fossen(300.0, 16.0)), 2),
+        (with(fossen(f64::NAN, f64::NAN)), 2),
+        (with(HullSetup::Kinematic(kinematic)), 2),
+        (sensors, 8),
+    ] {
+        let said = bad.validate().unwrap_err();
+        assert_eq!(said.faults.len(), faults, "{said}");
+        assert!(said.faults.iter().all(|fault| fault.to_string().contains("it must be")), "{said}");
+    }
+}
+
+#[test]
+fn impossible_pits_and_starts_are_refused() {
+    let mut bad = scenario();
+    bad.bottom.pits = vec![Pit { depth: -1.0, radius: 0.0, ..Pit::default() }];
+    bad.bottom.ground = Ground::Plane(Plane { from: 10.0, to: 4.0, ..Plane::default() });
+    bad.vehicle.depth = 5.0;
+    assert!(!bad.validate().unwrap_err().to_string().contains("below the bottom"), "it starts where the water is 7 m");
+    bad.vehicle.start_spread = 50.0;
+    bad.sounder.noise = f64::NAN;
+    let said = bad.validate().unwrap_err();
+    assert_eq!(said.faults.len(), 4, "{said}");
+    assert!(said.to_string().contains("`depth` of `pit` is -1") && said.to_string().contains("below the bottom"));
+}
+
+#[test]
+fn grids_that_cannot_be_and_starts_on_land_are_refused() {
+    let on = |grid: Grid| Bottom { ground: Ground::Grid(Arc::new(grid)), pits: Vec::new() };
+    let said = |bad: &Scenario| bad.validate().unwrap_err().to_string();
+    let mut bad = Scenario { bottom: on(shoal()), ..Scenario::default() };
+    assert_eq!(bad.validate(), Ok(()));
+    bad.vehicle.start = Point::new(60.0, 0.0);
+    assert!(said(&bad).contains("on land"), "{}", said(&bad));
+    bad.vehicle.start = Point::ORIGIN;
+    bad.vehicle.start_spread = 10.0;
+    assert!(said(&bad).contains("on land"), "a cell of land has a part in the depths about it: {}", said(&bad));
+    bad.vehicle.start_spread = 0.0;
+    bad.vehicle.depth = 6.0;
+    assert!(said(&bad).contains("below the bottom"));
+    for wrong in [
+        Grid { depths: vec![20.0; 3], ..shoal() },
+        Grid { rows: 1, columns: 4, ..shoal() },
+        Grid { depths: vec![20.0, f64::NAN, 1.0, 1.0], ..shoal() },
+        Grid { north_east: Point::new(-100.0, 100.0), ..shoal() },
+    ] {
+        let bad = Scenario { bottom: on(wrong), ..Scenario::default() };
+        assert!(bad.validate().unwrap_err().faults.iter().any(|f| f.clause == "bottom_grid"), "{}", said(&bad));
+    }
+}
