@@ -34,9 +34,18 @@ fn values_from_outside_are_checked() {
 /// What a person reads when a value from outside is wrong.
 #[test]
 fn wrong_values_are_told() {
-    let told = ["lambda:6s", "lamda=6s", "cpt_2005.lambda=6s", "trace_plume.lambda=6s"].map(|set| {
+    let wrong: [&[&str]; 6] = [
+        &["lambda:6s"],
+        &["lamda=6s"],
+        &["lambda=6"],
+        &["cpt_2005.lambda=6s"],
+        &["trace_plume.lambda=6s"],
+        &["lambda=6s", "lambda=7s"],
+    ];
+    let told = wrong.map(|sets| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
-        command.args(["check", "missions/duck_single.alb", "--set", set]).env("NO_COLOR", "1").stdin(Stdio::null());
+        command.args(["check", "missions/duck_single.alb"]).env("NO_COLOR", "1").stdin(Stdio::null());
+        command.args(sets.iter().flat_map(|set| ["--set", set]));
         String::from_utf8(command.output().unwrap().stderr).unwrap()
     });
     insta::assert_snapshot!(told.join("\n"));

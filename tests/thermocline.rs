@@ -38,6 +38,6 @@ fn a_thermocline_is_found_where_it_is() {
 fn a_vehicle_without_a_ctd_is_refused_at_once() {
     let output = run(&["--in", "calm", "--no-out"]);
     let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("requires `temperature`, which this vehicle does not deliver"), "{said}");
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("the vehicle of `calm` has no sensor for `temperature`"), "{said}");
 }

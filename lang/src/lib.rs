@@ -207,6 +207,14 @@ impl Script {
         rules::operating_area(&self.hir, *id)
     }
 
+    /// The inputs that a mission requires, each with the place where it says so.
+    pub fn requirements(&self, mission: &str) -> Vec<(&str, source::Span)> {
+        let id = self.missions.iter().find(|(info, _)| info.name == mission).map(|(_, id)| *id);
+        let parts = id.and_then(|id| self.hir.activities[id].mission.as_ref());
+        let requires = parts.into_iter().flat_map(|parts| &parts.requires);
+        requires.map(|require| (self.hir.inputs[require.input].name.as_str(), require.span)).collect()
+    }
+
     /// The checked program, its types, and where a mission stands in it.
     pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;

@@ -11,6 +11,9 @@ use crate::syntax::tree;
 use crate::types::Type;
 use crate::{foreign, suggest};
 
+/// Verbs whose setpoints are told after `at`, not among their arguments.
+const GUIDANCE: [&str; 5] = ["goto", "follow", "dubins", "loiter", "steer"];
+
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const NUMBER: Type = Type::Quantity(Dimension::NONE);
 
@@ -77,7 +80,11 @@ impl<'t> Checker<'t> {
                         label.span,
                         format!("`{what}` has no parameter `{}`", label.node),
                     );
+                    let is_setpoint = ["depth", "altitude", "speed"].contains(&label.node.as_str());
                     let finding = match self.suggestion(&label.node, params.iter().map(|p| p.name.as_str())) {
+                        _ if is_setpoint && GUIDANCE.contains(&what) => {
+                            finding.help(format!("what it keeps follows `at`: `{what} … at {} …`", label.node))
+                        }
                         Some(help) => finding.help(help),
                         None => finding,
                     };

@@ -127,14 +127,15 @@ impl<'t> Checker<'t> {
                 self.hir.inputs.push(hir::Input { name: name.node.clone(), ty: Type::Unknown, fields: Vec::new() });
                 self.define(m, name, Def::Input(self.hir.inputs.len() - 1));
             }
-            Item::Clause { name, result, .. } => {
+            Item::Clause { name, result, of_vehicle, .. } => {
                 let signature =
                     Signature { name: name.node.clone(), span: name.span, params: Vec::new(), result: None };
                 let kind = result.as_ref().and_then(|ty| match &ty.kind {
                     TyKind::Named { path, .. } => Some(path.text()),
                     TyKind::List { .. } => None,
                 });
-                self.clauses.push(ClauseInfo { signature, nested: Vec::new(), otherwise: Vec::new(), kind });
+                let (nested, otherwise, of_vehicle) = (Vec::new(), Vec::new(), *of_vehicle);
+                self.clauses.push(ClauseInfo { signature, nested, otherwise, kind, of_vehicle });
                 self.define(m, name, Def::Clause(self.clauses.len() - 1));
             }
             Item::Fn(f) => {

@@ -144,6 +144,8 @@ struct ClauseInfo<'t> {
     otherwise: Vec<Option<&'t tree::Expr>>,
     /// A clause of a kind is the value of another clause's parameter, not a clause of its own.
     kind: Option<String>,
+    /// A vehicle may say it, and brings it to whatever scenario it swims in.
+    of_vehicle: bool,
 }
 
 /// Where code stands, which tells what it may do.

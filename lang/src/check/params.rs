@@ -57,9 +57,10 @@ impl<'t> Checker<'t> {
             let ty = self.written_type(m, &param.ty);
             let range = param.range.as_ref().and_then(|r| self.constant_range(m, r, &ty));
             let replaced = owner.and_then(|owner| self.take_override(m, owner, &param.name.node));
+            let what = if replaced.is_some() { "the value" } else { "the default" };
             let default = replaced.as_ref().or(param.default.as_ref()).map(|written| {
                 let scope = Scope::new(m, Setting::Constant);
-                let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, "the default"));
+                let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, what));
                 value
             });
             match (&default, range) {
@@ -97,6 +98,12 @@ impl<'t> Checker<'t> {
             owners.iter().filter(|(o, _)| is_meant(o)).flat_map(|(_, params)| params).map(String::as_str).collect();
         let named = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" nor ");
         let Override { declarations, param, place, .. } = unused;
+        let is_again = |o: &&Override| o.found.is_some() && o.param == *param && o.declarations == *declarations;
+        if let Some(first) = self.overrides.iter().find(is_again) {
+            let finding = Diagnostic::error(Code::ArgsTwice, *place, format!("`{param}` is set twice"));
+            let finding = finding.label(first.place, "the first").help("leave one of them out");
+            return self.report(finding);
+        }
         let finding = |message: String| Diagnostic::error(Code::SetUnknown, *place, message);
         let is_plain = place.end as usize == param.len();
         let finding = match declarations.as_slice() {

@@ -7,6 +7,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{ClauseArg, ClauseUse};
+use crate::suggest;
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
 
@@ -19,6 +20,13 @@ pub(super) enum Standing {
     Value,
     /// On a line of a vehicle.
     Vehicle,
+}
+
+impl Standing {
+    /// What it is in.
+    fn whole(self) -> &'static str {
+        if self == Standing::Vehicle { "vehicle" } else { "scenario" }
+    }
 }
 
 impl<'t> Checker<'t> {
@@ -109,11 +117,14 @@ impl<'t> Checker<'t> {
                     }
                     self.misplaced(
                         clause.span,
-                        "a scenario says what the world is, not what is done",
+                        &format!("a {} says what is, not what is done", standing.whole()),
                         "move this into a mission",
                     );
                 }
-                _ => self.misplaced(clause.span, "a scenario holds clauses such as `flow(…)`", "move this elsewhere"),
+                _ => {
+                    let message = format!("a {} holds clauses such as `limits(…)`", standing.whole());
+                    self.misplaced(clause.span, &message, "move this elsewhere");
+                }
             }
         }
         clauses
@@ -157,15 +168,14 @@ impl<'t> Checker<'t> {
                 K::Name(name) => name.clone(),
                 _ => "this".to_string(),
             };
-            let finding =
-                Diagnostic::error(Code::ScenariosClause, callee.span, format!("`{name}` is no clause of a scenario"));
-            let known: Vec<String> = self
-                .clauses
-                .iter()
-                .filter(|c| c.kind.is_some() == as_value)
-                .map(|c| c.signature.name.clone())
-                .collect();
-            let finding = match self.suggestion(&name, known.iter().map(String::as_str)) {
+            let finding = Diagnostic::error(
+                Code::ScenariosClause,
+                callee.span,
+                format!("`{name}` is no clause of a {}", standing.whole()),
+            );
+            let may_stand = |kind: Option<&String>| kind.is_some() == as_value || self.is_line_of(standing, kind);
+            let known = self.clauses.iter().filter(|c| may_stand(c.kind.as_ref()));
+            let finding = match self.suggestion(&name, known.map(|c| c.signature.name.as_str())) {
                 Some(help) => finding.help(help),
                 None => finding,
             };
@@ -177,11 +187,14 @@ impl<'t> Checker<'t> {
             let signature = &clause.signature;
             (signature.name.clone(), signature.params.clone(), clause.nested.clone(), clause.otherwise.clone())
         };
-        let kind = &self.clauses[id].kind;
-        let is_of_vehicle =
-            standing == Standing::Vehicle && kind.as_ref().is_some_and(|k| self.vehicle_kinds().contains(k));
-        if kind.is_some() != as_value && !is_of_vehicle {
-            let help = if as_value { "it stands on a line of its own" } else { "it is a value of another clause" };
+        let kind = self.clauses[id].kind.as_ref();
+        if kind.is_some() != as_value && !self.is_line_of(standing, kind) {
+            let takes =
+                self.clauses.iter().find(|c| c.nested.iter().any(|nested| nested.is_some() && nested.as_ref() == kind));
+            let help = match takes {
+                Some(clause) => format!("it is a value of another clause: `{}({name}…)`", clause.signature.name),
+                None => "it stands on a line of its own".to_string(),
+            };
             self.report(
                 Diagnostic::error(Code::ScenariosClause, e.span, format!("`{name}` cannot stand here")).help(help),
             );
@@ -256,9 +269,24 @@ impl<'t> Checker<'t> {
         }
         let plain: Vec<super::ParamInfo> =
             params.iter().zip(&nested).filter(|(_, n)| n.is_none()).map(|(p, _)| p.clone()).collect();
+        // What is no clause fits nothing where only clauses do.
+        if let (true, [arg, ..]) = (plain.is_empty() && !nested.is_empty(), plain_args.as_slice()) {
+            let kinds: Vec<String> = nested.iter().flatten().cloned().collect();
+            let fits = self.clauses.iter().filter(|c| c.kind.as_ref().is_some_and(|kind| kinds.contains(kind)));
+            let fits: Vec<&str> = fits.map(|c| c.signature.name.as_str()).collect();
+            let message = format!("`{name}` takes no such thing: it takes a {}", kinds.join(" or a "));
+            let finding = Diagnostic::error(Code::ScenariosClause, arg.value.span, message);
+            self.report(finding.help(format!("there is {}", suggest::listed(&fits))));
+            return None;
+        }
         let checked = self.arguments(&name, &plain, &plain_args, e.span, None).filter(|_| !failed)?;
         values.extend(plain.into_iter().map(|p| p.name).zip(checked.into_iter().map(ClauseArg::Value)));
         Some(ClauseUse { name, span: e.span, args: values })
+    }
+
+    /// Whether what is else the value of a clause stands on a line there: a vehicle says how it moves.
+    fn is_line_of(&self, standing: Standing, kind: Option<&String>) -> bool {
+        standing == Standing::Vehicle && kind.is_some_and(|kind| self.vehicle_kinds().contains(kind))
     }
 
     /// What may be meant by a name that no value of a clause has.

@@ -19,27 +19,6 @@ pub(super) const CLAUSE: &str = "vehicle";
 /// The module of the standard library that holds vehicles.
 const LIBRARY: &str = "vehicles";
 
-/// Clauses of the world: they hold for whatever vehicle swims there, and no vehicle brings them.
-const OF_THE_WORLD: [&str; 17] = [
-    "flow",
-    "turning",
-    "tide",
-    "waves",
-    "upper_layer",
-    "stratification",
-    "region",
-    "bottom",
-    "bottom_grid",
-    "pit",
-    "no_go",
-    "plume",
-    "source",
-    "leak",
-    "patch",
-    "recorded_plume",
-    CLAUSE,
-];
-
 /// A vehicle, as far as it is checked.
 #[derive(Clone, Debug)]
 pub(super) struct VehicleInfo {
@@ -75,13 +54,11 @@ impl<'t> Checker<'t> {
             self.within(Scope::new(m, Setting::Constant), |c| c.clause_lines(body, Standing::Vehicle));
         self.clauses_once(&clauses);
         clauses.retain(|used| {
-            let is_own = !(OF_THE_WORLD.contains(&used.name.as_str()) && self.stands_alone(&used.name));
+            let is_own = !self.stands_alone(&used.name) || self.is_of_vehicle(&used.name);
             if !is_own {
-                let message = format!("`{}` is of the world, not of a vehicle", used.name);
+                let message = format!("`{}` belongs in a scenario, not in a vehicle", used.name);
                 let finding = Diagnostic::error(Code::ScenariosClause, used.span, message);
-                self.report(
-                    finding.help("move it into the scenario: a vehicle says how it moves, its instruments, its limits"),
-                );
+                self.report(finding.help("move it there: a vehicle says how it moves, its instruments, its limits"));
             }
             is_own
         });
@@ -121,6 +98,11 @@ impl<'t> Checker<'t> {
     /// Whether a clause of this name stands on a line of its own.
     fn stands_alone(&self, name: &str) -> bool {
         self.clauses.iter().any(|clause| clause.signature.name == name && clause.kind.is_none())
+    }
+
+    /// Whether that clause is one that a vehicle may say.
+    fn is_of_vehicle(&self, name: &str) -> bool {
+        self.clauses.iter().any(|clause| clause.signature.name == name && clause.of_vehicle)
     }
 
     /// The vehicle that an expression names.

@@ -27,7 +27,7 @@ pub fn declaration(item: &Item, span: Span, written: &Written, comments: &mut Co
             fields.iter().for_each(|field| drop(comments.above(field.name.span.start)));
             whole("input", name, span, written)
         }
-        Item::Clause { name, params, result } => Declaration {
+        Item::Clause { name, params, result, .. } => Declaration {
             params: self::params(params, written, comments),
             result: result.as_ref().map(|ty| written.of(ty.span)),
             ..whole("clause", name, span, written)

@@ -7,8 +7,8 @@ use crate::hir::{Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir};
 use crate::source::Span;
 use albacore_geometry::{Area, Edge, Geodetic, Heading, Point, TangentFrame};
 
-/// A no-go zone may well lie beside the area; one that is farther from it than this, m, keeps nobody out of anything.
-const NO_GO_FAR_M: f64 = 10_000.0;
+/// A no-go zone or a region may well lie beside the area; one that is farther from it than this, m, is nothing to the mission.
+const FAR_M: f64 = 10_000.0;
 
 /// The findings for the scenario that a mission names, as far as its places and the area are constants.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
@@ -19,10 +19,15 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let Some(scenario) = hir.scenarios.iter().find(|s| s.name == name) else { return Vec::new() };
     let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
     let far = |clause: &ClauseUse| {
-        let (_, value) = clause.args.iter().find(|(name, _)| clause.name == "no_go" && name == "area")?;
+        let what = match clause.name.as_str() {
+            "no_go" => "this no-go zone is",
+            "region" => "this region is",
+            _ => return None,
+        };
+        let (_, value) = clause.args.iter().find(|(name, _)| name == "area")?;
         let ClauseArg::Value(e) = value else { return None };
         let out = beyond(&area, &self::area(e, frame)?);
-        (out > NO_GO_FAR_M).then(|| finding(&activity.name, written, e.span, "this no-go zone is", out))
+        (out > FAR_M).then(|| finding(&activity.name, written, e.span, what, out))
     };
     let outside = |clause: &ClauseUse| {
         let (what, param) = match clause.name.as_str() {

@@ -147,6 +147,7 @@ fn item(b: &mut Builder, pair: P) -> Option<Item> {
             name: name(b, inner.next()?),
             params: take(&mut inner, Rule::clause_params).map(|p| params(b, p)).unwrap_or_default(),
             result: take(&mut inner, Rule::ty).map(|p| ty(b, p)),
+            of_vehicle: take(&mut inner, Rule::of_vehicle).is_some(),
         },
         Rule::fn_item => Item::Fn(Function {
             name: name(b, inner.next()?),

@@ -173,11 +173,23 @@ fn quantity(text: &str) -> Option<(&str, &str)> {
 /// A setpoint without the word before it.
 fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let channel = |word: &str| ["depth", "altitude", "speed"].into_iter().find(|c| *c == word);
-    let first = rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
+    let first = word(rest);
     let has_setpoints = before.split_whitespace().any(|word| word == "with" || word == "at");
-    // `goto p speed 3 m/s`
+    // `goto p with speed 3 m/s`
+    if let Some(setpoints) = rest.strip_prefix("with ").map(line_end)
+        && !before.trim().is_empty()
+        && channel(word(setpoints)).is_some()
+    {
+        let message = Some("what a maneuver keeps follows `at`".to_string());
+        return Some(Habit {
+            message,
+            help: format!("write `at {setpoints}`, or `with {setpoints}` on a line before it"),
+        });
+    }
+    // `goto p speed 3 m/s`, `goto p speed: 3 m/s`
     if let Some(channel) = channel(first) {
-        let value = rest[first.len()..].split(['\n', ';', ',', '{', '}']).next().unwrap_or("").trim();
+        let value = rest[first.len()..].trim_start().trim_start_matches(':');
+        let value = value.split(['\n', ';', ',', '{', '}']).next().unwrap_or("").trim();
         return Some(if has_setpoints {
             Habit {
                 message: Some(format!("a comma is missing before `{channel}`")),
@@ -209,11 +221,20 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     None
 }
 
+/// The word that a text begins with.
+fn word(text: &str) -> &str {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")
+}
+
+/// What is left of a line.
+fn line_end(text: &str) -> &str {
+    text.split(['\n', ';', '{', '}']).next().unwrap_or("").trim()
+}
+
 /// Two statements on one line.
 fn crowded(rest: &str) -> Option<Habit> {
-    let word = rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
     super::errors::CLAUSE_WORDS
-        .contains(&word)
+        .contains(&word(rest))
         .then(|| Habit { message: None, help: "a statement begins on a line of its own, or after `;`".to_string() })
 }
 

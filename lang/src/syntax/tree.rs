@@ -38,7 +38,7 @@ pub enum Item {
     Record { name: Name, fields: Vec<Field> },
     Unit { name: Name, value: Expr },
     Input { name: Name, ty: Ty, fields: Vec<Field> },
-    Clause { name: Name, params: Vec<Param>, result: Option<Ty> },
+    Clause { name: Name, params: Vec<Param>, result: Option<Ty>, of_vehicle: bool },
     Fn(Function),
     Signal { name: Name, ty: Option<Ty>, value: Expr },
     Activity(Activity),

@@ -1,11 +1,9 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
 use crate::plan::PlanError;
-use crate::world;
-use albacore_lang::code::Code;
+use crate::{suit, world};
+use albacore_lang::Script;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::{ScenarioProgram, Script};
-use albacore_sim::Scenario;
 
 /// All that is wrong with a script's sound missions and with its own sound scenarios, and notes of what is worth knowing.
 pub fn findings(script: &Script) -> Vec<Diagnostic> {
@@ -34,21 +32,9 @@ fn scenario(script: &Script, name: &str) -> Vec<Diagnostic> {
     match world::sound(&lowered, script) {
         Err(PlanError::Script(findings, _)) => findings,
         Err(PlanError::Asked(..)) => Vec::new(),
-        Ok(understood) => uncovered(script, name, &lowered, &understood.world),
+        Ok(understood) => {
+            let missions = script.missions().filter(|mission| mission.scenario.as_deref() == Some(name));
+            missions.flat_map(|mission| suit::findings(script, &mission.name, name, &understood.world)).collect()
+        }
     }
-}
-
-/// The areas of missions that a recorded plume does not cover, or not all of them.
-fn uncovered(script: &Script, name: &str, scenario: &ScenarioProgram, world: &Scenario) -> Vec<Diagnostic> {
-    let record = scenario.clauses.iter().find(|clause| clause.name == "recorded_plume");
-    let span = record.map_or(scenario.span, |clause| clause.span);
-    let missions = script.missions().filter(|mission| mission.scenario.as_deref() == Some(name));
-    let found = missions.filter_map(|mission| {
-        let (area, written) = script.operating_area(&mission.name)?;
-        let beyond = crate::scenario::uncovered(world, &mission.name, &area)?;
-        let finding = if beyond.all { Diagnostic::error } else { Diagnostic::note };
-        let finding = finding(Code::ScenariosOutside, written, beyond.message);
-        Some(finding.label(span, "the record").help(beyond.help))
-    });
-    found.collect()
 }

@@ -14,6 +14,7 @@ pub mod prompt;
 mod run;
 mod scenario;
 mod shown;
+mod suit;
 mod summary;
 mod tests;
 mod wanted;

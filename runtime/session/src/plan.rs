@@ -1,12 +1,10 @@
 //! What is to be run: a mission, chosen from a script, and the world that it runs in.
 
 use crate::faults::Faults;
-use crate::scenario;
 use crate::wanted::Wanted;
-use crate::world;
+use crate::{suit, world};
 use albacore_geometry::TangentFrame;
-use albacore_lang::code::Code;
-use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::diagnostic::{Diagnostic, Severity};
 use albacore_lang::source::{Source, Sources};
 use albacore_lang::{Script, suggestion};
 use albacore_link::Dialect;
@@ -73,20 +71,14 @@ impl Plan {
                 Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan }
             }
         };
-        plan.covering(script)
+        plan.suiting(script)
     }
 
-    /// The same, if its world knows anything of the area of its mission: a recorded one may lie elsewhere.
-    pub(crate) fn covering(self, script: &Script) -> Result<Self, PlanError> {
-        let name = &self.program.mission.name;
-        let Some((area, written)) = script.operating_area(name) else { return Ok(self) };
-        match scenario::uncovered(&self.scenario, name, &area).filter(|beyond| beyond.all) {
-            Some(beyond) => {
-                let finding = Diagnostic::error(Code::ScenariosOutside, written, beyond.message);
-                Err(PlanError::script(vec![finding.help(beyond.help)], script))
-            }
-            None => Ok(self),
-        }
+    /// The same, if its world has what its mission needs.
+    pub(crate) fn suiting(self, script: &Script) -> Result<Self, PlanError> {
+        let findings = suit::findings(script, &self.program.mission.name, &self.scenario_name, &self.scenario);
+        let errors: Vec<_> = findings.into_iter().filter(|finding| finding.severity == Severity::Error).collect();
+        if errors.is_empty() { Ok(self) } else { Err(PlanError::script(errors, script)) }
     }
 
     /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.

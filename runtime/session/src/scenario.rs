@@ -22,8 +22,6 @@ use albacore_trace::journal::SourceDigest;
 use clause::Clause;
 pub(crate) use objected::objected;
 
-pub(crate) use recorded::uncovered;
-
 /// A scenario that was understood.
 pub(crate) struct Understood {
     /// The simulator's own.
@@ -51,9 +49,7 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
             "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
             "vehicle" => vehicle::vehicle(&mut understood.world, &clause),
             "fault" => fault::fault(&mut understood.world, &clause),
-            "dialect" => {
-                vehicle::dialect(&clause).map(|dialect| understood.dialect = Some(dialect)).map_err(Into::into)
-            }
+            "dialect" => vehicle::dialect(&clause).map(|dialect| understood.dialect = Some(dialect)),
             _ => apply(&mut understood.world, &clause).map_err(Into::into),
         };
         if let Err(Wrong(faults)) = read {

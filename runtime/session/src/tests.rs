@@ -49,7 +49,7 @@ const EXAMPLES_MAX: usize = 3;
 /// its scenario.
 pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<TestResult, PlanError> {
     let plan = Plan::with(script, Arc::new(test.mission.clone()), &test.scenario)?;
-    let plan = plan.covering(script)?.with_faults(faults)?;
+    let plan = plan.suiting(script)?.with_faults(faults)?;
     let seeds: Vec<u64> = (test.seeds.0..=test.seeds.1).collect();
     let runs: Result<Vec<Judged>, PlanError> = seeds.par_iter().map(|&seed| judge(&plan, test, seed)).collect();
     let runs = runs?;

@@ -114,7 +114,7 @@ fn an_area_where_nothing_was_recorded_is_told() {
             unreachable!("it can be run")
         };
         let (message, help) = (refused[0].message.clone(), refused[0].help.clone().unwrap());
-        assert_eq!(message, "no part of the area of the mission `m` lies in the region of the record");
+        assert_eq!(message, "no part of the area of the mission `m` lies in the record of `here`");
         assert!(help.contains("-547 m to 547 m north and -184 m to 184 m east of the origin"), "{help}");
         assert_eq!((&found[0].message, found[0].help.as_ref()), (&message, Some(&help)));
     }
@@ -123,8 +123,8 @@ fn an_area_where_nothing_was_recorded_is_told() {
 #[test]
 fn an_area_that_reaches_beyond_the_record_is_noted_and_can_be_run_in() {
     for (center, said) in [
-        ("point(north: 0 m, east: 366 m)", Some("reaches 366 m beyond the region of the record")),
-        ("point(north: 12 m, east: 3 m)", Some("reaches 12 m beyond the region of the record")),
+        ("point(north: 0 m, east: 366 m)", Some("reaches 366 m beyond the record of `here`")),
+        ("point(north: 12 m, east: 3 m)", Some("reaches 12 m beyond the record of `here`")),
         ("point(north: 0.1 m, east: 0 m)", None),
         // Degrees: the record lies about the middle of the area, wherever that is.
         ("36°10.8'N 75°44.4'W", None),

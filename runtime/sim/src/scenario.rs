@@ -25,6 +25,7 @@ pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, Submer
 use crate::fault::{self, Fault};
 use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
+use albacore_vehicle::{Channel, channels};
 use serde::{Deserialize, Serialize};
 
 /// The world of a simulated run. SI units and radians throughout; points in the mission's tangent frame.
@@ -85,6 +86,11 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// What its vehicle tells.
+    pub fn channels(&self) -> Vec<Channel> {
+        if self.ctd.is_some() { channels::all() } else { channels::without_ctd() }
+    }
+
     /// Whether there is any chemical to be sensed.
     pub fn has_plume(&self) -> bool {
         self.plume.is_some() || self.recording.is_some()

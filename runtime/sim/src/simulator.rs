@@ -11,8 +11,8 @@ use crate::survey::Survey;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
-    VEHICLE_MODE, WATER_DEPTH,
+    ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE, VEHICLE_MODE,
+    WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
@@ -94,7 +94,7 @@ impl Simulator {
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
-            channels: if scenario.ctd.is_some() { channels::all() } else { channels::without_ctd() },
+            channels: scenario.channels(),
             vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             intake: (start, 0.0),

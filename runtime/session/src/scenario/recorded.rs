@@ -3,8 +3,7 @@
 use super::clause::Clause;
 use super::{Fault, Understood, Wrong};
 use crate::files::Files;
-use albacore_geometry::{Area, Point};
-use albacore_sim::{RecordedKernel, RecordedPlume, RecordingError, RecordingHeader, Scenario};
+use albacore_sim::{RecordedKernel, RecordedPlume, RecordingError, RecordingHeader};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
 use std::sync::Arc;
@@ -46,40 +45,6 @@ pub fn recorded_plume(understood: &mut Understood, c: &Clause, files: &Files) ->
     scenario.sources = vec![recorded.source()];
     scenario.recording = Some(recorded);
     Ok(())
-}
-
-/// What of a mission's area a record does not cover.
-pub(crate) struct Uncovered {
-    /// All of it.
-    pub all: bool,
-    pub message: String,
-    pub help: String,
-}
-
-/// Areas that reach no further beyond a record than this, m, are meant to be its own.
-const MARGIN: f64 = 0.5;
-
-/// What the area of a mission has beyond the record of its world, if anything.
-pub(crate) fn uncovered(world: &Scenario, mission: &str, area: &Area) -> Option<Uncovered> {
-    let region = world.recording.as_ref()?.recording.area();
-    let out = area.corners().iter().map(|&corner| -region.gap(corner)).fold(0.0, f64::max);
-    let all = !region.overlaps(area);
-    let of = |along: fn(&Point) -> f64| {
-        let all = region.corners().iter().map(along);
-        let (least, most) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
-        format!("{least:.0} m to {most:.0} m")
-    };
-    let reach = format!("{} north and {} east of the origin", of(|p| p.north), of(|p| p.east));
-    let what = "beyond it there is no chemical, and the flow is that of its edge";
-    if all {
-        let message = format!("no part of the area of the mission `{mission}` lies in the region of the record");
-        return Some(Uncovered { all, message, help: format!("move it there: the record lies {reach}; {what}") });
-    }
-    (out > MARGIN).then(|| Uncovered {
-        all,
-        message: format!("the area of the mission `{mission}` reaches {out:.0} m beyond the region of the record"),
-        help: format!("the record lies {reach}; {what}"),
-    })
 }
 
 fn told(path: &str, error: RecordingError) -> Wrong {

@@ -90,9 +90,10 @@ fn own_mission(scenario: &mut Scenario, c: &Clause, route: Route) -> Result<(), 
 }
 
 /// `dialect(…)`: what it speaks at the end of a link.
-pub fn dialect(c: &Clause) -> Result<Dialect, String> {
-    let speaks = c.clause("speaks").ok_or("a dialect needs a name: write `dialect(recon)`")?;
-    Dialect::named(&speaks.clause.name).map_err(|error| error.message)
+pub fn dialect(c: &Clause) -> Result<Dialect, Wrong> {
+    let speaks =
+        c.clause("speaks").ok_or_else(|| Wrong::with("`dialect` needs a protocol", "write `dialect(recon)`"))?;
+    Ok(Dialect::named(&speaks.clause.name).map_err(|error| error.message)?)
 }
 
 /// `handover(…)`: how its computer answers.

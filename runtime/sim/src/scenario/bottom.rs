@@ -110,10 +110,15 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
     for (i, pit) in scenario.bottom.pits.iter().enumerate() {
         let mut of = objections.nth("pit", i);
+        of.name(&pit.name, &scenario.bottom.pits[..i].iter().map(|p| p.name.as_str()).collect::<Vec<_>>());
         of.finite("at", [pit.at.north, pit.at.east]);
         // A pit only deepens, so that the water is nowhere shallower than the ground lets it be.
         of.positive("depth", pit.depth);
         of.positive("radius", pit.radius);
+    }
+    for (i, zone) in scenario.no_go.iter().enumerate() {
+        let others: Vec<&str> = scenario.no_go[..i].iter().map(|z| z.name.as_str()).collect();
+        objections.nth("no_go", i).name(&zone.name, &others);
     }
 }
 

@@ -155,6 +155,7 @@ fn check_current(flow: &Flow, objections: &mut Objections) {
     objections.of("turning").bounds("rate", flow.turning, Bounds::Within(-TURNING_MAX, TURNING_MAX));
     for (i, tide) in flow.tides.iter().enumerate() {
         let mut of = objections.nth("tide", i);
+        of.name(&tide.name, &flow.tides[..i].iter().map(|t| t.name.as_str()).collect::<Vec<_>>());
         of.flow("flood", tide.amplitude);
         of.positive("period", tide.period);
         of.finite("high", [tide.high, 0.0]);

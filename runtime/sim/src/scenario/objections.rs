@@ -122,8 +122,9 @@ impl OfClause<'_> {
 
     /// Things of a kind each have a name of their own; `others` are those that came before.
     pub fn name(&mut self, name: &str, others: &[&str]) {
+        self.unless(Some("name"), !name.is_empty(), "this has no name", "give it one: traces and pictures call it so");
         let message = format!("there is a `{name}` already");
-        self.unless(Some("name"), !others.contains(&name), message, "give each a name of its own");
+        self.unless(Some("name"), name.is_empty() || !others.contains(&name), message, "give each a name of its own");
     }
 
     fn add(&mut self, param: Option<&'static str>, why: Why) {

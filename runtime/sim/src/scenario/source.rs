@@ -126,7 +126,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
     for (i, patch) in scenario.patches.iter().enumerate() {
         let mut of = objections.nth("patch", i);
-        of.name(&patch.name, &scenario.patches[..i].iter().map(|p| p.name.as_str()).collect::<Vec<_>>());
+        of.name(&patch.name, &names);
+        names.push(patch.name.as_str());
         check_place(scenario, &mut of, "at", patch.at, patch.height);
         of.not_negative("radius", patch.radius);
         of.not_negative("age", patch.age);

@@ -59,10 +59,12 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     for (name, value) in [("surface_salinity", s.surface_salinity), ("bottom_salinity", s.bottom_salinity)] {
         of.bounds(name, value, SALINITIES);
     }
-    of.not_negative("thermocline", s.thermocline);
+    of.within("thermocline", s.thermocline, 0.0..=DEEPEST_THERMOCLINE_M);
     of.positive("thickness", s.thickness);
 }
 
+/// Below this depth no sea has a thermocline, m.
+const DEEPEST_THERMOCLINE_M: f64 = 1500.0;
 /// Sea water freezes below, and no sea is warmer, degrees Celsius.
 const TEMPERATURES: Bounds = Bounds::Within(-2.0, 40.0);
 /// The practical salinity scale ends at 42.

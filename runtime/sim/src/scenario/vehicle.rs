@@ -4,7 +4,7 @@ use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
 use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Point};
-use albacore_guidance::Route;
+use albacore_guidance::{Route, Waypoints};
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -263,6 +263,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             of.finite("points", [point.north, point.east]);
         }
         of.positive("speed", waypoints.speed);
+        check_reach(scenario, waypoints, &mut of);
     }
     let mut of = objections.of(v.hull.clause());
     of.within("endurance", v.endurance, 1.0..=ENDURANCE_MAX_S);
@@ -275,6 +276,33 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
 }
 
+/// Whether it can swim there: before its battery is empty, and in the water.
+fn check_reach(scenario: &Scenario, waypoints: &Waypoints, of: &mut OfClause) {
+    let v = &scenario.vehicle;
+    let ways = std::iter::once(&v.start).chain(&waypoints.points).zip(&waypoints.points);
+    let length: f64 = ways.map(|(from, to)| from.distance(*to)).sum();
+    let most = waypoints.speed * v.endurance;
+    of.unless(
+        Some("points"),
+        length <= most || !length.is_finite() || !most.is_finite(),
+        format!("this way is {:.0} km long, and the battery is empty after {:.0} km", length / 1000.0, most / 1000.0),
+        "move the points nearer, or let the vehicle have more `endurance`",
+    );
+    let Some(Vertical::Depth(depth)) = scenario.own_mission.as_ref().map(|own| own.vertical) else { return };
+    let depths = waypoints.points.iter().map(|point| scenario.bottom.depth_at(*point));
+    let shallowest = depths.fold(f64::INFINITY, f64::min);
+    of.unless(
+        Some("depth"),
+        depth <= shallowest || !shallowest.is_finite(),
+        format!(
+            "at one of its points the water is {} m deep: it cannot swim there at {} m",
+            rounded_down(shallowest),
+            told(depth)
+        ),
+        "make `depth` less, or leave it out for an `altitude`",
+    );
+}
+
 /// Whether it can start there; `water` is the depth of the water (m), the least that it may be.
 fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
     of.finite("start", [v.start.north, v.start.east]);
@@ -282,7 +310,11 @@ fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
     of.not_negative("spread", v.start_spread);
     of.within("depth", v.depth, DEPTHS);
     let (may, most) = (if v.start_spread > 0.0 { "may start" } else { "starts" }, rounded_down(water));
-    of.unless(Some("start"), water != 0.0, format!("the vehicle {may} on land"), "move `start` into the water");
+    let mend = match v.start_spread > 0.0 {
+        true => "make `spread` less, or move `start` farther into the water",
+        false => "move `start` into the water",
+    };
+    of.unless(Some("start"), water != 0.0, format!("the vehicle {may} on land"), mend);
     of.unless(
         Some("depth"),
         v.depth <= water || water == 0.0 || !water.is_finite() || !v.depth.is_finite(),

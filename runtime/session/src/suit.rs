@@ -1,0 +1,62 @@
+//! Whether a world has what a mission needs that runs in it: sensors for what it requires, and anything known of its area.
+
+use albacore_geometry::{Area, Point};
+use albacore_lang::Script;
+use albacore_lang::code::Code;
+use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::source::Span;
+use albacore_sim::Scenario;
+use albacore_vehicle::channels;
+
+/// What a mission misses in a world; a note is of what may well be meant.
+pub(crate) fn findings(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
+    let mut findings = unsensed(script, mission, scenario, world);
+    findings.extend(uncovered(script, mission, scenario, world));
+    findings
+}
+
+/// What the mission requires and the vehicle has no sensor for.
+fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
+    let told = world.channels();
+    // Who drives is told with every snapshot, and by no channel.
+    let is_told = |input: &str| input == "control" || told.iter().any(|channel| channel.name == input);
+    let finding = |(input, span): (&str, Span)| {
+        let message = format!("the vehicle of `{scenario}` has no sensor for `{input}`");
+        let help = match channels::all().iter().any(|channel| channel.name == input) {
+            true => format!("let `{scenario}` have a `ctd()`, which measures temperature and salinity"),
+            false => "no simulated vehicle has one: run the mission on a vehicle that tells it".to_string(),
+        };
+        Diagnostic::error(Code::ScenariosWorld, span, message).help(help)
+    };
+    script.requirements(mission).into_iter().filter(|(input, _)| !is_told(input)).map(finding).collect()
+}
+
+/// Areas that reach no further beyond a record than this, m, are meant to be its own.
+const MARGIN: f64 = 0.5;
+
+/// What the area of the mission has beyond a recorded world: all of it is an error.
+fn uncovered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Option<Diagnostic> {
+    let (area, written) = script.operating_area(mission)?;
+    let region = world.recording.as_ref()?.recording.area();
+    let out = area.corners().iter().map(|&corner| -region.gap(corner)).fold(0.0, f64::max);
+    let lies = format!("the record lies {}", reach(region));
+    let what = "beyond it there is no chemical, and the flow is that of its edge";
+    if !region.overlaps(&area) {
+        let message = format!("no part of the area of the mission `{mission}` lies in the record of `{scenario}`");
+        let finding = Diagnostic::error(Code::ScenariosOutside, written, message);
+        return Some(finding.help(format!("move it there: {lies}; {what}")));
+    }
+    let message = format!("the area of the mission `{mission}` reaches {out:.0} m beyond the record of `{scenario}`");
+    let note = Diagnostic::note(Code::ScenariosOutside, written, message);
+    (out > MARGIN).then(|| note.help(format!("{lies}; {what}")))
+}
+
+/// Where an area lies, in words.
+fn reach(area: &Area) -> String {
+    let of = |along: fn(&Point) -> f64| {
+        let all = area.corners().iter().map(along);
+        let (least, most) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
+        format!("{least:.0} m to {most:.0} m")
+    };
+    format!("{} north and {} east of the origin", of(|p| p.north), of(|p| p.east))
+}
