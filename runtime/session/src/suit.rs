@@ -5,7 +5,7 @@ use albacore_lang::Script;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::source::Span;
-use albacore_sim::Scenario;
+use albacore_sim::{Ground, Scenario};
 use albacore_vehicle::channels;
 
 /// What a mission misses in a world; a note is of what may well be meant.
@@ -31,24 +31,39 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
     script.requirements(mission).into_iter().filter(|(input, _)| !is_told(input)).map(finding).collect()
 }
 
-/// Areas that reach no further beyond a record than this, m, are meant to be its own.
+/// Areas that reach no further beyond what is known than this, m, are meant to be its own.
 const MARGIN: f64 = 0.5;
 
-/// What the area of the mission has beyond a recorded world: all of it is an error.
-fn uncovered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Option<Diagnostic> {
-    let (area, written) = script.operating_area(mission)?;
-    let region = world.recording.as_ref()?.recording.area();
-    let out = area.corners().iter().map(|&corner| -region.gap(corner)).fold(0.0, f64::max);
-    let lies = format!("the record lies {}", reach(region));
-    let what = "beyond it there is no chemical, and the flow is that of its edge";
-    if !region.overlaps(&area) {
-        let message = format!("no part of the area of the mission `{mission}` lies in the record of `{scenario}`");
-        let finding = Diagnostic::error(Code::ScenariosOutside, written, message);
-        return Some(finding.help(format!("move it there: {lies}; {what}")));
-    }
-    let message = format!("the area of the mission `{mission}` reaches {out:.0} m beyond the record of `{scenario}`");
-    let note = Diagnostic::note(Code::ScenariosOutside, written, message);
-    (out > MARGIN).then(|| note.help(format!("{lies}; {what}")))
+/// What the area of the mission has beyond a surveyed bottom or a recorded plume: all of it is an error.
+fn uncovered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
+    let Some((area, written)) = script.operating_area(mission) else { return Vec::new() };
+    let finding = |(what, region, beyond): (&str, Area, &str)| {
+        let out = area.corners().iter().map(|&corner| -region.gap(corner)).fold(0.0, f64::max);
+        let lies = format!("the {what} lies {}", reach(&region));
+        if !region.overlaps(&area) {
+            let message = format!("no part of the area of the mission `{mission}` lies in the {what} of `{scenario}`");
+            let finding = Diagnostic::error(Code::ScenariosOutside, written, message);
+            return Some(finding.help(format!("move it there: {lies}; {beyond}")));
+        }
+        let message =
+            format!("the area of the mission `{mission}` reaches {out:.0} m beyond the {what} of `{scenario}`");
+        let note = Diagnostic::note(Code::ScenariosOutside, written, message);
+        (out > MARGIN).then(|| note.help(format!("{lies}; {beyond}")))
+    };
+    known(world).into_iter().filter_map(finding).collect()
+}
+
+/// What of a world was measured or computed elsewhere: what it is, where that is, and what is beyond.
+fn known(world: &Scenario) -> Vec<(&'static str, Area, &'static str)> {
+    let record = world.recording.as_ref().map(|recorded| recorded.recording.area().clone());
+    let record =
+        record.map(|area| ("record", area, "beyond it there is no chemical, and the flow is that of its edge"));
+    let survey = match &world.bottom.ground {
+        Ground::Plane(_) => None,
+        Ground::Grid(grid) => grid.area(),
+    };
+    let survey = survey.map(|area| ("survey", area, "beyond it the water is as deep as at its nearest edge"));
+    record.into_iter().chain(survey).collect()
 }
 
 /// Where an area lies, in words.

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
-use albacore_session::{Diagnostic, Outcome, Plan, PlanError, Run, Source, findings, load_text};
+use albacore_session::{Diagnostic, Outcome, Plan, PlanError, Run, Severity, Source, findings, load_text};
 use std::path::{Path, PathBuf};
 
 const MISSION: &str = "mission north in w within 10 min {
@@ -35,7 +35,7 @@ fn plan(folder: &Path, clauses: &str) -> Result<Plan, PlanError> {
     assert!(script.is_sound(), "{:#?}", script.findings);
     // What a run refuses, `check` finds.
     let plan = Plan::new(&script, "script.alb", None, None);
-    assert_eq!(plan.is_err(), !findings(&script).is_empty());
+    assert_eq!(plan.is_err(), findings(&script).iter().any(|finding| finding.severity == Severity::Error));
     plan
 }
 
@@ -143,4 +143,23 @@ fn entering_a_no_go_zone_is_told_and_drawn() {
     let mut run = Run::new(&plan, 1).unwrap();
     run.to_end();
     assert!(run.svg().contains(">wreck</text>"));
+}
+
+#[test]
+fn an_area_that_was_not_surveyed_is_told() {
+    let folder = folder("unsurveyed");
+    std::fs::write(folder.join("flat.csv"), "# east -1..1 n=2 north -1..1 n=2 metres\n-12,-12\n-12,-12\n").unwrap();
+    let told = |scale: u32| {
+        let place = "point(north: 0 m, east: 0 m)";
+        let grid = format!("bottom_grid(\"flat.csv\", at: {place}, scale: {scale})");
+        let clauses = format!("{grid}\nvehicle(kinematic, start: {place}, depth: 1 m)");
+        let text = format!("{MISSION}scenario w {{\n{clauses}\n}}\n");
+        let name = folder.join("script.alb").display().to_string();
+        let found = findings(&load_text(Source { name: name.into(), text: text.into() }));
+        found.into_iter().map(|finding| (finding.severity, finding.message)).collect::<Vec<_>>()
+    };
+    // The area is 400 m wide, about the origin; the survey at a scale of 100 half as wide.
+    assert_eq!(told(200), []);
+    let beyond = "the area of the mission `north` reaches 100 m beyond the survey of `w`".to_string();
+    assert_eq!(told(100), [(Severity::Note, beyond)]);
 }

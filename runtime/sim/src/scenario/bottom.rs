@@ -66,6 +66,16 @@ pub struct Grid {
     pub depths: Vec<f64>,
 }
 
+impl Grid {
+    /// Where it lies; none if it has no extent.
+    pub fn area(&self) -> Option<Area> {
+        let (south_west, north_east) = (self.south_west, self.north_east);
+        let south_east = Point { north: south_west.north, east: north_east.east };
+        let north_west = Point { north: north_east.north, east: south_west.east };
+        Area::polygon(&[south_west, south_east, north_east, north_west]).ok()
+    }
+}
+
 /// A smooth round hollow in the bottom: a Gaussian.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
