@@ -105,12 +105,12 @@ fn a_name_leads_to_what_is_meant_where_it_stands() {
     assert_eq!(doc_in(&folder, &["--format", "html", "--out", "pages"]).0, Some(0));
     let pages = files(&folder.join("pages"));
     for (page, link) in [
-        ("world", "from which <a href=\"inputs.html#input-altitude\"><code>altitude</code></a> and"),
-        ("world", "from which <a href=\"inputs.html#input-speed\"><code>speed</code></a> and"),
-        ("world", "<code>up</code></a>, <a href=\"#clause-down\"><code>down</code></a> or"),
+        ("instruments", "from which <a href=\"inputs.html#input-altitude\"><code>altitude</code></a> and"),
+        ("instruments", "from which <a href=\"inputs.html#input-speed\"><code>speed</code></a> and"),
+        ("instruments", "<code>up</code></a>, <a href=\"#clause-down\"><code>down</code></a> or"),
         ("faults", "which: <a href=\"#clause-position\"><code>position</code></a>,"),
         ("faults", "Of <a href=\"#clause-heading\"><code>heading</code></a>:"),
-        ("faults", "of a <a href=\"world.html#clause-fossen\"><code>fossen</code></a>"),
+        ("faults", "of a <a href=\"craft.html#clause-fossen\"><code>fossen</code></a>"),
         ("inputs", "<a href=\"#input-chemical\"><code>chemical</code></a>"),
     ] {
         assert!(pages[&format!("{page}.html")].contains(link), "{page}: {link}");

@@ -6,21 +6,23 @@ use albacore_lang::{FileFault, Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 10] = [
+const STDLIB: [(&str, &str); 12] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
+    ("craft", include_str!("../../../stdlib/craft.alb")),
     ("faults", include_str!("../../../stdlib/faults.alb")),
-    ("vehicles", include_str!("../../../stdlib/vehicles.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
+    ("instruments", include_str!("../../../stdlib/instruments.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
     ("scenarios", include_str!("../../../stdlib/scenarios.alb")),
     ("search", include_str!("../../../stdlib/search.alb")),
+    ("vehicles", include_str!("../../../stdlib/vehicles.alb")),
     ("world", include_str!("../../../stdlib/world.alb")),
 ];
 
 /// Modules whose names every script knows.
-const PRELUDE: [&str; 4] = ["inputs", "scenarios", "world", "faults"];
+const PRELUDE: [&str; 6] = ["inputs", "scenarios", "world", "craft", "instruments", "faults"];
 
 /// So many names are listed in a message at most.
 const LISTED_MAX: usize = 12;
