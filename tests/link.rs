@@ -187,6 +187,18 @@ fn a_guest_drives_in_its_overrides_alone() {
     assert!(!said.contains("timed out"), "{said}");
 }
 
+/// What a scenario says of the handover holds at the end of a link too.
+#[test]
+fn a_vehicle_is_slow_to_give_way_and_takes_itself_back() {
+    let folder = empty("slow");
+    let vehicle = Vehicle::serve_world(&format!("{EXCURSION}#slow_to_trust"), "pty:?dialect=recon", &folder);
+    let run = vehicle.driven(&["--no-out"]);
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("released by vehicle"), "{output:?}");
+    vehicle.says("override taken back");
+}
+
 #[test]
 fn a_vehicle_whose_guest_is_killed_goes_back_to_its_legs() {
     let folder = empty("killed");

@@ -6,7 +6,7 @@ use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{FrontSeat, ReconVehicle, Route};
 use albacore_link::{LinkError, Transport, Url};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
-use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
+use albacore_vehicle::{Command, Control, Handover, Snapshot, Vehicle, Vertical};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::time::Duration;
@@ -52,11 +52,15 @@ impl Transport for Desk {
 }
 
 fn vehicle() -> (ReconVehicle, Rc<Wire>) {
+    answering(Handover::default())
+}
+
+fn answering(handover: Handover) -> (ReconVehicle, Rc<Wire>) {
     let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
     let hull = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
-    let far_end = FrontSeat::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0));
+    let far_end = FrontSeat::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0)).answering(handover);
     let wire = Rc::new(Wire::default());
     let desk = Desk { wire: Rc::clone(&wire), far_end, to_vehicle: Vec::new() };
     let clock = Rc::clone(&wire);
@@ -176,4 +180,50 @@ fn what_is_no_number_is_not_sent() {
     assert!(vehicle.command(&Command { speed: f64::NAN, ..AHEAD }).is_err());
     assert!(vehicle.command(&Command { vertical: Vertical::Altitude(f64::INFINITY), ..AHEAD }).is_err());
     assert_eq!(wire.sent.borrow().len(), before);
+}
+
+/// Who drives, by turns, when somebody asks after a second and commands as long as he may: each with the tick on which it begins.
+fn turns(handover: Handover, ticks: u32) -> Vec<(u32, Control)> {
+    let (mut vehicle, _) = answering(handover);
+    let (mut snapshot, mut turns) = (Snapshot::default(), Vec::new());
+    for tick in 0..ticks {
+        vehicle.sense(&mut snapshot).unwrap();
+        if turns.last().is_none_or(|(_, last)| *last != snapshot.control) {
+            turns.push((tick, snapshot.control));
+        }
+        if matches!(snapshot.control, Control::Released | Control::Refused) {
+            break;
+        }
+        if tick == 10 {
+            vehicle.take_over().unwrap();
+        }
+        if snapshot.control == Control::InControl {
+            vehicle.command(&AHEAD).unwrap();
+        }
+    }
+    turns
+}
+
+/// The simulator's own computer answers so without a link (`tests/rules/water/guest.alb`).
+#[test]
+fn the_front_seat_answers_as_its_scenario_says() {
+    use Control::{InControl, Monitoring, Offered, Refused, Released, Requesting, Suspended};
+    let handover = Handover::default();
+    for (handover, expected) in [
+        (handover.clone(), &[Monitoring, InControl][..]),
+        (Handover { after: 2.0, ..handover.clone() }, &[Monitoring, Requesting, InControl]),
+        (Handover { refuses: true, ..handover.clone() }, &[Monitoring, Requesting, Refused]),
+        (Handover { silent: true, ..handover.clone() }, &[Monitoring, Requesting, Refused]),
+        (Handover { suspends: 4.0, lasting: 2.0, ..handover.clone() }, &[Monitoring, InControl, Suspended, InControl]),
+        (Handover { takes_back: 5.0, ..handover.clone() }, &[Monitoring, InControl, Released]),
+        (Handover { offers: 0.5, ..handover.clone() }, &[Monitoring, Offered, InControl]),
+    ] {
+        let turns = turns(handover.clone(), 400);
+        let controls: Vec<Control> = turns.iter().map(|(_, control)| *control).collect();
+        assert_eq!(controls, expected, "{handover:?}: {turns:?}");
+        let driven = turns.iter().find(|(_, control)| *control == InControl);
+        if handover.after > 0.0 {
+            assert!(driven.is_some_and(|(tick, _)| (30..36).contains(tick)), "{turns:?}");
+        }
+    }
 }

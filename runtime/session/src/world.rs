@@ -61,7 +61,10 @@ impl World {
     /// The vehicle in it, with rows to swim, else the mission of the scenario, else rows all the same: the first from where it
     /// starts and along its heading, at the depth at which it starts, or near the bottom if that is the surface.
     pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
-        let simulator = Simulator::new(&self.scenario, seed).map_err(|error| cannot_be(&error))?;
+        // Its computer is the front seat's: the simulated one gives way to that at once.
+        let handover = self.scenario.handover.clone().unwrap_or_default();
+        let scenario = Scenario { handover: None, ..(*self.scenario).clone() };
+        let simulator = Simulator::new(&scenario, seed).map_err(|error| cannot_be(&error))?;
         let vehicle = &self.scenario.vehicle;
         let own = self.scenario.own_mission.as_ref();
         let vertical = match (own, vehicle.depth) {
@@ -71,7 +74,8 @@ impl World {
         };
         let route = rows.map(Route::Rows).or(own.map(|own| own.route.clone())).unwrap_or_default();
         let start = simulator.truth().position;
-        Ok(FrontSeat::new(simulator, self.frame, &route, (start, vehicle.heading), vertical))
+        let far_end = FrontSeat::new(simulator, self.frame, &route, (start, vehicle.heading), vertical);
+        Ok(far_end.answering(handover))
     }
 }
 

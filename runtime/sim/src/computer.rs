@@ -1,9 +1,9 @@
 //! The computer in the vehicle's front seat: the plan that it follows by itself, and how it answers who asks to drive.
 
-use crate::scenario::{Handover, OwnMission};
+use crate::scenario::OwnMission;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::{OwnPlan, through_water};
-use albacore_vehicle::{Command, Control, TICK_S, Vertical};
+use albacore_vehicle::{Command, Control, Gate, Handover, TICK_S, Vertical};
 
 /// What the computer knows of its vehicle.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,27 +15,13 @@ pub(crate) struct Known {
     pub flow: Vector,
 }
 
-/// Who drives, as the computer sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Guest {
-    /// Nobody but itself.
-    None,
-    /// One has asked, this many seconds after tick 0.
-    Asks(f64),
-    /// One drives, since then.
-    Drives(f64),
-    /// One was sent away, with this answer.
-    Gone(Control),
-}
-
 /// The computer.
 #[derive(Clone, Debug)]
 pub(crate) struct Computer {
     plan: Option<OwnPlan>,
     vertical: Vertical,
     speed_max: f64,
-    handover: Handover,
-    guest: Guest,
+    gate: Gate,
 }
 
 impl Computer {
@@ -48,21 +34,18 @@ impl Computer {
     ) -> Computer {
         let plan = own.map(|own| OwnPlan::new(&own.route, start.0, start.1));
         let vertical = own.map_or(Vertical::Depth(0.0), |own| own.vertical);
-        let handover = handover.cloned().unwrap_or_default();
-        Computer { plan, vertical, speed_max, handover, guest: Guest::None }
+        Computer { plan, vertical, speed_max, gate: Gate::new(handover.cloned().unwrap_or_default()) }
     }
 
     /// Somebody asks to drive; without a delay the computer gives way at once.
     pub fn ask(&mut self, now: f64, position: Point) -> Control {
-        if !matches!(self.guest, Guest::Drives(_)) {
-            self.guest = Guest::Asks(now);
-        }
-        if self.handover == Handover::default() { self.answer(now, position) } else { Control::Requesting }
+        self.gate.ask(now);
+        if self.gate.is_open() { self.answer(now, position) } else { Control::Requesting }
     }
 
     /// The guest gives the vehicle back.
     pub fn take_back(&mut self, position: Point) {
-        self.guest = Guest::None;
+        self.gate.leave();
         if let Some(plan) = &mut self.plan {
             plan.go_back(position);
         }
@@ -70,36 +53,17 @@ impl Computer {
 
     /// Who drives now.
     pub fn answer(&mut self, now: f64, position: Point) -> Control {
-        let h = &self.handover;
-        // A time that is not given is 0: that never comes.
-        let since = |at: f64, begun: f64| at > 0.0 && begun < at && now >= at;
-        match self.guest {
-            Guest::None if h.offers > 0.0 && now >= h.offers => Control::Offered,
-            Guest::None => Control::Monitoring,
-            Guest::Asks(_) if h.refuses || self.plan.as_ref().is_some_and(OwnPlan::is_over) => {
-                self.guest = Guest::Gone(Control::Refused);
-                Control::Refused
+        let was_driven = self.gate.is_passed();
+        let is_over = self.plan.as_ref().is_some_and(OwnPlan::is_over);
+        let control = self.gate.answer(now, is_over);
+        if let Some(plan) = &mut self.plan {
+            match (was_driven, self.gate.is_passed()) {
+                (false, true) => _ = plan.leave(position),
+                (true, false) => plan.go_back(position),
+                _ => {}
             }
-            Guest::Asks(_) if h.silent => Control::Requesting,
-            Guest::Asks(begun) if now - begun < h.after => Control::Requesting,
-            Guest::Asks(_) => {
-                self.guest = Guest::Drives(now);
-                if let Some(plan) = &mut self.plan {
-                    plan.leave(position);
-                }
-                Control::InControl
-            }
-            Guest::Drives(begun) if since(h.takes_back, begun) => {
-                self.take_back(position);
-                self.guest = Guest::Gone(Control::Released);
-                Control::Released
-            }
-            Guest::Drives(_) if h.suspends > 0.0 && (h.suspends..h.suspends + h.lasting).contains(&now) => {
-                Control::Suspended
-            }
-            Guest::Drives(_) => Control::InControl,
-            Guest::Gone(answer) => answer,
         }
+        control
     }
 
     /// What its own plan asks for in the coming tick; none without a plan.

@@ -30,10 +30,9 @@ pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Battery, Bottom, Bounds, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, Handover, HullSetup,
-    KinematicHull, Lbl, Limits, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume,
-    Pressure, Scenario, ScenarioError, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow,
-    VehicleSetup, Waves, Why,
+    Adcp, Battery, Bottom, Bounds, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, HullSetup, KinematicHull,
+    Lbl, Limits, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
+    ScenarioError, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves, Why,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

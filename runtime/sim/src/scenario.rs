@@ -20,12 +20,12 @@ pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
 pub use stratification::Stratification;
-pub use vehicle::{Handover, HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
+pub use vehicle::{HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
 
 use crate::fault::{self, Fault};
 use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
-use albacore_vehicle::{Channel, channels};
+use albacore_vehicle::{Channel, Handover, channels};
 use serde::{Deserialize, Serialize};
 
 /// The world of a simulated run. SI units and radians throughout; points in the mission's tangent frame.

@@ -4,6 +4,9 @@
 //! executes a program sees nothing else of them.
 
 pub mod channels;
+mod handover;
+
+pub use handover::{Gate, Handover};
 
 use albacore_geometry::Heading;
 use serde::{Deserialize, Serialize};

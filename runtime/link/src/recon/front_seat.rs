@@ -14,7 +14,7 @@ use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{Milestone, OwnPlan, Route, through_water};
-use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Control, Gate, Handover, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
 pub(super) const TIMEOUT_TICKS: u64 = 50;
@@ -71,6 +71,9 @@ pub struct FrontSeat<V> {
     plan: OwnPlan,
     /// What it holds on its legs.
     vertical: Vertical,
+    /// How it answers who asks to drive, and who drives by that.
+    gate: Gate,
+    control: Control,
     /// What the guest wants who drives; none while the vehicle follows its own plan.
     goals: Option<Goals>,
     deframer: Deframer,
@@ -101,6 +104,8 @@ impl<V: Vehicle> FrontSeat<V> {
             frame,
             plan,
             vertical,
+            gate: Gate::new(Handover::default()),
+            control: Control::Monitoring,
             goals: None,
             deframer: Deframer::default(),
             heard: Vec::new(),
@@ -116,6 +121,11 @@ impl<V: Vehicle> FrontSeat<V> {
             out: Vec::new(),
             happenings,
         }
+    }
+
+    /// The same, answering so who asks to drive.
+    pub fn answering(self, handover: Handover) -> Self {
+        FrontSeat { gate: Gate::new(handover), ..self }
     }
 
     /// What is to be sent; taken once.
@@ -168,6 +178,7 @@ impl<V: Vehicle> FrontSeat<V> {
         self.tell_samples();
         self.tell_grounding();
         self.hear(bytes);
+        self.answer();
         if !self.given_up {
             let command = self.steer();
             self.vehicle.command(&command)?;
@@ -190,18 +201,22 @@ impl<V: Vehicle> FrontSeat<V> {
         }
         if self.is_driven() && self.silent >= TIMEOUT_TICKS {
             self.happenings.push(Happening::TimedOut);
-            self.go_back();
+            self.leave();
         }
     }
 
     fn obey(&mut self, message: &ToVehicle) {
         match message {
-            ToVehicle::Override(true) => self.give_over(),
+            ToVehicle::Override(true) if self.given_up => {}
+            ToVehicle::Override(true) => {
+                self.gate.ask(self.seconds());
+                self.answer();
+            }
             ToVehicle::Override(false) => {
                 if self.is_driven() {
                     self.happenings.push(Happening::Released);
-                    self.go_back();
                 }
+                self.leave();
             }
             ToVehicle::ClosestPoint(closest) => self.plan.return_to_closest_point(*closest),
             ToVehicle::VersionRequest => self.say(&FromVehicle::Version("albacore front seat".into())),
@@ -210,10 +225,27 @@ impl<V: Vehicle> FrontSeat<V> {
         }
     }
 
-    fn give_over(&mut self) {
-        if self.given_up || !self.plan.leave(self.senses.position) {
+    /// Who drives now.
+    fn answer(&mut self) {
+        if self.given_up {
             return;
         }
+        let before = self.control;
+        self.control = self.gate.answer(self.seconds(), self.plan.is_over());
+        if self.gate.is_passed() != self.is_driven() {
+            if self.is_driven() { self.go_back() } else { self.give_over() }
+        }
+        match (before, self.control) {
+            (before, now) if before == now => {}
+            (_, Control::Released) => self.happenings.push(Happening::TakenBack),
+            (_, Control::Suspended) => self.happenings.push(Happening::Suspended),
+            (Control::Suspended, _) => self.happenings.push(Happening::GoesOn),
+            _ => {}
+        }
+    }
+
+    fn give_over(&mut self) {
+        self.plan.leave(self.senses.position);
         self.happenings.push(Happening::Taken(self.senses.position, self.plan.leg()));
         let (heading, speed) = (self.senses.heading, self.plan.speed());
         self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.vertical });
@@ -223,6 +255,9 @@ impl<V: Vehicle> FrontSeat<V> {
         let Some(goals) = &mut self.goals else {
             return self.refuse(command, NOT_IN_OVERRIDE, "override is not active");
         };
+        if self.control == Control::Suspended {
+            return self.refuse(command, NOT_IN_OVERRIDE, "the mission is suspended");
+        }
         let wanted = match command {
             ToVehicle::Heading(heading) => Goals { heading: *heading, rate: 0.0, ..*goals },
             ToVehicle::HeadingRate(rate) if rate.abs() <= TURN_RATE_MAX => Goals { rate: *rate, ..*goals },
@@ -253,6 +288,12 @@ impl<V: Vehicle> FrontSeat<V> {
         self.refused = Some((why, self.tick));
     }
 
+    /// The guest is gone.
+    fn leave(&mut self) {
+        self.gate.leave();
+        self.go_back();
+    }
+
     fn go_back(&mut self) {
         self.goals = None;
         self.plan.go_back(self.senses.position);
@@ -260,6 +301,11 @@ impl<V: Vehicle> FrontSeat<V> {
 
     /// What to do in the coming tick.
     fn steer(&mut self) -> Command {
+        if self.control == Control::Suspended {
+            // It stays where it is.
+            let Senses { heading, depth, .. } = self.senses;
+            return Command { heading, speed: 0.0, vertical: Vertical::Depth(depth) };
+        }
         if let Some(goals) = &mut self.goals {
             goals.heading = goals.heading + goals.rate * TICK_S;
             return Command { heading: goals.heading, speed: goals.speed, vertical: goals.vertical };
@@ -346,13 +392,25 @@ impl<V: Vehicle> FrontSeat<V> {
         let closest = if self.plan.returns_to_closest_point() { Mode::CLOSEST_POINT } else { 0 };
         if self.given_up {
             Mode::new(Phase::Over, Mode::NOT_ALLOWED)
+        } else if self.control == Control::Suspended {
+            Mode::new(Phase::Suspended, closest | Mode::ENABLED | Mode::ACTIVE)
         } else if self.is_driven() {
             Mode::new(Phase::InMission, closest | Mode::ENABLED | Mode::ACTIVE)
         } else if self.plan.is_over() {
             Mode::new(Phase::Over, 0)
         } else {
-            Mode::new(Phase::InMission, closest)
+            let answer = match self.control {
+                Control::Offered => Mode::ACTIVE,
+                Control::Refused => Mode::NOT_ALLOWED,
+                _ => 0,
+            };
+            Mode::new(Phase::InMission, closest | answer)
         }
+    }
+
+    /// Since tick 0.
+    fn seconds(&self) -> f64 {
+        self.tick as f64 * TICK_S
     }
 
     fn tell_state(&mut self) {

@@ -17,6 +17,12 @@ pub enum Happening {
     Released,
     /// The guest is silent.
     TimedOut,
+    /// The vehicle has taken control back.
+    TakenBack,
+    /// Its mission stands still, and it listens to nobody.
+    Suspended,
+    /// And goes on.
+    GoesOn,
     /// Something that was asked for is not done, and why.
     Refused(String, &'static str),
     /// What the vehicle gave notice of.
@@ -37,6 +43,9 @@ impl fmt::Display for Happening {
             Happening::TimedOut => {
                 write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
             }
+            Happening::TakenBack => f.write_str("override taken back; returns to the break-off point"),
+            Happening::Suspended => f.write_str("suspended: the vehicle stays where it is, and listens to nobody"),
+            Happening::GoesOn => f.write_str("suspended no more"),
             Happening::Plan(Milestone::Resumed(at, leg)) => {
                 write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes leg {leg}", at.north, at.east)
             }

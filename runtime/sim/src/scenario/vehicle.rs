@@ -195,26 +195,6 @@ pub struct OwnMission {
     pub vertical: Vertical,
 }
 
-/// How a vehicle's own computer answers who asks to drive it. Times are seconds since tick 0; 0 is never.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Handover {
-    /// How long it takes to give way, s.
-    pub after: f64,
-    /// Whether it refuses.
-    pub refuses: bool,
-    /// Whether it never answers.
-    pub silent: bool,
-    /// When it stops listening for a while, and for how long.
-    pub suspends: f64,
-    /// For so long.
-    pub lasting: f64,
-    /// When it takes control back from who drives by then.
-    pub takes_back: f64,
-    /// From when on it offers to be driven.
-    pub offers: f64,
-}
-
 /// The vehicle's own limits, whoever commands it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
