@@ -229,7 +229,17 @@ impl<'t> Checker<'t> {
                     .iter()
                     .zip(&nested)
                     .find(|(p, n)| n.is_some() && **n == kind && arg.label.as_ref().is_none_or(|l| l.node == p.name));
+                let given = place.and_then(|(param, _)| values.iter().find(|(given, _)| *given == param.name));
                 match place {
+                    Some((param, _)) if let Some((_, first)) = given => {
+                        let message = format!("`{}` of `{name}` is given twice", param.name);
+                        let mut finding = Diagnostic::error(Code::ArgsTwice, arg.value.span, message);
+                        if let ClauseArg::Nested(first) = first {
+                            finding = finding.label(first.span, "the first");
+                        }
+                        self.report(finding.help(format!("leave one of them out, or write a `{name}` for each")));
+                        failed = true;
+                    }
                     Some((param, _)) => {
                         let param = param.name.clone();
                         if let Some(used) = self.clause_use(&arg.value, Standing::Value) {

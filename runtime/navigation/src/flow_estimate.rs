@@ -7,20 +7,32 @@ use serde::{Deserialize, Serialize};
 const BUFFER: usize = 100;
 /// No mean is given before this many samples: with a deviation of 0.05 m/s each, ten give 0.016 m/s.
 const SAMPLES_MIN: usize = 10;
-/// The profiler's velocities are valid above this speed over ground, m/s.
-const GROUND_SPEED_MIN: f64 = 0.4;
-/// ... and above this speed through the water, m/s: an exact zero is a missing value.
+/// The profiler's velocities are valid above this speed through the water, m/s: an exact zero is a missing value.
 const WATER_SPEED_MIN: f64 = 0.003;
-/// ... and deeper than this, m.
-const DEPTH_MIN: f64 = 1.0;
-/// ... and higher above the bottom than this, m.
-const ALTITUDE_MIN: f64 = 1.0;
-/// First gate: a flow sample's speed stays below this, m/s.
-const SPEED_MAX: f64 = 0.35;
 /// Second gate: the absolute components of its difference from the mean sum to less than this, m/s. As printed, a 1-norm.
 const STEP_MAX: f64 = 0.4;
 /// The buffer restarts after this many rejections by the second gate in a row: a minute.
 const REJECTIONS_MAX: usize = 30;
+
+/// What a message must be to enter the mean; the defaults are the paper's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FlowGates {
+    /// The first gate: a flow sample's speed stays below this, m/s. Default 0.35.
+    pub fastest: f64,
+    /// The vehicle is faster over ground than this, m/s. Default 0.4.
+    pub over_ground: f64,
+    /// It is deeper than this, m. Default 1.
+    pub depth: f64,
+    /// It is higher above the bottom than this, m. Default 1.
+    pub altitude: f64,
+}
+
+impl Default for FlowGates {
+    fn default() -> Self {
+        FlowGates { fastest: 0.35, over_ground: 0.4, depth: 1.0, altitude: 1.0 }
+    }
+}
 
 /// A horizontal velocity in the vehicle's own frame, m/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -68,6 +80,7 @@ pub enum Verdict {
 /// spans is believed after a minute (as printed it is refused for ever).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlowEstimate {
+    gates: FlowGates,
     /// At most [`BUFFER`] samples; the oldest is at `oldest` once it is full.
     samples: Vec<Vector>,
     oldest: usize,
@@ -95,14 +108,6 @@ impl BodyVelocity {
 }
 
 impl AdcpMessage {
-    /// Whether the paper's four conditions hold: fast enough over ground and in the water, deep and high enough.
-    fn is_valid(&self) -> bool {
-        self.over_ground.length() > GROUND_SPEED_MIN
-            && self.through_water.length() > WATER_SPEED_MIN
-            && self.depth > DEPTH_MIN
-            && self.altitude > ALTITUDE_MIN
-    }
-
     /// f_g^t = R_b2t (v_g^b - v_f^b).
     fn flow(&self) -> Vector {
         self.over_ground.to_tangent(self.heading) - self.through_water.to_tangent(self.heading)
@@ -111,19 +116,27 @@ impl AdcpMessage {
 
 impl FlowEstimate {
     /// Nothing heard yet.
-    pub fn new() -> Self {
-        FlowEstimate::default()
+    pub fn new(gates: FlowGates) -> Self {
+        FlowEstimate { gates, ..FlowEstimate::default() }
     }
 
     /// Takes in a message of the profiler.
     pub fn hear(&mut self, message: &AdcpMessage) -> Verdict {
-        if message.is_valid() { self.add(message.flow()) } else { Verdict::Invalid }
+        if self.is_valid(message) { self.add(message.flow()) } else { Verdict::Invalid }
+    }
+
+    /// Whether the paper's four conditions hold: fast enough over ground and in the water, deep and high enough.
+    fn is_valid(&self, message: &AdcpMessage) -> bool {
+        message.over_ground.length() > self.gates.over_ground
+            && message.through_water.length() > WATER_SPEED_MIN
+            && message.depth > self.gates.depth
+            && message.altitude > self.gates.altitude
     }
 
     /// Takes in one flow sample, m/s toward.
     pub fn add(&mut self, flow: Vector) -> Verdict {
         let speed = flow.length();
-        if speed >= SPEED_MAX || speed.is_nan() {
+        if speed >= self.gates.fastest || speed.is_nan() {
             return Verdict::TooFast;
         }
         let difference = self.average().map_or(Vector::ZERO, |mean| flow - mean);
@@ -136,7 +149,7 @@ impl FlowEstimate {
         if self.rejections < REJECTIONS_MAX {
             return Verdict::TooFar;
         }
-        *self = FlowEstimate::new();
+        *self = FlowEstimate::new(self.gates.clone());
         self.store(flow);
         Verdict::Restarted
     }
@@ -175,7 +188,7 @@ mod tests {
     use super::*;
 
     fn fed(flow: Vector, times: usize) -> FlowEstimate {
-        let mut estimate = FlowEstimate::new();
+        let mut estimate = FlowEstimate::default();
         (0..times).for_each(|_| _ = estimate.add(flow));
         estimate
     }
@@ -199,7 +212,7 @@ mod tests {
                 depth: 5.0,
                 altitude: 2.0,
             };
-            let mut estimate = FlowEstimate::new();
+            let mut estimate = FlowEstimate::default();
             (0..9).for_each(|_| assert_eq!(estimate.hear(&message), Verdict::Accepted));
             assert_eq!(estimate.mean(), None, "not before ten");
             estimate.hear(&message);
@@ -221,7 +234,7 @@ mod tests {
         let diagonal = Vector::new(0.21, 0.21);
         assert!((fed(diagonal, 100).mean().unwrap() - diagonal).length() < 1e-12);
         let strong = Vector::new(0.24, 0.24);
-        let mut estimate = FlowEstimate::new();
+        let mut estimate = FlowEstimate::default();
         (0..400).for_each(|i| _ = estimate.add(strong + wobble(i)));
         assert!(estimate.mean().unwrap().length() > 0.28, "{:?}", estimate.mean());
     }
@@ -243,11 +256,19 @@ mod tests {
     /// Edge case 3: the first gate biases strong flows low. It stays, as printed; the bias is known.
     #[test]
     fn strong_flows_read_low() {
-        let mut estimate = FlowEstimate::new();
+        let mut estimate = FlowEstimate::default();
         (0..1000).for_each(|i| _ = estimate.add(Vector::new(0.33, 0.0) + wobble(i)));
         let speed = estimate.mean().unwrap().length();
         assert!((0.28..0.32).contains(&speed), "{speed}");
         assert_eq!(estimate.add(Vector::new(f64::NAN, 0.0)), Verdict::TooFast);
+    }
+
+    #[test]
+    fn a_faster_flow_gets_in_where_the_gate_is_wider() {
+        let mut estimate = FlowEstimate::new(FlowGates { fastest: 1.0, ..FlowGates::default() });
+        (0..10).for_each(|_| assert_eq!(estimate.add(Vector::new(0.45, 0.6)), Verdict::Accepted));
+        assert!((estimate.mean().unwrap().length() - 0.75).abs() < 1e-12);
+        assert_eq!(estimate.add(Vector::new(0.0, 1.0)), Verdict::TooFast);
     }
 
     #[test]

@@ -8,5 +8,5 @@ mod flow_estimate;
 mod vigil;
 
 pub use dead_reckoning::DeadReckoning;
-pub use flow_estimate::{AdcpMessage, BodyVelocity, FlowEstimate, Verdict};
+pub use flow_estimate::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates, Verdict};
 pub use vigil::{Kind, Sight, Sighting, Vigil};

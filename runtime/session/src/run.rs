@@ -161,9 +161,9 @@ impl Run {
         self.release_failed
     }
 
-    /// The true source that is nearest to a place.
+    /// The place of a true source that is nearest to another.
     pub fn nearest_source(&self, to: Point) -> Option<Point> {
-        let sources = self.plan.scenario.sources.iter().map(|s| s.at);
+        let sources = self.plan.scenario.sources.iter().map(|source| source.nearest(to));
         sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
     }
 

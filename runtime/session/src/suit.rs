@@ -11,6 +11,7 @@ use albacore_vehicle::channels;
 /// What a mission misses in a world; a note is of what may well be meant.
 pub(crate) fn findings(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
     let mut findings = unsensed(script, mission, scenario, world);
+    findings.extend(unmeasured(script, mission, scenario, world));
     findings.extend(uncovered(script, mission, scenario, world));
     findings
 }
@@ -29,6 +30,18 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
         Diagnostic::error(Code::ScenariosWorld, span, message).help(help)
     };
     script.requirements(mission).into_iter().filter(|(input, _)| !is_told(input)).map(finding).collect()
+}
+
+/// A flow that the mission requires, and that the profiler takes for an error.
+fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Option<Diagnostic> {
+    let (_, span) = script.requirements(mission).into_iter().find(|(input, _)| *input == "flow")?;
+    let (speed, fastest) = (world.flow.speed(), world.adcp.gates.fastest);
+    let message = format!(
+        "the flow of `{scenario}` is {speed:.2} m/s, and its profiler takes {fastest:.2} m/s and more for an error: `flow` \
+         will be missing, or too slow"
+    );
+    let help = format!("let `{scenario}` have a profiler for such a flow: `adcp(fastest: {:.1} m/s)`", 2.0 * speed);
+    (speed >= fastest).then(|| Diagnostic::warning(Code::ScenariosWorld, span, message).help(help))
 }
 
 /// Areas that reach no further beyond what is known than this, m, are meant to be its own.

@@ -1,6 +1,7 @@
 //! What a scenario says of the sensors.
 
 use super::clause::Clause;
+use albacore_navigation::FlowGates;
 use albacore_sim::{
     Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Lbl, Looks, Navigation, Pressure, Scenario, Sounder,
 };
@@ -56,6 +57,12 @@ pub fn adcp(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         looks,
         rate: c.number("rate")?,
         delay: c.number("delay")?,
+        gates: FlowGates {
+            fastest: c.number("fastest")?,
+            over_ground: c.number("over_ground")?,
+            depth: c.number("depth")?,
+            altitude: c.number("altitude")?,
+        },
     };
     Ok(())
 }

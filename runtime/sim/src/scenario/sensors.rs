@@ -3,6 +3,7 @@
 use crate::scenario::instruments::EVERY_TICK;
 use crate::scenario::{Objections, Scenario, told};
 use albacore_geometry::Vector;
+use albacore_navigation::FlowGates;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
@@ -96,11 +97,24 @@ pub struct Adcp {
     pub rate: f64,
     /// Between a look and the estimate that it enters, s. Default 0.
     pub delay: f64,
+    /// What a look must be to enter the estimate. Default that of the 2005 paper.
+    pub gates: FlowGates,
 }
 
 impl Default for Adcp {
     fn default() -> Self {
-        Adcp { noise: 0.05, bias: 0.0, blanking: 0.75, bin: 0.5, count: 1, looks: Looks::Up, rate: 1.0, delay: 0.0 }
+        let gates = FlowGates::default();
+        Adcp {
+            noise: 0.05,
+            bias: 0.0,
+            blanking: 0.75,
+            bin: 0.5,
+            count: 1,
+            looks: Looks::Up,
+            rate: 1.0,
+            delay: 0.0,
+            gates,
+        }
     }
 }
 
@@ -186,6 +200,10 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     of.within("count", f64::from(adcp.count), 1.0..=f64::from(BINS_MAX));
     of.rate("rate", adcp.rate);
     of.delay("delay", adcp.delay);
+    of.within("fastest", adcp.gates.fastest, 0.01..=20.0);
+    of.within("over_ground", adcp.gates.over_ground, 0.0..=5.0);
+    of.within("depth", adcp.gates.depth, 0.0..=100.0);
+    of.within("altitude", adcp.gates.altitude, 0.0..=100.0);
     let sounder = &scenario.sounder;
     let mut of = objections.of("sounder");
     of.rate("rate", sounder.rate);

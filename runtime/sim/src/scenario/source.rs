@@ -86,6 +86,16 @@ impl Default for Patch {
     }
 }
 
+impl Source {
+    /// The place of it that is nearest to another: of a leak anywhere along it.
+    pub fn nearest(&self, place: Point) -> Point {
+        let Some(to) = self.to else { return self.at };
+        let (way, aside) = (to - self.at, place - self.at);
+        let share = aside.dot(way) / way.dot(way);
+        if share.is_nan() { self.at } else { self.at + share.clamp(0.0, 1.0) * way }
+    }
+}
+
 impl Default for Source {
     fn default() -> Self {
         Source {

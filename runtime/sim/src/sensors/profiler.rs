@@ -47,7 +47,8 @@ impl Profiler {
     /// The profiler of a run.
     pub fn new(settings: &Adcp, seed: u64) -> Self {
         let noise = (0..settings.count).map(|bin| Noise::sub(seed, Stream::Adcp, bin)).collect();
-        Profiler { settings: settings.clone(), noise, estimate: FlowEstimate::new(), delay: Delay::new(settings.delay) }
+        let estimate = FlowEstimate::new(settings.gates.clone());
+        Profiler { settings: settings.clone(), noise, estimate, delay: Delay::new(settings.delay) }
     }
 
     /// The mean flow that it tells at a tick, m/s toward; `flow_at` is the velocity of the water at a height above the bottom (m).
