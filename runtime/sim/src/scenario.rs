@@ -14,7 +14,7 @@ pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub use instruments::{Battery, Compass, Ctd, Dvl, Gps, Pressure};
 pub use objections::{Bounds, Objection, ScenarioError, Why};
-pub(crate) use objections::{Objections, OfClause, rounded_down, told};
+pub(crate) use objections::{FLOW_MAX, Objections, OfClause, rounded_down, told};
 pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;

@@ -22,10 +22,11 @@ const GOAL_MOVES: f64 = 0.3;
 /// Above this depth a vehicle may be held down by nothing but the surface, m.
 const SURFACE: f64 = 0.3;
 /// A depth that is exactly the same for so many ticks, 20 s, while another is commanded; an altitude for 10 s while the depth
-/// changes by so much, m.
+/// changes by so much, m, in itself and in its mean over some 20 s: waves raise and lower what the pressure gauge tells.
 const DEPTH_SAME: u64 = 200;
 const ALTITUDE_SAME: u64 = 100;
 const DEPTH_CHANGES: f64 = 1.0;
+const DEPTH_MEAN_TICKS: f64 = 200.0;
 
 /// What is remembered of how commands are followed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,9 +34,35 @@ pub(super) struct Commanded {
     /// For how many ticks the heading has been far off.
     astray: u64,
     goal: Option<Goal>,
-    /// The depth when the altitude was first told that is still told.
-    depth_then: Option<f64>,
-    depth: f64,
+    depth: Depth,
+    /// That when the altitude was first told that is still told.
+    depth_then: Option<Depth>,
+}
+
+/// The depth that was told last, and its mean, m.
+#[derive(Clone, Copy, Debug, Default)]
+struct Depth {
+    last: f64,
+    mean: Option<f64>,
+}
+
+impl Depth {
+    fn hear(&mut self, depth: f64) {
+        let mean = self.mean.unwrap_or(depth);
+        (self.last, self.mean) = (depth, Some(mean + (depth - mean) / DEPTH_MEAN_TICKS));
+    }
+
+    /// How far from a depth it is, by itself and by its mean: waves are not the vehicle's.
+    fn off(self, wanted: f64) -> f64 {
+        let off = |depth: f64| (depth - wanted).abs();
+        off(self.last).min(off(self.mean.unwrap_or(self.last)))
+    }
+
+    /// Whether it is another than it was.
+    fn differs(self, then: Depth) -> bool {
+        let means = self.mean.zip(then.mean).map_or(0.0, |(now, then)| (now - then).abs());
+        means > DEPTH_CHANGES && (self.last - then.last).abs() > DEPTH_CHANGES
+    }
 }
 
 /// A depth or an altitude that is to be reached.
@@ -51,7 +78,9 @@ struct Goal {
 
 impl Commanded {
     pub fn look(&mut self, heard: &Heard, command: Option<&Command>, speed: f64, sights: &mut Sights) {
-        self.depth = heard.depth.map_or(self.depth, |told| told.reading[0]);
+        if let Some(told) = heard.depth {
+            self.depth.hear(told.reading[0]);
+        }
         self.look_at_altitude(heard.altitude, command, sights);
         let Some(command) = command else {
             *self = Commanded { depth: self.depth, ..Commanded::default() };
@@ -79,8 +108,12 @@ impl Commanded {
         };
         let Some(told) = told else { return };
         // Where the water is too shallow for an altitude the vehicle swims at the surface.
-        let cannot = matches!(vertical, Vertical::Altitude(_)) && self.depth < SURFACE;
-        let off = if cannot { 0.0 } else { (told.reading[0] - wanted).abs() };
+        let cannot = matches!(vertical, Vertical::Altitude(_)) && self.depth.last < SURFACE;
+        let off = match vertical {
+            Vertical::Altitude(_) if cannot => 0.0,
+            Vertical::Altitude(_) => (told.reading[0] - wanted).abs(),
+            Vertical::Depth(_) => self.depth.off(wanted),
+        };
         let now = Goal { vertical, since: heard.tick, off, missed: false };
         let goal = self.goal.get_or_insert(now);
         if !is_same(goal.vertical, vertical) {
@@ -106,7 +139,7 @@ impl Commanded {
             return;
         }
         let then = *self.depth_then.get_or_insert(self.depth);
-        if told.same > ALTITUDE_SAME && (self.depth - then).abs() > DEPTH_CHANGES {
+        if told.same > ALTITUDE_SAME && self.depth.differs(then) {
             sights.see(Sight::Stuck(Kind::Altitude));
         }
     }

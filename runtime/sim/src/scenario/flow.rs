@@ -1,7 +1,7 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::LONGEST_PLUME_STEP_S;
-use crate::scenario::{Bounds, Objections, Scenario, rounded_down, told};
+use crate::scenario::{Bounds, FLOW_MAX, Objections, Scenario, rounded_down, told};
 use crate::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
 use albacore_geometry::{Heading, Vector};
@@ -141,12 +141,22 @@ impl Default for Meander {
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     objections.of("flow").flow("mean", scenario.flow.mean);
     check_current(&scenario.flow, objections);
+    let (speed, tides) = (scenario.flow.speed(), !scenario.flow.tides.is_empty());
+    let message = format!("with its tides the water runs as fast as {} m/s: no sea does", told(speed));
+    let mend = format!("make flow and tides less: {FLOW_MAX} m/s at most, all together");
+    objections.of("flow").unless(Some("mean"), !tides || speed <= FLOW_MAX || !speed.is_finite(), message, mend);
     if let Some(upper) = &scenario.flow.upper {
         let mut layer = objections.of("upper_layer");
         layer.flow("flow", upper.mean);
         layer.not_negative("above", upper.above);
         layer.not_negative("moves", upper.moves);
         layer.positive("period", upper.period);
+        layer.unless(
+            Some("moves"),
+            upper.moves <= upper.above || !upper.moves.is_finite() || !upper.above.is_finite(),
+            format!("the boundary moves by {} m, and is {} m above the bottom", told(upper.moves), told(upper.above)),
+            "let it move less: it stays above the bottom",
+        );
     }
 }
 

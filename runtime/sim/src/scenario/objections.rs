@@ -191,7 +191,7 @@ impl OfClause<'_> {
 /// The longest delay of a sensor, s.
 const DELAY_MAX_S: f64 = 600.0;
 /// The fastest flow, m/s: tidal races reach 8.
-const FLOW_MAX: f64 = 10.0;
+pub(crate) const FLOW_MAX: f64 = 10.0;
 /// What units of a script may lose, as a share.
 const ROUNDING: f64 = 1e-12;
 

@@ -56,10 +56,10 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         "`plume` needs a `flow` that carries it",
         "give the scenario one: `flow(12 cm/s toward 140 deg)`, for example",
     );
-    of.not_negative("growth", plume.growth);
-    of.positive("initial_radius", plume.initial_radius);
-    of.not_negative("diffusivity", plume.diffusivity);
-    of.not_negative("vertical", plume.vertical);
+    of.within("growth", plume.growth, 0.0..=1.0);
+    of.within("initial_radius", plume.initial_radius, 0.001..=100.0);
+    of.within("diffusivity", plume.diffusivity, 0.0..=100.0);
+    of.within("vertical", plume.vertical, 0.0..=1.0);
     match plume.layer {
         // A script says 0 m for a flat plume.
         Some(layer) => {

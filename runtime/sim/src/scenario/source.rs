@@ -1,7 +1,7 @@
 //! What releases chemical, or has released it: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::spin_up_begin;
-use crate::scenario::{Objections, OfClause, Scenario, rounded_down, told};
+use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -139,9 +139,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         of.name(&patch.name, &names);
         names.push(patch.name.as_str());
         check_place(scenario, &mut of, "at", patch.at, patch.height);
-        of.not_negative("radius", patch.radius);
+        of.within("radius", patch.radius, 0.0..=10_000.0);
         of.not_negative("age", patch.age);
-        of.positive("peak", patch.peak);
+        of.bounds("peak", patch.peak, PEAKS);
         of.not_negative("peak_age", patch.reference_age);
     }
     check_layer(scenario, objections);
@@ -150,10 +150,13 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
 }
 
+/// What a filament may read, of full scale.
+const PEAKS: Bounds = Bounds::UpTo(0.0, 1000.0);
+
 /// A source by itself.
 fn check_source(source: &Source, of: &mut OfClause) {
     of.positive("rate", source.rate);
-    of.positive("peak", source.peak);
+    of.bounds("peak", source.peak, PEAKS);
     of.not_negative("peak_age", source.reference_age);
     let times = &source.when;
     of.finite("begins", [times.begins, 0.0]);
@@ -251,3 +254,19 @@ fn check_size(scenario: &Scenario, objections: &mut Objections) {
 pub(crate) const SPIN_UP_MAX_S: f64 = 200_000.0;
 /// The most filaments alive, by estimate.
 const FILAMENTS_MAX: f64 = 200_000.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leak_is_near_along_all_of_it() {
+        let dye = Source { at: Point::new(-200.0, -100.0), ..Source::default() };
+        let pipe = Source { to: Some(Point::new(200.0, -100.0)), ..dye.clone() };
+        assert_eq!(dye.nearest(Point::new(190.0, -90.0)), dye.at);
+        assert_eq!(pipe.nearest(Point::new(190.0, -90.0)), Point::new(190.0, -100.0));
+        assert_eq!(pipe.nearest(Point::new(900.0, -90.0)), Point::new(200.0, -100.0));
+        let spot = Source { to: Some(dye.at), ..dye.clone() };
+        assert_eq!(spot.nearest(Point::new(190.0, -90.0)), dye.at);
+    }
+}

@@ -61,7 +61,27 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
     of.within("thermocline", s.thermocline, 0.0..=DEEPEST_THERMOCLINE_M);
     of.positive("thickness", s.thickness);
+    let (above, below) = (density(s.surface, s.surface_salinity), density(s.bottom, s.bottom_salinity));
+    of.unless(
+        None,
+        below >= above - SAME_DENSITY || !(above - below).is_finite(),
+        format!("this water is lighter below ({below:.1} kg/m3) than above ({above:.1} kg/m3): it would turn over"),
+        "make it colder below, or saltier",
+    );
 }
+
+/// The density of sea water at the surface, kg/m3, at a temperature (degrees Celsius) and a practical salinity: the one-atmosphere
+/// equation of EOS-80 (Millero & Poisson 1981, Deep-Sea Res. 28A, 625-629).
+fn density(temperature: f64, salinity: f64) -> f64 {
+    let polynomial = |coefficients: &[f64]| coefficients.iter().rev().fold(0.0, |sum, c| sum * temperature + c);
+    let pure = polynomial(&[999.842594, 6.793952e-2, -9.095290e-3, 1.001685e-4, -1.120083e-6, 6.536332e-9]);
+    let linear = polynomial(&[8.24493e-1, -4.0899e-3, 7.6438e-5, -8.2467e-7, 5.3875e-9]);
+    let root = polynomial(&[-5.72466e-3, 1.0227e-4, -1.6546e-6]);
+    pure + salinity * (linear + root * salinity.sqrt() + 4.8314e-4 * salinity)
+}
+
+/// Water is not told to turn over for less, kg/m3.
+const SAME_DENSITY: f64 = 0.01;
 
 /// Below this depth no sea has a thermocline, m.
 const DEEPEST_THERMOCLINE_M: f64 = 1500.0;
@@ -73,6 +93,16 @@ const SALINITIES: Bounds = Bounds::Within(0.0, 42.0);
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The check values that UNESCO printed with the equation (Technical Papers in Marine Science 44, 1983).
+    #[test]
+    fn the_density_is_the_printed_one() {
+        for (salinity, temperature, printed) in
+            [(0.0, 5.0, 999.966_75), (0.0, 25.0, 997.047_96), (35.0, 5.0, 1_027.675_47), (35.0, 25.0, 1_023.343_06)]
+        {
+            assert!((density(temperature, salinity) - printed).abs() < 1e-5, "{salinity} {temperature}");
+        }
+    }
 
     #[test]
     fn the_water_is_that_of_the_surface_far_above_and_falls_as_steeply_as_it_says_in_the_middle() {

@@ -1,6 +1,7 @@
 //! The vehicle, its own mission and its computer: what a scenario says of them, and what of that cannot be.
 
 use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
+use crate::scenario::bottom::DEEPEST_M;
 use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Point};
@@ -235,15 +236,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         );
         of.within("speed", limits.speed.unwrap_or(0.0), 0.0..=20.0);
     }
-    if let Some(Route::Waypoints(waypoints)) = scenario.own_mission.as_ref().map(|own| &own.route) {
-        let mut of = objections.of("waypoints");
-        let (message, mend) = ("there is nowhere to swim to", "give a point at least");
-        of.unless(Some("points"), !waypoints.points.is_empty(), message, mend);
-        for point in &waypoints.points {
-            of.finite("points", [point.north, point.east]);
-        }
-        of.positive("speed", waypoints.speed);
-        check_reach(scenario, waypoints, &mut of);
+    if let Some(own) = &scenario.own_mission {
+        check_own_mission(scenario, own, objections);
     }
     let mut of = objections.of(v.hull.clause());
     of.within("endurance", v.endurance, 1.0..=ENDURANCE_MAX_S);
@@ -256,9 +250,41 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
 }
 
-/// Whether it can swim there: before its battery is empty, and in the water.
-fn check_reach(scenario: &Scenario, waypoints: &Waypoints, of: &mut OfClause) {
+/// Whether it can swim its own mission.
+fn check_own_mission(scenario: &Scenario, own: &OwnMission, objections: &mut Objections) {
     let v = &scenario.vehicle;
+    let legs = own.route.legs(v.start, v.heading);
+    let mut of = match &own.route {
+        Route::Rows(_) => objections.of("rows"),
+        Route::Waypoints(waypoints) => {
+            let mut of = objections.of("waypoints");
+            check_waypoints(waypoints, v, &mut of);
+            of
+        }
+    };
+    let Vertical::Depth(depth) = own.vertical else { return };
+    let depths = legs.iter().flat_map(|leg| [leg.start, leg.end]).map(|point| scenario.bottom.depth_at(point));
+    let shallowest = depths.fold(f64::INFINITY, f64::min);
+    of.unless(
+        Some("depth"),
+        depth <= shallowest || !shallowest.is_finite(),
+        format!(
+            "where it is to swim the water is {} m deep: it cannot swim there at {} m",
+            rounded_down(shallowest),
+            told(depth)
+        ),
+        "make `depth` less, or leave it out for an `altitude`",
+    );
+}
+
+/// Whether there are any, and none is too far.
+fn check_waypoints(waypoints: &Waypoints, v: &VehicleSetup, of: &mut OfClause) {
+    let (message, mend) = ("there is nowhere to swim to", "give a point at least");
+    of.unless(Some("points"), !waypoints.points.is_empty(), message, mend);
+    for point in &waypoints.points {
+        of.finite("points", [point.north, point.east]);
+    }
+    of.positive("speed", waypoints.speed);
     let ways = std::iter::once(&v.start).chain(&waypoints.points).zip(&waypoints.points);
     let length: f64 = ways.map(|(from, to)| from.distance(*to)).sum();
     let most = waypoints.speed * v.endurance;
@@ -267,19 +293,6 @@ fn check_reach(scenario: &Scenario, waypoints: &Waypoints, of: &mut OfClause) {
         length <= most || !length.is_finite() || !most.is_finite(),
         format!("this way is {:.0} km long, and the battery is empty after {:.0} km", length / 1000.0, most / 1000.0),
         "move the points nearer, or let the vehicle have more `endurance`",
-    );
-    let Some(Vertical::Depth(depth)) = scenario.own_mission.as_ref().map(|own| own.vertical) else { return };
-    let depths = waypoints.points.iter().map(|point| scenario.bottom.depth_at(*point));
-    let shallowest = depths.fold(f64::INFINITY, f64::min);
-    of.unless(
-        Some("depth"),
-        depth <= shallowest || !shallowest.is_finite(),
-        format!(
-            "at one of its points the water is {} m deep: it cannot swim there at {} m",
-            rounded_down(shallowest),
-            told(depth)
-        ),
-        "make `depth` less, or leave it out for an `altitude`",
     );
 }
 
@@ -324,7 +337,7 @@ const FIN_MAX: f64 = 1.0;
 /// So many steps of integration in a tick: with fewer the roll of a hull is not followed, with more nothing is gained.
 const STEPS: RangeInclusive<f64> = 2.0..=100.0;
 /// From the surface to the deepest trench, m.
-const DEPTHS: RangeInclusive<f64> = 0.0..=11_000.0;
+const DEPTHS: RangeInclusive<f64> = 0.0..=DEEPEST_M;
 /// What an echo sounder of such a vehicle could see, m.
 const ALTITUDES: RangeInclusive<f64> = 0.0..=1000.0;
 /// The longest that a battery lasts, s: longer than any vehicle's has.

@@ -75,6 +75,20 @@ fn energy_is_only_ever_lost_without_propeller_and_current() {
     assert!(last < 0.05 * first, "{last} of {first}");
 }
 
+/// In a perfect fluid, where nothing drags and nothing lifts, no energy is lost either: the inertial forces do no work.
+#[test]
+fn energy_is_kept_where_nothing_drags() {
+    let mut plant = Fossen { damping: [0.0; 6], wing: 0.0, ..Fossen::new() };
+    plant.cross_flow = CrossFlow::new(0.0, LENGTH, DIAMETER);
+    let first = energy(&plant, &tumbling());
+    let mut state = tumbling();
+    for _ in 0..6000 {
+        state = runge_kutta(&plant, &state, &NEUTRAL, &Surroundings::default(), 0.01);
+        let off = energy(&plant, &state) / first - 1.0;
+        assert!(off.abs() < 1e-6, "{off}");
+    }
+}
+
 #[test]
 fn a_hull_at_rest_stays_at_rest_at_any_depth_and_place() {
     let rest = State { pose: [100.0, -40.0, 30.0, 0.0, 0.0, 2.0], ..State::default() };
