@@ -67,7 +67,8 @@ impl Show {
     fn write(&self, shown: &Shown) -> Exit {
         let usual = || Path::new("albacore-runs").join(format!("{}-{}", shown.name, self.seed)).join("scenario.svg");
         let path = self.out.clone().unwrap_or_else(usual);
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        // A folder that somebody names is there, or mistyped.
+        let folder = if self.out.is_none() { path.parent() } else { None };
         let made = folder.map_or(Ok(()), std::fs::create_dir_all);
         match made.and_then(|()| kept::whole(&path, &shown.svg)) {
             Ok(()) => {
@@ -75,7 +76,8 @@ impl Show {
                 Exit::Well
             }
             Err(error) => {
-                message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
+                let help = "choose another file with `--out`";
+                message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
                 Exit::Failed
             }
         }

@@ -66,6 +66,17 @@ fn the_picture_is_a_file_of_its_own() {
     assert_ne!(std::fs::read_to_string(folder.join("mine.svg")).unwrap(), picture, "another seed");
 }
 
+/// A folder that is named must be there, as for the table of a campaign.
+#[test]
+fn a_picture_for_no_folder_is_refused() {
+    let folder = folder("nowhere");
+    let output = show(&folder, &["duck_2003", "--out", "no/mine.svg"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(said.starts_with("error: `no/mine.svg` cannot be written: "), "{said}");
+    assert!(said.contains("choose another file with `--out`") && !folder.join("no").exists(), "{said}");
+}
+
 /// The points that a vehicle swims to by itself are listed, drawn, and swum to.
 #[test]
 fn a_mission_of_waypoints_is_shown_and_swum() {
