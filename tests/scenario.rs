@@ -66,6 +66,47 @@ fn the_picture_is_a_file_of_its_own() {
     assert_ne!(std::fs::read_to_string(folder.join("mine.svg")).unwrap(), picture, "another seed");
 }
 
+fn drawn(name: &str, scenario: &str) -> String {
+    let path = folder(name).join("scenario.svg");
+    listed(&[scenario, "--out", path.to_str().unwrap()]);
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The coordinates on the axes, and the length of the scale bar, tell how much of the world is seen.
+#[test]
+fn the_picture_shows_all_of_a_survey_or_the_water_near_by() {
+    let maine = drawn("maine", "missions/deepest_real.alb#gulf_of_maine");
+    for word in ["survey", "depth, every 20.0 m", ">1 km<", ">-2000<", ">1000<"] {
+        assert!(maine.contains(word), "no {word}");
+    }
+    let bay = drawn("bay", "tests/scenario/bay.alb");
+    for word in ["survey", "depth, every 1.0 m", ">600<", ">-400<", ">400<"] {
+        assert!(bay.contains(word), "no {word}");
+    }
+    let nothing = drawn("nothing", "tests/scenario/nothing.alb");
+    assert!(nothing.contains(">-100<") && nothing.contains(">100<") && !nothing.contains("survey"));
+}
+
+/// Each layer's flow by its name, first that which carries the plume; waves carry nothing.
+#[test]
+fn the_picture_tells_the_flow_of_each_layer() {
+    let layers = drawn("layers", "duck_2003_two_layers");
+    let carries = layers.find("lower layer: 12.5 cm/s").unwrap();
+    assert!(carries < layers.find("above 3.2 m: 22.5 cm/s").unwrap());
+    let folder = folder("waves");
+    let waves = "scenario wavy {\n    flow(10 cm/s toward 90 deg)\n    waves(height: 2 m)\n}\n";
+    std::fs::write(folder.join("wavy.alb"), waves).unwrap();
+    assert_eq!(show(&folder, &["wavy.alb", "--out", "wavy.svg"]).status.code(), Some(0));
+    let picture = std::fs::read_to_string(folder.join("wavy.svg")).unwrap();
+    assert!(picture.contains("flow 10.0 cm/s") && picture.contains("toward 90°"));
+}
+
+#[test]
+fn a_leak_is_drawn_as_the_line_that_it_is() {
+    let picture = drawn("leak", "tests/scenario/ocean.alb");
+    assert!(picture.contains(">leak</text>") && picture.matches(">pipe</text>").count() == 1);
+}
+
 /// A folder that is named must be there, as for the table of a campaign.
 #[test]
 fn a_picture_for_no_folder_is_refused() {

@@ -1,5 +1,7 @@
 //! A scenario as a person looks at it: every number in force, those of the library's defaults too, and a picture.
 
+mod view;
+
 use crate::files::Files;
 use crate::plan::PlanError;
 use crate::scenario;
@@ -9,11 +11,7 @@ use albacore_lang::source::Source;
 use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue, Script, doc};
 use albacore_program::{AREA_CORNER_WORDS, Shape, number};
 use albacore_sim::{Grid, Ground, Scenario, Simulator};
-use albacore_trace::{Depths, Picture};
 use std::path::Path;
-
-/// A picture without a region shows so much water around the vehicle, m to each side.
-const AROUND_M: f64 = 100.0;
 
 /// A scenario, laid open.
 #[derive(Clone, Debug)]
@@ -71,7 +69,7 @@ impl Shown {
             }
         }
         let filaments = world.plume.is_some().then(|| simulator.filaments().count());
-        let svg = picture(&lowered, &world, &simulator, seed);
+        let svg = view::svg(&lowered.name, &world, &simulator, seed);
         Ok(Shown { name: lowered.name, clauses, absent, filaments, svg })
     }
 }
@@ -215,29 +213,4 @@ impl Teller<'_> {
             None => local,
         }
     }
-}
-
-/// The world at the start.
-fn picture(lowered: &ScenarioProgram, scenario: &Scenario, simulator: &Simulator, seed: u64) -> String {
-    let start = simulator.truth().position;
-    let around = |north: f64, east: f64| Point::new(start.north + north * AROUND_M, start.east + east * AROUND_M);
-    let area = scenario.region.as_ref().map(|region| region.corners().to_vec());
-    let shown = area.clone().unwrap_or_else(|| vec![around(-1.0, -1.0), around(1.0, 1.0)]);
-    let flow = simulator.truth().flow;
-    let legs = scenario.own_mission.iter().flat_map(|own| own.route.legs(start, scenario.vehicle.heading));
-    Picture {
-        title: format!("scenario {}", lowered.name),
-        subtitle: vec![format!("as it is when a run with seed {seed} begins")],
-        depths: Depths::sound(&shown, |p| simulator.water_depth(p)),
-        area: area.unwrap_or_default(),
-        area_name: String::from("region"),
-        route: legs.flat_map(|leg| [leg.start, leg.end]).collect(),
-        no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
-        plume: simulator.filaments().collect(),
-        sources: scenario.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),
-        start: Some(start),
-        flow: (flow != Vector::ZERO).then_some(flow),
-        ..Picture::default()
-    }
-    .svg()
 }
