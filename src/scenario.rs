@@ -3,7 +3,7 @@
 use crate::exit::Exit;
 use crate::plan::{refused, scenario_script};
 use crate::{kept, message, output};
-use albacore_session::Shown;
+use albacore_session::{Shown, Whence};
 use std::path::{Path, PathBuf};
 
 /// Look at a scenario.
@@ -88,10 +88,18 @@ impl Show {
 fn listing(shown: &Shown) -> String {
     let mut text = format!("scenario {}\n", shown.name);
     for clause in &shown.clauses {
-        let unsaid = if clause.is_said { "" } else { "  (not said)" };
+        let unsaid = match clause.whence {
+            Whence::Said => "",
+            Whence::Default => "  (not said)",
+            Whence::Record => "  (of the record)",
+        };
         text.push_str(&format!("\n{}{unsaid}\n", clause.name));
-        for (name, value, is_default) in &clause.values {
-            let mark = if *is_default { "default" } else { "" };
+        for (name, value, whence) in &clause.values {
+            let mark = match whence {
+                Whence::Said => "",
+                Whence::Default => "default",
+                Whence::Record => "record",
+            };
             for (i, line) in value.lines().enumerate() {
                 let name = if i == 0 { name } else { "" };
                 text.push_str(format!("  {name:NAME$}{line:VALUE$}{mark}").trim_end());

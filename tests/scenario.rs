@@ -34,6 +34,29 @@ fn every_number_is_listed_with_where_it_comes_from() {
     assert!(set.contains("age               1800 s\n"), "{set}");
 }
 
+/// What a world has though nobody says it is no less in force: its water, its bottom, and a vehicle with its hull.
+#[test]
+fn what_nobody_says_is_listed_too() {
+    insta::assert_snapshot!(listed(&["tests/scenario/nothing.alb", "--no-out"]));
+    let bay = listed(&["tests/scenario/bay.alb", "--no-out"]);
+    assert!(!bay.contains("bottom  (not said)"), "where the bottom was surveyed, the plane is not in force: {bay}");
+    let absent = bay.lines().find_map(|line| line.strip_prefix("none of: ")).unwrap();
+    assert!(absent.split(", ").any(|name| name == "bottom"), "{absent}");
+}
+
+/// A record brings its own water, plume and source.
+#[test]
+fn what_a_record_brings_is_listed_as_its_own() {
+    let listing = listed(&["missions/recorded.alb#recorded_plume_a", "--no-out"]);
+    let (record, rest) = listing.split_once("\n\nbottom").unwrap();
+    insta::assert_snapshot!(record);
+    let absent = rest.lines().find_map(|line| line.strip_prefix("none of: ")).unwrap();
+    assert!(
+        ["region", "flow", "plume", "source"].iter().all(|name| absent.split(", ").all(|a| a != *name)),
+        "{absent}"
+    );
+}
+
 /// Of a survey more than its file: where it lies, how large it is and how deep.
 #[test]
 fn a_surveyed_bottom_is_listed_as_it_came_to_lie() {
