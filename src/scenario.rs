@@ -3,7 +3,7 @@
 use crate::exit::Exit;
 use crate::plan::{refused, scenario_script};
 use crate::{kept, message, output};
-use albacore_session::Shown;
+use albacore_session::{Shown, Whence};
 use std::path::{Path, PathBuf};
 
 /// Look at a scenario.
@@ -67,7 +67,8 @@ impl Show {
     fn write(&self, shown: &Shown) -> Exit {
         let usual = || Path::new("albacore-runs").join(format!("{}-{}", shown.name, self.seed)).join("scenario.svg");
         let path = self.out.clone().unwrap_or_else(usual);
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        // A folder that somebody names is there, or mistyped.
+        let folder = if self.out.is_none() { path.parent() } else { None };
         let made = folder.map_or(Ok(()), std::fs::create_dir_all);
         match made.and_then(|()| kept::whole(&path, &shown.svg)) {
             Ok(()) => {
@@ -75,7 +76,8 @@ impl Show {
                 Exit::Well
             }
             Err(error) => {
-                message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
+                let help = "choose another file with `--out`";
+                message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
                 Exit::Failed
             }
         }
@@ -86,10 +88,18 @@ impl Show {
 fn listing(shown: &Shown) -> String {
     let mut text = format!("scenario {}\n", shown.name);
     for clause in &shown.clauses {
-        let unsaid = if clause.is_said { "" } else { "  (not said)" };
+        let unsaid = match clause.whence {
+            Whence::Said => "",
+            Whence::Default => "  (not said)",
+            Whence::Record => "  (of the record)",
+        };
         text.push_str(&format!("\n{}{unsaid}\n", clause.name));
-        for (name, value, is_default) in &clause.values {
-            let mark = if *is_default { "default" } else { "" };
+        for (name, value, whence) in &clause.values {
+            let mark = match whence {
+                Whence::Said => "",
+                Whence::Default => "default",
+                Whence::Record => "record",
+            };
             for (i, line) in value.lines().enumerate() {
                 let name = if i == 0 { name } else { "" };
                 text.push_str(format!("  {name:NAME$}{line:VALUE$}{mark}").trim_end());

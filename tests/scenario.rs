@@ -34,6 +34,29 @@ fn every_number_is_listed_with_where_it_comes_from() {
     assert!(set.contains("age               1800 s\n"), "{set}");
 }
 
+/// What a world has though nobody says it is no less in force: its water, its bottom, and a vehicle with its hull.
+#[test]
+fn what_nobody_says_is_listed_too() {
+    insta::assert_snapshot!(listed(&["tests/scenario/nothing.alb", "--no-out"]));
+    let bay = listed(&["tests/scenario/bay.alb", "--no-out"]);
+    assert!(!bay.contains("bottom  (not said)"), "where the bottom was surveyed, the plane is not in force: {bay}");
+    let absent = bay.lines().find_map(|line| line.strip_prefix("none of: ")).unwrap();
+    assert!(absent.split(", ").any(|name| name == "bottom"), "{absent}");
+}
+
+/// A record brings its own water, plume and source.
+#[test]
+fn what_a_record_brings_is_listed_as_its_own() {
+    let listing = listed(&["missions/recorded.alb#recorded_plume_a", "--no-out"]);
+    let (record, rest) = listing.split_once("\n\nbottom").unwrap();
+    insta::assert_snapshot!(record);
+    let absent = rest.lines().find_map(|line| line.strip_prefix("none of: ")).unwrap();
+    assert!(
+        ["region", "flow", "plume", "source"].iter().all(|name| absent.split(", ").all(|a| a != *name)),
+        "{absent}"
+    );
+}
+
 /// Of a survey more than its file: where it lies, how large it is and how deep.
 #[test]
 fn a_surveyed_bottom_is_listed_as_it_came_to_lie() {
@@ -64,6 +87,58 @@ fn the_picture_is_a_file_of_its_own() {
     }
     assert_eq!(show(&folder, &["duck_2003", "--out", "mine.svg"]).status.code(), Some(0));
     assert_ne!(std::fs::read_to_string(folder.join("mine.svg")).unwrap(), picture, "another seed");
+}
+
+fn drawn(name: &str, scenario: &str) -> String {
+    let path = folder(name).join("scenario.svg");
+    listed(&[scenario, "--out", path.to_str().unwrap()]);
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The coordinates on the axes, and the length of the scale bar, tell how much of the world is seen.
+#[test]
+fn the_picture_shows_all_of_a_survey_or_the_water_near_by() {
+    let maine = drawn("maine", "missions/deepest_real.alb#gulf_of_maine");
+    for word in ["survey", "depth, every 20.0 m", ">1 km<", ">-2000<", ">1000<"] {
+        assert!(maine.contains(word), "no {word}");
+    }
+    let bay = drawn("bay", "tests/scenario/bay.alb");
+    for word in ["survey", "depth, every 1.0 m", ">600<", ">-400<", ">400<"] {
+        assert!(bay.contains(word), "no {word}");
+    }
+    let nothing = drawn("nothing", "tests/scenario/nothing.alb");
+    assert!(nothing.contains(">-100<") && nothing.contains(">100<") && !nothing.contains("survey"));
+}
+
+/// Each layer's flow by its name, first that which carries the plume; waves carry nothing.
+#[test]
+fn the_picture_tells_the_flow_of_each_layer() {
+    let layers = drawn("layers", "duck_2003_two_layers");
+    let carries = layers.find("lower layer: 12.5 cm/s").unwrap();
+    assert!(carries < layers.find("above 3.2 m: 22.5 cm/s").unwrap());
+    let folder = folder("waves");
+    let waves = "scenario wavy {\n    flow(10 cm/s toward 90 deg)\n    waves(height: 2 m)\n}\n";
+    std::fs::write(folder.join("wavy.alb"), waves).unwrap();
+    assert_eq!(show(&folder, &["wavy.alb", "--out", "wavy.svg"]).status.code(), Some(0));
+    let picture = std::fs::read_to_string(folder.join("wavy.svg")).unwrap();
+    assert!(picture.contains("flow 10.0 cm/s") && picture.contains("toward 90°"));
+}
+
+#[test]
+fn a_leak_is_drawn_as_the_line_that_it_is() {
+    let picture = drawn("leak", "tests/scenario/ocean.alb");
+    assert!(picture.contains(">leak</text>") && picture.matches(">pipe</text>").count() == 1);
+}
+
+/// A folder that is named must be there, as for the table of a campaign.
+#[test]
+fn a_picture_for_no_folder_is_refused() {
+    let folder = folder("nowhere");
+    let output = show(&folder, &["duck_2003", "--out", "no/mine.svg"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(said.starts_with("error: `no/mine.svg` cannot be written: "), "{said}");
+    assert!(said.contains("choose another file with `--out`") && !folder.join("no").exists(), "{said}");
 }
 
 /// The points that a vehicle swims to by itself are listed, drawn, and swum to.

@@ -41,7 +41,7 @@ pub use files::{
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
 pub use run::{Run, Running};
-pub use shown::{Shown, ShownClause};
+pub use shown::{Shown, ShownClause, Whence};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, run_test};
 pub use wanted::Wanted;

@@ -1,9 +1,27 @@
-//! What the picture of a run is made of, gathered while it goes.
+//! What the picture of a run is made of: what is known of its world, and what is gathered while it goes.
 
 use crate::summary::Summary;
-use albacore_geometry::Point;
+use albacore_geometry::{Point, Vector};
 use albacore_program::number;
+use albacore_sim::Scenario;
 use albacore_trace::Picture;
+
+/// What is so in a world before any run, with the flow that carries its plume, m/s.
+pub(crate) fn of_world(scenario: &Scenario, carrying: Vector) -> Picture {
+    let upper = scenario.flow.upper.as_ref();
+    let below = if upper.is_some() { "lower layer:" } else { "flow" };
+    let flows = [
+        Some((below.to_string(), carrying)),
+        upper.map(|upper| (format!("above {}:", number::metres(upper.above)), upper.mean)),
+    ];
+    Picture {
+        no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
+        sources: scenario.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),
+        leaks: scenario.sources.iter().filter_map(|source| Some([source.at, source.to?])).collect(),
+        flows: flows.into_iter().flatten().collect(),
+        ..Picture::default()
+    }
+}
 
 /// The track, the detections and what was declared.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,7 @@ use crate::picture;
 use crate::plan::{Plan, PlanError};
 use crate::summary::{Report, Summary};
 use crate::world;
-use albacore_geometry::{Area, Heading, Point, Vector};
+use albacore_geometry::{Area, Heading, Point};
 use albacore_machine::{Event, Machine, Outcome, Wish};
 use albacore_navigation::Vigil;
 use albacore_program::{AREA_WORDS, PROGRAM_VERSION};
@@ -444,12 +444,9 @@ impl Run {
             depths: Depths::sound(sounded, |p| self.water_depth(p)),
             area,
             plume: self.vehicle.filaments(),
-            no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
-            sources: scenario.sources.iter().map(|s| (s.name.clone(), s.at)).collect(),
             deepest,
             start: self.start,
-            flow: (scenario.flow.mean != Vector::ZERO).then_some(scenario.flow.mean),
-            ..Picture::default()
+            ..picture::of_world(scenario, scenario.flow.mean)
         };
         self.picture.svg(&summary, world)
     }

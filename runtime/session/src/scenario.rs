@@ -12,15 +12,16 @@ mod vehicle;
 
 use crate::files::{FileError, Files};
 use albacore_geometry::TangentFrame;
-use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::{ScenarioClause, ScenarioProgram};
 use albacore_link::Dialect;
 use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 use clause::Clause;
 pub(crate) use objected::objected;
+use std::path::Path;
 
 /// A scenario that was understood.
 pub(crate) struct Understood {
@@ -39,20 +40,10 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
     let pairs = [["bottom", "bottom_grid"], ["rows", "waypoints"]];
     let twice = pairs.into_iter().filter_map(|pair| one_of(program, pair));
     let mut findings: Vec<Diagnostic> = twice.chain(two_plumes(program)).collect();
+    let frame = program.origin.map(|origin| TangentFrame { origin });
     for clause in &program.clauses {
         let clause = Clause { clause, words: &words };
-        let read = match clause.clause.name.as_str() {
-            "bottom_grid" => {
-                let frame = program.origin.map(|origin| TangentFrame { origin });
-                bottom::grid(&mut understood, &clause, files, frame)
-            }
-            "recorded_plume" => recorded::recorded_plume(&mut understood, &clause, files),
-            "vehicle" => vehicle::vehicle(&mut understood.world, &clause),
-            "fault" => fault::fault(&mut understood.world, &clause),
-            "dialect" => vehicle::dialect(&clause).map(|dialect| understood.dialect = Some(dialect)),
-            _ => apply(&mut understood.world, &clause).map_err(Into::into),
-        };
-        if let Err(Wrong(faults)) = read {
+        if let Err(Wrong(faults)) = read(&mut understood, &clause, files, frame) {
             findings.extend(faults.into_iter().map(|fault| fault.at(&clause)));
         }
     }
@@ -60,6 +51,25 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
         findings.extend(bottom::elsewhere(program, &understood.world));
     }
     if findings.is_empty() { Ok(understood) } else { Err(findings) }
+}
+
+/// Whether a world would be as it is if its scenario said this too.
+pub(crate) fn changes_nothing(world: &Scenario, clause: &ScenarioClause, words: &[f64]) -> bool {
+    let mut understood = Understood { world: world.clone(), dialect: None, files: Vec::new() };
+    let read = read(&mut understood, &Clause { clause, words }, &Files::around(Path::new("")), None);
+    read.is_ok() && understood.world == *world && understood.dialect.is_none()
+}
+
+/// Adds what a clause says.
+fn read(understood: &mut Understood, c: &Clause, files: &Files, frame: Option<TangentFrame>) -> Result<(), Wrong> {
+    match c.clause.name.as_str() {
+        "bottom_grid" => bottom::grid(understood, c, files, frame),
+        "recorded_plume" => recorded::recorded_plume(understood, c, files),
+        "vehicle" => vehicle::vehicle(&mut understood.world, c),
+        "fault" => fault::fault(&mut understood.world, c),
+        "dialect" => vehicle::dialect(c).map(|dialect| understood.dialect = Some(dialect)),
+        _ => apply(&mut understood.world, c).map_err(Into::into),
+    }
 }
 
 /// The ground is a plane or a survey, the vehicle's own mission rows or waypoints: of two that are said, neither can be the one

@@ -1,19 +1,18 @@
 //! A scenario as a person looks at it: every number in force, those of the library's defaults too, and a picture.
 
-use crate::files::Files;
+mod record;
+mod teller;
+mod unsaid;
+mod view;
+
 use crate::plan::PlanError;
 use crate::scenario;
 use crate::world::{self, place_of};
-use albacore_geometry::{Point, TangentFrame, Vector};
-use albacore_lang::source::Source;
-use albacore_lang::{ScenarioClause, ScenarioProgram, ScenarioValue, Script, doc};
-use albacore_program::{AREA_CORNER_WORDS, Shape, number};
-use albacore_sim::{Grid, Ground, Scenario, Simulator};
-use albacore_trace::{Depths, Picture};
-use std::path::Path;
-
-/// A picture without a region shows so much water around the vehicle, m to each side.
-const AROUND_M: f64 = 100.0;
+use albacore_geometry::TangentFrame;
+use albacore_lang::Script;
+use albacore_sim::{Ground, Simulator};
+use teller::Teller;
+use unsaid::Unsaid;
 
 /// A scenario, laid open.
 #[derive(Clone, Debug)]
@@ -35,10 +34,21 @@ pub struct Shown {
 pub struct ShownClause {
     /// Its name; of a value of another clause, both: `vehicle kinematic`.
     pub name: String,
-    /// Whether the scenario says it.
-    pub is_said: bool,
-    /// Its parameters and their values (of an area each corner, of a list each item on a line), and whether the scenario says nothing of them.
-    pub values: Vec<(String, String, bool)>,
+    /// Why it is in force.
+    pub whence: Whence,
+    /// Its parameters, their values (of an area each corner, of a list each item on a line), and why they have them.
+    pub values: Vec<(String, String, Whence)>,
+}
+
+/// Why something is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Whence {
+    /// The scenario says it.
+    Said,
+    /// Nobody says it: it is so by default.
+    Default,
+    /// The recorded plume brings it.
+    Record,
 }
 
 impl Shown {
@@ -49,29 +59,33 @@ impl Shown {
         let (lowered, understood) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
         let world = understood.world;
         let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&error))?;
-        let defaults = Defaults::read();
         let mut clauses = Vec::new();
         let words = scenario::words(&lowered);
         let teller = Teller { words: &words, frame: lowered.origin.map(|origin| TangentFrame { origin }) };
         for clause in &lowered.clauses {
-            teller.tell(clause, "", true, &mut clauses);
-            if let ("bottom_grid", Ground::Grid(grid), Some(told)) =
-                (clause.name.as_str(), &world.bottom.ground, clauses.last_mut())
-            {
-                told.values.extend(teller.survey(grid));
+            teller.tell(clause, "", Whence::Said, &mut clauses);
+            match (clause.name.as_str(), clauses.last_mut()) {
+                ("bottom_grid", Some(told)) => {
+                    if let Ground::Grid(grid) = &world.bottom.ground {
+                        told.values.extend(teller.survey(grid));
+                    }
+                }
+                ("recorded_plume", _) => record::tell(&world, &teller, &mut clauses),
+                _ => {}
             }
         }
-        let said = |name: &str| lowered.clauses.iter().any(|clause| clause.name == name);
+        let unsaid = Unsaid::read();
+        let teller = Teller { words: &unsaid.words, ..teller };
         let mut absent = Vec::new();
-        for name in &defaults.names {
-            match defaults.in_force(name) {
-                _ if said(name) => {}
-                Some(clause) => defaults.teller().tell(clause, "", false, &mut clauses),
+        for name in &unsaid.names {
+            match unsaid.in_force(name, &world) {
+                _ if clauses.iter().any(|told| told.name == *name) => {}
+                Some(clause) => teller.tell(clause, "", Whence::Default, &mut clauses),
                 None => absent.push(name.clone()),
             }
         }
-        let filaments = world.plume.is_some().then(|| simulator.filaments().count());
-        let svg = picture(&lowered, &world, &simulator, seed);
+        let filaments = world.has_plume().then(|| simulator.filaments().count());
+        let svg = view::svg(&lowered.name, &world, &simulator, seed);
         Ok(Shown { name: lowered.name, clauses, absent, filaments, svg })
     }
 }
@@ -85,159 +99,4 @@ fn chosen(script: &Script, file: &str, wanted: Option<&str>) -> Result<String, P
         let help = format!("name it: `{file}#NAME`; there is {}", script.scenarios().collect::<Vec<_>>().join(", "));
         PlanError::Asked(format!("which scenario of `{file}` is to be shown?"), Some(help))
     })
-}
-
-/// The clauses of the standard library, with all that they say of themselves.
-struct Defaults {
-    /// Those that stand on a line of their own, in order.
-    names: Vec<String>,
-    /// Each as it is when it is given nothing, where it needs nothing.
-    probe: Option<ScenarioProgram>,
-    words: Vec<f64>,
-}
-
-impl Defaults {
-    /// Asks the library's own words, through the same steps as any scenario.
-    fn read() -> Self {
-        let everywhere = crate::standard_modules().filter(|module| crate::is_known_everywhere(module));
-        let scripts = everywhere.filter_map(|module| crate::load_or_module(module.as_ref()).ok());
-        let pages = scripts.filter_map(|script| script.sources.iter().next().and_then(doc::page));
-        let declared: Vec<doc::Declaration> = pages.flat_map(|page| page.declarations).collect();
-        let clauses = || declared.iter().filter(|d| d.word == "clause");
-        // What needs no number can be left to itself; the kinds of other clauses may be left out.
-        let kinds: Vec<&String> = clauses().filter_map(|d| d.result.as_ref()).collect();
-        let alone = |d: &&doc::Declaration| d.params.iter().all(|p| p.default.is_some() || kinds.contains(&&p.ty));
-        let lines: String =
-            clauses().filter(alone).filter(|d| d.result.is_none()).map(|d| format!("    {}()\n", d.name)).collect();
-        let text = format!("scenario defaults {{\n{lines}}}\n");
-        let script = crate::load_text(Source { name: "defaults.alb".into(), text: text.into() });
-        let probe = script.scenario("defaults", None).and_then(Result::ok);
-        let words = probe.as_ref().map_or_else(Vec::new, scenario::words);
-        Defaults { names: clauses().filter(|d| d.result.is_none()).map(|d| d.name.clone()).collect(), probe, words }
-    }
-
-    fn teller(&self) -> Teller<'_> {
-        Teller { words: self.words.as_slice(), frame: None }
-    }
-
-    /// A clause as it is when it is given nothing, if to say it so changes nothing: then it holds without being said.
-    fn in_force(&self, name: &str) -> Option<&ScenarioClause> {
-        let probe = self.probe.as_ref()?;
-        let clause = probe.clauses.iter().find(|clause| clause.name == name)?;
-        let alone = ScenarioProgram { clauses: vec![clause.clone()], ..probe.clone() };
-        let understood = scenario::scenario(&alone, &Files::around(Path::new("")));
-        understood.is_ok_and(|understood| understood.world == Scenario::default()).then_some(clause)
-    }
-}
-
-/// Tells clauses of one scenario.
-struct Teller<'a> {
-    words: &'a [f64],
-    frame: Option<TangentFrame>,
-}
-
-impl Teller<'_> {
-    /// Adds a clause, and after it the clauses that are its values.
-    fn tell(&self, clause: &ScenarioClause, outer: &str, is_said: bool, told: &mut Vec<ShownClause>) {
-        let name = if outer.is_empty() { clause.name.clone() } else { format!("{outer} {}", clause.name) };
-        let values = clause.args.iter().filter_map(|arg| {
-            let text = self.value(&arg.value)?;
-            Some((arg.name.clone(), text, arg.is_default))
-        });
-        told.push(ShownClause { name: name.clone(), is_said, values: values.collect() });
-        for arg in &clause.args {
-            if let ScenarioValue::Clause(nested) = &arg.value
-                && !nested.args.is_empty()
-            {
-                self.tell(nested, &name, is_said, told);
-            }
-        }
-    }
-
-    fn value(&self, value: &ScenarioValue) -> Option<String> {
-        match value {
-            ScenarioValue::Text(text) => Some(format!("\"{text}\"")),
-            ScenarioValue::Words(slot, shape) => {
-                let words = self.words.get(*slot as usize..).unwrap_or(&[]);
-                Some(self.text(shape, words.get(..shape.words() as usize).unwrap_or(words)))
-            }
-            // What has no parameters is said by its name.
-            ScenarioValue::Clause(value) => value.args.is_empty().then(|| value.name.clone()),
-        }
-    }
-
-    fn text(&self, shape: &Shape, words: &[f64]) -> String {
-        match (shape, words) {
-            (Shape::Vector(display), &[north, east]) => {
-                let vector = Vector::new(north, east);
-                let size = number::brief(&[], &Shape::Quantity(display.clone()), &[vector.length()]);
-                let toward = number::brief(&[], &Shape::Heading, &[vector.toward().radians()]);
-                format!("{size} toward {toward}")
-            }
-            (Shape::Point, &[north, east]) => self.point(Point::new(north, east)),
-            (Shape::Area, [count, corners @ ..]) => {
-                let corners = corners.chunks(AREA_CORNER_WORDS as usize).take(*count as usize);
-                corners.map(|c| self.point(Point::new(c[0], c[1]))).collect::<Vec<_>>().join("\n")
-            }
-            (Shape::List(item, _), [count, items @ ..]) => {
-                let items = items.chunks(item.words().max(1) as usize).take(*count as usize);
-                items.map(|words| self.text(item, words)).collect::<Vec<_>>().join("\n")
-            }
-            _ => number::brief(&[], shape, words),
-        }
-    }
-
-    /// What a survey came to be: where its corners lie, how large it is, and how deep.
-    fn survey(&self, grid: &Grid) -> Vec<(String, String, bool)> {
-        let Grid { south_west, north_east, rows, columns, depths } = grid;
-        let size = *north_east - *south_west;
-        let length = |m: f64| if m < 10_000.0 { format!("{m:.1} m") } else { format!("{:.1} km", m / 1000.0) };
-        let (step, across) = (size.north / f64::from(rows - 1), size.east / f64::from(columns - 1));
-        let ends = |(low, high): (f64, f64), depth: &f64| (low.min(*depth), high.max(*depth));
-        let (least, most) = depths.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
-        let land = depths.iter().filter(|depth| **depth <= 0.0).count();
-        let on_land = if land == 0 { String::new() } else { format!(", {land} cells on land") };
-        let told = [
-            ("south-west", self.point(*south_west)),
-            ("north-east", self.point(*north_east)),
-            ("size", format!("{} north, {} east", length(size.north), length(size.east))),
-            ("cells", format!("{rows} x {columns}, each {} x {}", length(step), length(across))),
-            ("depths", format!("{least:.1} m to {most:.1} m{on_land}")),
-        ];
-        told.into_iter().map(|(name, value)| (name.to_string(), value, false)).collect()
-    }
-
-    /// A place in the frame, and on the globe if it lies there.
-    fn point(&self, p: Point) -> String {
-        let local = number::point(p);
-        match self.frame {
-            Some(frame) => format!("{} {local}", frame.to_geodetic(p)),
-            None => local,
-        }
-    }
-}
-
-/// The world at the start.
-fn picture(lowered: &ScenarioProgram, scenario: &Scenario, simulator: &Simulator, seed: u64) -> String {
-    let start = simulator.truth().position;
-    let around = |north: f64, east: f64| Point::new(start.north + north * AROUND_M, start.east + east * AROUND_M);
-    let area = scenario.region.as_ref().map(|region| region.corners().to_vec());
-    let shown = area.clone().unwrap_or_else(|| vec![around(-1.0, -1.0), around(1.0, 1.0)]);
-    let flow = simulator.truth().flow;
-    let legs = scenario.own_mission.iter().flat_map(|own| own.route.legs(start, scenario.vehicle.heading));
-    Picture {
-        title: format!("scenario {}", lowered.name),
-        subtitle: vec![format!("as it is when a run with seed {seed} begins")],
-        depths: Depths::sound(&shown, |p| simulator.water_depth(p)),
-        area: area.unwrap_or_default(),
-        area_name: String::from("region"),
-        route: legs.flat_map(|leg| [leg.start, leg.end]).collect(),
-        no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
-        plume: simulator.filaments().collect(),
-        sources: scenario.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),
-        start: Some(start),
-        flow: (flow != Vector::ZERO).then_some(flow),
-        ..Picture::default()
-    }
-    .svg()
 }

@@ -90,6 +90,16 @@ impl Recording {
         self.header.release_rate
     }
 
+    /// Radius of a filament when it is released, m: the standard deviation of its Gaussian.
+    pub fn initial_radius(&self) -> f64 {
+        self.header.kernel.squared_radius(0.0).sqrt()
+    }
+
+    /// Growth of a filament's squared radius, m2/s.
+    pub fn growth(&self) -> f64 {
+        self.header.kernel.growth
+    }
+
     /// What a filament reads in its middle when it is as old as it gets on its way through the area at the mean flow, in
     /// thresholds of detection; and that age, s.
     pub fn far_peak(&self) -> (f64, f64) {

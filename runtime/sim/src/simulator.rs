@@ -151,6 +151,11 @@ impl Simulator {
         self.world.flow(p, height, self.time_s())
     }
 
+    /// The flow that carries the plume, m/s toward, at a point: below the upper layer, without waves.
+    pub fn carrying_flow(&self, p: Point) -> Vector {
+        self.world.carrying_flow(p, self.time_s())
+    }
+
     /// The plume's filaments now: where they are, and their radii (standard deviations of Gaussians) in metres.
     pub fn filaments(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         self.world.filaments(self.time_s())

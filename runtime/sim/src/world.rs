@@ -58,12 +58,20 @@ impl World {
     /// The water's velocity, m/s toward, at a point, a height above the bottom (m) and a time within the last tick: the flow,
     /// and the orbital motion of the waves.
     pub fn flow(&self, p: Point, height: f64, time: f64) -> Vector {
-        let flow = match (&self.upper, &self.carrier) {
-            (Some(upper), _) if height > upper.begins(time) => upper.mean,
-            (_, Carrier::Simulated(own)) => own.flow(p, time),
-            (_, Carrier::Recorded(playback)) => playback.flow(p, time),
+        let flow = match &self.upper {
+            Some(upper) if height > upper.begins(time) => upper.mean,
+            _ => self.carrying_flow(p, time),
         };
         self.sea.as_ref().map_or(flow, |sea| flow + sea.velocity(p, height, time))
+    }
+
+    /// The flow that carries the plume, m/s toward, at a point and a time within the last tick: below the upper layer, without
+    /// waves.
+    pub fn carrying_flow(&self, p: Point, time: f64) -> Vector {
+        match &self.carrier {
+            Carrier::Simulated(own) => own.flow(p, time),
+            Carrier::Recorded(playback) => playback.flow(p, time),
+        }
     }
 
     /// What waves make a pressure sensor read too deep, m, at a point, a height above the bottom (m) and a time.

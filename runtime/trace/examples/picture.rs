@@ -117,7 +117,7 @@ fn chase(
         declared: vec![("declared, 13.2 m off".to_string(), declared)],
         sources: vec![("dye".to_string(), source)],
         start: Some(start),
-        flow: Some(0.125 * down.unit()),
+        flows: vec![("flow".into(), 0.125 * down.unit())],
         ..Picture::default()
     })
 }
@@ -149,7 +149,7 @@ fn several() -> Result<Picture, Box<dyn Error>> {
         behaviors: vec!["survey".to_string(), "track_in".to_string()],
         declared,
         sources,
-        flow: Some(Heading::from_degrees(359.9).unit()),
+        flows: vec![("flow".into(), Heading::from_degrees(359.9).unit())],
         ..Picture::default()
     })
 }

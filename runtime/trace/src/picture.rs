@@ -31,6 +31,8 @@ pub struct Picture {
     pub title: String,
     /// Lines beneath it.
     pub subtitle: Vec<String>,
+    /// Corners of the water that is to be seen, whatever is in it.
+    pub water: Vec<Point>,
     /// The corners of the operating area.
     pub area: Vec<Point>,
     /// What the legend calls it; empty: the operating area.
@@ -51,14 +53,16 @@ pub struct Picture {
     pub declared: Vec<(String, Point)>,
     /// The true sources, by name.
     pub sources: Vec<(String, Point)>,
+    /// Of sources that are lines both ends; the first is the place of the source.
+    pub leaks: Vec<[Point; 2]>,
     /// The bottom's shape, where it is what is searched.
     pub depths: Depths,
     /// The deepest point of the operating area, where it is what is searched.
     pub deepest: Option<Point>,
     /// Where the vehicle started.
     pub start: Option<Point>,
-    /// The mean flow, in m/s.
-    pub flow: Option<Vector>,
+    /// The flow of each layer by its name, in m/s; still water has no arrow.
+    pub flows: Vec<(String, Vector)>,
 }
 
 impl Picture {
@@ -97,6 +101,8 @@ impl Picture {
         let all = self
             .area
             .iter()
+            .chain(&self.water)
+            .chain(self.leaks.iter().flatten())
             .copied()
             .chain(self.route.iter().copied())
             .chain(self.track.iter().map(|(p, _)| *p))

@@ -19,7 +19,7 @@ fn full() -> Picture {
         declared: vec![("declared".into(), Point::new(13.0, 2.0))],
         sources: vec![("dye".into(), Point::ORIGIN)],
         start: Some(Point::new(-300.0, 200.0)),
-        flow: Some(Vector::new(-0.0957, 0.0803)),
+        flows: vec![("flow".into(), Vector::new(-0.0957, 0.0803))],
         ..Picture::default()
     }
 }
@@ -83,7 +83,14 @@ fn what_is_not_finite_is_left_out() {
     check(&svg);
     assert!(!svg.contains("bad"));
     assert_eq!(svg.len(), clean.len());
-    check(&Picture { start: Some(bad[0]), flow: Some(Vector::new(f64::NAN, 0.0)), ..Picture::default() }.svg());
+    check(
+        &Picture {
+            start: Some(bad[0]),
+            flows: vec![("flow".into(), Vector::new(f64::NAN, 0.0))],
+            ..Picture::default()
+        }
+        .svg(),
+    );
     check(&Picture { plume: vec![(Point::ORIGIN, f64::NAN)], ..Picture::default() }.svg());
 }
 
@@ -141,4 +148,35 @@ fn places_where_the_vehicle_must_not_be_are_drawn_and_named() {
     let outlines = |svg: &str| svg.matches("stroke=\"#b3001b\"").count();
     assert_eq!((outlines(&without), outlines(&svg)), (0, 3), "two zones, and the legend");
     assert!(svg.contains(">wreck</text>") && svg.contains(">no-go zone</text>") && !svg.contains(">far away</text>"));
+}
+
+#[test]
+fn each_layer_has_its_arrow_and_its_name() {
+    let (below, above) = (Vector::new(-0.0957, 0.0803), Vector::new(0.225, 0.0));
+    let flows = vec![("lower layer:".into(), below), ("above 3.2 m:".into(), above)];
+    let svg = Picture { flows, ..full() }.svg();
+    check(&svg);
+    let places =
+        ["lower layer: 12.5 cm/s", "toward 140°", "above 3.2 m: 22.5 cm/s", "toward 0°"].map(|text| svg.find(text));
+    assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{places:?}");
+}
+
+#[test]
+fn a_source_that_is_a_line_is_drawn_from_end_to_end_and_named_once() {
+    let sources = vec![("pipe".into(), Point::ORIGIN)];
+    let leaks = vec![[Point::ORIGIN, Point::new(900.0, 0.0)], [Point::ORIGIN, Point::new(f64::NAN, 0.0)]];
+    let svg = Picture { sources, leaks, ..Picture::default() }.svg();
+    check(&svg);
+    let strokes = |svg: &str| svg.matches("stroke=\"#7a0019\" stroke-width=\"5\"").count();
+    assert_eq!((strokes(&svg), svg.matches(">pipe</text>").count()), (2, 1), "the line, and the legend");
+    assert!(svg.contains(">leak</text>") && svg.contains(">800</text>"), "its far end is on the chart");
+    assert_eq!(strokes(&full().svg()), 0);
+}
+
+#[test]
+fn water_that_is_to_be_seen_is_on_the_chart() {
+    let water = vec![Point::new(-400.0, 0.0), Point::new(400.0, 0.0)];
+    let svg = Picture { water, start: Some(Point::ORIGIN), ..Picture::default() }.svg();
+    check(&svg);
+    assert!(svg.contains(">-400</text>") && svg.contains(">400</text>"));
 }

@@ -59,7 +59,7 @@ pub(super) struct Kernel {
     peak: f64,
     far: f64,
     initial: f64,
-    growth: f64,
+    pub growth: f64,
 }
 
 #[derive(Clone, Debug, Deserialize)]

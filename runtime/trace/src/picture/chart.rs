@@ -38,6 +38,7 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
         no_go(svg, &outline(corners, frame));
     }
     route(svg, &outline(&picture.route, frame));
+    leaks(&picture.leaks, frame).iter().for_each(|ends| leak(svg, ends));
     detections(svg, picture, frame);
     track(svg, runs);
     marks(svg, picture, frame, runs);
@@ -58,6 +59,20 @@ pub fn no_go(svg: &mut Svg, corners: &[(f64, f64)]) {
         let attributes = format!("fill=\"{NO_GO}\" fill-opacity=\"0.12\" stroke=\"{NO_GO}\" stroke-width=\"1.3\"");
         svg.path(corners, true, &attributes);
     }
+}
+
+/// A source that is a line.
+pub fn leak(svg: &mut Svg, ends: &[(f64, f64)]) {
+    let attributes = |colour: &str, width: f64| {
+        format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"round\"")
+    };
+    svg.path(ends, false, &attributes("#fff", 8.0));
+    svg.path(ends, false, &attributes(SOURCE, 5.0));
+}
+
+/// Those with two ends that can be drawn.
+fn leaks(leaks: &[[Point; 2]], frame: &Frame) -> Vec<Vec<(f64, f64)>> {
+    leaks.iter().map(|ends| outline(ends, frame)).filter(|ends| ends.len() == 2).collect()
 }
 
 /// The way that a vehicle goes by itself.
@@ -168,7 +183,9 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     taken.extend(declared.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
     let mut around = outline(&picture.area, frame);
     around.extend(around.first().copied());
+    let leaks = leaks(&picture.leaks, frame);
     let lines = runs.iter().map(|run| run.points.as_slice()).chain([around.as_slice()]);
+    let lines = lines.chain(leaks.iter().map(Vec::as_slice));
     let mut labels = Labels::new(lines, &taken);
 
     start.into_iter().for_each(|at| start_mark(svg, at));

@@ -9,15 +9,17 @@ const WIDTH_MIN: f64 = 190.0;
 const WIDTH_MAX: f64 = 320.0;
 /// Where names begin, in pixels from the left of the panel.
 const NAMES: f64 = 36.0;
+/// Where the flow's arrows have their middle, in pixels from the left of the panel.
+const FLOW_AT: f64 = 108.0;
 /// A line of the legend, in pixels.
 const LINE: f64 = 21.0;
 /// So many behaviors are named at most.
 const BEHAVIORS_MAX: usize = 24;
 /// The length of the longest scale bar, in pixels.
 const BAR_MAX: f64 = 150.0;
-/// Heights of the parts, in pixels.
-const COMPASS: f64 = 88.0;
-const FLOW: f64 = 34.0;
+/// Heights of the parts, in pixels: north by itself, each layer's flow, the scale bar.
+const NORTH: f64 = 88.0;
+const FLOW: f64 = 122.0;
 const BAR: f64 = 56.0;
 
 const HEAD: &str = "font-size=\"13\" font-weight=\"bold\" fill=\"#1a1a1a\"";
@@ -49,6 +51,7 @@ impl<'a> Panel<'a> {
             (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),
             (!picture.declared.is_empty(), "declared", chart::declared_mark),
             (!picture.sources.is_empty(), "true source", chart::source_mark),
+            (!picture.leaks.is_empty(), "leak", leak_mark),
             (picture.deepest.is_some(), "truly deepest", chart::source_mark),
             (!depths.is_empty(), &depths, depth_mark),
         ];
@@ -60,7 +63,8 @@ impl<'a> Panel<'a> {
     /// How wide it is, in pixels.
     pub fn width(&self) -> f64 {
         let names = self.behaviors.iter().map(|behavior| svg::text_width(&self.name(*behavior), 13.0));
-        names.fold(WIDTH_MIN, |widest, name| widest.max(NAMES + name)).min(WIDTH_MAX)
+        let flows = self.flows().map(|(name, flow)| FLOW_AT + svg::text_width(&speed(name, flow), 13.0) / 2.0);
+        names.map(|name| NAMES + name).chain(flows).fold(WIDTH_MIN, f64::max).min(WIDTH_MAX)
     }
 
     /// How high it is, in pixels.
@@ -72,8 +76,8 @@ impl<'a> Panel<'a> {
     /// Draws it with its upper left corner there.
     pub fn draw(&self, svg: &mut Svg, left: f64, top: f64) {
         north(svg, (left + 20.0, top + 34.0));
-        if let Some(flow) = self.flow() {
-            flow_arrow(svg, (left + 108.0, top + 34.0), flow);
+        for (i, (name, flow)) in self.flows().enumerate() {
+            flow_arrow(svg, (left + FLOW_AT, top + 34.0 + FLOW * i as f64), name, flow);
         }
         self.bar(svg, left, top + self.compass() + 8.0);
         let mut y = top + self.compass() + BAR + LINE / 2.0;
@@ -109,13 +113,15 @@ impl<'a> Panel<'a> {
         name.map_or_else(|| format!("behavior {behavior}"), String::clone)
     }
 
-    /// The flow, if there is any to draw.
-    fn flow(&self) -> Option<Vector> {
-        self.picture.flow.filter(|flow| flow.length().is_finite() && flow.length() > 0.0)
+    /// The flows that can be drawn.
+    fn flows(&self) -> impl Iterator<Item = (&str, Vector)> {
+        let flows = self.picture.flows.iter().map(|(name, flow)| (name.as_str(), *flow));
+        flows.filter(|(_, flow)| flow.length().is_finite() && flow.length() > 0.0)
     }
 
+    /// North, and the flows beside it and below.
     fn compass(&self) -> f64 {
-        if self.flow().is_some() { COMPASS + FLOW } else { COMPASS }
+        NORTH.max(FLOW * self.flows().count() as f64)
     }
 
     fn bar(&self, svg: &mut Svg, left: f64, y: f64) {
@@ -142,7 +148,7 @@ fn north(svg: &mut Svg, (x, y): (f64, f64)) {
     svg.text((x, y + 27.0), "font-size=\"15\" font-weight=\"bold\" fill=\"#1a1a1a\" text-anchor=\"middle\"", "N");
 }
 
-fn flow_arrow(svg: &mut Svg, (x, y): (f64, f64), flow: Vector) {
+fn flow_arrow(svg: &mut Svg, (x, y): (f64, f64), name: &str, flow: Vector) {
     let unit = flow.toward().unit();
     // On the page east is right and north is up.
     let at = |along: f64, across: f64| {
@@ -152,8 +158,12 @@ fn flow_arrow(svg: &mut Svg, (x, y): (f64, f64), flow: Vector) {
     svg.line(at(-27.0, 0.0), at(18.0, 0.0), &format!("stroke=\"{colour}\" stroke-width=\"3\""));
     svg.path(&[at(29.0, 0.0), at(14.0, 7.5), at(14.0, -7.5)], true, &format!("fill=\"{colour}\""));
     let attributes = format!("font-size=\"13\" fill=\"{colour}\" text-anchor=\"middle\"");
-    svg.text((x, y + 48.0), &attributes, &format!("flow {} cm/s", number::fixed(flow.length() * 100.0, 1)));
+    svg.text((x, y + 48.0), &attributes, &speed(name, flow));
     svg.text((x, y + 63.0), &attributes, &format!("toward {}°", whole_degrees(flow)));
+}
+
+fn speed(name: &str, flow: Vector) -> String {
+    format!("{name} {} cm/s", number::fixed(flow.length() * 100.0, 1))
 }
 
 fn whole_degrees(flow: Vector) -> String {
@@ -172,6 +182,10 @@ fn route_mark(svg: &mut Svg, (x, y): (f64, f64)) {
 
 fn no_go_mark(svg: &mut Svg, (x, y): (f64, f64)) {
     chart::no_go(svg, &[(x - 13.0, y - 6.0), (x + 13.0, y - 6.0), (x + 13.0, y + 6.0), (x - 13.0, y + 6.0)]);
+}
+
+fn leak_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    chart::leak(svg, &[(x - 10.0, y), (x + 10.0, y)]);
 }
 
 fn depth_mark(svg: &mut Svg, (x, y): (f64, f64)) {

@@ -1,0 +1,44 @@
+//! The picture of a scenario: its world when a run begins.
+
+use crate::picture;
+use albacore_geometry::Point;
+use albacore_sim::{Ground, Scenario, Simulator};
+use albacore_trace::{Depths, Picture};
+
+/// A picture without region and survey shows so much water around the vehicle, m to each side.
+const AROUND_M: f64 = 100.0;
+
+/// The world at the start of a run with a seed, as SVG.
+pub(super) fn svg(name: &str, scenario: &Scenario, simulator: &Simulator, seed: u64) -> String {
+    let start = simulator.truth().position;
+    let legs = scenario.own_mission.iter().flat_map(|own| own.route.legs(start, scenario.vehicle.heading));
+    let route: Vec<Point> = legs.flat_map(|leg| [leg.start, leg.end]).collect();
+    let surveyed = match &scenario.bottom.ground {
+        Ground::Grid(grid) => grid.area(),
+        Ground::Plane(_) => None,
+    };
+    let known = scenario.region.as_ref().map(|region| (region, "region"));
+    let known = known.or(surveyed.as_ref().map(|area| (area, "survey")));
+    let (area, area_name) = known.map_or_else(Default::default, |(area, name)| (area.corners().to_vec(), name));
+    let water = if area.is_empty() { near(start, &route, scenario) } else { area.clone() };
+    Picture {
+        title: format!("scenario {name}"),
+        subtitle: vec![format!("as it is when a run with seed {seed} begins")],
+        depths: Depths::sound(&water, |p| simulator.water_depth(p)),
+        water,
+        area,
+        area_name: area_name.into(),
+        route,
+        plume: simulator.filaments().collect(),
+        start: Some(start),
+        ..picture::of_world(scenario, simulator.carrying_flow(start))
+    }
+    .svg()
+}
+
+/// Corners of the water about the vehicle, its way, and where it must not be.
+fn near(start: Point, route: &[Point], scenario: &Scenario) -> Vec<Point> {
+    let around = [-AROUND_M, AROUND_M].map(|away| Point::new(start.north + away, start.east + away));
+    let no_go = scenario.no_go.iter().flat_map(|zone| zone.area.corners());
+    around.iter().chain(route).chain(no_go).copied().collect()
+}
