@@ -89,8 +89,11 @@ impl Run {
         let Some(link) = &self.link else {
             let plan = self.choice.plan(script, &self.script)?;
             let plan = plan.with_faults(&self.faults.read()?).map_err(refused)?;
-            let run = MissionRun::new(&plan, self.seed).map_err(refused)?;
-            return Ok((plan, run));
+            // In a wide and slow sea a plume is hours old, and those are computed first.
+            let bar = self.bar(&format!("{} before the run", plan.scenario_name));
+            let run = MissionRun::new(&plan, self.seed);
+            bar.finish_and_clear();
+            return Ok((plan, run.map_err(refused)?));
         };
         let usage = |error| told(&error, Exit::Usage);
         let url = WrittenUrl::parse(link).map_err(usage)?;
@@ -119,7 +122,7 @@ impl Run {
 
     /// Ticks until the mission ends or the person interrupts it.
     fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut Kept, interrupted: &AtomicBool) -> Outcome {
-        let bar = self.bar(plan);
+        let bar = self.bar(&plan.program.mission.name);
         // A vehicle at the end of a link has a time of its own.
         let mut pace = self.rate.filter(|_| self.link.is_none()).map(Pace::new);
         loop {
@@ -146,7 +149,7 @@ impl Run {
         }
     }
 
-    fn bar(&self, plan: &Plan) -> ProgressBar {
+    fn bar(&self, doing: &str) -> ProgressBar {
         if self.json || !std::io::stderr().is_terminal() {
             return ProgressBar::hidden();
         }
@@ -154,7 +157,7 @@ impl Run {
         let style = ProgressStyle::with_template("{spinner} {pos} s  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_spinner());
         bar.set_style(style);
-        bar.set_message(plan.program.mission.name.clone());
+        bar.set_message(doing.to_string());
         bar.enable_steady_tick(Duration::from_millis(100));
         bar
     }
