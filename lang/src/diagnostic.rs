@@ -2,6 +2,7 @@
 
 use crate::code::Code;
 use crate::source::Span;
+use std::collections::BTreeSet;
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,8 +77,10 @@ impl Diagnostic {
     }
 }
 
-/// Puts findings in source order and drops those said already.
+/// Puts findings in source order, those of one kind and place in the order in which they were found, and drops those said
+/// already.
 pub fn settle(findings: &mut Vec<Diagnostic>) {
-    findings.sort_by(|a, b| (a.span(), a.code, &a.message).cmp(&(b.span(), b.code, &b.message)));
-    findings.dedup_by(|a, b| a.span() == b.span() && a.message == b.message);
+    findings.sort_by_key(|finding| (finding.span(), finding.code));
+    let mut said = BTreeSet::new();
+    findings.retain(|finding| said.insert((finding.span(), finding.message.clone())));
 }

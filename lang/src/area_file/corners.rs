@@ -10,6 +10,9 @@ const LONGITUDES_MAX_DEG: f64 = 180.0;
 /// What is thinner than this, in metres, is no area but a point or a line.
 const THICKNESS_M: f64 = 1e-3;
 
+/// What the corners of a file may be rounded to, in degrees: about a metre.
+const ROUNDED_DEG: f64 = 1e-5;
+
 /// Whether corners make an area; else all that is wrong with them. `what` they are, messages say.
 pub(super) fn sound(corners: &[Position], what: &str) -> Result<(), Vec<FileFault>> {
     let mut faults = Vec::new();
@@ -85,6 +88,25 @@ fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
         None => format!("{what} is no area: {error}"),
     };
     Some(fault(message, "leave out the corners of dents, or cut it into convex polygons, each with a name"))
+}
+
+/// The first corner of a hole that is neither within an outline nor on it. Between corners a side is straight in degrees.
+pub(super) fn outside(hole: &[Position], outline: &[Position]) -> Option<usize> {
+    let place = |c: &Position| Point::new(c.latitude_deg, c.longitude_deg);
+    let sides = || (0..outline.len()).map(|i| (place(&outline[i]), place(&outline[(i + 1) % outline.len()])));
+    let is_on = |p: Point, (from, to): (Point, Point)| {
+        let (side, there) = (to - from, p - from);
+        let share = if from == to { 0.0 } else { (there.dot(side) / side.dot(side)).clamp(0.0, 1.0) };
+        (there - share * side).length() < ROUNDED_DEG
+    };
+    let is_south_of = |p: Point, (from, to): (Point, Point)| {
+        (from.east > p.east) != (to.east > p.east) && (wedge(to - from, p - from) > 0.0) == (from.east < to.east)
+    };
+    let is_outside = |p: Point| {
+        let to_the_north = sides().filter(|side| is_south_of(p, *side)).count();
+        to_the_north % 2 == 0 && !sides().any(|side| is_on(p, side))
+    };
+    hole.iter().position(|corner| is_outside(place(corner)))
 }
 
 /// Whether the sides after two corners cross.

@@ -78,6 +78,11 @@ pub fn area(path: &str, bytes: &[u8], named: Option<&str>, hole: Option<usize>) 
     };
     let corners = corners.ok_or_else(|| one(no_hole(&what, polygon.holes.len())))?;
     corners::sound(corners, &ring).map_err(|faults| faults.into_iter().map(in_file).collect::<Vec<_>>())?;
+    if let Some(corner) = hole.and_then(|_| corners::outside(corners, &polygon.corners)) {
+        let message = format!("{ring} lies outside the outline, with its corner {}", corner + 1);
+        let help = "a hole lies within: correct its corners, or give it a feature of its own and read it by its name";
+        return Err(one(fault(message, help)));
+    }
     Ok(Ring { corners: corners.clone(), polygon: what, holes: polygon.holes.len() })
 }
 

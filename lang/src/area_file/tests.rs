@@ -311,3 +311,28 @@ fn many_polygons_keep_their_lines() {
     let message = format!("2 polygons are named `last`: line {line}, line {}", line + 4);
     refused("a.kml", &text, Some("last"), &message, "a name of its own");
 }
+
+/// One that touches the outline is within it, as the formats have it; so is one in a bay of an outline that is itself no area.
+#[test]
+fn a_hole_lies_within_its_outline() {
+    let hole = |outline_of: &[(f64, f64)], ring: &[(f64, f64)]| {
+        let ring: Vec<String> = ring.iter().map(|(x, y)| format!("[{x}, {y}]")).collect();
+        let holed = outline(outline_of).replace("]]]", &format!("]], [{}]]", ring.join(", ")));
+        area("a.json", holed.as_bytes(), None, Some(1)).map(|ring| ring.corners.len())
+    };
+    let triangle = |x: f64, y: f64| [(x, y), (x + 0.001, y), (x, y + 0.001)];
+    let (south, west) = SQUARE.iter().fold((f64::MAX, f64::MAX), |least, c| (least.0.min(c.1), least.1.min(c.0)));
+    assert_eq!(hole(&SQUARE, &triangle(west + 0.001, south + 0.001)), Ok(3));
+    assert_eq!(hole(&SQUARE, &triangle(west, south)), Ok(3), "along two sides");
+    let dented = [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.05, 0.02), (0.0, 0.1)];
+    assert_eq!(hole(&dented, &triangle(0.01, 0.05)), Ok(3));
+    let refused = |outline_of: &[(f64, f64)], x, y, corner: usize| {
+        let error = hole(outline_of, &triangle(x, y)).unwrap_err();
+        let expected = format!("lies outside the outline, with its corner {corner}");
+        assert!(error.len() == 1 && error[0].message.ends_with(&expected), "{error:?}");
+    };
+    refused(&SQUARE, west + 1.0, south, 1);
+    refused(&SQUARE, west + 0.001, south - 0.0005, 1);
+    refused(&dented, 0.05, 0.05, 1);
+    refused(&dented, 0.0, 0.0995, 2);
+}

@@ -151,6 +151,11 @@ fn number(before: &str, rest: &str) -> Option<Habit> {
     }
     let after = rest[next.len()..].trim_start();
     let its_unit: String = after.chars().take_while(|c| c.is_alphanumeric() || "/^%°".contains(*c)).collect();
+    let (north, east) = (unit.trim_start_matches('°'), word(after.trim_start_matches(['°', ' '])));
+    if matches!(north, "N" | "S") && matches!(east, "E" | "W") {
+        let message = Some("the degrees of a position are written with their sign".to_string());
+        return Some(Habit { message, help: format!("write `{number}°{north} {next}°{east}`") });
+    }
     let message = Some(format!("a quantity is one number and one unit: `{next}` cannot follow `{number} {unit}`"));
     let help = if its_unit.is_empty() {
         format!("write one number, such as `{number}.5 {unit}`")

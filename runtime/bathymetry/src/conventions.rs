@@ -184,14 +184,12 @@ fn depths(file: &Classic, bottom: &Variable, columns: u32, faults: &mut Faults) 
     }
     if !packing.is_bounded() {
         // A mark may be one as it is stored, or as it is meant.
-        let sound = || stored.iter().zip(&depths).filter(|(_, depth)| depth.is_finite());
-        let marks = marks::undeclared(sound().map(|(value, _)| *value));
-        let meant = marks::undeclared(sound().map(|(_, depth)| *depth));
-        let is_mark = |(_, (value, depth)): &(usize, (&f64, &f64))| marks.contains(value) || meant.contains(depth);
-        for (i, (value, _)) in stored.iter().zip(&depths).enumerate().filter(is_mark) {
+        let is_mark = |cell: usize| marks::is_mark(stored[cell]) || marks::is_mark(depths[cell]);
+        let apart = marks::undeclared(&depths, columns as usize, is_mark);
+        for (i, value) in stored.iter().enumerate().filter(|(i, _)| apart[*i]) {
             let value = told(*value);
             faults.add(
-                format!("{} is {value}: far from all other cells, as a mark for no data is", place(i)),
+                format!("{} is {value}: far from the cells about it, as a mark for no data is", place(i)),
                 format!(
                     "if it is one, say so with `ncatted -a _FillValue,{name},o,{},{value} FILE.nc`, and {FILL}; if the \
                      water is so deep, give `{name}` a `valid_range`",

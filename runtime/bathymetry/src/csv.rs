@@ -256,13 +256,18 @@ impl<'a> Head<'a> {
 
     /// Where the head does not say what stands for nothing, the cells may.
     fn check_marks(&self, cells: &Cells, columns: u32, faults: &mut Faults) {
-        let marks =
-            if self.nodata == Nodata::None { Vec::new() } else { marks::undeclared(cells.depths.iter().copied()) };
-        for (i, depth) in cells.depths.iter().enumerate().filter(|(_, depth)| marks.contains(depth)) {
-            let (row, cell) = (i / columns as usize, i % columns as usize + 1);
+        if self.nodata == Nodata::None {
+            return;
+        }
+        let columns = columns as usize;
+        let apart = marks::undeclared(&cells.depths, columns, |cell| marks::is_mark(cells.depths[cell]));
+        for (i, depth) in cells.depths.iter().enumerate().filter(|(i, _)| apart[*i]) {
+            let (row, cell) = (i / columns, i % columns + 1);
             let (line, value) = (cells.lines.get(row).copied().unwrap_or_default(), self.turned(*depth));
             faults.add(
-                format!("line {line}, cell {cell}: {value} lies far from all other cells, as a mark for no data does"),
+                format!(
+                    "line {line}, cell {cell}: {value} lies far from the cells about it, as a mark for no data does"
+                ),
                 format!(
                     "if it is one, say `nodata={value}` in the head and fill the cell, or cut out a part without such \
                          cells; if the water is so deep, say `nodata=none`"

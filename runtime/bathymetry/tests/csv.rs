@@ -8,6 +8,9 @@ use albacore_geometry::math::degrees;
 /// Two rows of three cells in metres.
 const SMALL: &str = "# east 0..20 n=3 north -5..5 n=2 metres\n-1,-2,-3\n-4,-5.5,6\n";
 
+/// The cut of the Challenger Deep.
+const MARIANA: &str = include_str!("../../../missions/bathymetry/mariana.csv");
+
 fn faults(text: &str) -> Vec<Fault> {
     read(text.as_bytes()).unwrap_err().faults
 }
@@ -91,7 +94,7 @@ fn cells_that_hold_nothing_or_no_number_are_named() {
 
 #[test]
 fn a_mark_that_nobody_declared_is_known_by_standing_apart() {
-    let apart = "line 3, cell 2: -9999 lies far from all other cells, as a mark for no data does";
+    let apart = "line 3, cell 2: -9999 lies far from the cells about it, as a mark for no data does";
     wrong(&SMALL.replace("-5.5", "-9999"), apart);
     wrong(&SMALL.replace("-5.5", "-9999.00").replace("metres", "metres nodata=-1e9"), apart);
     let help = faults(&SMALL.replace("-5.5", "-9999")).remove(0).help;
@@ -103,7 +106,7 @@ fn a_mark_that_nobody_declared_is_known_by_standing_apart() {
     // After a row that cannot be read the others keep their lines.
     let found = faults("# east 0..1 n=2 north 0..2 n=3 metres\n-1\n\n-2,x\n-3,-9999\n");
     let found: Vec<&str> = found.iter().map(|fault| fault.message.as_str()).collect();
-    let apart = "line 5, cell 2: -9999 lies far from all other cells, as a mark for no data does";
+    let apart = "line 5, cell 2: -9999 lies far from the cells about it, as a mark for no data does";
     assert_eq!(found, ["line 2 has 1 cell, and the head says n=2", "line 4, cell 2: `x` is no number", apart]);
 }
 
@@ -115,6 +118,23 @@ fn a_remark_does_not_turn_the_bottom_upside_down() {
         assert_eq!(read(SMALL.replace("metres", said).as_bytes()).unwrap().depths[0], -1.0, "{said}");
     }
     wrong("# east 0..1 n=2 north 0..1 n=2 metres\n1,2\n3,4\n", "no cell lies under water");
+}
+
+/// Where the bottom reaches as deep as a mark, one is known by the cells about it, and a depth too.
+#[test]
+fn a_lone_mark_in_a_real_grid_is_known_by_its_neighbours() {
+    let with = |line: usize, cell: usize, value: &str| {
+        let mut rows: Vec<Vec<&str>> = MARIANA.lines().map(|row| row.split(',').collect()).collect();
+        rows[line - 1][cell - 1] = value;
+        rows.iter().map(|row| row.join(",") + "\n").collect::<String>()
+    };
+    wrong(
+        &with(22, 31, "-9999"),
+        "line 22, cell 31: -9999 lies far from the cells about it, as a mark for no data does",
+    );
+    wrong(&with(22, 31, "-999"), "line 22, cell 31: -999 lies far from the cells about it, as a mark for no data does");
+    // In the trench the cells about it are of -9414 to -10153 m.
+    assert_eq!(read(with(19, 31, "-9999").as_bytes()).unwrap().depths[17 * 60 + 30], 9_999.0);
 }
 
 /// A file that is one long word gets a message of a line.

@@ -1,7 +1,6 @@
 //! Files of numbers that a script names: they lie in the project's folder, as what `use` imports does.
 
-use crate::files::{FileError, Files, plain};
-use albacore_lang::nearest;
+use crate::files::{FileError, Files, leads_nowhere, nearest_file, plain};
 use std::io::Read;
 use std::path::{Component, Path};
 
@@ -18,6 +17,9 @@ impl Files {
             ));
         }
         let file = self.root().join(path);
+        if leads_nowhere(&file) {
+            return Err(error("is a link that leads nowhere", "put the file itself in its place"));
+        }
         if !file.exists() {
             return Err(self.missing(path, &file));
         }
@@ -57,7 +59,7 @@ impl Files {
         let mut near: Vec<String> = std::fs::read_dir(folder).into_iter().flatten().flatten().map(named).collect();
         near.sort();
         let wanted = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let help = match nearest(&wanted, near.iter().map(String::as_str)) {
+        let help = match nearest_file(&wanted, &near) {
             Some(near) => format!("did you mean `{}`?", Path::new(path).with_file_name(near).display()),
             None => format!("paths count from the project's folder, `{}`", self.root().display()),
         };
@@ -93,7 +95,13 @@ mod tests {
         assert_eq!(files.data("sub/bay.csv", 100).unwrap(), b"depths");
         assert_eq!(files.data("./sub/bay.csv", 6).unwrap(), b"depths");
         refused(&files, "bay.csv", "there is no file `bay.csv`");
-        assert_eq!(files.data("sub/bya.csv", 9).unwrap_err().help.unwrap(), "did you mean `sub/bay.csv`?");
+        let help = |path: &str| files.data(path, 9).unwrap_err().help.unwrap();
+        assert_eq!(help("sub/bya.csv"), "did you mean `sub/bay.csv`?");
+        assert_eq!(help("sub/bay.cvs"), "did you mean `sub/bay.csv`?");
+        assert!(
+            help("sub/sea.csv").starts_with("paths count from the project's folder"),
+            "what they share is the ending"
+        );
         refused(&files, "sub", "is a folder");
         std::fs::write(folder.join("project/large.csv"), [b'1'; 101]).unwrap();
         refused(&files, "large.csv", "are read at most");
@@ -111,6 +119,12 @@ mod tests {
         std::os::unix::fs::symlink("/dev/zero", folder.join("project/zero.csv")).unwrap();
         refused(&files, "link.csv", "is a link that leads out of the project");
         refused(&files, "zero.csv", "is a link that leads out of the project");
+        for (link, to) in [("loop.csv", "loop.csv"), ("gone.csv", "nothing.csv")] {
+            std::os::unix::fs::symlink(to, folder.join("project").join(link)).unwrap();
+            refused(&files, link, &format!("`{link}` is a link that leads nowhere"));
+            let script = crate::files::read(&folder.join("project").join(link)).unwrap_err();
+            assert!(script.message.ends_with("is a link that leads nowhere"), "{script:?}");
+        }
         assert!(std::process::Command::new("mkfifo").arg(folder.join("project/pipe.csv")).status().unwrap().success());
         refused(&files, "pipe.csv", "is no ordinary file");
         std::fs::remove_dir_all(folder).unwrap();

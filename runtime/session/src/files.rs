@@ -132,6 +132,10 @@ pub fn read(path: &Path) -> Result<Source, FileError> {
 
 fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
     let name = path.display().to_string();
+    if leads_nowhere(path) {
+        let help = Some("put the file itself in its place".into());
+        return FileError { message: format!("`{name}` is a link that leads nowhere"), help };
+    }
     if error.kind() != std::io::ErrorKind::NotFound {
         return FileError { message: format!("`{name}` cannot be read: {}", plain(error)), help: None };
     }
@@ -139,7 +143,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
     let mut scripts: Vec<String> = scripts_in(folder);
     scripts.sort();
     let wanted = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    let help = if let Some(near) = nearest(&wanted, scripts.iter().map(String::as_str)) {
+    let help = if let Some(near) = nearest_file(&wanted, &scripts) {
         Some(format!("did you mean `{}`?", folder.join(near).display()))
     } else if !folder.is_dir() {
         Some(format!("there is no folder `{}`", folder.display()))
@@ -152,6 +156,26 @@ fn unreadable(path: &Path, error: &std::io::Error) -> FileError {
         Some(format!("`{}` holds {}", folder.display(), scripts.join(", ")))
     };
     FileError { message: format!("there is no file `{name}`"), help }
+}
+
+/// Whether there is a link at a path, and no file at its end.
+pub(crate) fn leads_nowhere(path: &Path) -> bool {
+    path.is_symlink() && !path.exists()
+}
+
+/// The file whose name is nearest to a misspelt one, when it is near enough to be meant: the ending that two names share makes
+/// them no nearer.
+pub(crate) fn nearest_file(name: &str, files: &[String]) -> Option<String> {
+    let Some((stem, ending)) = name.rsplit_once('.') else {
+        return nearest(name, files.iter().map(String::as_str)).map(String::from);
+    };
+    let (alike, others): (Vec<&str>, Vec<&str>) =
+        files.iter().map(String::as_str).partition(|file| file.rsplit_once('.').is_some_and(|(_, of)| of == ending));
+    let stems = alike.into_iter().filter_map(|file| file.rsplit_once('.')).map(|(stem, _)| stem);
+    match nearest(stem, stems) {
+        Some(near) => Some(format!("{near}.{ending}")),
+        None => nearest(name, others).map(String::from),
+    }
 }
 
 /// An error of the system without its number.
@@ -241,6 +265,9 @@ impl Library for Files {
                 return Err(format!("`{}` is a link that leads out of the project", file.display()));
             }
             return read(&file).map_err(|error| error.message);
+        }
+        if leads_nowhere(&file) {
+            return Err(format!("`{}` is a link that leads nowhere", file.display()));
         }
         if let [name] = path
             && let Some(source) = stdlib(name)

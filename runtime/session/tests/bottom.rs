@@ -94,6 +94,14 @@ fn all_that_is_wrong_with_a_survey_is_told_at_its_clause() {
     assert_eq!(messages, expected);
     assert!(found.iter().all(|f| f.help.is_some()));
 
+    // In the order of the file, and the rest last.
+    let many: String = (2..=30).map(|line| format!("x{line},-1\n")).collect();
+    std::fs::write(folder.join("many.csv"), format!("# east 0..1 n=2 north 0..28 n=29 metres\n{many}")).unwrap();
+    let messages: Vec<String> =
+        refused(&folder, "bottom_grid(\"many.csv\")").into_iter().map(|finding| finding.message).collect();
+    assert!(messages[0].contains("line 2,") && messages[8].contains("line 10,"), "{messages:#?}");
+    assert_eq!(messages[12], "`many.csv`: and 17 more faults such as these");
+
     let found = refused(&folder, "bottom_grid(\"../../../Cargo.toml\")");
     assert!(found[0].message.contains("does not lie in the project's folder"), "{found:#?}");
     let found = refused(&missions(), "bottom_grid(\"bathymetry/mariana.csv\")");

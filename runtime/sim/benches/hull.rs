@@ -1,15 +1,16 @@
 //! What a second of a hull costs, autopilot included: `cargo bench -p albacore-sim --bench hull`.
-//!
-//! The items are seconds simulated: so many a second are so many times real time on one core.
 
 #![expect(clippy::print_stdout, reason = "a benchmark tells what it measured")]
+#![expect(clippy::unwrap_used, reason = "a benchmark without a clock has nothing to measure")]
+
+mod common;
 
 use albacore_geometry::{Heading, Vector};
 use albacore_sim::hull::{Crossflow, Hull};
 use albacore_sim::{HullSetup, KinematicHull, SubmersibleHull, VehicleSetup};
 use albacore_vehicle::{Command, Vertical};
-use divan::counter::ItemsCount;
-use divan::{Bencher, black_box};
+use common::{cost, stretches};
+use std::hint::black_box;
 
 /// Ticks of a second.
 const TICKS: u64 = 10;
@@ -42,19 +43,21 @@ fn main() {
             Hull::Fossen(hull) => size_of_val(&*hull),
             Hull::Prestero(hull) => size_of_val(&*hull),
         };
-        println!("{kind:?}: {bytes} bytes of state");
+        let [second_ns] = cost([&mut || zigzag(kind)]);
+        let (us, times) = (second_ns / 1e3, 1e9 / second_ns);
+        println!(
+            "{:10} {us:6.2} µs a second: {times:8.0} times real time; {bytes} bytes of state",
+            format!("{kind:?}")
+        );
     }
-    divan::main();
 }
 
-/// A second on a zigzag that dives and climbs, in a current. Samples are short, so that what else the machine does disturbs few of
-/// them and the median little.
-#[divan::bench(args = [Kind::Kinematic, Kind::Fossen, Kind::Prestero], sample_count = 4000, sample_size = 1)]
-fn second(bencher: Bencher, kind: Kind) {
+/// Seconds on a zigzag that dives and climbs, in a current.
+fn zigzag(kind: Kind) -> Vec<f64> {
     let mut hull = kind.hull();
     let flow = Vector::new(0.1, -0.2);
     let mut tick = 0;
-    bencher.counter(ItemsCount::new(1_usize)).bench_local(|| {
+    stretches(10, 100, || {
         for _ in 0..TICKS {
             let odd = tick / LEG_TICKS % 2 == 1;
             let heading = Heading::from_degrees(if odd { 120.0 } else { 30.0 });
@@ -63,5 +66,5 @@ fn second(bencher: Bencher, kind: Kind) {
             assert!(hull.step(tick, black_box(Some(&command)), flow, |_| 20.0).is_ok());
             tick += 1;
         }
-    });
+    })
 }

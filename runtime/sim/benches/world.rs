@@ -1,12 +1,17 @@
-//! What the world costs with some 8,000 filaments alive: `cargo bench -p albacore-sim`.
+//! What the world costs with some 9,000 filaments alive: `cargo bench -p albacore-sim --bench world`.
 
+#![expect(clippy::print_stdout, reason = "a benchmark tells what it measured")]
 #![expect(clippy::unwrap_used, reason = "a benchmark whose world cannot be has nothing to measure")]
+
+mod common;
 
 use albacore_sim::{Noise, Plume, Scenario, Simulator, Stream, presets};
 use albacore_vehicle::{Command, Snapshot, TICK_S, Vehicle, Vertical};
-use divan::counter::ItemsCount;
-use divan::{Bencher, black_box};
+use common::{cost, stretches};
+use std::hint::black_box;
 
+/// What the source releases a second. At the 1.0 of the trial some 8,000 filaments are alive.
+const RATE: f64 = 1.13;
 /// Of the filaments alive, one in this many is a place to look.
 const PLACES_EVERY: usize = 9;
 /// Samples a second of the sensor whose samples are measured: so many that all else of a tick is little beside them.
@@ -21,76 +26,87 @@ enum Duck {
 
 impl Duck {
     fn scenario(self) -> Scenario {
-        match self {
+        let mut scenario = match self {
             Duck::Flat => presets::duck_2003_flat(),
             Duck::Layered => presets::duck_2003(),
-        }
+        };
+        scenario.sources[0].rate = RATE;
+        scenario
     }
 }
 
 fn main() {
-    divan::main();
+    for duck in [Duck::Flat, Duck::Layered] {
+        let simulator = Simulator::new(&duck.scenario(), 1).unwrap();
+        println!("{duck:?}: {} filaments alive", simulator.filaments().count());
+        let [step, increment] = step_and_increment(duck);
+        println!("  one step of one filament           {step:6.2} ns");
+        println!("  of these its increment             {increment:6.2} ns: {:.0} %", 100.0 * increment / step);
+        println!("  one concentration under way        {:6.1} ns", concentration_underway(duck));
+        println!("  one concentration anywhere         {:6.1} ns", concentration_anywhere(&simulator));
+        println!("  the index, for each filament       {:6.1} ns", index(&simulator));
+    }
 }
 
-/// One step of every filament: with steps of one tick, a tick is a step and little else. The items are filaments.
-#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 20)]
-fn filament_step(bencher: Bencher, duck: Duck) {
+/// One step of a filament, and its increment alone, which take turns. With steps of one tick for all of them, a tick is a step and
+/// little else. An increment is one draw for the horizontal, and in a layer one more for the vertical.
+fn step_and_increment(duck: Duck) -> [f64; 2] {
     let scenario = duck.scenario();
     let plume = scenario.plume.clone().map(|plume| Plume { step: TICK_S, graded: false, ..plume });
-    let mut simulator = Simulator::new(&Scenario { plume, ..scenario }, 1).unwrap();
-    let mut snapshot = Snapshot::default();
-    simulator.sense(&mut snapshot).unwrap();
-    bencher.counter(ItemsCount::new(simulator.filaments().count())).bench_local(|| simulator.sense(&mut snapshot));
-}
-
-/// The increments of such a step alone: of each filament one draw for the horizontal, and in a layer one more for the vertical.
-/// The items are filaments.
-#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 20)]
-fn increment(bencher: Bencher, duck: Duck) {
-    let filaments = Simulator::new(&duck.scenario(), 1).unwrap().filaments().count() as u64;
+    let mut begin = Simulator::new(&Scenario { plume, ..scenario }, 1).unwrap();
+    begin.sense(&mut Snapshot::default()).unwrap();
+    let filaments = begin.filaments().count() as u64;
     let (horizontal, vertical) = (Noise::new(1, Stream::Diffusion), Noise::new(1, Stream::VerticalDiffusion));
-    bencher.counter(ItemsCount::new(filaments as usize)).bench_local(|| {
-        let draws = black_box(0)..black_box(filaments);
-        draws.fold([0.0; 3], |[x, y, z], filament| {
-            let index = filament << 32 | 7;
-            let (dx, dy) = horizontal.nearly_gaussian_pair(index);
-            let dz = match duck {
-                Duck::Flat => 0.0,
-                Duck::Layered => vertical.nearly_gaussian_pair(index).0,
-            };
-            [x + dx, y + dy, z + dz]
+    let mut step = || {
+        let (mut simulator, mut snapshot) = (begin.clone(), Snapshot::default());
+        stretches(20, 10, || simulator.sense(&mut snapshot).unwrap())
+    };
+    let mut increment = || {
+        stretches(20, 10, || {
+            let draws = black_box(0)..black_box(filaments);
+            black_box(draws.fold([0.0; 3], |[x, y, z], filament| {
+                let index = filament << 32 | 7;
+                let (dx, dy) = horizontal.nearly_gaussian_pair(index);
+                let dz = match duck {
+                    Duck::Flat => 0.0,
+                    Duck::Layered => vertical.nearly_gaussian_pair(index).0,
+                };
+                [x + dx, y + dy, z + dz]
+            }));
         })
-    });
+    };
+    cost([&mut step, &mut increment]).map(|ns| ns / filaments as f64)
 }
 
-/// One look at a place anywhere in the plume, in an index made before.
-#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 1000)]
-fn concentration_anywhere(bencher: Bencher, duck: Duck) {
-    let simulator = Simulator::new(&duck.scenario(), 1).unwrap();
-    let places: Vec<_> = simulator.filaments().map(|(place, _)| place).step_by(PLACES_EVERY).collect();
-    let survey = simulator.survey();
-    let mut next = places.iter().cycle();
-    bencher.bench_local(|| next.next().map(|&place| survey.concentration(black_box(place), 2.0)));
-}
-
-/// The index itself. The items are filaments.
-#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 20)]
-fn index(bencher: Bencher, duck: Duck) {
-    let simulator = Simulator::new(&duck.scenario(), 1).unwrap();
-    bencher.counter(ItemsCount::new(simulator.filaments().count())).bench_local(|| simulator.survey());
-}
-
-/// A tick of samples on the way down the middle of the plume, which share a search. The items are samples, noise included.
-#[divan::bench(args = [Duck::Flat, Duck::Layered], sample_count = 100, sample_size = 40)]
-fn concentration_underway(bencher: Bencher, duck: Duck) {
+/// A sample on the way down the middle of the plume, noise included; those of a tick share a search.
+fn concentration_underway(duck: Duck) -> f64 {
     let mut scenario = duck.scenario();
     scenario.vehicle.start = scenario.sources[0].at;
     scenario.vehicle.depth = 4.0;
     scenario.fluorometer.rate = FAST_HZ;
     let heading = scenario.flow.mean.toward();
-    let mut simulator = Simulator::new(&scenario, 1).unwrap();
-    simulator.take_over().unwrap();
-    simulator.command(&Command { heading, speed: 2.0, vertical: Vertical::Altitude(2.0) }).unwrap();
-    let mut snapshot = Snapshot::default();
-    bencher.counter(ItemsCount::new((FAST_HZ * TICK_S) as u64)).bench_local(|| simulator.sense(&mut snapshot));
+    let mut begin = Simulator::new(&scenario, 1).unwrap();
+    begin.take_over().unwrap();
+    begin.command(&Command { heading, speed: 2.0, vertical: Vertical::Altitude(2.0) }).unwrap();
+    let [tick] = cost([&mut || {
+        let (mut simulator, mut snapshot) = (begin.clone(), Snapshot::default());
+        stretches(80, 50, || simulator.sense(&mut snapshot).unwrap())
+    }]);
+    tick / (FAST_HZ * TICK_S)
+}
+
+/// One look at a place anywhere in the plume, in an index made before.
+fn concentration_anywhere(simulator: &Simulator) -> f64 {
+    let places: Vec<_> = simulator.filaments().map(|(place, _)| place).step_by(PLACES_EVERY).collect();
+    let survey = simulator.survey();
+    let [all] = cost([&mut || {
+        stretches(20, 5, || places.iter().for_each(|&place| _ = black_box(survey.concentration(black_box(place), 2.0))))
+    }]);
+    all / places.len() as f64
+}
+
+/// The index itself.
+fn index(simulator: &Simulator) -> f64 {
+    let [all] = cost([&mut || stretches(20, 5, || _ = black_box(simulator.survey()))]);
+    all / simulator.filaments().count() as f64
 }

@@ -106,7 +106,8 @@ fn numbers(values: writer::Values, said: &[(&'static str, writer::Values)]) -> F
 #[test]
 fn a_mark_that_nobody_declared_is_known_by_standing_apart() {
     let cells = |mark: f64| Doubles(vec![-12.0, -14.0, -16.0, -12.0, mark, -13.0]);
-    let apart = |mark: f64| format!("`elevation(1, 1)` is {mark}: far from all other cells, as a mark for no data is");
+    let apart =
+        |mark: f64| format!("`elevation(1, 1)` is {mark}: far from the cells about it, as a mark for no data is");
     wrong(numbers(cells(-9_999.0), &[]), &apart(-9_999.0));
     wrong(numbers(cells(-999.0), &[]), &apart(-999.0));
     let down = Doubles(vec![12.0, 14.0, 16.0, 12.0, 9_999.0, 13.0]);
@@ -122,6 +123,18 @@ fn a_mark_that_nobody_declared_is_known_by_standing_apart() {
     wrong(numbers(packed, &[("scale_factor", Doubles(vec![0.1]))]), &apart(-32_768.0));
     let halves = Shorts(vec![-24, -28, -32, -24, -19_998, -26]);
     wrong(numbers(halves, &[("scale_factor", Doubles(vec![0.5]))]), &apart(-19_998.0));
+}
+
+/// In the Gulf of Maine the water is as deep as this mark, but not beside the shore.
+#[test]
+fn a_lone_mark_in_a_real_grid_is_known_by_its_neighbours() {
+    let mut bytes = data("gulf_of_maine.nc");
+    let row = [-1.0_f32, -11.0, -1.0, -10.0].map(f32::to_be_bytes).concat();
+    let at = bytes.windows(row.len()).position(|window| window == row).unwrap() + 4;
+    bytes[at..at + 4].copy_from_slice(&(-999.0_f32).to_be_bytes());
+    let found = read(&bytes).unwrap_err().faults;
+    let expected = "`elevation(18, 1)` is -999: far from the cells about it, as a mark for no data is";
+    assert!(found.len() == 1 && found[0].message == expected, "{found:#?}");
 }
 
 /// NetCDF Users Guide, appendix A.

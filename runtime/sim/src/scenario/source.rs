@@ -1,7 +1,7 @@
 //! What releases chemical, or has released it: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::spin_up_begin;
-use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
+use crate::scenario::{Bounds, Flow, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -234,12 +234,9 @@ fn check_layer(scenario: &Scenario, objections: &mut Objections) {
 /// Whether there is more plume than can be computed.
 fn check_size(scenario: &Scenario, objections: &mut Objections) {
     let transit = -spin_up_begin(scenario);
-    objections.of("flow").unless(
-        Some("mean"),
-        transit <= SPIN_UP_MAX_S,
-        format!("the flow is so slow that the plume takes {transit:.0} s to cross the region"),
-        format!("make it faster, or the region smaller: {SPIN_UP_MAX_S} s are simulated at most"),
-    );
+    if transit > SPIN_UP_MAX_S {
+        return never_crossed(scenario, objections);
+    }
     let released = transit * scenario.sources.iter().map(|source| source.rate).sum::<f64>();
     let filaments = released + scenario.patches.iter().map(|patch| f64::from(patch.filaments)).sum::<f64>();
     objections.of("plume").unless(
@@ -247,6 +244,25 @@ fn check_size(scenario: &Scenario, objections: &mut Objections) {
         filaments <= FILAMENTS_MAX,
         format!("the sources release so much that about {filaments:.0} filaments are alive at a time"),
         format!("make their `rate` smaller, or the region: {FILAMENTS_MAX} filaments are simulated at most"),
+    );
+}
+
+/// A plume takes too long to leave its region: the flow is slow, or turns round before it is there.
+fn never_crossed(scenario: &Scenario, objections: &mut Objections) {
+    let straight = Scenario { flow: Flow { turning: 0.0, ..scenario.flow.clone() }, ..scenario.clone() };
+    if -spin_up_begin(&straight) <= SPIN_UP_MAX_S {
+        return objections.of("turning").unless(
+            Some("rate"),
+            false,
+            "the flow turns so quickly that the plume goes round in the region and does not leave it",
+            format!("make it turn slower, or the region smaller: {SPIN_UP_MAX_S} s are simulated at most"),
+        );
+    }
+    objections.of("flow").unless(
+        Some("mean"),
+        false,
+        format!("the flow is so slow that the plume takes more than {SPIN_UP_MAX_S} s to cross the region"),
+        "make it faster, or the region smaller: so long is simulated at most",
     );
 }
 
