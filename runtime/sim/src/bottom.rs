@@ -36,6 +36,15 @@ impl Bottom {
         self.pits.iter().fold(ground, |depth, pit| depth + pit.depth_at(p))
     }
 
+    /// The water is nowhere deeper than this, m: it is as deep where all pits lie at the deepest place.
+    pub fn deepest_possible(&self) -> f64 {
+        let ground = match &self.ground {
+            Ground::Plane(plane) => plane.from.max(plane.to),
+            Ground::Grid(grid) => grid.depths.iter().copied().fold(0.0, f64::max),
+        };
+        self.pits.iter().fold(ground, |depth, pit| depth + pit.depth)
+    }
+
     /// The water within a distance of a point, m, is nowhere shallower than this.
     pub fn shallowest_within(&self, distance: f64, of: Point) -> f64 {
         // A pit only deepens.

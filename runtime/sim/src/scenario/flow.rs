@@ -151,6 +151,17 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         layer.not_negative("above", upper.above);
         layer.not_negative("moves", upper.moves);
         layer.positive("period", upper.period);
+        let deepest = scenario.bottom.deepest_possible();
+        layer.unless(
+            Some("above"),
+            upper.above <= deepest || !upper.above.is_finite() || !deepest.is_finite(),
+            format!(
+                "{} m above the bottom is out of the water, which is {} m deep at most",
+                told(upper.above),
+                told(deepest)
+            ),
+            "let the upper layer begin in the water",
+        );
         layer.unless(
             Some("moves"),
             upper.moves <= upper.above || !upper.moves.is_finite() || !upper.above.is_finite(),
