@@ -227,3 +227,23 @@ fn the_front_seat_answers_as_its_scenario_says() {
         }
     }
 }
+
+/// What it offers again, who gave it back has seen it take.
+#[test]
+fn a_vehicle_that_offers_takes_control_back_before_it_offers_again() {
+    let (mut vehicle, _) = answering(Handover { offers: 0.5, ..Handover::default() });
+    let mut snapshot = Snapshot::default();
+    for _ in 0..2 {
+        (0..100).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
+        assert_eq!(snapshot.control, Control::Offered);
+        vehicle.take_over().unwrap();
+        (0..10).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
+        assert_eq!(snapshot.control, Control::InControl);
+        vehicle.give_back().unwrap();
+        (0..10).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
+        assert_eq!(snapshot.control, Control::Monitoring);
+    }
+    vehicle.take_over().unwrap();
+    (0..10).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
+    vehicle.release().unwrap();
+}

@@ -35,7 +35,8 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
 /// A flow that the mission requires, and that the profiler takes for an error.
 fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Option<Diagnostic> {
     let (_, span) = script.requirements(mission).into_iter().find(|(input, _)| *input == "flow")?;
-    let (speed, fastest) = (world.flow.speed(), world.adcp.gates.fastest);
+    let above = world.flow.upper.as_ref().map_or(0.0, |upper| upper.mean.length());
+    let (speed, fastest) = (world.flow.speed().max(above), world.adcp.gates.fastest);
     let message = format!(
         "the flow of `{scenario}` is {speed:.2} m/s, and its profiler takes {fastest:.2} m/s and more for an error: `flow` \
          will be missing, or too slow"

@@ -74,6 +74,8 @@ pub struct FrontSeat<V> {
     /// How it answers who asks to drive, and who drives by that.
     gate: Gate,
     control: Control,
+    /// When a guest gave control back last, or left.
+    left: Option<u64>,
     /// What the guest wants who drives; none while the vehicle follows its own plan.
     goals: Option<Goals>,
     deframer: Deframer,
@@ -106,6 +108,7 @@ impl<V: Vehicle> FrontSeat<V> {
             vertical,
             gate: Gate::new(Handover::default()),
             control: Control::Monitoring,
+            left: None,
             goals: None,
             deframer: Deframer::default(),
             heard: Vec::new(),
@@ -290,6 +293,7 @@ impl<V: Vehicle> FrontSeat<V> {
 
     /// The guest is gone.
     fn leave(&mut self) {
+        self.left = Some(self.tick);
         self.gate.leave();
         self.go_back();
     }
@@ -400,7 +404,8 @@ impl<V: Vehicle> FrontSeat<V> {
             Mode::new(Phase::Over, 0)
         } else {
             let answer = match self.control {
-                Control::Offered => Mode::ACTIVE,
+                // Who has given control back is to see that it was taken.
+                Control::Offered if self.left.is_none_or(|left| self.tick - left >= TIMEOUT_TICKS) => Mode::ACTIVE,
                 Control::Refused => Mode::NOT_ALLOWED,
                 _ => 0,
             };

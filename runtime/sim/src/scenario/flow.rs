@@ -137,10 +137,27 @@ impl Default for Meander {
     }
 }
 
+/// The height of a wave over the depth of the water: higher ones break (McCowan 1894).
+const BREAKING: f64 = 0.78;
+
 /// The mean and the upper flow.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     objections.of("flow").flow("mean", scenario.flow.mean);
     check_current(&scenario.flow, objections);
+    if let Some(waves) = &scenario.flow.waves {
+        let start = scenario.bottom.depth_at(scenario.vehicle.start);
+        let highest = BREAKING * start;
+        objections.of("waves").unless(
+            Some("height"),
+            waves.height <= highest || start <= 0.0 || !waves.height.is_finite() || !start.is_finite(),
+            format!(
+                "waves {} m high break where the vehicle starts, in {} m of water",
+                told(waves.height),
+                rounded_down(start)
+            ),
+            format!("make them {} m high at most, or start in deeper water", rounded_down(highest)),
+        );
+    }
     let (speed, tides) = (scenario.flow.speed(), !scenario.flow.tides.is_empty());
     let message = format!("with its tides the water runs as fast as {} m/s: no sea does", told(speed));
     let mend = format!("make flow and tides less: {FLOW_MAX} m/s at most, all together");
