@@ -210,7 +210,10 @@ impl<'t> Checker<'t> {
                 _ => &arg.value,
             };
             if let Some(vehicle) = self.vehicle_named(head) {
-                values.extend(self.of_vehicle(vehicle, head.span, &params, &nested));
+                let given = self.of_vehicle(vehicle, head.span, &params, &nested);
+                // What is wrong with a vehicle that gives nothing has been told.
+                failed |= given.is_empty();
+                values.extend(given);
                 continue;
             }
             if nested.iter().any(Option::is_some) && self.misses_vehicle(head) {

@@ -62,6 +62,7 @@ impl<'t> Checker<'t> {
             }
             is_own
         });
+        let is_whole = clauses.len() == body.clauses.len();
         let kind = |c: &Self, used: &ClauseUse| {
             let info = c.clauses.iter().find(|info| info.signature.name == used.name && info.kind.is_some());
             info.and_then(|info| info.kind.clone()).filter(|_| !c.stands_alone(&used.name))
@@ -80,7 +81,7 @@ impl<'t> Checker<'t> {
                 self.report(finding.label(first.span, "the first").help("leave one of them out"));
             }
         }
-        if values.is_empty() && !rest.is_empty() {
+        if values.is_empty() && is_whole {
             let kinds = self.vehicle_kinds().join(" or ");
             let message = format!("the vehicle `{}` has no {kinds}", name.node);
             let finding = Diagnostic::error(Code::ScenariosClause, name.span, message);

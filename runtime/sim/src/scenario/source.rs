@@ -132,6 +132,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         check_place(scenario, &mut of, first, source.at, source.height);
         if let Some(to) = source.to {
             check_place(scenario, &mut of, "to", to, source.height);
+            let (message, mend) = ("this leak ends where it begins", "write a `source` for a single place");
+            of.unless(Some("to"), to != source.at, message, mend);
         }
     }
     for (i, patch) in scenario.patches.iter().enumerate() {

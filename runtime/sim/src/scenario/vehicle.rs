@@ -236,6 +236,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         );
         of.within("speed", limits.speed.unwrap_or(0.0), 0.0..=20.0);
     }
+    if let Some(handover) = &scenario.handover {
+        objections.of("handover").unless(
+            Some(if handover.lasting > 0.0 { "lasting" } else { "suspends" }),
+            (handover.suspends > 0.0) == (handover.lasting > 0.0),
+            "the vehicle would suspend nobody: that takes a time and a while",
+            "say both `suspends` and `lasting`, or neither",
+        );
+    }
     if let Some(own) = &scenario.own_mission {
         check_own_mission(scenario, own, objections);
     }
