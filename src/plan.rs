@@ -64,7 +64,9 @@ impl Choice {
     /// Plans the mission in a simulated world, or says what stands in the way.
     pub fn plan(&self, script: &Script, path: &Path) -> Result<Plan, Exit> {
         let file = path.display().to_string();
-        Plan::wanted(script, &file, &self.wanted()).map_err(|error| refused(&error))
+        let plan = Plan::wanted(script, &file, &self.wanted()).map_err(|error| refused(&error))?;
+        message::findings(&plan.warnings, &script.sources);
+        Ok(plan)
     }
 }
 

@@ -26,6 +26,8 @@ pub struct Plan {
     pub scenario_name: String,
     /// What both were made from.
     pub sources: Vec<SourceDigest>,
+    /// What the one may miss in the other, with places in the mission's script.
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// Why a script cannot be run as asked.
@@ -77,8 +79,13 @@ impl Plan {
     /// The same, if its world has what its mission needs.
     pub(crate) fn suiting(self, script: &Script) -> Result<Self, PlanError> {
         let findings = suit::findings(script, &self.program.mission.name, &self.scenario_name, &self.scenario);
-        let errors: Vec<_> = findings.into_iter().filter(|finding| finding.severity == Severity::Error).collect();
-        if errors.is_empty() { Ok(self) } else { Err(PlanError::script(errors, script)) }
+        let of = |severity| findings.iter().filter(move |finding| finding.severity == severity).cloned().collect();
+        let errors: Vec<_> = of(Severity::Error);
+        if errors.is_empty() {
+            Ok(Plan { warnings: of(Severity::Warning), ..self })
+        } else {
+            Err(PlanError::script(errors, script))
+        }
     }
 
     /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.
@@ -91,7 +98,7 @@ impl Plan {
             return Err(PlanError::Asked(message, Some(help.into())));
         }
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
-        Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script) })
+        Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script), warnings: Vec::new() })
     }
 
     /// The same with faults added to those of the scenario.
@@ -118,7 +125,7 @@ impl Plan {
         let (lowered, understood) = world::scenario(script, wanted, program.mission.origin)?;
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();
-        Ok(Plan { program, scenario, scenario_name, sources })
+        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new() })
     }
 }
 

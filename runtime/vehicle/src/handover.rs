@@ -13,13 +13,13 @@ pub struct Handover {
     pub refuses: bool,
     /// Whether it never answers.
     pub silent: bool,
-    /// When it stops listening for a while, and for how long.
+    /// When it stops listening to who drives, s.
     pub suspends: f64,
-    /// For so long.
+    /// For how long, s.
     pub lasting: f64,
-    /// When it takes control back from who drives by then.
+    /// When it takes control back from who drives by then, s.
     pub takes_back: f64,
-    /// From when on it offers to be driven.
+    /// From when on it offers to be driven, s.
     pub offers: f64,
 }
 
