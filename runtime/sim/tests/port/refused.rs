@@ -65,8 +65,12 @@ fn chemical_where_there_is_no_water_is_refused() {
     let layer = |s: &mut Scenario, high| s.plume.as_mut().unwrap().layer = Some(high);
     assert_eq!(changed(&|s| layer(s, 1e9)), [("plume", 0, Some("layer"))]);
     assert_eq!(changed(&|s| s.sources[0].height = 500.0), [("source", 0, Some("height"))]);
-    let twin = |s: &mut Scenario| s.sources.extend([Source { to: Some(s.sources[0].at), ..s.sources[0].clone() }]);
-    assert_eq!(changed(&twin), [("leak", 0, Some("name"))]);
+    let twin = |s: &mut Scenario, aside: f64| {
+        let to = s.sources[0].at + Vector::new(aside, 0.0);
+        s.sources.extend([Source { to: Some(to), ..s.sources[0].clone() }]);
+    };
+    assert_eq!(changed(&|s| twin(s, 1.0)), [("leak", 0, Some("name"))]);
+    assert_eq!(changed(&|s| twin(s, 0.0)), [("leak", 0, Some("name")), ("leak", 0, Some("to"))]);
     // What has always released may have ceased before the run; what begins later may not.
     assert_eq!(changed(&|s| s.sources[0].when.ends = -1000.0), []);
     let backward = |s: &mut Scenario| s.sources[0].when = Times { begins: 10.0, ends: 5.0, ..Times::default() };
