@@ -115,9 +115,7 @@ impl<'t> Checker<'t> {
             (Type::Line, "start") => part(self, value, 0, Type::Point),
             (Type::Line, "end") => part(self, value, 2, Type::Point),
             (Type::Line, "heading" | "length") => {
-                let start = part(self, value.clone(), 0, Type::Point);
-                let end = part(self, value, 2, Type::Point);
-                let along = self.operation(Builtin::SubVector, vec![end, start], VECTOR, span);
+                let along = self.operation(Builtin::LineVector, vec![value], VECTOR, span);
                 let (op, ty) = if member.node == "heading" {
                     (Builtin::Direction, Type::Heading)
                 } else {
@@ -328,24 +326,14 @@ impl<'t> Checker<'t> {
                 // How far one can go in a direction before the edge.
                 let params = &[("point", Type::Point), ("toward", Type::Heading)];
                 let Some(given) = self.simple_args("run", params, args, span) else { return self.unknown(span) };
-                let from = given[0].clone();
-                let exit = self.operation(Builtin::Exit, [vec![value], given].concat(), Type::Point, span);
-                let run = self.operation(Builtin::SubVector, vec![exit, from], VECTOR, span);
+                let run = self.operation(Builtin::Run, [vec![value], given].concat(), VECTOR, span);
                 self.operation(Builtin::Length, vec![run], LENGTH, span)
             }
             (Type::Area, "corner") => {
                 let params = &[("toward", Type::Heading), ("near", Type::Point)];
-                let with_center;
-                let given = if args.len() < 2 {
-                    let Some(given) = self.simple_args("corner", &params[..1], args, span) else {
-                        return self.unknown(span);
-                    };
-                    with_center = self.operation(Builtin::Center, vec![value.clone()], Type::Point, span);
-                    [given, vec![with_center]].concat()
-                } else {
-                    let Some(given) = self.simple_args("corner", params, args, span) else { return self.unknown(span) };
-                    given
-                };
+                // Without `near` the machine takes the centre.
+                let params = &params[..args.len().clamp(1, 2)];
+                let Some(given) = self.simple_args("corner", params, args, span) else { return self.unknown(span) };
                 self.operation(Builtin::Corner, [vec![value], given].concat(), Type::Point, span)
             }
             (Type::List(inner, n), "top") => {

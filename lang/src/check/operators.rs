@@ -76,11 +76,7 @@ impl<'t> Checker<'t> {
 
     /// Whether a value is absent because of a division by what may be zero.
     pub(super) fn is_quotient(value: &Expr) -> bool {
-        match &value.kind {
-            ExprKind::If(condition, ..) => matches!(&condition.kind, ExprKind::Do(Builtin::Not, zero)
-                if matches!(zero.as_slice(), [Expr { kind: ExprKind::Do(Builtin::Eq, _), .. }])),
-            _ => false,
-        }
+        matches!(&value.kind, ExprKind::Do(Builtin::Quotient | Builtin::VectorQuotient, _))
     }
 
     pub(super) fn absent(&self, value: &Expr) -> Diagnostic {
@@ -224,35 +220,24 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         }
-        let proved = b.range.excludes_zero() || b.ty == Type::Sign;
-        let (ty, quotient) = match &a.ty {
-            Type::Vector(v) => {
-                let one = self.make(ExprKind::Number(1.0), Type::Int, span);
-                let inverse = self.operation(Builtin::Div, vec![one, b.clone()], Type::Quantity(Dimension::NONE), span);
-                let ty = Type::Vector(*v / divisor);
-                (ty.clone(), self.operation(Builtin::Scale, vec![a, inverse], ty, span))
-            }
+        let ty = match &a.ty {
+            Type::Vector(v) => Type::Vector(*v / divisor),
             t => match t.dimension() {
-                Some(d) => {
-                    let ty = Type::Quantity(d / divisor);
-                    (ty.clone(), self.operation(Builtin::Div, vec![a, b.clone()], ty, span))
-                }
+                Some(d) => Type::Quantity(d / divisor),
                 None => return self.no_such(op, &a, &b, span),
             },
         };
-        if proved {
-            return quotient;
+        let of_vector = matches!(ty, Type::Vector(_));
+        if !(b.range.excludes_zero() || b.ty == Type::Sign) {
+            let quotient = if of_vector { Builtin::VectorQuotient } else { Builtin::Quotient };
+            return self.operation(quotient, vec![a, b], ty.optional(), span);
         }
-        // Present when the divisor is not zero: `if divisor != 0 { quotient } else { none }`.
-        let zero = self.make(ExprKind::Number(0.0), b.ty.clone(), span);
-        let is_zero =
-            Expr { kind: ExprKind::Do(Builtin::Eq, vec![b, zero]), ty: Type::Bool, span, range: Interval::ANY };
-        let not_zero = self.operation(Builtin::Not, vec![is_zero], Type::Bool, span);
-        let ty = ty.optional();
-        let present = self.make(ExprKind::Present(Box::new(quotient)), ty.clone(), span);
-        let absent = Expr { kind: ExprKind::None, ty: ty.clone(), span, range: Interval::ANY };
-        let block = |value: Expr| crate::hir::Block { stmts: Vec::new(), value: Some(Box::new(value)) };
-        Expr { kind: ExprKind::If(Box::new(not_zero), block(present), block(absent)), ty, span, range: Interval::ANY }
+        if !of_vector {
+            return self.operation(Builtin::Div, vec![a, b], ty, span);
+        }
+        let one = self.make(ExprKind::Number(1.0), Type::Int, span);
+        let inverse = self.operation(Builtin::Div, vec![one, b], Type::Quantity(Dimension::NONE), span);
+        self.operation(Builtin::Scale, vec![a, inverse], ty, span)
     }
 
     fn power(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {

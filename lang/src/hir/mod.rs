@@ -193,6 +193,10 @@ pub enum Builtin {
     Sub,
     Mul,
     Div,
+    /// A number over another, absent where that is zero.
+    Quotient,
+    /// A vector over a number, absent where that is zero.
+    VectorQuotient,
     Pow,
     Neg,
     Abs,
@@ -228,16 +232,20 @@ pub enum Builtin {
     /// Two numbers side by side.
     Pair,
     Line,
+    /// From the start of a line to its end.
+    LineVector,
     Rectangle,
     Polygon,
     Center,
     Gap,
-    /// An area, a heading, a point.
+    /// An area, a heading, a point: its centre when none is given.
     Corner,
     NearestEdge,
     EdgeGap,
     EdgeTangent,
     Exit,
+    /// From a point to where a ray from it leaves the area.
+    Run,
     /// A list's first so many.
     Top,
     /// A list and an index.

@@ -255,6 +255,13 @@ impl<'a> Lowering<'a> {
             self.emit(Op::Clear { to, words });
         }
         let op = match op {
+            B::Quotient => Op::Quotient { to, a, b },
+            B::VectorQuotient => {
+                let (one, inverse) = (self.number(1.0), self.temp(2));
+                self.emit(Op::Quotient { to: inverse, a: one, b });
+                self.emit(Op::Copy { to, from: inverse });
+                Op::Scale { to: to + 1, vector: a, by: inverse + 1 }
+            }
             // `number(angle)` has one operand: it is the angle.
             B::Add if operands.len() == 1 => Op::Copy { to, from: a },
             B::Add => Op::Add { to, a, b },
@@ -291,18 +298,33 @@ impl<'a> Lowering<'a> {
             B::Pair | B::Line => return,
             B::Rectangle => Op::Rectangle { to, center: a, along: b, length: c, width: d },
             B::Polygon => Op::Polygon { to: to + 1, points: a, ok: to },
+            B::LineVector => Op::SubVector { to, a: a + 2, b: a },
             B::Center => Op::Center { to, area: a },
             B::Gap => Op::Gap { to, area: a, point: b },
-            B::Corner => Op::Corner { to, area: a, heading: b, near: c },
+            B::Corner => {
+                let near = if slots.len() > 2 { c } else { self.center_of(a) };
+                Op::Corner { to, area: a, heading: b, near }
+            }
             B::NearestEdge => Op::NearestEdge { to, area: a, point: b },
             B::EdgeGap => Op::EdgeGap { to, edge: a, point: b },
             B::EdgeTangent => Op::EdgeTangent { to, edge: a, heading: b },
             B::Exit => Op::Exit { to, area: a, point: b, heading: c },
+            B::Run => {
+                let exit = self.temp(2);
+                self.emit(Op::Exit { to: exit, area: a, point: b, heading: c });
+                Op::SubVector { to, a: exit, b }
+            }
             B::Top => Op::Top { to, list: a, count: b, words: element_words(self) },
             B::At => Op::At { to, list: a, index: b, words: element_words(self) },
             B::Spread => Op::Spread { to, list: a, heading: b },
         };
         self.emit(op);
+    }
+
+    fn center_of(&mut self, area: Slot) -> Slot {
+        let to = self.temp(2);
+        self.emit(Op::Center { to, area });
+        to
     }
 
     /// A text with its holes computed into slots of their own.

@@ -93,6 +93,11 @@ pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -
                 let divisor = f.get(c);
                 f.set(to, if divisor == 0.0 { 0.0 } else { bounded(f.get(a) / divisor) });
             }
+            Op::Quotient { to, a, b: c } => {
+                let (dividend, divisor) = (f.get(a), f.get(c));
+                f.set(to, truth(divisor != 0.0));
+                f.set(to + 1, if divisor == 0.0 { 0.0 } else { bounded(dividend / divisor) });
+            }
             Op::Min { to, a, b: c } => f.set(to, f.get(a).min(f.get(c))),
             Op::Max { to, a, b: c } => f.set(to, f.get(a).max(f.get(c))),
             Op::Pow { to, a, b: c } => f.set(to, bounded(math::pow(f.get(a), f.get(c)))),

@@ -56,6 +56,12 @@ pub enum Op {
         a: Slot,
         b: Slot,
     },
+    /// `to` is 1 and the quotient follows, or both are 0 where `b` is zero.
+    Quotient {
+        to: Slot,
+        a: Slot,
+        b: Slot,
+    },
     Min {
         to: Slot,
         a: Slot,

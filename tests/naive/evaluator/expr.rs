@@ -198,6 +198,9 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Mul => fits(n(0) * n(1)),
         B::Div if n(1) == 0.0 => 0.0,
         B::Div => fits(n(0) / n(1)),
+        B::Quotient | B::VectorQuotient if n(1) == 0.0 => return Value::Maybe(None),
+        B::Quotient => return Value::Number(fits(n(0) / n(1))).present(),
+        B::VectorQuotient => return fitting(fits(1.0 / n(1)) * at(0).vector()).present(),
         B::Pow => fits(math::pow(n(0), n(1))),
         B::Neg => math::canonical_zero(-n(0)),
         B::Abs => n(0).abs(),
@@ -235,13 +238,21 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
             let area = Area::polygon(&corners).ok();
             return Value::Maybe(area.map(|area| Box::new(Value::Area(area.edges().collect()))));
         }
+        B::LineVector => {
+            let line = at(0).line();
+            return fitting(line.end - line.start);
+        }
         B::Center => return Value::of_point(center(at(0).edges())),
         B::Gap => gap(at(0).edges(), at(1).point()),
-        B::Corner => return Value::of_point(corner(at(0).edges(), at(1).heading(), at(2).point())),
+        B::Corner => {
+            let near = operands.get(2).map_or_else(|| center(at(0).edges()), Value::point);
+            return Value::of_point(corner(at(0).edges(), at(1).heading(), near));
+        }
         B::NearestEdge => return Value::of_edge(nearest_edge(at(0).edges(), at(1).point())),
         B::EdgeGap => at(0).edge().gap(at(1).point()),
         B::EdgeTangent => at(0).edge().tangent(at(1).heading()).radians(),
         B::Exit => return Value::of_point(exit(at(0).edges(), at(1).point(), at(2).heading())),
+        B::Run => return fitting(exit(at(0).edges(), at(1).point(), at(2).heading()) - at(1).point()),
         B::Top => {
             let list = at(0).list();
             return Value::List(list[..n(1).clamp(0.0, list.len() as f64) as usize].to_vec());
