@@ -5,7 +5,7 @@ mod markdown;
 mod names;
 
 use crate::exit::Exit;
-use crate::{kept, message, output, plan};
+use crate::{disk, message, output, plan};
 use albacore_session::diagram::{self, Diagram};
 use albacore_session::doc::{Page, page};
 use albacore_session::{FileId, Script, Sources};
@@ -79,7 +79,7 @@ impl Doc {
         let index = ("index", self.dressed("Modules", &markdown::index(&modules), None, &names));
         let named = modules.iter().map(|module| module.name.as_str()).zip(pages);
         for (name, text) in named.chain([index]) {
-            kept::whole(&folder.join(format!("{name}.{}", self.format.ending())), &text).map_err(unwritable)?;
+            disk::whole(&folder.join(format!("{name}.{}", self.format.ending())), &text).map_err(unwritable)?;
         }
         Ok(Exit::Well)
     }

@@ -1,11 +1,13 @@
 //! `albacore fmt`: scripts in the one style.
 
 use crate::exit::Exit;
-use crate::{kept, message, output};
+use crate::{disk, interruption, message, output};
 use albacore_session::{Source, Sources};
 use similar::TextDiff;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// So many lines of a difference are shown.
 const SHOWN_MAX: usize = 20;
@@ -24,6 +26,9 @@ pub struct Fmt {
 impl Fmt {
     /// Formats each script; the worst of them decides.
     pub fn run(&self) -> Exit {
+        // Who interrupts has every script whole, and no temporary file. Nobody waits for standard input.
+        let waits = self.paths.iter().any(|path| path.as_os_str() == "-");
+        let interrupted = if waits { Arc::default() } else { interruption::flag() };
         let mut exits = Vec::new();
         for path in &self.paths {
             if path.as_os_str() == "-" {
@@ -35,7 +40,12 @@ impl Fmt {
                 exits.push(exit);
             }
             scripts.sort();
-            exits.extend(scripts.iter().map(|script| self.file(script).unwrap_or_else(|exit| exit)));
+            for script in scripts {
+                if interrupted.load(Ordering::Relaxed) {
+                    return Exit::NotWell;
+                }
+                exits.push(self.file(&script).unwrap_or_else(|exit| exit));
+            }
         }
         exits.into_iter().max_by_key(|exit| *exit as u8).unwrap_or(Exit::Well)
     }
@@ -68,7 +78,7 @@ impl Fmt {
             return Ok(Exit::Well);
         }
         // What a link points to is written, and the link stays.
-        let written = std::fs::canonicalize(path).and_then(|file| kept::whole(&file, &formatted));
+        let written = std::fs::canonicalize(path).and_then(|file| disk::whole(&file, &formatted));
         written.map(|()| Exit::Well).map_err(|error| {
             message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
             Exit::Failed

@@ -1,7 +1,7 @@
 //! `albacore graph`: the switching diagram of a strategy.
 
 use crate::exit::Exit;
-use crate::{kept, message, plan};
+use crate::{disk, message, plan};
 use albacore_session::diagram::{self, Diagram};
 use std::io::Write;
 use std::path::PathBuf;
@@ -55,7 +55,7 @@ impl Graph {
             let _ = std::io::stdout().lock().write_all(text.as_bytes());
             return Exit::Well;
         };
-        match kept::whole(path, text) {
+        match disk::whole(path, text) {
             Ok(()) => Exit::Well,
             Err(error) => {
                 message::error(&format!("`{}` cannot be written: {error}", path.display()), None);

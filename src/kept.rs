@@ -1,5 +1,6 @@
 //! The files that a run leaves: begun before its first tick, and never the reason why a mission stops.
 
+use crate::disk::{self, whole};
 use crate::message;
 use albacore_session::Run;
 use std::fs::File;
@@ -34,7 +35,7 @@ impl Kept {
     /// The journal's file, empty. It is not buffered: what the program has written survives the program.
     pub fn journal(&mut self) -> Option<File> {
         let path = self.folder.as_ref()?.join("journal");
-        match File::create(&path) {
+        match disk::new_file(&path) {
             Ok(file) => Some(file),
             Err(error) => {
                 self.journal_failed(&error);
@@ -75,22 +76,8 @@ impl Kept {
 
 /// Removes what an earlier run has left here: if this one is killed, its journal must not lie beside another run's trace.
 fn forget(folder: &Path) -> io::Result<()> {
-    for name in ["trace.txt", "run.svg"] {
-        match std::fs::remove_file(folder.join(name)) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
+    for name in ["journal", "trace.txt", "run.svg"] {
+        disk::remove(&folder.join(name))?;
     }
     Ok(())
-}
-
-/// A whole file or none: what is half written goes under another name first. Who may read a file that is there already stays
-/// as it is.
-pub fn whole(path: &Path, text: &str) -> io::Result<()> {
-    let part = path.with_extension("part");
-    std::fs::write(&part, text)?;
-    if let Ok(metadata) = std::fs::metadata(path) {
-        std::fs::set_permissions(&part, metadata.permissions())?;
-    }
-    std::fs::rename(&part, path)
 }

@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod clock;
 mod completions;
+mod disk;
 mod doc;
 mod exit;
 mod explain;

@@ -2,6 +2,7 @@
 
 mod name;
 
+use crate::disk::{PartFolder, whole};
 use crate::exit::Exit;
 use crate::test::snapshot_file;
 use crate::{message, output};
@@ -75,17 +76,13 @@ fn make(folder: &Path) -> Result<String, Refusal> {
         let message = format!("there is no folder `{}`", parent.display());
         return Err(Refusal::usage(message, "make it first, or give a name without a folder".into()));
     }
-    // Beside the folder, so that it is on the same disk and can be renamed to it.
-    let part = folder.with_file_name(format!(".{mission}.{}.part", std::process::id()));
     let unwritable = |error: io::Error| Refusal::unwritable(folder, &error);
-    fs::create_dir(&part).map_err(unwritable)?;
-    let made = fill(&part, &mission).map_err(unwritable).and_then(|sound| {
-        if sound { fs::rename(&part, folder).map_err(unwritable) } else { Err(Refusal::taken(&mission)) }
-    });
-    if made.is_err() {
-        let _ = fs::remove_dir_all(&part);
+    let part = PartFolder::beside(folder).map_err(unwritable)?;
+    if !fill(part.path(), &mission).map_err(unwritable)? {
+        return Err(Refusal::taken(&mission));
     }
-    made.map(|()| mission)
+    part.become_folder(folder).map_err(unwritable)?;
+    Ok(mission)
 }
 
 /// Writes the files of a project into an empty folder, and tells whether its script is sound. It is not when the mission's
@@ -93,10 +90,10 @@ fn make(folder: &Path) -> Result<String, Refusal> {
 fn fill(folder: &Path, mission: &str) -> io::Result<bool> {
     let named = |template: &str| template.replace("NAME", mission);
     let path = folder.join(format!("{mission}.alb"));
-    fs::write(folder.join("albacore.toml"), named(include_str!("new/albacore.toml")))?;
-    fs::write(folder.join("README.md"), named(include_str!("new/README.md")))?;
-    fs::write(folder.join(".gitignore"), include_str!("new/gitignore"))?;
-    fs::write(&path, laid_out(&named(include_str!("new/mission.alb"))))?;
+    whole(&folder.join("albacore.toml"), &named(include_str!("new/albacore.toml")))?;
+    whole(&folder.join("README.md"), &named(include_str!("new/README.md")))?;
+    whole(&folder.join(".gitignore"), include_str!("new/gitignore"))?;
+    whole(&path, &laid_out(&named(include_str!("new/mission.alb"))))?;
     match albacore_session::load(&path, None, &[]) {
         Ok(script) if script.findings.is_empty() && albacore_session::findings(&script).is_empty() => {
             accept(&script, &path).map(|()| true)
@@ -120,7 +117,7 @@ fn accept(script: &Script, path: &Path) -> io::Result<()> {
         for (seed, trace) in &result.traces {
             let file = snapshot_file(path, &result.name, *seed);
             file.parent().map_or(Ok(()), fs::create_dir_all)?;
-            fs::write(file, trace)?;
+            whole(&file, trace)?;
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use crate::plan::{refused, scenario_script};
-use crate::{kept, message, output};
+use crate::{disk, message, output};
 use albacore_session::{Shown, Whence};
 use std::path::{Path, PathBuf};
 
@@ -70,7 +70,7 @@ impl Show {
         // A folder that somebody names is there, or mistyped.
         let folder = if self.out.is_none() { path.parent() } else { None };
         let made = folder.map_or(Ok(()), std::fs::create_dir_all);
-        match made.and_then(|()| kept::whole(&path, &shown.svg)) {
+        match made.and_then(|()| disk::whole(&path, &shown.svg)) {
             Ok(()) => {
                 output::print(&format!("picture {}\n", path.display()));
                 Exit::Well

@@ -1,7 +1,7 @@
 //! `albacore test`: runs the `test` blocks of scripts and compares behavior traces with their snapshots.
 
+use crate::disk::whole;
 use crate::exit::Exit;
-use crate::kept::whole;
 use crate::message;
 use crate::output::print;
 use crate::plan::Faults;

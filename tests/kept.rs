@@ -115,12 +115,13 @@ fn who_kills_a_run_has_a_valid_prefix() {
 
 #[test]
 fn a_full_disk_is_said_once_and_the_mission_goes_on() {
-    if !Path::new("/dev/full").exists() {
-        return;
-    }
     let out = empty("full");
-    std::os::unix::fs::symlink("/dev/full", out.join("journal")).unwrap();
-    let output = albacore(BOX, &out).output().unwrap();
+    // A file that may grow no further fails as a full disk does; the journal is the only one as long as this.
+    let limited = "trap '' XFSZ; ulimit -f 200; exec \"$0\" \"$@\"";
+    let run = albacore(BOX, &out);
+    let mut shell = Command::new("sh");
+    shell.args(["-c", limited]).arg(run.get_program()).args(run.get_args());
+    let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(4), "{said}");
     assert_eq!(said.matches("error: ").count(), 1, "{said}");

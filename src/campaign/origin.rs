@@ -1,5 +1,6 @@
 //! What a table was made from, in a small file beside it: a campaign that is taken up again must be the same one.
 
+use crate::disk;
 use albacore_session::Plan;
 use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
@@ -51,9 +52,7 @@ impl Origin {
     /// Writes it beside a table, whole or not at all.
     pub fn write(&self, table: &Path) -> io::Result<()> {
         let text = serde_json::to_string_pretty(self)?;
-        let part = beside(table, ".origin.part");
-        std::fs::write(&part, text + "\n")?;
-        std::fs::rename(part, beside(table, ".origin"))
+        disk::whole(&beside(table, ".origin"), &(text + "\n"))
     }
 
     /// What of this is otherwise now, if anything is.

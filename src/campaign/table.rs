@@ -6,8 +6,9 @@
 
 use super::origin::Origin;
 use super::seeds::Seeds;
+use crate::disk;
 use albacore_session::campaign::{Columns, Row, Tally};
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -38,7 +39,7 @@ impl From<io::Error> for Trouble {
 impl Table {
     /// Begins a table, where there is none yet.
     pub fn begin(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
-        let created = File::create_new(path);
+        let created = disk::new_file(path);
         if created.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::AlreadyExists) {
             let help = "go on with it by `--resume`, or choose another file with `--out`";
             return Err(Trouble::Asked(format!("`{}` is there already", path.display()), help.to_string()));
@@ -61,7 +62,7 @@ impl Table {
             }
             Ok(_) => {}
         }
-        let file = OpenOptions::new().read(true).append(true).open(path)?;
+        let file = disk::old_file(path)?;
         let mut table = Table { path: path.to_path_buf(), file, rows: 0, known: None };
         table.lock()?;
         let mut text = Vec::new();

@@ -1,0 +1,136 @@
+//! The one place that writes to the disk. A file is written whole or not at all, and what is in the making has a name that
+//! nobody chose: it overwrites nothing, and follows no link. `tests/writers.rs` keeps every other writer out.
+
+use std::error::Error;
+use std::fs::{self, File, Metadata, OpenOptions, Permissions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile, TempDir};
+
+/// Writes a whole file, or leaves what was there: a temporary file beside it is synced and then renamed to it. A link in its
+/// place is replaced, what it leads to is left alone. An existing file's permissions and owner stay, and one that is
+/// read-only is refused, as is what is no ordinary file, such as `/dev/null`.
+pub fn whole(path: &Path, text: &str) -> io::Result<()> {
+    let there = replaceable(path)?;
+    let folder = folder_of(path);
+    let mut part = part(folder)?;
+    part.write_all(text.as_bytes())?;
+    if let Some(there) = there {
+        alike(part.as_file(), &there)?;
+    }
+    part.as_file().sync_all()?;
+    part.persist(path).map_err(|failed| failed.error)?;
+    sync_folder(folder);
+    Ok(())
+}
+
+/// A file that is not there yet, to be written bit by bit. Whatever has its name, be it a link, is an error.
+pub fn new_file(path: &Path) -> io::Result<File> {
+    let file = OpenOptions::new().append(true).create_new(true).open(path)?;
+    sync_folder(folder_of(path));
+    Ok(file)
+}
+
+/// A file that is there, to be read and gone on with.
+pub fn old_file(path: &Path) -> io::Result<File> {
+    OpenOptions::new().read(true).append(true).open(path)
+}
+
+/// Removes a file, or a link and not what it leads to. What is not there is removed already.
+pub fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// A folder in the making, beside the one that it becomes. It is gone when it does not become one.
+pub struct PartFolder(TempDir);
+
+impl PartFolder {
+    /// An empty one, on the same disk.
+    pub fn beside(folder: &Path) -> io::Result<Self> {
+        let mut builder = Builder::new();
+        builder.prefix(PREFIX).suffix(SUFFIX);
+        readable(&mut builder, 0o777);
+        builder.tempdir_in(folder_of(folder)).map(PartFolder).map_err(plain)
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    /// Gives it its name.
+    pub fn become_folder(self, folder: &Path) -> io::Result<()> {
+        fs::rename(self.0.path(), folder)?;
+        let _: PathBuf = self.0.keep();
+        sync_folder(folder_of(folder));
+        Ok(())
+    }
+}
+
+const PREFIX: &str = ".albacore-";
+const SUFFIX: &str = ".part";
+
+/// A temporary file in a folder, created by us and by nobody else, gone unless it is kept.
+fn part(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    readable(&mut builder, 0o666);
+    builder.tempfile_in(folder).map_err(plain)
+}
+
+/// Who may read what is new is the user's mask to say; temporary files are private otherwise.
+#[cfg(unix)]
+fn readable(builder: &mut Builder, mode: u32) {
+    use std::os::unix::fs::PermissionsExt;
+    builder.permissions(Permissions::from_mode(mode));
+}
+
+#[cfg(not(unix))]
+fn readable(_: &mut Builder, _: u32) {}
+
+/// What is at a path, if it can be replaced by a file.
+fn replaceable(path: &Path) -> io::Result<Option<Metadata>> {
+    // `/dev/stdout` is a link to an ordinary file when the output goes to one.
+    let is_stream = fs::read_link(path).is_ok_and(|target| target.starts_with("/proc"));
+    match fs::metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+        Ok(there) if is_stream || !there.is_file() => {
+            Err(io::Error::new(ErrorKind::InvalidInput, "it is no ordinary file"))
+        }
+        Ok(there) if there.permissions().readonly() => {
+            Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"))
+        }
+        Ok(there) => Ok(Some(there)),
+    }
+}
+
+/// Gives a file the owner and the permissions of another. Only root can give files away.
+fn alike(file: &File, there: &Metadata) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt, fchown};
+        let _ = fchown(file, Some(there.uid()), Some(there.gid()));
+    }
+    let permissions: Permissions = there.permissions();
+    file.set_permissions(permissions)
+}
+
+/// The folder that a path lies in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A name is safe from a power failure when its folder is. Not every system can do it; the file itself was written.
+fn sync_folder(folder: &Path) {
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+}
+
+/// The system's own error, without the name of a temporary file.
+fn plain(error: io::Error) -> io::Error {
+    let inner = error.get_ref().and_then(Error::source).and_then(|inner| inner.downcast_ref::<io::Error>());
+    inner.and_then(io::Error::raw_os_error).map_or(error, io::Error::from_raw_os_error)
+}

@@ -1,0 +1,214 @@
+//! What is written is written whole, under names that nobody chose, and through no link; and only `src/disk.rs` writes.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+#![cfg(unix)]
+
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// Laid out otherwise than `fmt` does.
+const PLAN: &str = "const  a=1 m\n";
+const LAID_OUT: &str = "const a = 1 m\n";
+
+/// An empty folder of a test's own.
+fn empty(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("writers").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn command(folder: &Path, words: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(words.split(' ')).current_dir(folder).stdin(Stdio::null());
+    command
+}
+
+fn albacore(folder: &Path, words: &str) -> (Option<i32>, String) {
+    said(&command(folder, words).output().unwrap())
+}
+
+fn said(output: &Output) -> (Option<i32>, String) {
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// Every verb that writes a file, in a folder that holds `plan.alb` and `box.alb`.
+const VERBS: [&str; 6] = [
+    "fmt plan.alb",
+    "graph cpt cpt_2005 --out g.svg",
+    "run box.alb --out out",
+    "campaign box.alb --seeds 1..2 --out t.csv",
+    "scenario show box.alb --out s.svg",
+    "doc cpt --out out",
+];
+
+/// Names that a temporary file could have, and had.
+const NEIGHBOURS: [&str; 9] = [
+    "plan.part",
+    "g.part",
+    "s.part",
+    "t.part",
+    "t.csv.origin.part",
+    "out/journal.part",
+    "out/trace.part",
+    "out/run.part",
+    "out/cpt.part",
+];
+
+fn sources(folder: &Path) {
+    std::fs::create_dir(folder.join("out")).unwrap();
+    std::fs::write(folder.join("plan.alb"), PLAN).unwrap();
+    std::fs::copy("missions/box.alb", folder.join("box.alb")).unwrap();
+}
+
+#[test]
+fn neighbours_of_what_is_written_stay_as_they_are() {
+    for linked in [false, true] {
+        let folder = empty(if linked { "links" } else { "files" });
+        let mine = folder.join("mine");
+        std::fs::write(&mine, "mine").unwrap();
+        sources(&folder);
+        for name in NEIGHBOURS {
+            if linked {
+                symlink(&mine, folder.join(name)).unwrap();
+            } else {
+                std::fs::write(folder.join(name), "mine").unwrap();
+            }
+        }
+        for words in VERBS {
+            assert_eq!(albacore(&folder, words).0, Some(0), "{words}");
+        }
+        for name in NEIGHBOURS {
+            assert_eq!(std::fs::read_to_string(folder.join(name)).ok().as_deref(), Some("mine"), "{name}");
+            assert_eq!(folder.join(name).is_symlink(), linked, "{name}");
+        }
+        assert_eq!(std::fs::read_to_string(folder.join("plan.alb")).unwrap(), LAID_OUT);
+        let out = folder.join("out");
+        let hidden: Vec<_> = names(&folder).into_iter().chain(names(&out)).filter(|n| n.starts_with('.')).collect();
+        assert!(hidden.is_empty(), "{hidden:?}");
+    }
+}
+
+#[test]
+fn what_a_link_leads_to_is_left_alone() {
+    let folder = empty("targets");
+    sources(&folder);
+    std::fs::write(folder.join("mine"), "mine").unwrap();
+    let targets = ["g.svg", "s.svg", "out/cpt.md", "out/index.md"];
+    for name in targets {
+        symlink(folder.join("mine"), folder.join(name)).unwrap();
+    }
+    for words in [VERBS[1], VERBS[4], VERBS[5]] {
+        assert_eq!(albacore(&folder, words).0, Some(0), "{words}");
+    }
+    assert_eq!(std::fs::read_to_string(folder.join("mine")).unwrap(), "mine");
+    for name in targets {
+        assert!(!folder.join(name).is_symlink(), "{name}");
+    }
+    // Only the script that a link stands for is meant when the link is named.
+    symlink("plan.alb", folder.join("link.alb")).unwrap();
+    assert_eq!(albacore(&folder, "fmt link.alb").0, Some(0));
+    assert!(folder.join("link.alb").is_symlink());
+    assert_eq!(std::fs::read_to_string(folder.join("plan.alb")).unwrap(), LAID_OUT);
+}
+
+#[test]
+fn a_table_is_begun_through_no_link() {
+    let folder = empty("table");
+    sources(&folder);
+    symlink("mine", folder.join("t.csv")).unwrap();
+    let (code, said) = albacore(&folder, VERBS[3]);
+    assert!(code == Some(2) && said.contains("`t.csv` is there already"), "{code:?} {said}");
+    assert!(!folder.join("mine").exists());
+}
+
+#[test]
+fn what_is_no_file_is_not_replaced() {
+    let folder = empty("pipes");
+    assert!(Command::new("mkfifo").arg(folder.join("g.svg")).status().unwrap().success());
+    let (code, said) = albacore(&folder, VERBS[1]);
+    assert!(code == Some(4) && said.contains("`g.svg` cannot be written: it is no ordinary file"), "{code:?} {said}");
+    assert_eq!(names(&folder), ["g.svg"]);
+    // A stream is none either, where the output goes to a file.
+    let file = std::fs::File::create(folder.join("stdout")).unwrap();
+    let output = command(&folder, "graph cpt cpt_2005 --out /dev/stdout").stdout(file).output().unwrap();
+    assert_eq!(output.status.code(), Some(4));
+    assert!(Path::new("/dev/stdout").is_symlink());
+}
+
+#[test]
+fn permissions_stay_and_what_is_read_only_is_refused() {
+    let folder = empty("permissions");
+    let plan = folder.join("plan.alb");
+    for mode in [0o600, 0o664, 0o755] {
+        std::fs::write(&plan, PLAN).unwrap();
+        std::fs::set_permissions(&plan, std::fs::Permissions::from_mode(mode)).unwrap();
+        assert_eq!(albacore(&folder, "fmt plan.alb").0, Some(0));
+        assert_eq!(std::fs::metadata(&plan).unwrap().permissions().mode() & 0o777, mode);
+    }
+    std::fs::write(&plan, PLAN).unwrap();
+    std::fs::set_permissions(&plan, std::fs::Permissions::from_mode(0o444)).unwrap();
+    let (code, said) = albacore(&folder, "fmt plan.alb");
+    assert!(code == Some(4) && said.contains("`plan.alb` cannot be written: it is read-only"), "{code:?} {said}");
+    assert_eq!(std::fs::read_to_string(&plan).unwrap(), PLAN);
+    // A new file is as readable as every other.
+    assert_eq!(albacore(&folder, VERBS[1]).0, Some(0));
+    std::fs::write(folder.join("other"), "").unwrap();
+    let mode = |name: &str| std::fs::metadata(folder.join(name)).unwrap().permissions().mode();
+    assert_eq!(mode("g.svg"), mode("other"));
+}
+
+#[test]
+fn a_disk_that_is_full_leaves_nothing_behind() {
+    let folder = empty("full");
+    sources(&folder);
+    // A file that may not grow fails as a full disk does.
+    let limited = "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"";
+    for words in ["fmt plan.alb", VERBS[1], VERBS[4], VERBS[5], "new reef"] {
+        let verb = command(&folder, words);
+        let mut shell = Command::new("sh");
+        shell.args(["-c", limited]).arg(verb.get_program()).args(verb.get_args()).current_dir(&folder);
+        let (code, said) = said(&shell.stdin(Stdio::null()).output().unwrap());
+        assert!(code == Some(4) && said.contains("cannot be written: "), "{words}: {code:?} {said}");
+        assert_eq!(names(&folder), ["box.alb", "out", "plan.alb"], "{words}");
+        assert!(names(&folder.join("out")).is_empty(), "{words}");
+    }
+    assert_eq!(std::fs::read_to_string(folder.join("plan.alb")).unwrap(), PLAN);
+}
+
+/// Nothing else in the program opens a file to write it, moves it or removes it.
+#[test]
+fn only_one_place_writes() {
+    let raw = ["fs::write", "File::create", "File::options", "OpenOptions", "rename(", "fs::copy", "hard_link"];
+    let removers = ["remove_file", "remove_dir"];
+    let mut scripts = Vec::new();
+    let mut folders: Vec<PathBuf> = vec!["src".into(), "lang/src".into()];
+    folders.extend(std::fs::read_dir("runtime").unwrap().map(|e| e.unwrap().path().join("src")));
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                scripts.push(path);
+            }
+        }
+    }
+    assert!(scripts.len() > 300);
+    let mut writers = Vec::new();
+    for path in scripts.iter().filter(|path| !path.ends_with("src/disk.rs")) {
+        let text = std::fs::read_to_string(path).unwrap();
+        let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines = text.lines().enumerate().filter(|(_, line)| raw.iter().chain(&removers).any(|w| line.contains(w)));
+        writers.extend(lines.map(|(i, line)| format!("{}:{}: {}", path.display(), i + 1, line.trim())));
+    }
+    assert!(writers.is_empty(), "write through src/disk.rs instead:\n{}", writers.join("\n"));
+}
