@@ -26,7 +26,7 @@ pub trait Transport {
 }
 
 /// Opens a link to a vehicle.
-pub fn call(url: &Url) -> Result<Box<dyn Transport>, LinkError> {
+pub fn call(url: &Url) -> Result<Box<dyn Transport + Send>, LinkError> {
     match &url.place {
         Place::Serial(path, baud) => Ok(Box::new(tty::Tty::open(path, *baud)?)),
         Place::Udp { host, port: 0, .. } => Err(LinkError::new(
@@ -42,7 +42,7 @@ pub fn call(url: &Url) -> Result<Box<dyn Transport>, LinkError> {
 }
 
 /// Opens the vehicle's end of a link, and says where the other end finds it.
-pub fn serve(url: &Url) -> Result<(Box<dyn Transport>, String), LinkError> {
+pub fn serve(url: &Url) -> Result<(Box<dyn Transport + Send>, String), LinkError> {
     match &url.place {
         Place::Serial(path, baud) => Ok((Box::new(tty::Tty::open(path, *baud)?), url.to_string())),
         Place::Udp { host, port, .. } => {

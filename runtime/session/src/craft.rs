@@ -9,7 +9,7 @@ pub(crate) enum Craft {
     /// In a simulated world.
     Simulated(Box<Simulator>),
     /// At the end of a link.
-    Linked(Box<dyn Vehicle>),
+    Linked(Box<dyn Vehicle + Send>),
 }
 
 impl Craft {

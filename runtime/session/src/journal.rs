@@ -1,8 +1,7 @@
 //! The journal of a run under way: kept as long as it can be written, and given up without harm to the run.
 
-use albacore_machine::Event;
+use crate::run::{Ending, Step, TickRecord};
 use albacore_trace::journal::{Closing, JournalHeader, Writer};
-use albacore_vehicle::{Command, Snapshot};
 use std::io;
 
 /// Where a journal's bytes go.
@@ -23,14 +22,20 @@ impl Keeper {
         }
     }
 
-    pub(crate) fn tick(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>, events: &[Event]) {
-        self.write(|writer| writer.tick(tick, snapshot, command, events));
-    }
-
-    pub(crate) fn close(&mut self, closing: impl FnOnce() -> Closing) {
-        self.write(|writer| writer.close(&closing()));
-        // Nothing follows the end.
-        self.writer = None;
+    /// Takes down a step.
+    pub(crate) fn take(&mut self, record: &TickRecord) {
+        let TickRecord { tick, snapshot, command, events, .. } = record;
+        match &record.step {
+            Step::Wait => {}
+            Step::Tick => self.write(|writer| writer.tick(*tick, snapshot, command.as_ref(), events)),
+            Step::End(Ending { outcome, reason, digest, .. }) => {
+                let (reason, events, digest) = (reason.clone(), events.clone(), digest.value());
+                let closing = Closing { outcome: *outcome, reason, ticks: *tick, events, digest };
+                self.write(|writer| writer.close(&closing));
+                // Nothing follows the end.
+                self.writer = None;
+            }
+        }
     }
 
     /// What went wrong, told once.

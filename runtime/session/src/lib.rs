@@ -40,7 +40,7 @@ pub use files::{
 };
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
-pub use run::{Run, Running};
+pub use run::{Ending, Run, Running, Step, TickRecord};
 pub use shown::{Shown, ShownClause, Whence};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, run_test};

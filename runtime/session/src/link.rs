@@ -6,7 +6,7 @@ use albacore_link::{Dialect, LinkError, Url, call as open};
 use albacore_vehicle::Vehicle;
 
 /// An open link to a vehicle, not yet heard.
-pub type Called = Box<dyn Vehicle>;
+pub type Called = Box<dyn Vehicle + Send>;
 
 /// Opens a link to a vehicle, whose positions are given in the plan's frame. `rate` is how many times faster than real time the
 /// vehicle runs; the clock is the host's, and tells no more than how long the vehicle has been silent.

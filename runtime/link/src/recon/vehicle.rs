@@ -8,7 +8,7 @@ use albacore_vehicle::{Channel, Command, Control, Snapshot, Vehicle, VehicleErro
 use std::time::Duration;
 
 /// The host's time since any moment. Only the command line may read a clock; a test gives what it likes.
-pub type HostClock = Box<dyn FnMut() -> Duration>;
+pub type HostClock = Box<dyn FnMut() -> Duration + Send>;
 
 /// How long a look for bytes waits, so that who waits can do something else now and then.
 const LOOK: Duration = Duration::from_millis(10);
@@ -24,7 +24,7 @@ const RELEASE_AGAIN: Duration = Duration::from_millis(100);
 /// A vehicle that speaks `recon`.
 pub struct ReconVehicle {
     controller: Controller,
-    transport: Box<dyn Transport>,
+    transport: Box<dyn Transport + Send>,
     clock: HostClock,
     url: Url,
     silence: Duration,
@@ -38,7 +38,13 @@ pub struct ReconVehicle {
 impl ReconVehicle {
     /// A vehicle behind a transport, in the frame of a mission. `rate` is how many times faster than real time it runs: one
     /// that runs slower may be silent for longer.
-    pub fn new(url: Url, transport: Box<dyn Transport>, frame: TangentFrame, rate: f64, mut clock: HostClock) -> Self {
+    pub fn new(
+        url: Url,
+        transport: Box<dyn Transport + Send>,
+        frame: TangentFrame,
+        rate: f64,
+        mut clock: HostClock,
+    ) -> Self {
         let ticked = clock();
         let silence = SILENCE.div_f64(rate.clamp(0.01, 1.0));
         ReconVehicle {

@@ -1,13 +1,13 @@
 //! What a mission reports, and how far it is from what there is to be found.
 
-use super::Run;
+use super::recorder::Recorder;
 use crate::summary::Report;
 use albacore_geometry::Point;
 use albacore_program::Shape;
 use albacore_vehicle::TICK_S;
 use std::sync::Arc;
 
-impl Run {
+impl Recorder {
     /// Takes down what was reported at a place of the program.
     pub(super) fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
         let program = Arc::clone(&self.plan.program);
@@ -17,7 +17,7 @@ impl Run {
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
         let sought = place.and_then(|p| self.sought(p));
         if let Some(place) = place {
-            self.picture.declared(&site.name, place);
+            self.sketch.declared(&site.name, place);
         }
         self.reports.push(Report {
             name: site.name.clone(),
@@ -29,6 +29,12 @@ impl Run {
             error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
             error_from: sought.map(|(_, what)| what),
         });
+    }
+
+    /// The place of a true source that is nearest to another.
+    pub(crate) fn nearest_source(&self, to: Point) -> Option<Point> {
+        let sources = self.plan.scenario.sources.iter().map(|source| source.nearest(to));
+        sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
     }
 
     /// What there is to be found, as far as anybody knows: the place that is nearest to another, and what it is.

@@ -1,0 +1,260 @@
+//! What decides a command: the vehicle's port, the machine, the watch over what is sensed, and the release. A step of it waits
+//! for the vehicle alone, and gives a record; whoever keeps the records is no concern of it.
+
+use super::Running;
+use super::record::{Ending, Step, TickRecord};
+use crate::craft::Craft;
+use crate::plan::{Plan, PlanError};
+use albacore_geometry::Point;
+use albacore_machine::{Event, Machine, Outcome, Wish};
+use albacore_navigation::Vigil;
+use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS};
+use albacore_trace::{Digest, Release};
+use albacore_vehicle::{VehicleError, Vertical};
+use std::sync::Arc;
+
+/// A run takes this many ticks at most: ten days.
+const TICKS_MAX: u64 = 8_640_000;
+
+/// Drives a vehicle through a mission.
+pub(crate) struct Driver {
+    machine: Machine,
+    vehicle: Craft,
+    vigil: Vigil,
+    digest: Digest,
+    /// Whether the vehicle has been asked to let us drive, and not been given back since.
+    asked_for_control: bool,
+    /// Why the mission ends, when that is known.
+    reason: String,
+    /// What the vehicle or its link gave notice of last.
+    last_notice: String,
+    knows_area: bool,
+    next: Next,
+}
+
+/// What the next step is.
+enum Next {
+    Tick,
+    /// The last one: the mission is over, or this ends it.
+    End(Cause),
+    Nothing(Outcome),
+}
+
+/// Why a run ends.
+enum Cause {
+    /// The mission has said so in its last tick.
+    Mission(Outcome),
+    /// A person, or a vehicle that failed.
+    Outside(Outcome, String),
+}
+
+impl Cause {
+    fn failure(error: &VehicleError) -> Self {
+        Cause::Outside(Outcome::Failed, error.to_string())
+    }
+}
+
+impl Driver {
+    /// Before the first tick.
+    pub fn new(plan: &Plan, vehicle: Craft) -> Result<Self, PlanError> {
+        let machine = Machine::new(Arc::clone(&plan.program), vehicle.channels())
+            .map_err(|missing| PlanError::Asked(missing.to_string(), None))?;
+        Ok(Driver {
+            machine,
+            vehicle,
+            vigil: Vigil::default(),
+            digest: Digest::new(),
+            asked_for_control: false,
+            reason: String::new(),
+            last_notice: String::new(),
+            knows_area: false,
+            next: Next::Tick,
+        })
+    }
+
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    pub fn vehicle(&self) -> &Craft {
+        &self.vehicle
+    }
+
+    pub fn digest(&self) -> &Digest {
+        &self.digest
+    }
+
+    /// The tick that comes next.
+    pub fn tick(&self) -> u64 {
+        self.machine.state().tick
+    }
+
+    /// Whether the next step is the last: that is due at once, whatever the time.
+    pub fn is_ending(&self) -> bool {
+        matches!(self.next, Next::End(_))
+    }
+
+    /// Lets the next step end the run because the person says so.
+    pub fn interrupt(&mut self) {
+        if matches!(self.next, Next::Tick) {
+            self.next = Next::End(Cause::Outside(Outcome::Interrupted, "interrupted".into()));
+        }
+    }
+
+    /// One step: a look for the vehicle's next tick, the tick, or the end. On a link some hundredths of a second go by in it at
+    /// most, and some seconds in the end.
+    pub fn step(&mut self, record: &mut TickRecord) -> Running {
+        record.clear(self.tick());
+        let cause = match std::mem::replace(&mut self.next, Next::Tick) {
+            Next::Nothing(outcome) => {
+                self.next = Next::Nothing(outcome);
+                return Running::Over(outcome);
+            }
+            Next::End(cause) => cause,
+            Next::Tick if record.tick >= TICKS_MAX => {
+                Cause::Outside(Outcome::Failed, "the run is longer than ten days".into())
+            }
+            Next::Tick => match self.go(record) {
+                Ok(()) => return Running::On,
+                Err(error) => Cause::failure(&error),
+            },
+        };
+        Running::Over(self.end(cause, record))
+    }
+
+    /// A tick, if the vehicle's time has come to it.
+    fn go(&mut self, record: &mut TickRecord) -> Result<(), VehicleError> {
+        if !self.vehicle.port().ready()? {
+            self.hear(record);
+            return Ok(());
+        }
+        self.vehicle.port().sense(&mut record.snapshot)?;
+        self.follow_wish()?;
+        let sightings = self.vigil.look(record.tick, &record.snapshot, self.machine.state().command.as_ref());
+        record.command = self.machine.step(&record.snapshot);
+        let sent = record.command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
+        let sent = sent.and_then(|()| self.follow_wish());
+        record.step = Step::Tick;
+        self.note_events(record);
+        self.hear(record);
+        record.notices.extend(sightings.iter().map(ToString::to_string));
+        self.describe(record);
+        if let Err(error) = sent {
+            self.next = Next::End(Cause::failure(&error));
+        } else if let Some(outcome) = self.machine.outcome() {
+            self.next = Next::End(Cause::Mission(outcome));
+        }
+        Ok(())
+    }
+
+    /// Asks for control when the mission wants it, and gives it back when a guest's override has ended. At the end of the
+    /// mission comes the release.
+    fn follow_wish(&mut self) -> Result<(), VehicleError> {
+        let wants = self.machine.wish() != Wish::Listen;
+        if wants == self.asked_for_control || self.machine.outcome().is_some() {
+            return Ok(());
+        }
+        self.asked_for_control = wants;
+        if wants { self.vehicle.port().take_over() } else { self.vehicle.port().give_back() }
+    }
+
+    /// Ends the run. The release is always the last act; then it is only written down.
+    fn end(&mut self, cause: Cause, record: &mut TickRecord) -> Outcome {
+        record.clear(record.tick);
+        let outcome = match cause {
+            Cause::Mission(outcome) => outcome,
+            Cause::Outside(outcome, reason) => {
+                self.machine.end(outcome);
+                self.reason = reason;
+                // What was sensed last belongs to the tick before, or to none.
+                self.note_events(record);
+                outcome
+            }
+        };
+        self.describe(record);
+        record.area = area_corners(&self.machine);
+        let heard = matches!(outcome, Outcome::Refused | Outcome::ReleasedByVehicle | Outcome::LinkLost);
+        if heard && self.reason.is_empty() && record.truth.is_none() {
+            self.reason.clone_from(&self.last_notice);
+        }
+        let released = self.vehicle.port().release();
+        self.hear(record);
+        let guest = self.machine.program().mission.guest;
+        let (release, trouble) = match released {
+            Err(error) => (Release::Failed, Some(error.to_string())),
+            Ok(()) if guest && !self.asked_for_control => (Release::NotOurs, None),
+            Ok(()) => (Release::Done, None),
+        };
+        let reason = self.reason.clone();
+        record.step = Step::End(Ending { outcome, reason, release, trouble, digest: self.digest });
+        self.next = Next::Nothing(outcome);
+        outcome
+    }
+
+    /// What the vehicle gave notice of: no part of the digest, for when it comes is no matter of the run.
+    fn hear(&mut self, record: &mut TickRecord) {
+        record.notices.extend(self.vehicle.port().notices());
+        if let Some(last) = record.notices.last() {
+            self.last_notice.clone_from(last);
+        }
+    }
+
+    /// What happened, and the digest of it.
+    fn note_events(&mut self, record: &mut TickRecord) {
+        record.events.extend_from_slice(self.machine.events());
+        for event in &record.events {
+            match event {
+                Event::Aborted(why) => self.reason.clone_from(why),
+                Event::TimedOut => self.reason = "time limit".to_string(),
+                _ => {}
+            }
+        }
+        self.hash(record);
+    }
+
+    /// How things are after the step.
+    fn describe(&mut self, record: &mut TickRecord) {
+        record.truth = self.vehicle.truth();
+        record.believed = self.machine.position();
+        record.active = self.machine.active();
+        if !self.knows_area {
+            record.area = area_corners(&self.machine);
+            self.knows_area = !record.area.is_empty();
+        }
+    }
+
+    /// The full-rate run: every sample, every command, every event.
+    fn hash(&mut self, record: &TickRecord) {
+        let digest = &mut self.digest;
+        digest.word(record.tick);
+        for sample in &record.snapshot.samples {
+            digest.word(u64::from(sample.channel));
+            digest.numbers(&sample.reading);
+        }
+        if let Some(command) = self.machine.state().command {
+            digest.number(command.heading.radians());
+            digest.number(command.speed);
+            match command.vertical {
+                Vertical::Depth(metres) => digest.number(metres),
+                Vertical::Altitude(metres) => digest.number(-metres),
+            }
+        }
+        for event in &record.events {
+            digest.text(&format!("{event:?}"));
+        }
+    }
+}
+
+/// The words of the mission's area, once it has one.
+pub(crate) fn area_words(machine: &Machine) -> Option<&[f64]> {
+    let program = machine.program();
+    let at = (program.mission.base + program.mission.area?) as usize;
+    machine.state().words.get(at..at + AREA_WORDS as usize)
+}
+
+/// The corners of the mission's area, once it has one.
+fn area_corners(machine: &Machine) -> Vec<Point> {
+    let Some(words) = area_words(machine) else { return Vec::new() };
+    let corner = |i: usize| 1 + AREA_CORNER_WORDS as usize * i;
+    (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
+}

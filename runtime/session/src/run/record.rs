@@ -1,0 +1,81 @@
+//! What a driver hands on: all that came in, went out and happened in one step, as one value that recorders fold over.
+
+use albacore_geometry::Point;
+use albacore_machine::{Event, Outcome};
+use albacore_program::ActivityId;
+use albacore_sim::Truth;
+use albacore_trace::{Digest, Release};
+use albacore_vehicle::{Command, Snapshot};
+
+/// One step of a run.
+#[derive(Clone, Debug, Default)]
+pub struct TickRecord {
+    /// The tick it belongs to; for the end, the one that would have come next.
+    pub tick: u64,
+    /// What kind of step it was.
+    pub step: Step,
+    /// All that came from the vehicle.
+    pub snapshot: Snapshot,
+    /// What it was told.
+    pub command: Option<Command>,
+    /// What happened.
+    pub events: Vec<Event>,
+    /// What a person should hear of the vehicle and the link, before the events in time; at the end, after them.
+    pub notices: Vec<String>,
+    /// What is so, whatever the sensors say: known in simulation only.
+    pub truth: Option<Truth>,
+    /// Where the mission believes the vehicle to be.
+    pub believed: Option<Point>,
+    /// The active activities, from outside in.
+    pub active: Vec<ActivityId>,
+    /// The corners of the mission's area: in the first tick that knows them, and at the end again.
+    pub area: Vec<Point>,
+}
+
+/// What kind of step it was.
+#[derive(Clone, Debug, Default)]
+pub enum Step {
+    /// The vehicle's time has not come to the next tick: there may be notices.
+    #[default]
+    Wait,
+    /// A tick.
+    Tick,
+    /// The end of the run, after the vehicle was given back. Its events are those of an end that came from outside.
+    End(Ending),
+}
+
+/// How a run ended.
+#[derive(Clone, Debug)]
+pub struct Ending {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// Why, in words; empty when there is nothing to say.
+    pub reason: String,
+    /// How the vehicle was given back.
+    pub release: Release,
+    /// Why it was not, if so.
+    pub trouble: Option<String>,
+    /// The digest of the full-rate run.
+    pub digest: Digest,
+}
+
+impl TickRecord {
+    /// Nothing yet, at a tick; keeps its memory.
+    pub(super) fn clear(&mut self, tick: u64) {
+        self.tick = tick;
+        self.step = Step::Wait;
+        self.snapshot.samples.clear();
+        self.command = None;
+        self.events.clear();
+        self.notices.clear();
+        self.truth = None;
+        self.believed = None;
+        self.active.clear();
+        self.area.clear();
+    }
+
+    /// Where the vehicle is, as well as that is known.
+    pub(super) fn here(&self) -> Option<Point> {
+        self.truth.map(|truth| truth.position).or(self.believed)
+    }
+}
