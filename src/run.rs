@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+/// Reports that are printed; the trace has all of them.
+const REPORTS_TOLD_MAX: usize = 20;
 /// Ticks between two looks of the person at the progress.
 const TICKS_AT_ONCE: u64 = 100;
 
@@ -191,7 +193,7 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
         summary.path_length_m,
         summary.switches
     ));
-    for report in &summary.reports {
+    for report in summary.reports.iter().take(REPORTS_TOLD_MAX) {
         text.push_str(&format!("  reported {} after {}", report.name, minutes(report.t_s)));
         if let (Some(north), Some(east)) = (report.north_m, report.east_m) {
             text.push_str(&format!(" at ({north:.1}, {east:.1}) m"));
@@ -200,6 +202,10 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
             text.push_str(&format!(", {error:.1} m from {from}"));
         }
         text.push('\n');
+    }
+    match summary.reports_beyond(REPORTS_TOLD_MAX) {
+        0 => {}
+        more => text.push_str(&format!("  and {more} more reports, in the trace\n")),
     }
     text.push_str(&format!("  digest {}\n", summary.digest));
     if let Some(picture) = picture {

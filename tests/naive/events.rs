@@ -49,6 +49,8 @@ fn line(p: &Program, event: &Event) -> String {
         Event::Fresh(id) => format!("fresh {}", input(*id)),
         Event::Aborted(why) => format!("abort {why}"),
         Event::TimedOut => "timeout".to_string(),
+        Event::Silenced => "silenced".to_string(),
+        Event::Unwritten(lines) => format!("unwritten {lines}"),
         Event::Ended(outcome) => format!("end {}", outcome.name()),
     }
 }

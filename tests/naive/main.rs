@@ -139,3 +139,22 @@ fn rules() {
     }
     assert!(differences.is_empty(), "{} of {} differ\n{}", differences.len(), scripts.len(), differences.join("\n\n"));
 }
+
+/// What is written too fast is left out by both sides alike, and counted.
+#[test]
+fn floods() {
+    let text = "mission flood in calm within 2 min {
+            area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+            with depth 3 m, speed 1 m/s
+            memory places: [Point; 40]
+            on true { for n in 1..20 { log \"{n} {places}\" } }
+            on true { for n in 1..20 { report \"all\": places, number: n }; places.insert(position) }
+            steer north for 1 min
+            report \"last\": position
+        }";
+    let script = albacore_session::load_text(Source { name: "flood.alb".into(), text: text.into() });
+    let plan = Plan::new(&script, "flood.alb", None, None).unwrap();
+    let run = compare::compare(&script, "flood", &mut Simulator::new(&plan.scenario, 1).unwrap(), TICKS_MAX);
+    assert_eq!(run.difference, None);
+    assert!(run.events.iter().any(|event| event.starts_with("unwritten")), "nothing was left out");
+}

@@ -54,6 +54,10 @@ pub enum Event {
     Ended(Outcome),
     /// The mission waits for the first sample of a required input: index into the program's inputs.
     Awaited(u32),
+    /// More is logged and reported than is written: from here on nothing is.
+    Silenced,
+    /// So many lines of log and report were not written; from here on they are again.
+    Unwritten(u64),
 }
 
 /// How a mission ended.

@@ -1,6 +1,7 @@
 //! The instructions that need more of a run than its words.
 
 use crate::Event;
+use crate::allowance::TEXT_BYTES_MAX;
 use crate::compute::{Frame, compute, place};
 use crate::lists::Order;
 use crate::state::Run;
@@ -197,14 +198,22 @@ impl Run {
                 }
 
                 Op::Report { site } => {
+                    if !self.state.allowance.admits_report(site, &mut self.events) {
+                        continue;
+                    }
                     let mut words = Vec::new();
                     for (_, valued) in &p.reports[site as usize].fields {
                         words.extend_from_slice(self.slice(b(valued.slot), valued.shape.words()));
                     }
+                    self.state.allowance.pay(size_of_val(words.as_slice()));
                     self.events.push(Event::Reported(site, words));
                 }
                 Op::Log { text } => {
+                    if !self.state.allowance.admits(&mut self.events) {
+                        continue;
+                    }
                     let text = self.filled(&p.texts[text as usize], base, p);
+                    self.state.allowance.pay(text.len());
                     self.events.push(Event::Logged(text));
                 }
                 Op::Changed { memory } => {
@@ -222,7 +231,7 @@ impl Run {
         Heading::from_radians(self.get(slot))
     }
 
-    /// A text with its holes filled.
+    /// A text with its holes filled; what is too long for anybody to read is cut.
     pub fn filled(&self, text: &Text, base: Slot, p: &Program) -> String {
         let mut out = String::new();
         for part in &text.parts {
@@ -234,7 +243,17 @@ impl Run {
                 }
             }
         }
+        cut(&mut out, TEXT_BYTES_MAX);
         out
+    }
+}
+
+/// Cuts a text that is too long, between two of its characters, and shows that it is.
+fn cut(text: &mut String, bytes_max: usize) {
+    if text.len() > bytes_max {
+        let end = (0..=bytes_max).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+        text.truncate(end);
+        text.push_str(" …");
     }
 }
 

@@ -4,6 +4,7 @@
 //! it takes what was sensed and gives what to command.
 
 mod activity;
+mod allowance;
 mod area;
 mod command;
 mod compute;
@@ -17,6 +18,7 @@ mod mission;
 mod state;
 mod trig;
 
+pub use allowance::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX, TEXT_BYTES_MAX};
 pub use event::{Event, Outcome};
 pub use execute::Evaluation;
 pub use inputs::MissingInput;

@@ -1,6 +1,7 @@
 //! The machine: a mission from its first tick to its release.
 
 use crate::activity::Status;
+use crate::allowance::Allowance;
 use crate::inputs::{MissingInput, senses, wiring};
 use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State, Wish};
 use crate::trig::Trig;
@@ -43,6 +44,7 @@ impl Run {
             within: None,
             began: 0,
             overridden: Overridden::default(),
+            allowance: Allowance::new(p.reports.len()),
         };
         Run {
             state,
@@ -153,6 +155,7 @@ impl Machine {
         let p = program.as_ref();
         run.events.clear();
         run.state.overridden = Overridden::default();
+        run.events.extend(run.state.allowance.tick());
         run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
         let command = run.live(p);
@@ -429,6 +432,7 @@ impl Run {
             self.leave(p, recovery.activity, base, Cause::Preempted);
         }
         self.leave(p, p.mission.activity, base, cause);
+        self.events.extend(self.state.allowance.end());
         self.state.phase = Phase::Over(outcome);
         self.events.push(Event::Ended(outcome));
         None

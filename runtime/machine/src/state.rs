@@ -1,6 +1,7 @@
 //! The state of a run: one plain value.
 
 use crate::Outcome;
+use crate::allowance::Allowance;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MAX;
@@ -41,6 +42,8 @@ pub struct State {
     pub(crate) began: u64,
     /// Channels that overlays set in this tick.
     pub(crate) overridden: Overridden,
+    /// What may still be written by `log` and `report`.
+    pub(crate) allowance: Allowance,
 }
 
 /// Where a mission is in its life.

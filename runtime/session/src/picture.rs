@@ -1,6 +1,6 @@
 //! What the picture of a run is made of: what is known of its world, and what is gathered while it goes.
 
-use crate::summary::Summary;
+use crate::summary::{Report, Summary};
 use albacore_geometry::{Point, Vector};
 use albacore_program::number;
 use albacore_sim::Scenario;
@@ -23,13 +23,15 @@ pub(crate) fn of_world(scenario: &Scenario, carrying: Vector) -> Picture {
     }
 }
 
-/// The track, the detections and what was declared.
+/// Reports that are told beside the picture; all of them are in the trace.
+const TOLD_MAX: usize = 8;
+
+/// The track and the detections.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sketch {
     track: Vec<(Point, u16)>,
     behaviors: Vec<String>,
     detections: Vec<Point>,
-    declared: Vec<(String, Point)>,
 }
 
 impl Sketch {
@@ -45,10 +47,6 @@ impl Sketch {
         self.detections.push(at);
     }
 
-    pub fn declared(&mut self, name: &str, at: Point) {
-        self.declared.push((name.to_string(), at));
-    }
-
     /// The picture of all that was gathered, in the world that is known.
     pub fn svg(&self, summary: &Summary, world: Picture) -> String {
         let mut subtitle = vec![format!(
@@ -58,18 +56,23 @@ impl Sketch {
             summary.outcome.replace('_', " "),
             number::seconds(summary.ticks).trim()
         )];
-        for report in &summary.reports {
+        for report in summary.reports.iter().take(TOLD_MAX) {
             let error = report.error_m.zip(report.error_from);
             let error = error.map(|(e, from)| format!(", {} from {from}", number::metres(e))).unwrap_or_default();
-            subtitle.push(format!("{} declared at {} s{error}", report.name, number::fixed(report.t_s, 1)));
+            subtitle.push(format!("reported \"{}\" at {} s{error}", report.name, number::fixed(report.t_s, 1)));
         }
+        match summary.reports_beyond(TOLD_MAX) {
+            0 => {}
+            more => subtitle.push(format!("and {more} more reports, in the trace")),
+        }
+        let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
         Picture {
             title: summary.mission.clone(),
             subtitle,
             track: self.track.clone(),
             behaviors: self.behaviors.clone(),
             detections: self.detections.clone(),
-            declared: self.declared.clone(),
+            reports: summary.reports.iter().filter_map(place).collect(),
             ..world
         }
         .svg()

@@ -22,6 +22,7 @@ use albacore_trace::{BehaviorTrace, Depths, Picture};
 use albacore_vehicle::{TICK_S, Vehicle};
 use driver::Driver;
 use recorder::Recorder;
+use report::Reports;
 use std::io;
 
 pub use record::{Ending, Step, TickRecord};
@@ -92,6 +93,16 @@ impl Run {
     /// The tick that comes next.
     pub fn tick(&self) -> u64 {
         self.driver.tick()
+    }
+
+    /// How the mission ended, once it has.
+    pub fn outcome(&self) -> Option<Outcome> {
+        self.recorder.outcome
+    }
+
+    /// What has been reported so far.
+    pub(crate) fn reports(&self) -> &Reports {
+        &self.recorder.reports
     }
 
     /// The names of the active activities, from outside in.
@@ -184,7 +195,8 @@ impl Run {
             wall_s,
             path_length_m: kept.odometer.length(),
             switches: kept.switches,
-            reports: kept.reports.clone(),
+            reports: kept.reports.listed.clone(),
+            more_reports: kept.reports.more,
             digest: self.driver.digest().to_string(),
         }
     }

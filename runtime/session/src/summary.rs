@@ -27,8 +27,22 @@ pub struct Summary {
     pub switches: u64,
     /// What was reported.
     pub reports: Vec<Report>,
+    /// How many reports there were beside those that are listed: of very many only the first are.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub more_reports: u64,
     /// The digest of the full-rate run.
     pub digest: String,
+}
+
+impl Summary {
+    /// How many reports there were beyond the first so many.
+    pub fn reports_beyond(&self, told: usize) -> u64 {
+        self.reports.len().saturating_sub(told) as u64 + self.more_reports
+    }
+}
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 /// Something that was reported.

@@ -3,10 +3,9 @@
 use crate::faults::Faults;
 use crate::plan::{Plan, PlanError};
 use crate::run::{Run, Running};
-use crate::summary::Summary;
 use albacore_geometry::Point;
 use albacore_lang::{ExpectProgram, Script, TestProgram};
-use albacore_machine::Evaluation;
+use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{AREA_WORDS, number};
 use albacore_vehicle::TICK_S;
 use rayon::prelude::*;
@@ -152,20 +151,19 @@ fn tell(evaluation: &mut Evaluation, test: &TestProgram, run: &Run, over: bool) 
     evaluation.set(slots.deepest, &[deepest.north, deepest.east]);
     evaluation.set(slots.time, &[run.tick().saturating_sub(1) as f64 * TICK_S]);
     evaluation.set(slots.area, run.area_words().unwrap_or(&[0.0; AREA_WORDS as usize]));
-    let summary: Summary = run.summary(0.0);
-    evaluation.set(slots.completed, &[f64::from(u8::from(over && summary.outcome == "completed"))]);
+    let reports = run.reports();
+    evaluation.set(slots.completed, &[f64::from(u8::from(over && run.outcome() == Some(Outcome::Completed)))]);
     let place = |r: &crate::Report| Some((r.north_m?, r.east_m?));
-    let latest = summary.reports.iter().rev().find_map(place);
-    let from = latest.map_or(position, |(north, east)| Point::new(north, east));
+    let from = reports.latest.unwrap_or(position);
     let nearest = run.nearest_source(from).unwrap_or(from);
     evaluation.set(slots.nearest_source, &[nearest.north, nearest.east]);
     for (name, slot) in &slots.reported {
-        let first = summary.reports.iter().find(|r| r.name == *name).and_then(place);
+        let first = reports.listed.iter().find(|r| r.name == *name).and_then(place);
         let (north, east) = first.unwrap_or_default();
         evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), north, east]);
     }
     for (name, slot) in &slots.reported_at {
-        let first = summary.reports.iter().find(|r| r.name == *name);
+        let first = reports.listed.iter().find(|r| r.name == *name);
         evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), first.map_or(0.0, |r| r.t_s)]);
     }
 }

@@ -114,7 +114,7 @@ fn chase(
         track,
         behaviors: behaviors.map(String::from).to_vec(),
         detections,
-        declared: vec![("declared, 13.2 m off".to_string(), declared)],
+        reports: vec![("declared, 13.2 m off".to_string(), declared)],
         sources: vec![("dye".to_string(), source)],
         start: Some(start),
         flows: vec![("flow".into(), 0.125 * down.unit())],
@@ -147,7 +147,7 @@ fn several() -> Result<Picture, Box<dyn Error>> {
         start: track.first().map(|(p, _)| *p),
         track,
         behaviors: vec!["survey".to_string(), "track_in".to_string()],
-        declared,
+        reports: declared,
         sources,
         flows: vec![("flow".into(), Heading::from_degrees(359.9).unit())],
         ..Picture::default()

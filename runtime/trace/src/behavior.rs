@@ -10,7 +10,7 @@ use albacore_program::{Cause, Program};
 
 /// Ticks between samples unless told otherwise: a minute.
 const SAMPLE_EVERY_TICKS: u64 = 600;
-/// A trace has at most this many lines: ten a second for more than a day.
+/// A trace has at most this many lines, and its end: ten a second for more than a day.
 const LINES_MAX: usize = 1_000_000;
 /// What a trace says of its run at the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +55,8 @@ pub struct BehaviorTrace {
     next_sample: u64,
     ended: Option<Outcome>,
     last_event: u64,
+    /// Lines that would have been too many.
+    left_out: u64,
 }
 
 impl BehaviorTrace {
@@ -68,6 +70,7 @@ impl BehaviorTrace {
             next_sample: 0,
             ended: None,
             last_event: 0,
+            left_out: 0,
         };
         let scenario =
             if header.scenario.is_empty() { String::new() } else { format!("  scenario {}", header.scenario) };
@@ -138,6 +141,9 @@ impl BehaviorTrace {
             }
             Release::NotOurs => {}
         }
+        if self.left_out > 0 {
+            self.lines.push((Kind::Digest, format!("{} more lines not written", self.left_out)));
+        }
         self.lines.push((Kind::Digest, format!("digest {digest}  {ticks} ticks")));
     }
 
@@ -202,11 +208,11 @@ impl BehaviorTrace {
     }
 
     fn say(&mut self, kind: Kind, tick: u64, verb: &str, line: &str) {
-        if self.lines.len() < LINES_MAX {
+        if self.lines.len() < LINES_MAX || verb == "end" || verb == "control" {
             let line = format!("{}  {verb:<7}  {line}", number::seconds(tick));
             self.lines.push((kind, line.trim_end().to_string()));
-        } else if self.lines.len() == LINES_MAX {
-            self.lines.push((Kind::Digest, format!("… further lines are left out after {LINES_MAX}")));
+        } else {
+            self.left_out += 1;
         }
     }
 }

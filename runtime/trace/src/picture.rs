@@ -49,8 +49,8 @@ pub struct Picture {
     pub behaviors: Vec<String>,
     /// Where chemical was detected.
     pub detections: Vec<Point>,
-    /// What the mission declared, by name.
-    pub declared: Vec<(String, Point)>,
+    /// What the mission reported, by name.
+    pub reports: Vec<(String, Point)>,
     /// The true sources, by name.
     pub sources: Vec<(String, Point)>,
     /// Of sources that are lines both ends; the first is the place of the source.
@@ -97,7 +97,7 @@ impl Picture {
 
     /// All points that must be on the chart. The plume may leave it.
     fn extent(&self) -> impl Iterator<Item = Point> {
-        let places = self.declared.iter().chain(&self.sources).map(|(_, p)| *p);
+        let places = self.reports.iter().chain(&self.sources).map(|(_, p)| *p);
         let all = self
             .area
             .iter()

@@ -4,9 +4,10 @@ use crate::active::Active;
 use crate::names::Names;
 use crate::words::{INDENT, cause_name, channel_name, control_name, indented, one_line};
 use albacore_geometry::Point;
-use albacore_machine::Event;
+use albacore_machine::{Event, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::number;
 use albacore_program::{ActivityId, Cause, Channel, Program, Rule, Shape};
+use albacore_vehicle::TICK_S;
 
 /// The widest that the column of what happened gets by itself.
 const WHAT_WIDTH_MAX: usize = 48;
@@ -102,6 +103,11 @@ impl Wording {
             Event::Fresh(input) => ("fresh", self.names.input(*input).to_string()),
             Event::Aborted(why) => ("abort", self.columns(&one_line(why), Some(position), "", "")),
             Event::TimedOut => ("timeout", self.columns("the mission's time is up", Some(position), "", "")),
+            Event::Silenced => {
+                let (once, second) = (LINES_AT_ONCE_MAX, LINES_A_TICK_MAX as f64 / TICK_S);
+                ("limit", format!("log and report  more than {once} lines at once and {second:.0} a second"))
+            }
+            Event::Unwritten(lines) => ("limit", format!("log and report  {lines} more not written")),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),
         })
     }

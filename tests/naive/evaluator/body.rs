@@ -149,15 +149,24 @@ fn perform(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &Stmt) {
         }
         StmtKind::Clear(var) => s.frame.set(*var, Value::List(Vec::new())),
         StmtKind::Report { name, fields } => {
-            let mut said = Vec::new();
+            if !w.may_report(stmt) {
+                return;
+            }
+            let (mut said, mut bytes) = (Vec::new(), 0);
             for (label, e) in fields {
                 let words = value(w, s, e).words(&w.shape(&e.ty));
+                bytes += size_of_val(words.as_slice());
                 said.push(exactly(label, &w.shape(&e.ty), &words));
             }
+            w.pay(bytes);
             w.say(format!("report {name}: {}", said.join(", ")));
         }
         StmtKind::Log(parts) => {
             let line = text(w, s, parts);
+            if !w.may_write() {
+                return;
+            }
+            w.pay(line.len());
             w.say(format!("log {line}"));
         }
         _ => {}

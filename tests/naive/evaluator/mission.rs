@@ -100,6 +100,7 @@ impl<'p> Evaluator<'p> {
         self.w.events.clear();
         self.w.steps = 0;
         self.w.kept = Setpoints::default();
+        self.w.earn();
         self.w.sense(self.sensors, &snapshot.samples);
         if snapshot.control != self.control {
             self.control = snapshot.control;
@@ -314,6 +315,7 @@ impl<'p> Evaluator<'p> {
             self.recovery.leave(&mut self.w, Cause::Preempted);
             self.mission.leave(&mut self.w, cause);
             self.phase = Phase::Over;
+            self.w.tell_unwritten();
             self.w.say(format!("end {outcome}"));
         }
         None

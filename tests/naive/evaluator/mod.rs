@@ -1,7 +1,7 @@
 //! The language once more, as directly as can be: it reads the checked program, knows nothing of how that is lowered, and can
 //! be read beside the rules of time, whose numbers stand where they are followed. It may be slow, and it clones what it likes.
 //!
-//! It shares geometry, guidance, the printer of numbers and the vehicle's types with the machine, and nothing else.
+//! It shares geometry, guidance, the printer of numbers, the vehicle's types and a few limits with the machine, and nothing else.
 
 mod activation;
 mod body;

@@ -4,9 +4,10 @@ use super::timed::Setpoints;
 use super::value::Value;
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_lang::hir::{Expr, Hir, InputPart};
+use albacore_lang::hir::{Expr, Hir, InputPart, Stmt};
 use albacore_lang::source::Sources;
 use albacore_lang::types::{Type, TypeTable};
+use albacore_machine::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::Shape;
 use albacore_vehicle::{Channel, Sample, TICK_S, Vertical};
 
@@ -47,6 +48,10 @@ pub struct World<'p> {
     pub steps: u64,
     /// What happened in this tick, one line each.
     pub events: Vec<String>,
+    /// Lines that may still be written, what was not written since there were none, and which statements have reported.
+    pub lines: i64,
+    pub unwritten: u64,
+    pub reported: Vec<*const Stmt>,
 }
 
 /// Rule 1: whole ticks, rounded up, at least one; a hair above a whole number is rounding.
@@ -75,11 +80,54 @@ impl<'p> World<'p> {
             is_recovering: false,
             steps: 0,
             events: Vec::new(),
+            lines: LINES_AT_ONCE_MAX,
+            unwritten: 0,
+            reported: Vec::new(),
         }
     }
 
     pub fn say(&mut self, line: String) {
         self.events.push(line);
+    }
+
+    /// A tick more to write in; who has written too much is heard again with a tenth of what may be written at once.
+    pub fn earn(&mut self) {
+        self.lines = (self.lines + LINES_A_TICK_MAX).min(LINES_AT_ONCE_MAX);
+        if 10 * self.lines >= LINES_AT_ONCE_MAX {
+            self.tell_unwritten();
+        }
+    }
+
+    pub fn tell_unwritten(&mut self) {
+        if self.unwritten > 0 {
+            self.say(format!("unwritten {}", self.unwritten));
+        }
+        self.unwritten = 0;
+    }
+
+    /// Whether a `log` or `report` may be written; what it costs is taken with [`World::pay`].
+    pub fn may_write(&mut self) -> bool {
+        if self.lines > 0 && self.unwritten == 0 {
+            return true;
+        }
+        if self.unwritten == 0 {
+            self.say("silenced".into());
+        }
+        self.unwritten += 1;
+        false
+    }
+
+    /// The first report of a statement is always written.
+    pub fn may_report(&mut self, stmt: &Stmt) -> bool {
+        if self.reported.contains(&std::ptr::from_ref(stmt)) {
+            return self.may_write();
+        }
+        self.reported.push(std::ptr::from_ref(stmt));
+        true
+    }
+
+    pub fn pay(&mut self, bytes: usize) {
+        self.lines -= bytes.div_ceil(LINE_BYTES).max(1) as i64;
     }
 
     pub fn shape(&self, ty: &Type) -> Shape {

@@ -99,7 +99,7 @@ impl Columns {
             metres(Some(run.path_length_m)),
             run.switches.to_string(),
             run.digest.clone(),
-            run.reports.len().to_string(),
+            (run.reports.len() as u64 + run.more_reports).to_string(),
         ];
         for (name, nth) in &self.further {
             let report = run.reports.iter().filter(|r| r.name == *name).nth(*nth);

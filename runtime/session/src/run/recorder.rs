@@ -1,10 +1,10 @@
 //! What is kept of a run in memory, folded from its records: trace, reports, the way driven, and what the picture shows.
 
 use super::record::{Step, TickRecord};
+use super::report::Reports;
 use crate::craft::Odometer;
 use crate::picture::Sketch;
 use crate::plan::Plan;
-use crate::summary::Report;
 use albacore_geometry::{Area, Heading, Point};
 use albacore_machine::{Event, Outcome};
 use albacore_program::{ActivityId, Body};
@@ -23,7 +23,7 @@ pub(crate) struct Recorder {
     pub(super) plan: Plan,
     channels: Vec<Channel>,
     pub trace: BehaviorTrace,
-    pub reports: Vec<Report>,
+    pub reports: Reports,
     pub switches: u64,
     pub odometer: Odometer,
     pub sketch: Sketch,
@@ -55,7 +55,7 @@ impl Recorder {
             trace: BehaviorTrace::new(&plan.program, &header),
             plan: plan.clone(),
             channels: channels.to_vec(),
-            reports: Vec::new(),
+            reports: Reports::default(),
             switches: 0,
             odometer,
             sketch: Sketch::default(),

@@ -5,21 +5,48 @@ use crate::summary::Report;
 use albacore_geometry::Point;
 use albacore_program::Shape;
 use albacore_vehicle::TICK_S;
+use std::collections::BTreeSet;
 use std::sync::Arc;
+
+/// Reports that a result lists; of more only the first of each place of the program that reports, and their number.
+const REPORTS_LISTED_MAX: usize = 10_000;
+
+/// What a run has reported so far.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Reports {
+    /// The first ones, and the first of each place of the program.
+    pub listed: Vec<Report>,
+    /// How many there were beside those.
+    pub more: u64,
+    /// The place that was reported last.
+    pub latest: Option<Point>,
+    sites: BTreeSet<u32>,
+}
+
+impl Reports {
+    /// Whether there is room for one more, of a place of the program.
+    fn admits(&mut self, site: u32) -> bool {
+        let first = self.sites.insert(site);
+        let admits = first || self.listed.len() < REPORTS_LISTED_MAX;
+        self.more += u64::from(!admits);
+        admits
+    }
+}
 
 impl Recorder {
     /// Takes down what was reported at a place of the program.
     pub(super) fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
         let program = Arc::clone(&self.plan.program);
-        let site = &program.reports[site as usize];
+        let (id, site) = (site, &program.reports[site as usize]);
         let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
+        self.reports.latest = place.or(self.reports.latest);
+        if !self.reports.admits(id) {
+            return;
+        }
         let frame = self.plan.frame();
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
         let sought = place.and_then(|p| self.sought(p));
-        if let Some(place) = place {
-            self.sketch.declared(&site.name, place);
-        }
-        self.reports.push(Report {
+        self.reports.listed.push(Report {
             name: site.name.clone(),
             t_s: tick as f64 / (1.0 / TICK_S),
             north_m: place.map(|p| p.north),

@@ -12,6 +12,13 @@ const DETECTION_CELL: f64 = 6.0;
 /// At most so many crosses.
 const DETECTIONS_MAX: usize = 2_000;
 
+/// Reports of one name closer than this on the page, in pixels, are one dot.
+const REPORT_CELL: f64 = 6.0;
+/// At most so many dots.
+const REPORTS_MAX: usize = 2_000;
+/// At most so many of them are named: more could not be read.
+const LABELS_MAX: usize = 60;
+
 /// The colour of the plume.
 pub const PLUME: &str = "#b08d2f";
 /// The colour of detections.
@@ -172,15 +179,28 @@ fn detections(svg: &mut Svg, picture: &Picture, frame: &Frame) {
     }
 }
 
+/// Where there is a dot for a report, and its name.
+fn reports<'a>(picture: &'a Picture, frame: &Frame) -> Vec<(&'a str, (f64, f64))> {
+    let mut cells = BTreeSet::new();
+    let mut apart = Vec::new();
+    for (name, p) in picture.reports.iter().filter(|(_, p)| is_place(*p)) {
+        let (x, y) = frame.place(*p);
+        if cells.insert((name, (x / REPORT_CELL) as i64, (y / REPORT_CELL) as i64)) {
+            apart.push((name.as_str(), (x, y)));
+        }
+    }
+    chosen(apart.len(), REPORTS_MAX).map(|i| apart[i]).collect()
+}
+
 fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let places = |named: &'_ [(String, Point)]| -> Vec<(String, (f64, f64))> {
         named.iter().filter(|(_, p)| is_place(*p)).map(|(name, p)| (name.clone(), frame.place(*p))).collect()
     };
-    let (sources, declared) = (places(&picture.sources), places(&picture.declared));
+    let (sources, reports) = (places(&picture.sources), reports(picture, frame));
     let [start, deepest] = [picture.start, picture.deepest].map(|p| p.filter(|p| is_place(*p)).map(|p| frame.place(p)));
     let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
     taken.extend(deepest.map(|at| (at, RING)));
-    taken.extend(declared.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
+    taken.extend(reports.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
     let mut around = outline(&picture.area, frame);
     around.extend(around.first().copied());
     let leaks = leaks(&picture.leaks, frame);
@@ -190,7 +210,7 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
 
     start.into_iter().for_each(|at| start_mark(svg, at));
     sources.iter().map(|(_, at)| *at).chain(deepest).for_each(|at| source_mark(svg, at));
-    declared.iter().for_each(|(_, at)| declared_mark(svg, *at));
+    reports.iter().for_each(|(_, at)| report_mark(svg, *at));
     for (name, corners) in &picture.no_go {
         let corners = outline(corners, frame);
         let share = 1.0 / corners.len().max(1) as f64;
@@ -199,7 +219,7 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
             labels.put(svg, frame, middle, name, NO_GO);
         }
     }
-    for (name, at) in &declared {
+    for (name, at) in reports.iter().take(LABELS_MAX) {
         labels.put(svg, frame, *at, name, "#111");
     }
     for (name, at) in &sources {
@@ -225,6 +245,6 @@ pub fn source_mark(svg: &mut Svg, (x, y): (f64, f64)) {
 }
 
 /// A dark dot.
-pub fn declared_mark(svg: &mut Svg, at: (f64, f64)) {
+pub fn report_mark(svg: &mut Svg, at: (f64, f64)) {
     svg.circle(at, 4.2, "fill=\"#111\" stroke=\"#fff\" stroke-width=\"1.4\"");
 }

@@ -49,7 +49,7 @@ impl<'a> Panel<'a> {
             (!picture.no_go.is_empty(), "no-go zone", no_go_mark),
             (!picture.plume.is_empty(), "plume", plume_mark),
             (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),
-            (!picture.declared.is_empty(), "declared", chart::declared_mark),
+            (!picture.reports.is_empty(), "report", chart::report_mark),
             (!picture.sources.is_empty(), "true source", chart::source_mark),
             (!picture.leaks.is_empty(), "leak", leak_mark),
             (picture.deepest.is_some(), "truly deepest", chart::source_mark),
