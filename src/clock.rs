@@ -1,6 +1,7 @@
 //! The wall clock, which only the command line may read, and keeping time by it.
 
-use std::time::{Duration, Instant};
+use serde::{Serialize, Serializer};
+use std::time::{Duration, Instant, SystemTime};
 
 /// Seconds of a vehicle's time in a tick.
 const TICK: Duration = Duration::from_millis(100);
@@ -9,6 +10,29 @@ const TICK: Duration = Duration::from_millis(100);
 #[expect(clippy::disallowed_methods, reason = "how long something took on the wall is no part of any result")]
 pub fn now() -> Instant {
     Instant::now()
+}
+
+/// A moment of Coordinated Universal Time.
+#[derive(Clone, Copy)]
+pub struct Utc(SystemTime);
+
+impl Utc {
+    /// Now.
+    #[expect(clippy::disallowed_methods, reason = "when a run was by the wall clock is no part of what it does")]
+    pub fn now() -> Self {
+        Utc(SystemTime::now())
+    }
+
+    /// `2026-11-22T10-31-05Z`: no file system minds it, and names are in the order of time.
+    pub fn file_name(self) -> String {
+        humantime::format_rfc3339_seconds(self.0).to_string().replace(':', "-")
+    }
+}
+
+impl Serialize for Utc {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&humantime::format_rfc3339_millis(self.0))
+    }
 }
 
 /// How many times faster than real time, as `--rate` has it.

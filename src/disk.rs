@@ -31,6 +31,19 @@ pub fn new_file(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// Makes an empty folder that was not there: of this name and the first number that is free.
+pub fn new_folder(parent: &Path, name: &str) -> io::Result<PathBuf> {
+    fs::create_dir_all(parent)?;
+    for number in 1u64.. {
+        let folder = parent.join(format!("{name}-{number}"));
+        match fs::create_dir(&folder) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            made => return made.map(|()| folder),
+        }
+    }
+    Err(ErrorKind::AlreadyExists.into())
+}
+
 /// A file that is there, to be read and gone on with.
 pub fn old_file(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).append(true).open(path)

@@ -3,6 +3,7 @@
 use crate::exit::Exit;
 use crate::message;
 use albacore_session::{FileError, Plan, PlanError, Script, Wanted};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// A script that the verb only looks at, or a module of the standard library by its bare name.
@@ -35,6 +36,21 @@ pub fn scenario_script<'a>(named: &'a str, set: &[String]) -> Result<(Script, &'
         None => sound(Ok(albacore_session::load_library(named, set)))?,
     };
     Ok((script, file.unwrap_or_default(), name))
+}
+
+/// A script and the digest of its text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ScriptDigest {
+    /// What it is called in messages.
+    pub name: String,
+    /// 16 hexadecimal digits.
+    pub digest: String,
+}
+
+/// The scripts of a plan, the mission's own first. The texts of `--set` are read as scripts too, and are none of them.
+pub fn scripts(plan: &Plan) -> Vec<ScriptDigest> {
+    let scripts = plan.sources.iter().filter(|source| !source.name.starts_with("--set "));
+    scripts.map(|s| ScriptDigest { name: s.name.clone(), digest: format!("{:016x}", s.digest) }).collect()
 }
 
 /// Which mission of a script, in which world, with what changed: what every verb that drives takes.

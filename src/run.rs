@@ -1,8 +1,8 @@
 //! `albacore run`: checks a mission and runs it.
 
-use crate::clock::{self, Pace, now};
+use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
-use crate::kept::Kept;
+use crate::kept::{Asked, Kept, Place, Record, Taken};
 use crate::plan::{Choice, Faults, refused};
 use crate::vehicle::told;
 use crate::{interruption, message, output};
@@ -38,9 +38,13 @@ pub struct Run {
     /// How many times faster than real time; else a simulation runs as fast as it can, and a vehicle in real time.
     #[arg(long, value_name = "N", value_parser = clock::rate)]
     rate: Option<f64>,
-    /// The folder for the journal, the trace and the picture; else `albacore-runs/MISSION-SEED`.
+    /// The folder for `run.json`, the journal, the trace and the picture; else a new one below `albacore-runs/MISSION`, named by
+    /// the time of the start.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Remove the files of the run that the folder holds.
+    #[arg(long, requires = "out")]
+    replace: bool,
     /// Write no files.
     #[arg(long, conflicts_with = "out")]
     no_out: bool,
@@ -62,7 +66,10 @@ impl Run {
             Err(exit) => return exit,
         };
         let interrupted = interruption::flag();
-        let mut kept = self.folder(&plan).map_or_else(Kept::nothing, Kept::begin);
+        let mut kept = match self.kept(&plan) {
+            Ok(kept) => kept,
+            Err(exit) => return exit,
+        };
         if let Some(journal) = kept.journal() {
             run.with_journal(Box::new(journal), &self.changes());
         }
@@ -71,11 +78,11 @@ impl Run {
         if self.link.is_some() && outcome == Outcome::Failed {
             message::error(&summary.reason, None);
         }
-        let picture = kept.finish(&run);
+        let picture = kept.finish(&run, &summary);
         // Of a vehicle that was never heard there is no more to tell.
         let begun = self.link.is_none() || outcome != Outcome::Failed || summary.ticks > 0;
         if begun || self.json {
-            self.tell(&summary, picture.as_deref());
+            self.tell(&Told { summary: &summary, folder: kept.path() }, picture.as_deref());
         }
         match outcome {
             _ if kept.has_failed() || run.release_failed() => Exit::Failed,
@@ -116,10 +123,27 @@ impl Run {
         self.choice.set.iter().cloned().chain(faults).collect()
     }
 
-    /// Where files go, if any are wanted.
-    fn folder(&self, plan: &Plan) -> Option<PathBuf> {
-        let usual = || Path::new("albacore-runs").join(format!("{}-{}", plan.program.mission.name, self.seed));
-        (!self.no_out).then(|| self.out.clone().unwrap_or_else(usual))
+    /// The run's files, if any are wanted, where they overwrite no other run's.
+    fn kept(&self, plan: &Plan) -> Result<Kept, Exit> {
+        if self.no_out {
+            return Ok(Kept::nothing());
+        }
+        let place = match &self.out {
+            Some(folder) => Place::Named { folder: folder.clone(), replace: self.replace },
+            None => Place::New(plan.program.mission.name.clone()),
+        };
+        let started = Utc::now();
+        let asked = Asked {
+            seed: self.seed,
+            link: self.link.as_deref(),
+            rate: self.rate,
+            set: &self.choice.set,
+            fault: &self.faults.texts,
+        };
+        Kept::begin(&place, started, Record::new(plan, &asked, started)).map_err(|Taken(what, help)| {
+            message::error(&what, Some(help));
+            Exit::Usage
+        })
     }
 
     /// Ticks until the mission ends or the person interrupts it.
@@ -133,6 +157,9 @@ impl Run {
                 pace.begin();
             }
             let running = if interrupted.load(Ordering::Relaxed) { run.interrupt() } else { run.step() };
+            if run.tick() > 0 {
+                kept.ticks();
+            }
             if let Some(error) = run.journal_failure() {
                 bar.suspend(|| kept.journal_failed(&error));
             }
@@ -164,13 +191,23 @@ impl Run {
         bar
     }
 
-    fn tell(&self, summary: &Summary, picture: Option<&Path>) {
+    fn tell(&self, told: &Told, picture: Option<&Path>) {
         if self.json {
-            output::print_json(summary);
+            output::print_json(told);
         } else {
-            output::print(&human(summary, picture));
+            output::print(&human(told.summary, picture));
         }
     }
+}
+
+/// The result as a program reads it.
+#[derive(serde::Serialize)]
+struct Told<'a> {
+    #[serde(flatten)]
+    summary: &'a Summary,
+    /// Where the run's files are, if it has any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    folder: Option<&'a Path>,
 }
 
 /// The result as a person reads it.

@@ -18,7 +18,7 @@ fn run(arguments: &[&str]) -> Output {
 fn found(thermocline: u32, seed: u32) -> f64 {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("thermocline");
     let (set, seed, out) = (format!("thermocline={thermocline}m"), seed.to_string(), folder.to_str().unwrap());
-    let output = run(&["--set", "lasting=1min", "--set", &set, "--seed", &seed, "--out", out]);
+    let output = run(&["--set", "lasting=1min", "--set", &set, "--seed", &seed, "--out", out, "--replace"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let trace = std::fs::read_to_string(folder.join("trace.txt")).unwrap();
     let report = trace.lines().find(|line| line.contains("report   thermocline")).unwrap();

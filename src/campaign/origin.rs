@@ -1,6 +1,7 @@
 //! What a table was made from, in a small file beside it: a campaign that is taken up again must be the same one.
 
 use crate::disk;
+use crate::plan::{ScriptDigest, scripts};
 use albacore_session::Plan;
 use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
@@ -17,30 +18,20 @@ pub struct Origin {
     /// None in tables from before there were faults.
     #[serde(default)]
     fault: Vec<String>,
-    sources: Vec<Source>,
-}
-
-/// A script and the digest of its text, the mission's own first.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Source {
-    name: String,
-    digest: String,
+    sources: Vec<ScriptDigest>,
 }
 
 impl Origin {
     /// The origin of what a plan gives. `set` are the texts of the parameters that were changed, `fault`
     /// those of what was made to go wrong.
     pub fn new(plan: &Plan, set: &[String], fault: &[String]) -> Self {
-        // The texts of `--set` are read as sources too; they have a place of their own here.
-        let scripts = plan.sources.iter().filter(|source| !source.name.starts_with("--set "));
-        let sources = scripts.map(|s| Source { name: s.name.clone(), digest: format!("{:016x}", s.digest) });
         Origin {
             albacore: env!("CARGO_PKG_VERSION").to_string(),
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
             set: set.to_vec(),
             fault: fault.to_vec(),
-            sources: sources.collect(),
+            sources: scripts(plan),
         }
     }
 

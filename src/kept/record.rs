@@ -1,0 +1,84 @@
+//! `run.json`: what a run was of, when it was by the wall clock, and what became of it. The journal of the same run again has
+//! the same bytes; all that differs from run to run is here.
+
+use crate::clock::Utc;
+use crate::plan::{ScriptDigest, scripts};
+use albacore_session::{Plan, Summary};
+use serde::Serialize;
+
+/// The record of a run. It is written when the run begins and when it has ended: one that has no end was killed, or goes on.
+#[derive(Serialize)]
+pub struct Record {
+    albacore: &'static str,
+    mission: String,
+    scenario: String,
+    seed: u64,
+    /// The vehicle's, if one was driven; there is no scenario then.
+    link: Option<String>,
+    /// How many times faster than real time, if that was said.
+    rate: Option<f64>,
+    set: Vec<String>,
+    fault: Vec<String>,
+    scripts: Vec<ScriptDigest>,
+    /// Coordinated Universal Time.
+    started: Utc,
+    /// When the mission's clock was at 0: on a link, when the vehicle was first heard.
+    first_tick: Option<Utc>,
+    ended: Option<Utc>,
+    outcome: &'static str,
+    reason: String,
+    ticks: Option<u64>,
+    digest: Option<String>,
+}
+
+/// What the command line asked for.
+pub struct Asked<'a> {
+    /// The seed of all that is random.
+    pub seed: u64,
+    /// The link to a vehicle.
+    pub link: Option<&'a str>,
+    /// Times real time.
+    pub rate: Option<f64>,
+    /// The parameters that were changed.
+    pub set: &'a [String],
+    /// What was made to go wrong.
+    pub fault: &'a [String],
+}
+
+impl Record {
+    /// The record of a run that begins.
+    pub fn new(plan: &Plan, asked: &Asked, started: Utc) -> Self {
+        Record {
+            albacore: env!("CARGO_PKG_VERSION"),
+            mission: plan.program.mission.name.clone(),
+            scenario: plan.scenario_name.clone(),
+            seed: asked.seed,
+            link: asked.link.map(str::to_string),
+            rate: asked.rate,
+            set: asked.set.to_vec(),
+            fault: asked.fault.to_vec(),
+            scripts: scripts(plan),
+            started,
+            first_tick: None,
+            ended: None,
+            outcome: "running",
+            reason: String::new(),
+            ticks: None,
+            digest: None,
+        }
+    }
+
+    /// The mission's clock runs.
+    pub fn ticks(&mut self) {
+        self.first_tick.get_or_insert_with(Utc::now);
+    }
+
+    /// The run has ended.
+    pub fn ends(&mut self, summary: &Summary) {
+        self.ended = Some(Utc::now());
+        self.outcome = summary.outcome;
+        self.reason.clone_from(&summary.reason);
+        self.ticks = Some(summary.ticks);
+        self.digest = Some(summary.digest.clone());
+    }
+}

@@ -1,0 +1,244 @@
+//! No run overwrites another: each has a folder of its own, and says in it what it was and when.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+#![cfg(unix)]
+
+use albacore_trace::journal::{Ending, Journal};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+/// A mission that goes on for days.
+const LONG: &str = "
+mission long in still within 200 h {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 200 m, width: 200 m)
+    recovery within 5 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    wait for 199 h
+}
+
+scenario still {
+    bottom(from: 20 m, to: 20 m)
+    vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 3 m)
+}
+";
+
+/// A folder of a test's own, with two missions.
+fn project(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("runs").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::copy("missions/box.alb", folder.join("box.alb")).unwrap();
+    std::fs::write(folder.join("long.alb"), LONG).unwrap();
+    folder
+}
+
+fn run(folder: &Path, words: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.arg("run").args(words.split(' ')).current_dir(folder).stdin(Stdio::null());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// Exit code, standard output and standard error.
+fn ran(folder: &Path, words: &str) -> (Option<i32>, String, String) {
+    let output = run(folder, words).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// The folder that a run says it wrote.
+fn folder_of(told: &str) -> String {
+    serde_json::from_str::<Value>(told).unwrap()["folder"].as_str().unwrap().to_string()
+}
+
+fn record(folder: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(folder.join("run.json")).unwrap()).unwrap()
+}
+
+/// All files of a folder with their bytes.
+fn bytes(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    names(folder).into_iter().map(|name| (name.clone(), std::fs::read(folder.join(name)).unwrap())).collect()
+}
+
+fn is_whole(folder: &Path) -> bool {
+    let journal = Journal::read(&std::fs::read(folder.join("journal")).unwrap()).unwrap();
+    matches!(journal.ending, Ending::Complete(_))
+}
+
+/// Starts the long mission, and comes back when it is under way.
+fn long_run(project: &Path, out: &str) -> Child {
+    let child = run(project, &format!("long.alb --out {out}")).spawn().unwrap();
+    for _ in 0..20_000 {
+        if std::fs::metadata(project.join(out).join("journal")).is_ok_and(|m| m.len() > 5_000) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child
+}
+
+fn end(mut child: Child) {
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+#[test]
+fn each_run_has_a_folder_of_its_own() {
+    let project = project("own");
+    let mut children: Vec<Child> = (0..4).map(|_| run(&project, "box.alb --json").spawn().unwrap()).collect();
+    children.push(run(&project, "box.alb --json --seed 2").spawn().unwrap());
+    let mut folders = Vec::new();
+    for child in children {
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        folders.push(project.join(folder_of(&String::from_utf8_lossy(&output.stdout))));
+    }
+    let journal = |folder: &PathBuf| std::fs::read(folder.join("journal")).unwrap();
+    assert!(folders[..4].iter().all(|folder| journal(folder) == journal(&folders[0])));
+    assert!(folders.iter().all(|folder| is_whole(folder)));
+    let made = names(&project.join("albacore-runs/box"));
+    assert_eq!(made.len(), 5);
+    for (name, folder) in made.iter().zip(&folders) {
+        assert_eq!(names(folder), ["journal", "run.json", "run.svg", "trace.txt"]);
+        let shape: String = name.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
+        assert_eq!(shape, "0000-00-00T00-00-00Z-0");
+    }
+}
+
+#[test]
+fn a_folder_that_holds_a_run_is_refused() {
+    let project = project("refused");
+    assert_eq!(ran(&project, "box.alb --out out").0, Some(0));
+    let out = project.join("out");
+    std::fs::write(out.join("notes.txt"), "mine").unwrap();
+    let before = bytes(&out);
+    // It is said before the vehicle is called, and before a long mission begins.
+    for words in ["box.alb --out out", "long.alb --out out", "box.alb --seed 2 --out out/"] {
+        let (code, _, said) = ran(&project, words);
+        assert!(code == Some(2) && said.contains("holds a run already") && said.contains("--replace"), "{said}");
+        assert_eq!(bytes(&out), before, "{words}");
+    }
+    // What is left of a run is a run too, and a link is one that leads elsewhere.
+    for name in ["journal", "run.json", "trace.txt", "run.svg"] {
+        let out = project.join(format!("only-{name}"));
+        std::fs::create_dir(&out).unwrap();
+        std::os::unix::fs::symlink("../out/notes.txt", out.join(name)).unwrap();
+        let words = format!("box.alb --out only-{name}");
+        assert_eq!(ran(&project, &words).0, Some(2), "{name}");
+        assert_eq!(ran(&project, &format!("{words} --replace")).0, Some(0), "{name}");
+        assert!(is_whole(&out) && !out.join(name).is_symlink(), "{name}");
+    }
+    assert_eq!(bytes(&out), before);
+    let (code, _, said) = ran(&project, "box.alb --replace");
+    assert!(code == Some(2) && said.contains("--out"), "{said}");
+}
+
+#[test]
+fn who_replaces_a_run_removes_only_its_files() {
+    let project = project("replaced");
+    let out = project.join("out");
+    assert_eq!(ran(&project, "box.alb --out out").0, Some(0));
+    let before = bytes(&out);
+    std::fs::write(out.join("notes.txt"), "mine").unwrap();
+    assert_eq!(ran(&project, "box.alb --seed 2 --out out --replace").0, Some(0));
+    assert_eq!(names(&out), ["journal", "notes.txt", "run.json", "run.svg", "trace.txt"]);
+    assert_eq!(std::fs::read_to_string(out.join("notes.txt")).unwrap(), "mine");
+    assert!(is_whole(&out) && bytes(&out)["journal"] != before["journal"]);
+    assert_eq!(record(&out)["seed"], 2);
+}
+
+#[test]
+fn a_run_under_way_is_not_replaced() {
+    let project = project("locked");
+    let child = long_run(&project, "out");
+    let (code, _, said) = ran(&project, "box.alb --out out --replace");
+    assert!(code == Some(2) && said.contains("another run is writing into `out`"), "{code:?} {said}");
+    assert_eq!(record(&project.join("out"))["outcome"], "running");
+    end(child);
+    // Its lock ended with it. What it left says that it has not ended itself.
+    let left = record(&project.join("out"));
+    assert_eq!((&left["outcome"], &left["ended"], &left["mission"]), (&"running".into(), &Value::Null, &"long".into()));
+    assert_eq!(ran(&project, "box.alb --out out").0, Some(2));
+    assert_eq!(ran(&project, "box.alb --out out --replace").0, Some(0));
+    assert!(is_whole(&project.join("out")));
+}
+
+#[test]
+fn of_many_runs_in_one_folder_one_has_it() {
+    let project = project("many");
+    for more in ["", " --replace"] {
+        let words = |seed| format!("box.alb --out out{more} --seed {seed}");
+        let children: Vec<Child> = (1..=12).map(|seed| run(&project, &words(seed)).spawn().unwrap()).collect();
+        let outputs: Vec<_> = children.into_iter().map(|child| child.wait_with_output().unwrap()).collect();
+        let ended = |code| outputs.iter().filter(|output| output.status.code() == Some(code)).count();
+        // Whoever comes after the first has ended may replace it.
+        assert!(if more.is_empty() { ended(0) == 1 } else { ended(0) >= 1 });
+        assert_eq!(ended(0) + ended(2), 12);
+        let out = project.join("out");
+        assert!(is_whole(&out));
+        let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
+        assert_eq!(record(&out)["seed"], journal.header.seed);
+        assert_eq!(record(&out)["outcome"], "completed");
+    }
+}
+
+#[test]
+fn a_run_says_what_it_was_and_when() {
+    let project = project("record");
+    let (code, _, _) = ran(&project, "box.alb --in nowhere");
+    assert_eq!(code, Some(2));
+    assert!(!project.join("albacore-runs").exists(), "a run that never began left a folder");
+    let fault = "flow,off,from:10min";
+    let words = format!("box.alb --json --seed 3 --set round.patience=9min --fault fault({fault}) --rate 1000");
+    let (code, told, said) = ran(&project, &words);
+    assert_eq!(code, Some(0), "{told} {said}");
+    let record = record(&project.join(folder_of(&told)));
+    let told: Value = serde_json::from_str(&told).unwrap();
+    for field in ["mission", "scenario", "seed", "outcome", "reason", "ticks", "digest"] {
+        assert_eq!(record[field], told[field], "{field}");
+    }
+    assert_eq!((&record["link"], &record["rate"]), (&Value::Null, &1000.0.into()));
+    assert_eq!(
+        (&record["set"][0], &record["fault"][0]),
+        (&"round.patience=9min".into(), &format!("fault({fault})").into())
+    );
+    assert_eq!(record["scripts"][0]["name"], "box.alb");
+    assert_eq!(record["scripts"][0]["digest"].as_str().unwrap().len(), 16);
+    assert_eq!(record["albacore"], env!("CARGO_PKG_VERSION"));
+    let times = ["started", "first_tick", "ended"].map(|field| record[field].as_str().unwrap().to_string());
+    assert!(times.is_sorted() && times.iter().all(|time| time.len() == 24 && time.ends_with('Z')), "{times:?}");
+}
+
+/// A vehicle that is never heard: the run that was made before stays.
+#[test]
+fn a_run_that_hears_nothing_costs_no_other_run() {
+    let project = project("silent");
+    assert_eq!(ran(&project, "box.alb").0, Some(0));
+    let runs = project.join("albacore-runs/box");
+    let first = runs.join(&names(&runs)[0]);
+    let before = bytes(&first);
+    let nobody = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    let link = format!("box.alb --link udp:{}?dialect=recon", nobody.local_addr().unwrap());
+    let child = run(&project, &link).spawn().unwrap();
+    let pid = child.id().to_string();
+    for _ in 0..20_000 {
+        if names(&runs).len() == 2 {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let _ = child.wait_with_output().unwrap();
+    assert_eq!(names(&runs).len(), 2);
+    assert_eq!(bytes(&first), before);
+}
