@@ -242,17 +242,18 @@ fn a_vehicle_that_goes_away_is_told_with_4() {
 }
 
 #[test]
-fn what_a_vehicle_refuses_is_in_the_trace() {
+fn what_goes_beyond_a_vehicles_limits_is_in_the_trace() {
     let folder = empty("refused");
-    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let vehicle = Vehicle::serve_world(&format!("{EXCURSION}#with_limits"), "pty:?dialect=recon", &folder);
     let out = folder.join("run");
     let mut run = vehicle.driven_by("dive", &["--out", &out.display().to_string()]);
-    vehicle.says("refused `#C,Depth,Altitude,0.50`");
+    vehicle.says("is asked to go deeper than 18.50 m: it stays there");
     grown(&out.join("journal"), 20_000);
     send("-INT", &run);
     assert_eq!(run.wait().unwrap().code(), Some(1));
     let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
-    assert!(trace.contains("s  vehicle  the vehicle says: error 2"), "{trace}");
+    let error = "s  vehicle  the vehicle says: error 2, is asked to go deeper than 18.50 m: it stays there";
+    assert!(trace.contains(error), "{trace}");
     assert!(trace.contains("s  vehicle  the vehicle does not follow `#C,Depth,Altitude,0.50`"), "{trace}");
 }
 

@@ -6,7 +6,7 @@ use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{Controller, FrontSeat, Happening, Milestone, Rows};
 use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
 use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
-use albacore_vehicle::{Command, Control, Snapshot, Vertical};
+use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
 
 /// A generator for tests (SplitMix64): what goes wrong is the same in every run.
 struct Chance(u64);
@@ -269,17 +269,22 @@ fn a_keep_alive_every_five_seconds_is_enough() {
 }
 
 #[test]
-fn unsafe_commands_are_refused_and_noticed() {
-    let mut pair = excursion(1, 0.0);
+fn commands_beyond_the_scenarios_limits_are_held_at_them_and_noticed() {
+    let limits = Some(Limits { depth: Some(6.0), ..Limits::default() });
+    let mut pair = Pair::of(&Scenario { limits, ..still_water() }, "100x20x2", 1, 0.0);
+    pair.ticks(10, None);
+    pair.controller.take_over();
+    pair.send();
     let deep = Command { vertical: Vertical::Depth(400.0), ..east() };
     pair.ticks(100, Some(&deep));
-    let refused = Happening::Refused("#C,Depth,Depth,400.00".into(), "out of this vehicle's bounds");
-    assert!(pair.happenings.contains(&refused), "{:?}", pair.happenings);
+    let told = Happening::Notice("is asked to go deeper than 6.00 m: it stays there".into());
+    assert!(pair.happenings.contains(&told), "{:?}", pair.happenings);
     let notices = pair.controller.take_notices();
-    assert!(notices.iter().any(|n| n.contains("error 2")), "{notices:?}");
-    assert!(notices.iter().any(|n| n.contains("does not follow `#C,Depth,Depth,400.00`")), "{notices:?}");
+    assert!(notices.iter().any(|n| n.contains("error 2, is asked to go deeper than 6.00 m")), "{notices:?}");
+    let ignored = "does not follow `#C,Depth,Depth,400.00` and says `#C,Depth,Depth,6.00`";
+    assert!(notices.iter().any(|n| n.contains(ignored)), "{notices:?}");
     let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
-    assert!((depth - 5.0).abs() < 0.011, "it holds what it held: {depth}");
+    assert!((depth - 6.0).abs() < 0.011, "it holds what it may: {depth}");
 }
 
 #[test]

@@ -10,7 +10,6 @@ mod deepest;
 mod fault;
 pub mod hull;
 mod incidents;
-mod limits;
 mod noise;
 mod normal;
 mod plume;
@@ -31,7 +30,7 @@ pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
     Adcp, Battery, Bottom, Bounds, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, HullSetup, KinematicHull,
-    Lbl, Limits, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
+    Lbl, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
     ScenarioError, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves, Why,
 };
 pub use simulator::{Simulator, Truth};

@@ -20,12 +20,12 @@ pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
 pub use stratification::Stratification;
-pub use vehicle::{HullSetup, KinematicHull, Limits, OwnMission, SubmersibleHull, VehicleSetup};
+pub use vehicle::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 
 use crate::fault::{self, Fault};
 use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
-use albacore_vehicle::{Channel, Handover, channels};
+use albacore_vehicle::{Channel, Handover, Limits, channels};
 use serde::{Deserialize, Serialize};
 
 /// The world of a simulated run. SI units and radians throughout; points in the mission's tangent frame.
@@ -55,7 +55,7 @@ pub struct Scenario {
     pub recording: Option<RecordedPlume>,
     /// The vehicle.
     pub vehicle: VehicleSetup,
-    /// The vehicle's own limits; none: its hull's alone.
+    /// The vehicle's own limits; none: its hull's speed alone.
     pub limits: Option<Limits>,
     /// The mission that the vehicle swims by itself, while nobody else drives; none: it lies still.
     pub own_mission: Option<OwnMission>,
@@ -89,6 +89,13 @@ impl Scenario {
     /// What its vehicle tells.
     pub fn channels(&self) -> Vec<Channel> {
         if self.ctd.is_some() { channels::all() } else { channels::without_ctd() }
+    }
+
+    /// What its vehicle makes of commands, whoever gives them: its own limits, and its hull's speed.
+    pub fn limits(&self) -> Limits {
+        let limits = self.limits.clone().unwrap_or_default();
+        let hull = self.vehicle.hull.speed_max();
+        Limits { speed: Some(limits.speed.map_or(hull, |speed| speed.min(hull))), ..limits }
     }
 
     /// Whether there is any chemical to be sensed.

@@ -4,7 +4,6 @@ use crate::computer::{Computer, Known, seconds};
 use crate::fault::Faults;
 use crate::hull::Hull;
 use crate::incidents::Incidents;
-use crate::limits::Watch;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{Battery, Compass, Ctd, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
@@ -14,7 +13,9 @@ use albacore_vehicle::channels::{
     ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE, VEHICLE_MODE,
     WATER_DEPTH,
 };
-use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{
+    Channel, Command, Control, LimitWatch, Limits, Snapshot, TICK_S, Vehicle, VehicleError, Vertical,
+};
 
 /// Ticks between what the vehicle tells of its own mission.
 const MODE_TICKS: u64 = 10;
@@ -71,13 +72,15 @@ pub struct Simulator {
     /// The battery is empty.
     spent: bool,
     computer: Computer,
-    watch: Watch,
+    watch: LimitWatch,
     /// The latest estimate of the current, for the computer.
     flow: Vector,
     control: Control,
     /// The same as it was told last.
     told: Control,
     command: Option<Command>,
+    /// What it did in the last tick, whoever wanted it.
+    did: Option<Command>,
     truth: Truth,
     incidents: Incidents,
     faults: Faults,
@@ -114,13 +117,14 @@ impl Simulator {
                 scenario.own_mission.as_ref(),
                 scenario.handover.as_ref(),
                 (start, vehicle.heading),
-                vehicle.hull.speed_max(),
+                scenario.limits().speed.unwrap_or_default(),
             ),
-            watch: Watch::new(scenario.limits.as_ref(), vehicle.hull.speed_max()),
+            watch: LimitWatch::new(scenario.limits()),
             flow: Vector::ZERO,
             control: Control::Disconnected,
             told: Control::Disconnected,
             command: None,
+            did: None,
             truth: Truth::default(),
             incidents: Incidents::new(&scenario.no_go),
             faults: Faults::new(&scenario.faults, seed),
@@ -186,8 +190,9 @@ impl Simulator {
             Control::Suspended => None,
             _ => self.computer.steer(self.known()),
         };
-        let water_depth = self.truth.depth + self.truth.altitude;
+        let water_depth = self.water_depth_here();
         let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
+        self.did = command;
         self.intake = self.intake_now();
         self.vehicle.stick_rudder(ailing.rudder);
         self.vehicle.flood(ailing.water - if self.gives_up() { DROP_WEIGHT_KG } else { 0.0 });
@@ -199,6 +204,11 @@ impl Simulator {
         let measured = if self.dvl.has_lock(altitude) { Some(self.measured_velocity(tick)) } else { None };
         self.positioning.step(tick, measured, motion.position, motion.depth);
         Ok(())
+    }
+
+    /// How deep the water is where the vehicle is, m.
+    fn water_depth_here(&self) -> f64 {
+        self.truth.depth + self.truth.altitude
     }
 
     /// The velocity over ground as the Doppler log measures it and the compass turns it, m/s.
@@ -413,6 +423,20 @@ impl Vehicle for Simulator {
         self.control = Control::Released;
         self.command = None;
         Ok(())
+    }
+
+    fn limits(&self) -> Limits {
+        self.watch.limits().clone()
+    }
+
+    fn held(&self) -> Option<Command> {
+        match (self.control, &self.command) {
+            // It was told since the last tick.
+            (Control::InControl, Some(command)) if !self.gives_up() => {
+                Some(self.watch.limits().heed(command, Some(self.water_depth_here()), &mut |_| {}))
+            }
+            _ => self.did,
+        }
     }
 
     fn is_aground(&self) -> bool {

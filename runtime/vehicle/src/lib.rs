@@ -5,8 +5,10 @@
 
 pub mod channels;
 mod handover;
+mod limits;
 
 pub use handover::{Gate, Handover};
+pub use limits::{Beyond, LimitWatch, Limits};
 
 use albacore_geometry::Heading;
 use serde::{Deserialize, Serialize};
@@ -130,6 +132,17 @@ pub trait Vehicle {
 
     /// Gives control back. Always the last act of a mission.
     fn release(&mut self) -> Result<(), VehicleError>;
+
+    /// Its own limits, its hull's speed among them.
+    fn limits(&self) -> Limits {
+        Limits::default()
+    }
+
+    /// What it does now: the command that it follows, as far as its own limits let it, whoever gave it. None when it follows
+    /// none, or cannot tell.
+    fn held(&self) -> Option<Command> {
+        None
+    }
 
     /// Whether it lies on the bottom and knows so.
     fn is_aground(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use albacore_geometry::Geodetic;
 use albacore_geometry::math::{degrees, radians};
+use std::ops::RangeInclusive;
 
 /// A day, in the milliseconds that times are counted in.
 pub const DAY_MS: u32 = 86_400_000;
@@ -9,10 +10,37 @@ pub const DAY_MS: u32 = 86_400_000;
 /// Ten-thousandths of a minute of arc in a degree: the grain of a position, about 0.2 m.
 const GRAINS: f64 = 600_000.0;
 
-/// A plain decimal number. What Rust reads besides (`inf`, `nan`, `1e9`) is none.
+/// No number of the dialect is greater: what four hundred digits stand for is none.
+const GREATEST: f64 = 1e9;
+
+/// Where numbers lie, in the units of the message. The sources state no ranges: ours are wider than any vehicle's, and their
+/// sums and products stay numbers. A message with a number outside is no message.
+pub mod ranges {
+    use std::ops::RangeInclusive;
+
+    /// Depths and heights above the bottom, m: the deepest ocean, and a gauge that is out by ten bars.
+    pub const HEIGHTS: RangeInclusive<f64> = -100.0..=12_000.0;
+    /// Speeds and currents, m/s.
+    pub const SPEEDS: RangeInclusive<f64> = -50.0..=50.0;
+    /// Turns of the propeller a minute.
+    pub const TURNS: RangeInclusive<f64> = -100_000.0..=100_000.0;
+    /// Angles, degrees.
+    pub const ANGLES: RangeInclusive<f64> = -360.0..=360.0;
+    /// Rates of turn, degrees a second.
+    pub const TURN_RATES: RangeInclusive<f64> = -3_600.0..=3_600.0;
+    /// What is left in a battery, per cent.
+    pub const CHARGES: RangeInclusive<f64> = 0.0..=100.0;
+}
+
+/// A plain decimal number of a size that means something. What Rust reads besides (`inf`, `nan`, `1e9`) is none.
 pub fn number(text: &str) -> Option<f64> {
     let plain = text.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
-    text.parse().ok().filter(|_| plain)
+    text.parse().ok().filter(|x: &f64| plain && x.abs() <= GREATEST)
+}
+
+/// A plain decimal number in a range.
+pub fn within(text: &str, range: RangeInclusive<f64>) -> Option<f64> {
+    number(text).filter(|x| range.contains(x))
 }
 
 /// A number with so many decimals; a zero has no sign.
@@ -76,7 +104,8 @@ mod tests {
     #[test]
     fn numbers_are_plain() {
         assert_eq!(number("-0.10"), Some(-0.1));
-        for none in ["", "inf", "NaN", "1e9", "1.2.3", "--1", "0x1", " 1", "-"] {
+        let nines = "9".repeat(400);
+        for none in ["", "inf", "-inf", "NaN", "1e9", "1e308", "1.2.3", "--1", "0x1", " 1", "-", "1,5", &nines] {
             assert_eq!(number(none), None, "{none}");
         }
         assert_eq!((fixed(-0.001, 2).as_str(), fixed(-0.1, 2).as_str()), ("0.00", "-0.10"));

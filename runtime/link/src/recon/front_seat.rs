@@ -14,7 +14,7 @@ use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{Milestone, OwnPlan, Route, through_water};
-use albacore_vehicle::{Command, Control, Gate, Handover, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Beyond, Command, Control, Gate, Handover, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
 pub(super) const TIMEOUT_TICKS: u64 = 50;
@@ -26,10 +26,6 @@ const ADCP_TICKS: u64 = 10;
 const BEGIN_MS: u64 = 12 * 3_600_000;
 /// Turns of the propeller a minute for 1 m/s. Ours: 1500 turns for the 2.6 m/s of a REMUS 100.
 const RPM_AT_1_MPS: f64 = 1500.0 / 2.6;
-/// The deepest, the nearest to the bottom, and the fastest that a guest may ask for: m, m, m/s. What is beyond is refused.
-const DEPTH_MAX: f64 = 100.0;
-const ALTITUDE_MIN: f64 = 1.0;
-const SPEED_MAX: f64 = 2.6;
 /// The battery of a REMUS 100, Wh.
 const CAPACITY_WH: f64 = 1000.0;
 
@@ -39,6 +35,10 @@ const OUT_OF_BOUNDS: u32 = 2;
 const NOT_SERVED: u32 = 3;
 const AGROUND: u32 = 4;
 const FREE_AGAIN: u32 = 5;
+const NOT_UNDERSTOOD: u32 = 6;
+
+/// So much of a message that cannot be understood is shown, bytes.
+const SHOWN: usize = 40;
 
 /// What a guest has asked for; it holds until something else is asked for.
 #[derive(Clone, Copy)]
@@ -48,6 +48,12 @@ struct Goals {
     rate: f64,
     speed: f64,
     vertical: Vertical,
+}
+
+impl Goals {
+    fn command(&self) -> Command {
+        Command { heading: self.heading, speed: self.speed, vertical: self.vertical }
+    }
 }
 
 /// What is known of the vehicle.
@@ -194,11 +200,18 @@ impl<V: Vehicle> FrontSeat<V> {
 
     fn hear(&mut self, bytes: &[u8]) {
         let (heard, unreadable) = (&mut self.heard, &mut self.unreadable);
-        self.deframer.push(bytes, |frame| match frame.ok().and_then(|body| ToVehicle::parse(body).ok()) {
-            Some(message) => heard.push(message),
-            None => *unreadable += 1,
+        let mut absurd = Vec::new();
+        self.deframer.push(bytes, |frame| match frame.map(|body| ToVehicle::parse(body).map_err(|_| body)) {
+            Ok(Ok(message)) => heard.push(message),
+            unread => {
+                *unreadable += 1;
+                absurd.extend(unread.ok().and_then(Result::err).filter(|body| body.starts_with("C,")).map(shortened));
+            }
         });
         self.silent = if self.heard.is_empty() { self.silent + 1 } else { 0 };
+        for command in absurd {
+            self.refuse(&command, NOT_UNDERSTOOD, "is no command of this dialect");
+        }
         for message in std::mem::take(&mut self.heard) {
             self.obey(&message);
         }
@@ -256,32 +269,48 @@ impl<V: Vehicle> FrontSeat<V> {
 
     fn set_goal(&mut self, command: &ToVehicle) {
         let Some(goals) = &mut self.goals else {
-            return self.refuse(command, NOT_IN_OVERRIDE, "override is not active");
+            return self.refuse(&command.to_string(), NOT_IN_OVERRIDE, "override is not active");
         };
         if self.control == Control::Suspended {
-            return self.refuse(command, NOT_IN_OVERRIDE, "the mission is suspended");
+            return self.refuse(&command.to_string(), NOT_IN_OVERRIDE, "the mission is suspended");
         }
         let wanted = match command {
             ToVehicle::Heading(heading) => Goals { heading: *heading, rate: 0.0, ..*goals },
             ToVehicle::HeadingRate(rate) if rate.abs() <= TURN_RATE_MAX => Goals { rate: *rate, ..*goals },
-            ToVehicle::Depth(depth) if (0.0..=DEPTH_MAX).contains(depth) => {
-                Goals { vertical: Vertical::Depth(*depth), ..*goals }
+            ToVehicle::HeadingRate(_) => {
+                return self.refuse(&command.to_string(), OUT_OF_BOUNDS, "faster than this vehicle turns");
             }
-            ToVehicle::Altitude(altitude) if *altitude >= ALTITUDE_MIN => {
-                Goals { vertical: Vertical::Altitude(*altitude), ..*goals }
-            }
-            ToVehicle::Speed(speed) if (0.0..=SPEED_MAX).contains(&metres_per_second(*speed)) => {
-                Goals { speed: metres_per_second(*speed), ..*goals }
-            }
-            ToVehicle::Triangle(_) => return self.refuse(command, NOT_SERVED, "this vehicle does not swim triangles"),
-            _ => return self.refuse(command, OUT_OF_BOUNDS, "out of this vehicle's bounds"),
+            ToVehicle::Depth(depth) => Goals { vertical: Vertical::Depth(*depth), ..*goals },
+            ToVehicle::Altitude(altitude) => Goals { vertical: Vertical::Altitude(*altitude), ..*goals },
+            ToVehicle::Speed(speed) => Goals { speed: metres_per_second(*speed), ..*goals },
+            _ => return self.refuse(&command.to_string(), NOT_SERVED, "this vehicle does not do that"),
         };
         *goals = wanted;
-        let echo = command.to_string();
-        self.say(&FromVehicle::Accepted(echo.strip_prefix("C,").unwrap_or(&echo).to_string()));
+        self.answer_goal(command, wanted);
     }
 
-    fn refuse(&mut self, what: &ToVehicle, code: u32, why: &'static str) {
+    /// An echo, where the vehicle follows the goal as it is; else an error that says as far as it does. The vehicle gives
+    /// notice of that itself.
+    fn answer_goal(&mut self, goal: &ToVehicle, wanted: Goals) {
+        let (mut of_speed, mut of_vertical) = (None, None);
+        let water_depth = self.senses.altitude.map(|altitude| self.senses.depth + altitude);
+        self.vehicle.limits().heed(&wanted.command(), water_depth, &mut |beyond| match beyond {
+            Beyond::Fast(_) | Beyond::Astern => of_speed = Some(beyond),
+            Beyond::Deep(_) | Beyond::Low(_) | Beyond::High => of_vertical = Some(beyond),
+        });
+        let beyond = match goal {
+            ToVehicle::Speed(_) => of_speed,
+            ToVehicle::Depth(_) | ToVehicle::Altitude(_) => of_vertical,
+            _ => None,
+        };
+        let echo = goal.to_string();
+        self.say(&match beyond {
+            Some(beyond) => FromVehicle::Error(OUT_OF_BOUNDS, beyond.to_string()),
+            None => FromVehicle::Accepted(echo.strip_prefix("C,").unwrap_or(&echo).to_string()),
+        });
+    }
+
+    fn refuse(&mut self, what: &str, code: u32, why: &'static str) {
         self.say(&FromVehicle::Error(code, why.to_string()));
         // Who does not listen says it again and again; who watches need not hear it as often.
         let again = self.refused.is_some_and(|(last, tick)| last == why && self.tick - tick < TIMEOUT_TICKS);
@@ -312,7 +341,7 @@ impl<V: Vehicle> FrontSeat<V> {
         }
         if let Some(goals) = &mut self.goals {
             goals.heading = goals.heading + goals.rate * TICK_S;
-            return Command { heading: goals.heading, speed: goals.speed, vertical: goals.vertical };
+            return goals.command();
         }
         let Senses { position, course, heading, .. } = self.senses;
         let happenings = &mut self.happenings;
@@ -326,7 +355,8 @@ impl<V: Vehicle> FrontSeat<V> {
     /// A course over ground at the route's speed, through water that moves.
     fn over_ground(&self, course: Heading) -> Command {
         let flow = self.senses.flow.unwrap_or(Vector::ZERO);
-        let water = through_water(course, self.plan.speed(), flow, SPEED_MAX);
+        let most = self.vehicle.limits().speed.unwrap_or(f64::INFINITY);
+        let water = through_water(course, self.plan.speed(), flow, most);
         Command { heading: water.heading, speed: water.speed, vertical: self.vertical }
     }
 
@@ -420,10 +450,12 @@ impl<V: Vehicle> FrontSeat<V> {
 
     fn tell_state(&mut self) {
         let s = self.senses;
-        let goal = self.command;
+        // What it is told is one thing; it says what it does.
+        let goal = self.vehicle.held().or(self.command);
         let depth_goal = match goal.map(|c| c.vertical) {
             Some(Vertical::Depth(depth)) => depth,
-            Some(Vertical::Altitude(altitude)) => s.depth + s.altitude.unwrap_or(altitude) - altitude,
+            // Where the water is shallower than that it stays at the surface.
+            Some(Vertical::Altitude(altitude)) => (s.depth + s.altitude.unwrap_or(altitude) - altitude).max(0.0),
             None => s.depth,
         };
         let speed_goal = goal.map_or(0.0, |c| c.speed);
@@ -448,6 +480,14 @@ impl<V: Vehicle> FrontSeat<V> {
 
     fn say(&mut self, message: &FromVehicle) {
         self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
+    }
+}
+
+/// As much of a message as a person needs to know it again.
+fn shortened(body: &str) -> String {
+    match body.get(..SHOWN) {
+        Some(head) if body.len() > SHOWN => format!("{head}…"),
+        _ => body.to_string(),
     }
 }
 

@@ -6,8 +6,9 @@ mod to_vehicle;
 pub use from_vehicle::{Adcp, Ctd, FromVehicle, State};
 pub use to_vehicle::{SpeedGoal, ToVehicle};
 
-use super::fields::{fixed, number};
+use super::fields::{fixed, number, ranges, within};
 use albacore_geometry::Heading;
+use std::ops::RangeInclusive;
 
 /// A frame whose fields make no message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -36,20 +37,25 @@ impl<'a> Fields<'a> {
         number(self.text(name)?)
     }
 
-    /// A direction in degrees.
-    fn heading(&self, name: &str) -> Option<Heading> {
-        compass(self.number(name)?)
+    /// A number in a range; a sum of 8 bits lets one wrong line in 256 pass.
+    fn within(&self, name: &str, range: RangeInclusive<f64>) -> Option<f64> {
+        within(self.text(name)?, range)
     }
 
-    /// 0 stands for what is not known.
+    /// A direction in degrees.
+    fn heading(&self, name: &str) -> Option<Heading> {
+        compass(self.text(name)?)
+    }
+
+    /// 0 stands for what is not known, and nothing is below the bottom.
     fn altitude(&self, name: &str) -> Option<Option<f64>> {
-        self.number(name).map(|a| (a != 0.0).then_some(a))
+        self.within(name, ranges::HEIGHTS).map(|a| (a > 0.0).then_some(a))
     }
 }
 
-/// A heading in degrees that can be one; a sum of 8 bits lets one wrong line in 256 pass.
-fn compass(degrees: f64) -> Option<Heading> {
-    (-360.0..=360.0).contains(&degrees).then(|| Heading::from_degrees(degrees))
+/// A heading in degrees.
+fn compass(text: &str) -> Option<Heading> {
+    within(text, ranges::ANGLES).map(Heading::from_degrees)
 }
 
 /// Degrees with one decimal, below 360.

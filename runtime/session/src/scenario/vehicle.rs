@@ -5,8 +5,8 @@ use super::clause::Clause;
 use albacore_guidance::{Route, Rows, Waypoints};
 use albacore_link::Dialect;
 use albacore_sim::hull::Crossflow;
-use albacore_sim::{HullSetup, KinematicHull, Limits, OwnMission, Scenario, SubmersibleHull, VehicleSetup};
-use albacore_vehicle::{Handover, Vertical};
+use albacore_sim::{HullSetup, KinematicHull, OwnMission, Scenario, SubmersibleHull, VehicleSetup};
+use albacore_vehicle::{Handover, Limits, Vertical};
 
 /// `vehicle(…)`: how it moves and where it starts.
 pub fn vehicle(scenario: &mut Scenario, c: &Clause) -> Result<(), Wrong> {

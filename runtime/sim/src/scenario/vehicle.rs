@@ -196,18 +196,6 @@ pub struct OwnMission {
     pub vertical: Vertical,
 }
 
-/// The vehicle's own limits, whoever commands it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Limits {
-    /// It goes no deeper than this, m. Default none.
-    pub depth: Option<f64>,
-    /// It comes no nearer to the bottom than this, m. Default 0: it may.
-    pub altitude: f64,
-    /// It goes no faster through the water than this, m/s. Default none: as fast as its hull can.
-    pub speed: Option<f64>,
-}
-
 /// What of the vehicle cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let v = &scenario.vehicle;

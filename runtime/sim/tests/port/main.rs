@@ -6,10 +6,10 @@ mod refused;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Bottom, Fault, Flow, Grid, Ground, HullSetup, KinematicHull, Limits, Plane, Scenario, Simulator, SubmersibleHull,
-    Trouble, VehicleSetup,
+    Bottom, Fault, Flow, Grid, Ground, HullSetup, KinematicHull, Plane, Scenario, Simulator, SubmersibleHull, Trouble,
+    VehicleSetup,
 };
-use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
+use albacore_vehicle::{Command, Control, Limits, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 use std::sync::Arc;
 

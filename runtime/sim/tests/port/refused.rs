@@ -4,9 +4,10 @@ use super::{scenario, shoal};
 use albacore_geometry::{Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Adcp, Bottom, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Limits, Navigation, Pit, Plane, Scenario,
+    Adcp, Bottom, Fluorometer, Grid, Ground, HullSetup, KinematicHull, Lbl, Navigation, Pit, Plane, Scenario,
     Simulator, Source, SubmersibleHull, Times, VehicleSetup, presets,
 };
+use albacore_vehicle::Limits;
 use std::sync::Arc;
 
 #[test]

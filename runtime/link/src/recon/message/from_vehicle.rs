@@ -1,7 +1,7 @@
 //! What a vehicle says.
 
 use super::{Fields, Malformed, compass_text, lettered};
-use crate::recon::fields::{fixed, number, position, position_texts, time, time_text};
+use crate::recon::fields::{fixed, position, position_texts, ranges, time, time_text, within};
 use crate::recon::mode::Mode;
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Geodetic, Heading};
@@ -138,8 +138,9 @@ impl FromVehicle {
 }
 
 fn battery(fields: &Fields) -> Option<FromVehicle> {
-    let (capacity, available, percent) = (fields.number("C")?, fields.number("A")?, fields.number("P")?);
-    (0.0..=100.0).contains(&percent).then_some(FromVehicle::Battery { capacity, available, percent })
+    let (capacity, available) = (fields.number("C")?, fields.number("A")?);
+    let percent = fields.within("P", ranges::CHARGES)?;
+    Some(FromVehicle::Battery { capacity, available, percent })
 }
 
 impl State {
@@ -152,16 +153,16 @@ impl State {
         Some(State {
             time_ms: time(fields.text("T")?)?,
             position: position(fields.text("LAT")?, fields.text("LON")?)?,
-            depth: fields.number("D")?,
-            depth_goal: fields.number("DG")?,
+            depth: fields.within("D", ranges::HEIGHTS)?,
+            depth_goal: fields.within("DG", ranges::HEIGHTS)?,
             altitude: fields.altitude("A")?,
-            pitch: radians(fields.number("P")?),
-            roll: radians(fields.number("R")?),
-            rpm: fields.number("TR")?,
-            rpm_goal: fields.number("TRG")?,
-            speed: fields.number("V")?,
+            pitch: radians(fields.within("P", ranges::ANGLES)?),
+            roll: radians(fields.within("R", ranges::ANGLES)?),
+            rpm: fields.within("TR", ranges::TURNS)?,
+            rpm_goal: fields.within("TRG", ranges::TURNS)?,
+            speed: fields.within("V", ranges::SPEEDS)?,
             heading: fields.heading("H")?,
-            heading_rate: radians(fields.number("HR")?),
+            heading_rate: radians(fields.within("HR", ranges::TURN_RATES)?),
             heading_goal: fields.heading("HG")?,
             mode: Mode(u8::from_str_radix(mode, 16).ok()?),
             leg,
@@ -173,14 +174,14 @@ impl Adcp {
     fn read(fields: &Fields) -> Option<Self> {
         let look = fields.0.iter().rev().find(|(name, value)| name.len() == 1 && value.is_empty())?;
         Some(Adcp {
-            ahead: fields.number("F")?,
-            starboard: fields.number("S")?,
-            vertical: fields.number("V")?,
+            ahead: fields.within("F", ranges::SPEEDS)?,
+            starboard: fields.within("S", ranges::SPEEDS)?,
+            vertical: fields.within("V", ranges::SPEEDS)?,
             altitude: fields.altitude("A")?,
             heading: fields.heading("H")?,
             current: match (fields.text("CF"), fields.text("CS")) {
                 (None, None) => None,
-                (ahead, starboard) => Some((number(ahead?)?, number(starboard?)?)),
+                (ahead, starboard) => Some((within(ahead?, ranges::SPEEDS)?, within(starboard?, ranges::SPEEDS)?)),
             },
             look: look.0.chars().next()?,
         })
@@ -193,7 +194,7 @@ impl Ctd {
             temperature: fields.number("T")?,
             conductivity: fields.number("C")?,
             salinity: fields.number("S")?,
-            depth: fields.number("D")?,
+            depth: fields.within("D", ranges::HEIGHTS)?,
             sound_speed: fields.number("V")?,
         })
     }

@@ -1,7 +1,7 @@
 //! What a controller says.
 
 use super::{Malformed, compass, compass_text, lettered};
-use crate::recon::fields::{fixed, number};
+use crate::recon::fields::{fixed, number, ranges, within};
 use albacore_geometry::Heading;
 use albacore_geometry::math::{degrees, radians};
 use std::fmt;
@@ -75,20 +75,20 @@ impl ToVehicle {
         let (what, rest) = rest.split_once(',')?;
         if what == "Speed" {
             let (value, unit) = rest.split_once(' ')?;
-            let value = number(value)?;
-            return Some(ToVehicle::Speed(match unit {
-                "rpm" => SpeedGoal::Rpm(value),
-                "meters/sec" => SpeedGoal::MetresPerSecond(value),
-                "knots" => SpeedGoal::Knots(value * KNOT),
-                _ => return None,
-            }));
+            return match unit {
+                "rpm" => within(value, ranges::TURNS).map(SpeedGoal::Rpm),
+                "meters/sec" => within(value, ranges::SPEEDS).map(SpeedGoal::MetresPerSecond),
+                "knots" => within(value, ranges::SPEEDS).map(|knots| SpeedGoal::Knots(knots * KNOT)),
+                _ => None,
+            }
+            .map(ToVehicle::Speed);
         }
         let (how, rest) = rest.split_once(',')?;
         match (what, how) {
-            ("Heading", "Goal") => compass(number(rest)?).map(ToVehicle::Heading),
-            ("Heading", "Rate") => number(rest).map(|rate| ToVehicle::HeadingRate(radians(rate))),
-            ("Depth", "Depth") => number(rest).map(ToVehicle::Depth),
-            ("Depth", "Altitude") => number(rest).map(ToVehicle::Altitude),
+            ("Heading", "Goal") => compass(rest).map(ToVehicle::Heading),
+            ("Heading", "Rate") => within(rest, ranges::TURN_RATES).map(|rate| ToVehicle::HeadingRate(radians(rate))),
+            ("Depth", "Depth") => within(rest, ranges::HEIGHTS).map(ToVehicle::Depth),
+            ("Depth", "Altitude") => within(rest, ranges::HEIGHTS).map(ToVehicle::Altitude),
             ("Depth", "Triangle") => {
                 let numbers: Vec<f64> = rest.split(',').map(number).collect::<Option<_>>()?;
                 numbers.try_into().ok().map(ToVehicle::Triangle)

@@ -1,0 +1,183 @@
+//! Numbers that are none, or that no vehicle can mean, in every field of every message, both ways.
+
+#![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
+
+use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
+use albacore_link::recon::{Controller, FrontSeat, Rows, seal};
+use albacore_sim::{Scenario, Simulator, VehicleSetup};
+use albacore_vehicle::{Limits, Snapshot, Vertical};
+
+/// As a vehicle may send them: all that has numbers.
+const FROM_VEHICLE: [&str; 7] = [
+    "S,T12:00:00.100,LAT39N30.5553,LON74W19.4386,D-0.10,DG0.00,A5.00,P-0.3,R3.0,TR0,TRG0,V0.00,H0.4,HR0.0,HG0.0,M10,l0",
+    "A,F1.200,S-0.050,V0.000,A12.50,H123.4,CF0.100,CS-0.050,CU0.000,U",
+    "c,T12.100,C3.400,S35.000,D3.00,V1500.00",
+    "F,G1,V-0.0123",
+    "B,C1000.0,A523.4,P52.3",
+    "C,Speed,1.50 meters/sec",
+    "E,107,Illegal time",
+];
+
+/// As a guest may send them.
+const TO_VEHICLE: [&str; 9] = [
+    "C,Heading,Goal,359.9",
+    "C,Heading,Rate,-5.0",
+    "C,Depth,Depth,4.00",
+    "C,Depth,Altitude,2.00",
+    "C,Depth,Triangle,3.0,3.0,10.0,30.0",
+    "C,Speed,1.50 meters/sec",
+    "C,Speed,600 rpm",
+    "C,Speed,3.00 knots",
+    "c,0",
+];
+
+/// What stands for a number instead.
+fn instead() -> Vec<String> {
+    let mut instead: Vec<String> = [
+        "",
+        "-",
+        "+",
+        ".",
+        "-0",
+        "-0.0",
+        "+0",
+        "nan",
+        "NaN",
+        "inf",
+        "-inf",
+        "Infinity",
+        "1e308",
+        "1e-400",
+        "1e9",
+        "999999999",
+        "-999999999",
+        "12000",
+        "-12000",
+        "0x10",
+        "1,5",
+        "1,,2",
+        "1;5",
+        " 1",
+        "1 ",
+        "#",
+        "*",
+        "1*00",
+        "½",
+        "\u{0}",
+        "\u{7f}",
+        "\u{1b}[2J",
+        "18446744073709551616",
+        "-1",
+        "65536",
+    ]
+    .map(str::to_string)
+    .into();
+    for digits in [20, 308, 309, 400, 900, 2000] {
+        instead.push("9".repeat(digits));
+        instead.push(format!("-{}", "9".repeat(digits)));
+        instead.push(format!("0.{}1", "0".repeat(digits)));
+    }
+    instead
+}
+
+/// A message with each of its numbers in turn replaced by each of those.
+fn variants(body: &str) -> Vec<String> {
+    let numeric = |b: u8| b.is_ascii_digit() || matches!(b, b'.' | b'-');
+    let bytes = body.as_bytes();
+    let mut spans = Vec::new();
+    let mut at = 0;
+    while at < bytes.len() {
+        let length = bytes[at..].iter().take_while(|b| numeric(**b)).count();
+        if length > 0 {
+            spans.push(at..at + length);
+        }
+        at += length.max(1);
+    }
+    assert!(!spans.is_empty(), "{body}");
+    let of = |span: &std::ops::Range<usize>| {
+        let (head, tail) = (body[..span.start].to_string(), body[span.end..].to_string());
+        instead().into_iter().map(move |number| format!("{head}{number}{tail}"))
+    };
+    spans.iter().flat_map(of).collect()
+}
+
+fn frame() -> TangentFrame {
+    TangentFrame { origin: Geodetic::from_degrees(39.5, -74.3) }
+}
+
+fn vehicle() -> FrontSeat<Simulator> {
+    let limits = Some(Limits { depth: Some(10.0), altitude: 2.0, speed: Some(2.0) });
+    let setup = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
+    let simulator = Simulator::new(&Scenario { vehicle: setup, limits, ..Scenario::default() }, 1).unwrap();
+    let rows: Rows = "100x20x2".parse().unwrap();
+    FrontSeat::new(simulator, frame(), &rows.into(), (Point::ORIGIN, Heading::NORTH), Vertical::Depth(3.0))
+}
+
+/// All that came from the vehicle is finite, and of a size that its sums and products stay so.
+#[test]
+fn no_number_from_a_vehicle_reaches_a_mission_that_is_none() {
+    let mut readings = 0;
+    for body in FROM_VEHICLE.iter().flat_map(|body| variants(body)) {
+        let mut controller = Controller::new(frame());
+        // A profiler's drift becomes a course with the state that follows.
+        for body in [&body, FROM_VEHICLE[0]] {
+            controller.hear(seal(body).as_bytes());
+        }
+        let mut snapshot = Snapshot::default();
+        while controller.is_due() {
+            controller.sense(&mut snapshot);
+            for sample in &snapshot.samples {
+                readings += 1;
+                assert!(sample.reading.iter().all(|x| x.is_finite() && x.abs() <= 1e9), "#{body}: {sample:?}");
+            }
+        }
+    }
+    assert!(readings > 10_000, "{readings}");
+}
+
+/// The vehicle lives, holds what it may, and speaks in numbers.
+#[test]
+fn no_number_from_a_guest_stops_the_vehicle_or_takes_it_beyond_its_limits() {
+    let mut vehicle = vehicle();
+    vehicle.tick(seal("E,1").as_bytes()).unwrap();
+    for body in TO_VEHICLE.iter().flat_map(|body| variants(body)) {
+        vehicle.tick((seal(&body) + &seal("V,still here")).as_bytes()).unwrap();
+        let said = String::from_utf8(vehicle.take_output()).unwrap();
+        assert!(said.lines().all(|line| line.len() < 200), "#{body}: {said}");
+        let state = said.lines().find(|line| line.starts_with("#S")).unwrap();
+        let number = |name: &str| -> f64 {
+            let field = state.split(',').find(|field| field.starts_with(name)).unwrap();
+            field[name.len()..].parse().unwrap()
+        };
+        assert!((0.0..=10.0).contains(&number("DG")), "#{body}: {state}");
+        assert!((0.0..=1154.0).contains(&number("TRG")), "#{body}: {state}");
+        assert!((0.0..360.0).contains(&number("HG")), "#{body}: {state}");
+        assert!(!said.contains("inf") && !said.to_lowercase().contains("nan"), "#{body}: {said}");
+    }
+    assert!(vehicle.is_driven(), "it was driven all the while");
+}
+
+/// The lines that an attack sent, and what is answered.
+#[test]
+fn a_command_that_makes_no_sense_is_answered_with_an_error() {
+    let mut vehicle = vehicle();
+    vehicle.tick(seal("E,1").as_bytes()).unwrap();
+    vehicle.take_output();
+    let nines = "9".repeat(400);
+    for (body, answer) in [
+        (format!("C,Depth,Altitude,{nines}"), "#E,6,is no command of this dialect"),
+        ("C,Depth,80".into(), "#E,6,is no command of this dialect"),
+        ("C,Depth,Depth,80.00".into(), "#E,2,is asked to go deeper than 10.00 m: it stays there"),
+        ("C,Speed,2.60 meters/sec".into(), "#E,2,is asked to go faster than 2.00 m/s: it goes no faster"),
+        ("C,Heading,Rate,90.0".into(), "#E,2,faster than this vehicle turns"),
+        ("C,Depth,Triangle,3.0,3.0,10.0,30.0".into(), "#E,3,this vehicle does not do that"),
+        ("C,Depth,Depth,10.00".into(), "#C,Depth,Depth,10.00"),
+    ] {
+        vehicle.tick(seal(&body).as_bytes()).unwrap();
+        let said = String::from_utf8(vehicle.take_output()).unwrap();
+        assert!(said.lines().any(|line| line.starts_with(answer)), "#{body}: {said}");
+    }
+    let told: Vec<String> = vehicle.take_happenings().iter().map(ToString::to_string).collect();
+    let absurd = told.iter().find(|told| told.contains("Altitude")).unwrap();
+    assert!(absurd.starts_with("refused `#C,Depth,Altitude,999") && absurd.len() < 120, "{absurd}");
+}
