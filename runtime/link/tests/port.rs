@@ -7,23 +7,46 @@ use albacore_link::recon::{FrontSeat, ReconVehicle, Route};
 use albacore_link::{LinkError, Transport, Url};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Handover, Snapshot, Vehicle, Vertical};
-use std::cell::{Cell, RefCell};
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
+
+/// What the test and the vehicle's driver both hold.
+#[derive(Default)]
+struct Shared<T>(Mutex<T>);
+
+impl<T: Default> Shared<T> {
+    fn borrow(&self) -> MutexGuard<'_, T> {
+        self.0.lock().unwrap()
+    }
+
+    fn set(&self, value: T) {
+        *self.borrow() = value;
+    }
+
+    fn take(&self) -> T {
+        std::mem::take(&mut self.borrow())
+    }
+}
+
+impl<T: Copy + Default> Shared<T> {
+    fn get(&self) -> T {
+        *self.borrow()
+    }
+}
 
 /// How the wire is, and what went over it.
 #[derive(Default)]
 struct Wire {
-    now: Cell<Duration>,
-    silent: Cell<bool>,
-    deaf: Cell<bool>,
-    cut: Cell<bool>,
-    sent: RefCell<String>,
+    now: Shared<Duration>,
+    silent: Shared<bool>,
+    deaf: Shared<bool>,
+    cut: Shared<bool>,
+    sent: Shared<String>,
 }
 
 /// A wire with a vehicle at its other end, which lives a tick in every look.
 struct Desk {
-    wire: Rc<Wire>,
+    wire: Arc<Wire>,
     far_end: FrontSeat<Simulator>,
     to_vehicle: Vec<u8>,
 }
@@ -43,7 +66,7 @@ impl Transport for Desk {
     }
 
     fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
-        self.wire.sent.borrow_mut().push_str(&String::from_utf8_lossy(lines));
+        self.wire.sent.borrow().push_str(&String::from_utf8_lossy(lines));
         if !self.wire.deaf.get() {
             self.to_vehicle.extend_from_slice(lines);
         }
@@ -51,19 +74,19 @@ impl Transport for Desk {
     }
 }
 
-fn vehicle() -> (ReconVehicle, Rc<Wire>) {
+fn vehicle() -> (ReconVehicle, Arc<Wire>) {
     answering(Handover::default())
 }
 
-fn answering(handover: Handover) -> (ReconVehicle, Rc<Wire>) {
+fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
     let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
     let hull = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
     let far_end = FrontSeat::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0)).answering(handover);
-    let wire = Rc::new(Wire::default());
-    let desk = Desk { wire: Rc::clone(&wire), far_end, to_vehicle: Vec::new() };
-    let clock = Rc::clone(&wire);
+    let wire = Arc::new(Wire::default());
+    let desk = Desk { wire: Arc::clone(&wire), far_end, to_vehicle: Vec::new() };
+    let clock = Arc::clone(&wire);
     let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
     (ReconVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())), wire)
 }
@@ -71,7 +94,7 @@ fn answering(handover: Handover) -> (ReconVehicle, Rc<Wire>) {
 const AHEAD: Command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(5.0) };
 
 /// A vehicle that is driven.
-fn driven() -> (ReconVehicle, Rc<Wire>, Snapshot) {
+fn driven() -> (ReconVehicle, Arc<Wire>, Snapshot) {
     let (mut vehicle, wire) = vehicle();
     let mut snapshot = Snapshot::default();
     vehicle.sense(&mut snapshot).unwrap();
