@@ -2,6 +2,7 @@
 
 mod origin;
 mod seeds;
+mod sums;
 mod table;
 mod told;
 
@@ -22,6 +23,8 @@ use told::Told;
 
 /// Columns for so many reports of each name, at most.
 const REPORTS_MAX: usize = 1_000;
+/// So many ranges of lines are listed in a message, at most.
+const LISTED_MAX: usize = 12;
 /// Threads, at most.
 const THREADS_MAX: usize = 4_096;
 
@@ -38,10 +41,12 @@ pub struct Campaign {
     /// The seeds: `1..100` with both ends, `1..<100` without the last, or one.
     #[arg(long, value_name = "A..B")]
     seeds: Seeds,
-    /// The table. What it was made from is kept beside it, in `FILE.csv.origin`.
+    /// The table. What it was made from is kept beside it, in `FILE.csv.origin`, and a
+    /// checksum of each line in `FILE.csv.sums`.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
-    /// Go on with a table that was begun by the same campaign, to its end or to more seeds.
+    /// Go on with a table that was begun by the same campaign, to its end or to more seeds. Every row is held against its
+    /// checksum; the seeds of those that were changed on the disk are run again.
     #[arg(long)]
     resume: bool,
     /// Columns for so many reports of each name: a mission may report in a loop.
@@ -85,11 +90,19 @@ impl Campaign {
         } else {
             Table::begin(&self.out, columns, &origin)?
         };
+        if !table.changed().is_empty() {
+            let (path, lines) = (self.out.display(), listed(table.changed()));
+            let told = format!("warning: `{path}` or its `.sums` was changed since it was written: {lines}\n");
+            message::write(
+                &(told
+                    + "  help: nothing to be done: their seeds are run again, which gives the rows that were there\n"),
+            );
+        }
         let interrupted = interruption::flag();
         let bar = self.bar(table.rows());
         let mut trouble = None;
         let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |row| {
-            if let Err(error) = table.add(&row) {
+            if let Err(error) = table.add(self.seeds, &row) {
                 trouble = Some(error);
                 return ControlFlow::Break(());
             }
@@ -163,6 +176,21 @@ impl Campaign {
         bar.enable_steady_tick(Duration::from_millis(100));
         bar
     }
+}
+
+/// Line numbers as a person reads them: `lines 3, 7..9`.
+fn listed(lines: &[usize]) -> String {
+    let mut ranges: Vec<(usize, usize)> = Vec::new();
+    for &line in lines {
+        match ranges.last_mut() {
+            Some((_, last)) if *last + 1 == line => *last = line,
+            _ => ranges.push((line, line)),
+        }
+    }
+    let shown = ranges.iter().take(LISTED_MAX);
+    let shown: Vec<String> = shown.map(|(a, b)| if a == b { a.to_string() } else { format!("{a}..{b}") }).collect();
+    let more = if ranges.len() > LISTED_MAX { " and more" } else { "" };
+    format!("line{} {}{more}", if lines.len() == 1 { "" } else { "s" }, shown.join(", "))
 }
 
 /// Reads a number of things of which there is at least one.

@@ -11,17 +11,24 @@ use tempfile::{Builder, NamedTempFile, TempDir};
 /// place is replaced, what it leads to is left alone. An existing file's permissions and owner stay, and one that is
 /// read-only is refused, as is what is no ordinary file, such as `/dev/null`.
 pub fn whole(path: &Path, text: &str) -> io::Result<()> {
+    replace(path, text.as_bytes()).map(drop)
+}
+
+/// The same, to be gone on with at its end: the file is locked before anybody else can open it.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<File> {
     let there = replaceable(path)?;
     let folder = folder_of(path);
     let mut part = part(folder)?;
-    part.write_all(text.as_bytes())?;
+    part.write_all(bytes)?;
     if let Some(there) = there {
         alike(part.as_file(), &there)?;
     }
     part.as_file().sync_all()?;
-    part.persist(path).map_err(|failed| failed.error)?;
+    // Nobody else knows it yet; where a disk knows no locks there are none.
+    let _ = part.as_file().try_lock();
+    let file = part.persist(path).map_err(|failed| failed.error)?;
     sync_folder(folder);
-    Ok(())
+    Ok(file)
 }
 
 /// A file that is not there yet, to be written bit by bit. Whatever has its name, be it a link, is an error.

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]
 
+use albacore_trace::Digest;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
@@ -196,14 +197,87 @@ fn a_table_holds_one_campaign() {
     refused(&mission, "1..5", &out, &["--resume"], 2, "reporting.alb` was changed");
 }
 
+/// Writes the checksums of a table as if it had been written so.
+fn sums(out: &Path) {
+    let text = std::fs::read_to_string(out).unwrap();
+    let sum = |line: &str| {
+        let mut digest = Digest::new();
+        digest.text(line);
+        format!("{digest}\n")
+    };
+    let sums: String = text.split_inclusive('\n').map(sum).collect();
+    std::fs::write(out.with_extension("csv.sums"), sums).unwrap();
+}
+
 #[test]
 fn a_row_that_comes_out_otherwise_is_said() {
     let out = empty("otherwise").join("box.csv");
     let whole = table(BOX, "1..2", &out, &[]);
+    sums(&out);
+    refused(BOX, "1..5", &out, &[], 2, "--resume");
     std::fs::write(&out, whole.replace(",578.0,", ",577.0,").replace(",577.9,", ",576.9,")).unwrap();
+    sums(&out);
     refused(BOX, "1..5", &out, &["--resume"], 2, "seed 2 gives another row today");
     std::fs::write(&out, whole.replace(",completed,", ",")).unwrap();
+    sums(&out);
     refused(BOX, "1..5", &out, &["--resume"], 2, "line 2: this is no row");
+    std::fs::remove_file(out.with_extension("csv.sums")).unwrap();
+    refused(BOX, "1..5", &out, &["--resume"], 2, "no `.sums` beside it");
+}
+
+/// A disk that forgets bits, at forty places of a table and its checksums: each is told with its line, and mended.
+#[test]
+fn a_bit_that_changed_on_the_disk_is_told_and_mended() {
+    let folder = empty("bits");
+    let mission = script(&folder, "aborting.alb", ABORTING);
+    let (out, beside) = (folder.join("t.csv"), folder.join("t.csv.sums"));
+    let resumed = table(&mission, "1..12", &folder.join("whole.csv"), &[]);
+    table(&mission, "1..8", &out, &[]);
+    let files = [out.clone(), beside.clone()];
+    let before = files.clone().map(|file| std::fs::read(file).unwrap());
+    for round in 0..40 {
+        for (file, bytes) in files.iter().zip(&before) {
+            std::fs::write(file, bytes).unwrap();
+        }
+        let of = usize::from(round % 4 == 3);
+        let (mut bytes, at) = (before[of].clone(), (round * 7919 + 13) % before[of].len());
+        bytes[at] ^= 1 << (round % 8);
+        std::fs::write(&files[of], &bytes).unwrap();
+        let line = before[of][..at].iter().filter(|b| **b == b'\n').count() + 1;
+        let output = command(&mission, "1..12", &out, &["--resume"]).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "byte {at} of {of}: {said}");
+        assert!(said.contains("was changed since it was written: line"), "byte {at} of {of}: {said}");
+        let told = said.split("written: line").nth(1).unwrap().lines().next().unwrap();
+        let numbers = told.split(|c: char| !c.is_ascii_digit()).filter_map(|n| n.parse().ok());
+        assert!(numbers.collect::<Vec<usize>>().contains(&line), "byte {at} of {of} is in line {line}: {said}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), resumed, "byte {at} of {of}");
+        // Then all is well.
+        if round % 10 == 0 {
+            let output = command(&mission, "1..12", &out, &["--resume"]).output().unwrap();
+            assert!(!stderr(&output).contains("changed"), "{}", stderr(&output));
+        }
+    }
+}
+
+/// Several rows at once, one of them gone; a campaign that is interrupted in between loses nothing.
+#[test]
+fn rows_that_were_changed_are_run_again() {
+    let folder = empty("mended");
+    let mission = script(&folder, "reporting.alb", REPORTING);
+    let out = folder.join("t.csv");
+    let whole = table(&mission, "1..9", &out, &[]);
+    let mut lines: Vec<&str> = whole.split_inclusive('\n').collect();
+    let changed = lines[2].replace("completed", "Completed");
+    lines[2] = &changed;
+    lines.remove(5);
+    lines.swap(5, 6);
+    std::fs::write(&out, lines.concat()).unwrap();
+    let output = command(&mission, "1..9", &out, &["--resume"]).output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("lines 3, 6") && said.contains("run again"), "{said}");
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn options(name: &str, texts: &[String]) -> String {
 }
 
 /// `duck.csv` and `.origin` is `duck.csv.origin`.
-fn beside(table: &Path, suffix: &str) -> PathBuf {
+pub fn beside(table: &Path, suffix: &str) -> PathBuf {
     let mut name = OsString::from(table);
     name.push(suffix);
     PathBuf::from(name)

@@ -1,11 +1,12 @@
 //! The table on the disk: whole rows in the order of the seeds, whenever and however the program ends.
 //!
-//! A row is written in one piece as soon as it is known. Only what stops in the middle of that, a full disk or a dying
-//! machine, leaves a torn last line, which has no line end: who takes the campaign up again drops it, and goes on with the
-//! same bytes.
+//! A row is written in one piece as soon as it is known, and then its checksum. Whoever takes the campaign up again keeps the
+//! rows that are as they were written, runs the seeds of the others again, and goes on: the bytes are the same as without
+//! the interruption, and whatever the disk did.
 
 use super::origin::Origin;
 use super::seeds::Seeds;
+use super::sums::{self, Sums};
 use crate::disk;
 use albacore_session::campaign::{Columns, Row, Tally};
 use std::fs::{File, TryLockError};
@@ -15,11 +16,23 @@ use std::path::{Path, PathBuf};
 /// A table that rows can be added to.
 pub struct Table {
     path: PathBuf,
-    file: File,
+    state: State,
     rows: u64,
     /// The last row of an earlier campaign, until it has come out the same again.
     known: Option<Vec<u8>>,
+    /// Lines that were changed on the disk, by their numbers.
+    changed: Vec<usize>,
 }
+
+enum State {
+    /// Rows are added at the end.
+    Adding(File, Sums),
+    /// Rows in the middle are run again first. The file is left as it is until all of them are known, and locked.
+    Mending(File, Lines),
+}
+
+/// What is known of a table's lines, the first too.
+type Lines = Vec<Option<Vec<u8>>>;
 
 /// Why there is no table, or no further row.
 #[derive(Debug)]
@@ -44,10 +57,20 @@ impl Table {
             let help = "go on with it by `--resume`, or choose another file with `--out`";
             return Err(Trouble::Asked(format!("`{}` is there already", path.display()), help.to_string()));
         }
-        let mut table = Table { path: path.to_path_buf(), file: created?, rows: 0, known: None };
-        table.lock()?;
-        table.head(columns, origin)?;
-        Ok(table)
+        let file = created?;
+        lock(&file, path)?;
+        Ok(Table::headed(path, file, columns, origin)?)
+    }
+
+    /// Writes where it comes from, and then the first line: a table with a line always has its origin beside it.
+    fn headed(path: &Path, mut file: File, columns: &Columns, origin: &Origin) -> io::Result<Self> {
+        let head = line(columns.names());
+        origin.write(path)?;
+        let mut sums = Sums::begin(path, std::iter::empty())?;
+        file.write_all(&head)?;
+        sums.add(&head)?;
+        let state = State::Adding(file, sums);
+        Ok(Table { path: path.to_path_buf(), state, rows: 0, known: None, changed: Vec::new() })
     }
 
     /// Goes on with a table, or begins it if there is none.
@@ -62,34 +85,74 @@ impl Table {
             }
             Ok(_) => {}
         }
-        let file = disk::old_file(path)?;
-        let mut table = Table { path: path.to_path_buf(), file, rows: 0, known: None };
-        table.lock()?;
+        // What a link leads to is gone on with, and the link stays.
+        let path = &path.canonicalize()?;
+        let mut file = disk::old_file(path)?;
+        lock(&file, path)?;
         let mut text = Vec::new();
-        table.file.read_to_end(&mut text)?;
-        let Some((head, rows, torn)) = parts(&text) else {
+        file.read_to_end(&mut text)?;
+        belongs(path, origin, text.is_empty())?;
+        if !text.contains(&b'\n') {
             // Not even its first line was written.
-            table.belongs(origin, text.is_empty())?;
-            table.file.set_len(0)?;
-            table.head(columns, origin)?;
-            return Ok(table);
-        };
-        table.belongs(origin, false)?;
-        if head != line(columns.names()) {
-            let help = "give the `--reports` that it was begun with, or choose another file with `--out`";
-            let message = format!("`{}` has other columns than this campaign", path.display());
-            return Err(Trouble::Asked(message, help.to_string()));
+            file.set_len(0)?;
+            return Ok(Table::headed(path, file, columns, origin)?);
         }
-        table.rows = table.matching(rows, columns, seeds)?;
-        table.known = rows.split_inclusive(|b| *b == b'\n').next_back().map(<[u8]>::to_vec);
-        table.file.set_len((text.len() - torn) as u64)?;
+        let Some(kept) = sums::kept(path, &text)? else {
+            let message =
+                format!("`{}` has no `.sums` beside it, which tells whether its rows are whole", path.display());
+            let help = "put that back, or begin anew with another `--out`";
+            return Err(Trouble::Asked(message, help.to_string()));
+        };
+        let head = line(columns.names());
+        let mut lines: Vec<Option<Vec<u8>>> = kept.lines.iter().map(|line| line.map(<[u8]>::to_vec)).collect();
+        match lines.first_mut() {
+            // What it was is known without it.
+            Some(first @ None) => *first = Some(head),
+            Some(Some(first)) if *first == head => {}
+            None if text.starts_with(&head) => lines.push(Some(head)),
+            _ => {
+                let help = "give the `--reports` that it was begun with, or choose another file with `--out`";
+                let message = format!("`{}` has other columns than this campaign", path.display());
+                return Err(Trouble::Asked(message, help.to_string()));
+            }
+        }
+        matching(path, &lines[1..], columns, seeds)?;
+        let rows = lines.len() as u64 - 1;
+        let known = if rows > 0 { lines.last().cloned().flatten() } else { None };
+        let mut table =
+            Table { path: path.clone(), state: State::Mending(file, lines), rows, known, changed: kept.changed };
+        table.mended(&text)?;
         Ok(table)
     }
 
+    /// Goes on adding rows if all lines are known. `text` is what the file holds.
+    fn mended(&mut self, text: &[u8]) -> io::Result<()> {
+        let State::Mending(file, lines) = &mut self.state else { return Ok(()) };
+        let Some(known) = lines.iter().map(Option::as_deref).collect::<Option<Vec<&[u8]>>>() else { return Ok(()) };
+        let written = known.concat();
+        let file = if text.starts_with(&written) {
+            file.set_len(written.len() as u64)?;
+            file.try_clone()?
+        } else {
+            disk::replace(&self.path, &written)?
+        };
+        let sums = Sums::begin(&self.path, known.into_iter())?;
+        self.state = State::Adding(file, sums);
+        Ok(())
+    }
+
     /// The seeds that are still to be run. The last one of the table is run again: if its row comes out otherwise, this
-    /// is another interpreter, whatever its version says.
-    pub fn missing(&self, seeds: Seeds) -> std::ops::RangeInclusive<u64> {
-        seeds.after(self.rows - u64::from(self.known.is_some()))
+    /// is another interpreter, whatever its version says. Then come those whose rows were changed.
+    pub fn missing(&self, seeds: Seeds) -> impl Iterator<Item = u64> + Clone + use<> {
+        let known = self.known.as_ref().map(|_| self.rows - 1);
+        let changed: Vec<u64> = match &self.state {
+            State::Adding(..) => Vec::new(),
+            State::Mending(_, lines) => {
+                (0..).zip(&lines[1..]).filter(|(_, line)| line.is_none()).map(|(row, _)| row).collect()
+            }
+        };
+        let again = known.into_iter().chain(changed).map(move |row| seeds.first + row);
+        again.chain(seeds.after(self.rows))
     }
 
     /// How many rows it has.
@@ -97,8 +160,13 @@ impl Table {
         self.rows
     }
 
+    /// The numbers of lines that were changed on the disk since they were written: their seeds are run again.
+    pub fn changed(&self) -> &[usize] {
+        &self.changed
+    }
+
     /// Adds a row.
-    pub fn add(&mut self, row: &Row) -> Result<(), Trouble> {
+    pub fn add(&mut self, seeds: Seeds, row: &Row) -> Result<(), Trouble> {
         let line = line(&row.cells);
         if let Some(known) = self.known.take() {
             if known == line {
@@ -109,8 +177,20 @@ impl Table {
                 "the interpreter is another one, or the row was changed by hand: begin anew with another `--out`";
             return Err(Trouble::Asked(message, help.to_string()));
         }
-        self.file.write_all(&line)?;
-        self.rows += 1;
+        match &mut self.state {
+            State::Adding(file, sums) => {
+                file.write_all(&line)?;
+                sums.add(&line)?;
+                self.rows += 1;
+            }
+            State::Mending(_, lines) => {
+                let at = (row.seed - seeds.first) as usize + 1;
+                if let Some(missing) = lines.get_mut(at) {
+                    *missing = Some(line);
+                }
+                self.mended(&[])?;
+            }
+        }
         Ok(())
     }
 
@@ -124,66 +204,57 @@ impl Table {
         }
         Ok(tally)
     }
+}
 
-    /// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
-    fn lock(&self) -> Result<(), Trouble> {
-        match self.file.try_lock() {
-            Err(TryLockError::WouldBlock) => {
-                let message = format!("another campaign is writing `{}`", self.path.display());
-                Err(Trouble::Asked(message, "wait for its end, or choose another file with `--out`".to_string()))
-            }
-            _ => Ok(()),
+/// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
+fn lock(file: &File, path: &Path) -> Result<(), Trouble> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            let message = format!("another campaign is writing `{}`", path.display());
+            Err(Trouble::Asked(message, "wait for its end, or choose another file with `--out`".to_string()))
         }
-    }
-
-    /// Writes where it comes from, and then the first line: a table with a line always has its origin beside it.
-    fn head(&mut self, columns: &Columns, origin: &Origin) -> io::Result<()> {
-        origin.write(&self.path)?;
-        self.file.write_all(&line(columns.names()))
-    }
-
-    /// Whether this campaign is the one that the table was begun by. An empty file belongs to every campaign.
-    fn belongs(&self, origin: &Origin, is_empty: bool) -> Result<(), Trouble> {
-        let problem = match Origin::read(&self.path) {
-            _ if is_empty => None,
-            None => Some("has no readable `.origin` beside it, which tells what it was made from".to_string()),
-            Some(then) => then.difference(origin),
-        };
-        let Some(problem) = problem else { return Ok(()) };
-        let help = "a table holds one campaign: give what it was begun with, or choose another file with `--out`";
-        Err(Trouble::Asked(format!("`{}` {problem}", self.path.display()), help.to_string()))
-    }
-
-    /// Counts the rows, which must be those of the first seeds.
-    fn matching(&self, rows: &[u8], columns: &Columns, seeds: Seeds) -> Result<u64, Trouble> {
-        let mut count = 0;
-        let mut expected = seeds.after(0);
-        let seed_column = columns.names().iter().position(|name| name == "seed").unwrap_or_default();
-        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(rows);
-        for row in reader.records() {
-            let wanted = expected.next();
-            let row = row.ok().filter(|row| row.len() == columns.names().len());
-            let seed = row.as_ref().and_then(|row| row.get(seed_column));
-            if seed.is_none() || seed != wanted.map(|seed| seed.to_string()).as_deref() {
-                let found = seed.map_or("is no row".to_string(), |seed| format!("has seed {seed}"));
-                let message = format!("`{}`, line {}: this {found}", self.path.display(), count + 2);
-                let help = wanted.map_or_else(
-                    || format!("`--seeds {seeds}` ends before it: ask for more seeds"),
-                    |seed| format!("`--seeds {seeds}` has seed {seed} here: give the first seed it was begun with"),
-                );
-                return Err(Trouble::Asked(message, format!("{help}, or choose another file with `--out`")));
-            }
-            count += 1;
-        }
-        Ok(count)
+        _ => Ok(()),
     }
 }
 
-/// The first line of a text, the whole lines after it, and the bytes of a torn last one.
-fn parts(text: &[u8]) -> Option<(&[u8], &[u8], usize)> {
-    let head = text.iter().position(|b| *b == b'\n')? + 1;
-    let end = text.iter().rposition(|b| *b == b'\n')? + 1;
-    Some((&text[..head], &text[head..end], text.len() - end))
+/// Whether this campaign is the one that the table was begun by. An empty file belongs to every campaign.
+fn belongs(path: &Path, origin: &Origin, is_empty: bool) -> Result<(), Trouble> {
+    let problem = match Origin::read(path) {
+        _ if is_empty => None,
+        None => Some("has no readable `.origin` beside it, which tells what it was made from".to_string()),
+        Some(then) => then.difference(origin),
+    };
+    let Some(problem) = problem else { return Ok(()) };
+    let help = "a table holds one campaign: give what it was begun with, or choose another file with `--out`";
+    Err(Trouble::Asked(format!("`{}` {problem}", path.display()), help.to_string()))
+}
+
+/// The rows that are known must be those of the first seeds.
+fn matching(path: &Path, rows: &[Option<Vec<u8>>], columns: &Columns, seeds: Seeds) -> Result<(), Trouble> {
+    let mut expected = seeds.after(0);
+    for (i, line) in rows.iter().enumerate() {
+        let wanted = expected.next();
+        let Some(line) = line else { continue };
+        let seed = seed_of(line, columns);
+        if seed.is_none() || seed != wanted.map(|seed| seed.to_string()) {
+            let found = seed.map_or("is no row".to_string(), |seed| format!("has seed {seed}"));
+            let message = format!("`{}`, line {}: this {found}", path.display(), i + 2);
+            let help = wanted.map_or_else(
+                || format!("`--seeds {seeds}` ends before it: ask for more seeds"),
+                |seed| format!("`--seeds {seeds}` has seed {seed} here: give the first seed it was begun with"),
+            );
+            return Err(Trouble::Asked(message, format!("{help}, or choose another file with `--out`")));
+        }
+    }
+    Ok(())
+}
+
+/// The seed of a row that has all columns.
+fn seed_of(line: &[u8], columns: &Columns) -> Option<String> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);
+    let row = reader.records().next()?.ok().filter(|row| row.len() == columns.names().len())?;
+    let column = columns.names().iter().position(|name| name == "seed")?;
+    row.get(column).map(str::to_string)
 }
 
 /// A row as it stands in the file. Names and reasons may have line ends in them; a row is one line.
@@ -197,19 +268,11 @@ fn line(cells: &[String]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{line, parts};
+    use super::line;
 
     #[test]
     fn a_row_is_one_line() {
         let cells = ["box".to_string(), "he said \"no,\nnever\"".to_string(), String::new()];
         assert_eq!(line(&cells), b"box,\"he said \"\"no, never\"\"\",\n");
-    }
-
-    #[test]
-    fn a_torn_line_is_told_from_whole_ones() {
-        assert_eq!(parts(b""), None);
-        assert_eq!(parts(b"a,b"), None);
-        assert_eq!(parts(b"a,b\n"), Some((&b"a,b\n"[..], &b""[..], 0)));
-        assert_eq!(parts(b"a,b\n1,2\n3"), Some((&b"a,b\n"[..], &b"1,2\n"[..], 1)));
     }
 }

@@ -13,7 +13,7 @@ use crate::run::{Run, Running};
 use crate::summary::Summary;
 use std::any::Any;
 use std::collections::BTreeMap;
-use std::ops::{ControlFlow, RangeInclusive};
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
@@ -40,12 +40,12 @@ impl Campaign {
         &self.columns
     }
 
-    /// Runs every seed and delivers its row: in the order of the seeds, each as soon as it and all before it are over,
+    /// Runs every seed and delivers its row: in the order in which they are given, each as soon as it and all before it are over,
     /// so that the rows do not depend on the number of threads. Without `threads` there is one for each core. Whoever
     /// raises `stop`, or breaks off, gets no further row. Gives whether all were delivered.
     pub fn run(
         &self,
-        seeds: RangeInclusive<u64>,
+        seeds: impl Iterator<Item = u64> + Clone,
         threads: Option<usize>,
         stop: &AtomicBool,
         mut deliver: impl FnMut(Row) -> ControlFlow<()>,

@@ -1,0 +1,134 @@
+//! Checksums of a table's lines, in a file beside it: what was changed on the disk since it was written is noticed, and where.
+//!
+//! Each line of the table, the first too, has a record of 17 bytes: the digest of its bytes, as 16 hexadecimal digits, and
+//! a line end. It is written after the line, so that a line without one was not finished.
+
+use super::origin::beside;
+use crate::disk;
+use albacore_trace::Digest;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// Bytes of a record.
+const RECORD: usize = 17;
+
+/// Where a table's checksums go.
+pub struct Sums(File);
+
+impl Sums {
+    /// Begins with these lines.
+    pub fn begin<'a>(table: &Path, lines: impl Iterator<Item = &'a [u8]>) -> io::Result<Self> {
+        let text: String = lines.map(record).collect();
+        disk::replace(&path(table), text.as_bytes()).map(Sums)
+    }
+
+    /// Adds a line.
+    pub fn add(&mut self, line: &[u8]) -> io::Result<()> {
+        self.0.write_all(record(line).as_bytes())
+    }
+}
+
+/// What the disk kept of a table.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Kept<'a> {
+    /// Its lines as they were written, the first too; `None` where one is otherwise now. The last is never `None`.
+    pub lines: Vec<Option<&'a [u8]>>,
+    /// The numbers, from 1, of lines that were written and are otherwise now.
+    pub changed: Vec<usize>,
+}
+
+/// Reads the checksums of a table, and holds its text against them. `None` if there are none.
+pub fn kept<'a>(table: &Path, text: &'a [u8]) -> io::Result<Option<Kept<'a>>> {
+    match std::fs::read(path(table)) {
+        Ok(sums) => Ok(Some(held_against(text, &sums))),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// A line is found by its digest wherever it stands: a line end that was changed, or a line that was moved, takes no others
+/// with it.
+fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
+    let whole = text.split_inclusive(|b| *b == b'\n').filter(|line| line.ends_with(b"\n"));
+    let by_sum: BTreeMap<String, &[u8]> = whole.clone().map(|line| (record(line), line)).collect();
+    let found = |sum: &[u8]| std::str::from_utf8(sum).ok().and_then(|sum| by_sum.get(sum).copied());
+    let records = sums.chunks_exact(RECORD);
+    let mut lines: Vec<Option<&[u8]>> = records.map(found).collect();
+    let mut changed: Vec<usize> = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(n, _)| n).collect();
+    // Of one line more its record may not have been written.
+    changed.extend((lines.len() + 1..=whole.count()).skip(1));
+    while lines.last().is_some_and(Option::is_none) {
+        lines.pop();
+    }
+    Kept { lines, changed }
+}
+
+fn record(line: &[u8]) -> String {
+    let mut digest = Digest::new();
+    digest.bytes(line);
+    format!("{digest}\n")
+}
+
+fn path(table: &Path) -> PathBuf {
+    beside(table, ".sums")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{held_against, record};
+
+    const TABLE: &str = "seed,outcome\n1,completed\n2,aborted\n3,completed\n";
+
+    fn sums() -> String {
+        TABLE.split_inclusive('\n').map(|line| record(line.as_bytes())).collect()
+    }
+
+    /// What is left of a table of which something was changed is a part of what was written, and the change is told.
+    #[track_caller]
+    fn is_noticed(text: &[u8], sums: &[u8], what: &str) {
+        let kept = held_against(text, sums);
+        assert!(!kept.changed.is_empty(), "{what}: not noticed");
+        for (line, written) in kept.lines.iter().zip(TABLE.split_inclusive('\n')) {
+            assert!(line.is_none_or(|line| line == written.as_bytes()), "{what}: taken for what was written");
+        }
+    }
+
+    #[test]
+    fn a_record_has_its_length() {
+        assert_eq!(sums().len(), 4 * super::RECORD);
+    }
+
+    #[test]
+    fn what_is_as_it_was_is_kept() {
+        let kept = held_against(TABLE.as_bytes(), sums().as_bytes());
+        assert_eq!((kept.lines.len(), kept.changed.len()), (4, 0));
+        // Killed between a line and its record.
+        let kept = held_against(TABLE.as_bytes(), &sums().as_bytes()[..3 * super::RECORD + 5]);
+        assert_eq!((kept.lines.len(), kept.changed.len()), (3, 0));
+    }
+
+    #[test]
+    fn every_changed_bit_of_table_and_sums_is_noticed() {
+        for bit in 0..8 * TABLE.len() {
+            let mut text = TABLE.as_bytes().to_vec();
+            text[bit / 8] ^= 1 << (bit % 8);
+            is_noticed(&text, sums().as_bytes(), &format!("bit {bit} of the table"));
+        }
+        for bit in 0..8 * sums().len() {
+            let mut changed = sums().into_bytes();
+            changed[bit / 8] ^= 1 << (bit % 8);
+            is_noticed(TABLE.as_bytes(), &changed, &format!("bit {bit} of the sums"));
+        }
+    }
+
+    #[test]
+    fn what_is_cut_off_added_or_taken_out_is_noticed() {
+        for at in 0..TABLE.len() {
+            is_noticed(&TABLE.as_bytes()[..at], sums().as_bytes(), &format!("cut at {at}"));
+            is_noticed(TABLE.replacen(&TABLE[at..=at], "", 1).as_bytes(), sums().as_bytes(), &format!("without {at}"));
+        }
+        is_noticed(TABLE.as_bytes(), b"", "no sums");
+    }
+}
