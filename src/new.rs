@@ -114,8 +114,12 @@ fn accept(script: &Script, path: &Path) -> io::Result<()> {
     for test in script.tests().into_iter().flatten() {
         // A test that cannot be run has no snapshot; `albacore test` tells why.
         let Ok(result) = run_test(script, &test, &Faults::default()) else { continue };
+        // Nor has one that fails: what is not as expected is no pattern.
+        if !result.failures.is_empty() {
+            continue;
+        }
         for (seed, trace) in &result.traces {
-            let file = snapshot_file(path, &result.name, *seed);
+            let file = snapshot_file(path, &result, *seed);
             file.parent().map_or(Ok(()), fs::create_dir_all)?;
             whole(&file, trace)?;
         }

@@ -114,11 +114,7 @@ impl Test {
                     return Err(Exit::Usage);
                 }
             };
-            let mut problems: Vec<String> = result.failures.iter().map(told).collect();
-            // A snapshot is of a run in which only the scenario's own faults were.
-            for (seed, trace) in result.traces.iter().filter(|_| faults.is_empty()) {
-                problems.extend(self.compare(path, &result, *seed, trace));
-            }
+            let problems = self.problems(path, &result, faults);
             let seeds = format!("seeds {}..{}", result.seeds.0, result.seeds.1);
             if problems.is_empty() {
                 count.passed += 1;
@@ -134,9 +130,27 @@ impl Test {
         Ok(())
     }
 
+    /// What is wrong with what became of a test.
+    fn problems(&self, path: &Path, result: &TestResult, faults: &albacore_session::Faults) -> Vec<String> {
+        let mut problems: Vec<String> = result.failures.iter().map(told).collect();
+        // A snapshot is of a run in which only the scenario's own faults were.
+        let traces: &[(u64, String)] = if faults.is_empty() { &result.traces } else { &[] };
+        if self.accept && !problems.is_empty() {
+            // What is not as it was expected to be is never what is right.
+            if !traces.is_empty() {
+                problems.push("        its snapshots are left as they were: what fails is not accepted\n".to_string());
+            }
+            return problems;
+        }
+        for (seed, trace) in traces {
+            problems.extend(self.compare(path, result, *seed, trace));
+        }
+        problems
+    }
+
     /// Compares a trace with its snapshot; gives what is wrong.
     fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str) -> Option<String> {
-        let file = snapshot_file(script, &result.name, seed);
+        let file = snapshot_file(script, result, seed);
         let stored = std::fs::read_to_string(&file).ok();
         if stored.as_deref() == Some(trace) {
             return None;
@@ -182,12 +196,9 @@ fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
 }
 
 /// `missions/snapshots/duck_single-one_source-1.trace`.
-pub fn snapshot_file(script: &Path, test: &str, seed: u64) -> PathBuf {
-    let plain: String =
-        test.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
-    let words: Vec<&str> = plain.split('_').filter(|w| !w.is_empty()).collect();
+pub fn snapshot_file(script: &Path, test: &TestResult, seed: u64) -> PathBuf {
     let stem = script.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    script.with_file_name("snapshots").join(format!("{stem}-{}-{seed}.trace", words.join("_")))
+    script.with_file_name("snapshots").join(format!("{stem}-{}-{seed}.trace", test.file_name))
 }
 
 /// A failed expectation as a person reads it.

@@ -25,7 +25,7 @@ scenario still {
 test "goes north" {
     run north in still seeds 1..4
     expect in 75 % of runs: distance(reported("there"), point(north: 10 m, east: 0 m)) < METRES
-    expect has_reported("there") and has_reported("seconds") and not has_reported("depth")
+    expect has_reported("there") and has_reported("seconds")
     expect always north.op.gap(truth.position) > 0 m
     snapshot switches of seed 2
 }
@@ -97,8 +97,9 @@ fn a_changed_behavior_is_shown_and_the_snapshot_kept() {
 
 #[test]
 fn an_expectation_that_fails_says_where_how_often_and_what_was_found() {
-    let project = Project::new("fails", "10 s", "10 cm");
+    let project = Project::new("fails", "10 s", "5 m");
     project.test(&["--accept"]);
+    project.write("10 s", "10 cm");
     let (code, said) = project.test(&[]);
     assert_eq!(code, Some(1), "{said}");
     insta::assert_snapshot!(said);
@@ -146,6 +147,7 @@ mission north in pitted within 5 min {
     with depth 3 m, speed 1 m/s
     steer 0 deg for 60 s
     report "there": position
+    if op.gap(position) < -1 km { report "nowhere": position }
 }
 
 scenario pitted {
@@ -175,4 +177,84 @@ fn what_is_true_can_be_asked_for() {
     let (code, said) = project.test(&[]);
     assert_eq!(code, Some(1), "{said}");
     insta::assert_snapshot!(said);
+}
+
+/// Each expectation holds, or does not, as its test is called.
+const REPORTS: &str = r#"
+mission north(far: Bool = true) in still within 31 s {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 200 m)
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 5 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    abort "too far" on distance(position, op.center) > 1 km
+    steer 0 deg for 30 s
+    if far { report "fix": position }
+    report "all": 3 m
+    if far { abort "as it was told" }
+}
+
+scenario still {
+    bottom(from: 20 m, to: 20 m)
+    vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 3 m)
+}
+
+test "holds" {
+    run north in still seeds 1..2
+    expect has_reported("fix") and reported_at("fix") > 29 s
+    expect reported_at("fix") > 29 s and reported_at("fix") == reported_at("all")
+    expect not has_reported("fix") or distance(reported("fix"), point(north: 28 m, east: 0 m)) < 2 m
+    expect if has_reported("fix") { reported_at("fix") < 31 s } else { completed }
+    expect always not has_reported("fix") or reported_at("fix") < time + 1 s
+    expect has_reported("all") and has_reported("fix") and has_reported("fix") and reported_at("fix") > 29 s
+}
+
+test "holds without a report" {
+    run north(far: false) in still seeds 1..2
+    expect not has_reported("fix") or distance(reported("fix"), point(north: 0 m, east: 0 m)) > 3 km
+    expect has_reported("all") and (not has_reported("fix") or reported_at("fix") > 10 min)
+}
+
+test "fails each time" {
+    run north in still seeds 1..2
+    expect has_reported("fix") and reported_at("fix") < 5 s
+    expect not has_reported("fix") or reported_at("fix") < 5 s
+    expect completed
+    expect distance(reported("fix"), truth.nearest_source) < 30 m
+    expect distance(reported("fix"), truth.deepest) < 30 m
+    expect always reported_at("fix") > 29 s
+}
+
+test "fails without a report" {
+    run north(far: false) in still seeds 1..2
+    expect reported_at("fix") > 0 s
+    expect not (distance(reported("fix"), point(north: 0 m, east: 0 m)) < 3 m)
+    expect not completed
+}
+"#;
+
+#[test]
+fn what_was_reported_and_when_is_known_behind_a_has_reported_too() {
+    let project = Project::new("reports", "10 s", "5 m");
+    std::fs::write(project.0.join("north.alb"), REPORTS).unwrap();
+    let (code, said) = project.test(&["--filter", "holds"]);
+    assert_eq!((code, said.contains("2 passed, 0 failed")), (Some(0), true), "{said}");
+    let (code, said) = project.test(&["--filter", "fails"]);
+    assert_eq!(code, Some(1), "{said}");
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn the_snapshot_of_a_test_that_fails_is_not_accepted() {
+    let project = Project::new("accept-fails", "10 s", "10 cm");
+    let (code, said) = project.test(&["--accept"]);
+    assert_eq!((code, said.contains("what fails is not accepted")), (Some(1), true), "{said}");
+    assert_eq!(project.snapshot(), None);
+    // Nor does it replace one that was accepted.
+    project.write("10 s", "5 m");
+    project.test(&["--accept"]);
+    let accepted = project.snapshot();
+    project.write("11 s", "10 cm");
+    let (code, said) = project.test(&["--accept"]);
+    assert_eq!(code, Some(1), "{said}");
+    assert_eq!((project.snapshot().is_some(), project.snapshot()), (true, accepted));
 }

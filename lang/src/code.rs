@@ -172,6 +172,9 @@ codes! {
     }
     tests {
         TestsMission = "mission",
+        TestsName = "name",
+        TestsNothing = "nothing",
+        TestsReport = "report",
         TestsRun = "run",
         TestsSeeds = "seeds",
         TestsShare = "share",

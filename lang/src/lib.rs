@@ -150,6 +150,10 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(&checked.hir, *id)) {
         findings.extend(rules::check(&checked.hir, *id));
     }
+    let own = checked.hir.tests.iter().filter(|test| test.span.file == ENTRY);
+    for test in own.filter(|test| !broken.reaches(&checked.hir, test.mission)) {
+        findings.extend(rules::tests_reports(&checked.hir, test));
+    }
     let meant: Vec<usize> = missions
         .iter()
         .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))

@@ -103,7 +103,7 @@ impl Checker<'_> {
         let list = ExprKind::List(corners.iter().map(corner).collect());
         let list = self.make(list, Type::List(Box::new(Type::Point), corners.len() as u32), span);
         let area = self.operation(Builtin::Polygon, vec![list], Type::Area.optional(), span);
-        self.make(ExprKind::Unwrap(Box::new(area)), Type::Area, span)
+        area.unwrapped()
     }
 
     /// A text without values in it: a file is read before anything is known of a run.

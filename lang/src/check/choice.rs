@@ -45,10 +45,8 @@ impl<'t> Checker<'t> {
                 let present = self.make(ExprKind::IsPresent(Box::new(value.clone())), Type::Bool, value.span);
                 let then = self.in_block(|c| {
                     let bind = c.bind_present(name, &value);
-                    let ty = c.scope.vars[bind].ty.clone();
-                    let unwrapped = c.make(ExprKind::Unwrap(Box::new(value)), ty, span);
                     let mut block = c.block(then);
-                    block.stmts.insert(0, Stmt { kind: StmtKind::Set(bind, unwrapped), span });
+                    block.stmts.insert(0, Stmt { kind: StmtKind::Set(bind, value.unwrapped()), span });
                     block
                 });
                 let otherwise = otherwise.map(|b| self.in_block(|c| c.block(b))).unwrap_or_default();

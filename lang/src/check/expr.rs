@@ -23,7 +23,7 @@ impl<'t> Checker<'t> {
                 let ranges: Vec<Interval> = operands.iter().map(|o| o.range).collect();
                 super::constant::range(*op, &ranges)
             }
-            ExprKind::Present(inner) | ExprKind::Unwrap(inner) => inner.range,
+            ExprKind::Present(inner) => inner.range,
             ExprKind::If(_, a, b) => match (&a.value, &b.value) {
                 (Some(a), Some(b)) => Interval {
                     low: a.range.low.min(b.range.low),
@@ -141,9 +141,7 @@ impl<'t> Checker<'t> {
         let range = self.scope.facts.narrowed(place, var.range);
         let value = Expr { kind: ExprKind::Var(id), ty: var.ty.clone(), span, range };
         match &var.ty {
-            Type::Optional(inner) if self.scope.facts.is_present(place) => {
-                Expr { ty: (**inner).clone(), kind: ExprKind::Unwrap(Box::new(value)), span, range }
-            }
+            Type::Optional(_) if self.scope.facts.is_present(place) => value.unwrapped(),
             _ => value,
         }
     }

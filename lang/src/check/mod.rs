@@ -27,6 +27,7 @@ mod sense;
 mod table;
 mod test;
 mod timed;
+mod truth;
 mod unused;
 mod vehicle;
 mod visible;
@@ -235,7 +236,7 @@ pub struct Checker<'t> {
     hir: Hir,
     scope: Scope,
     /// The test that is being checked, while its expectations are.
-    test: Option<test::TestScope>,
+    test: Option<truth::TestScope>,
     findings: Vec<Diagnostic>,
     /// What was declared, and what of it was read.
     names_used: unused::NamesUsed,

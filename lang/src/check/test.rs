@@ -4,31 +4,18 @@ use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Expect, Expr, ExprKind, Interval, Test, TestNames, VarKind, When};
+use crate::hir::{Expect, Test, When, test_file_name};
 use crate::source::Span;
-use crate::suggest;
-use crate::syntax::tree::{self, ActivityKind, ClauseKind, ExpectMode, Item, TestClause};
+use crate::syntax::tree::{self, ExpectMode, Item, TestClause};
 use crate::types::Type;
 
 /// A test runs this many seeds at most.
 const SEEDS_MAX: f64 = 1_000_000.0;
 
-/// What stands after `truth`.
-const TRUTHS: [&str; 5] = ["position", "nearest_source", "start", "deepest", "depth_at"];
-
-/// The test whose expectations are being checked.
-pub(super) struct TestScope {
-    /// The mission that it runs.
-    mission: usize,
-    /// What its expectations speak of.
-    names: TestNames<usize>,
-    /// The points whose true water depth they ask for, and the variables of the answers.
-    depths: Vec<(Expr, usize)>,
-}
-
 impl<'t> Checker<'t> {
     pub(super) fn check_test(&mut self, m: usize, test: &'t tree::Test) {
         let name = self.plain_text(&test.name);
+        self.test_is_told_apart(m, test, &name);
         let run = test.clauses.iter().find_map(|c| match &c.node {
             TestClause::Run { mission, args, scenario, seeds } => Some((c.span, mission, args, scenario, seeds)),
             _ => None,
@@ -44,6 +31,12 @@ impl<'t> Checker<'t> {
         for again in runs.skip(1) {
             self.report(
                 Diagnostic::error(Code::TestsRun, again.span, "a test runs one mission").label(run_span, "the first"),
+            );
+        }
+        if !test.clauses.iter().any(|c| !matches!(c.node, TestClause::Run { .. })) {
+            self.report(
+                Diagnostic::error(Code::TestsNothing, test.name.span, format!("the test \"{name}\" expects nothing"))
+                    .help("write what must hold, such as `expect completed`"),
             );
         }
         let Some(id) = self.mission_named(m, mission) else { return };
@@ -112,6 +105,30 @@ impl<'t> Checker<'t> {
         });
     }
 
+    /// Snapshots are kept under the names of their tests.
+    fn test_is_told_apart(&mut self, m: usize, test: &'t tree::Test, name: &str) {
+        let modules = self.modules;
+        let tests = modules[m].tree.items.iter().filter_map(|item| match item {
+            Item::Test(test) => Some(test),
+            _ => None,
+        });
+        for earlier in tests.take_while(|t| t.name.span != test.name.span) {
+            let other = self.plain_text(&earlier.name);
+            if test_file_name(&other) == test_file_name(name) {
+                self.report(
+                    Diagnostic::error(
+                        Code::TestsName,
+                        test.name.span,
+                        format!("the test \"{name}\" has the name of another"),
+                    )
+                    .label(earlier.name.span, "this one")
+                    .help("give it another: a test is known by the letters and digits (a to z, 0 to 9) of its name"),
+                );
+                return;
+            }
+        }
+    }
+
     fn mission_named(&mut self, m: usize, path: &tree::Path) -> Option<usize> {
         match self.resolve(m, path) {
             Some(&Def::Activity(id)) if self.mission_ids.contains(&id) => Some(id),
@@ -132,39 +149,22 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// The names that only tests know.
-    fn test_scope(&mut self, mission: usize) {
-        let span = self.activity_signatures[mission].span;
-        let var = |c: &mut Self, name: &str, ty: Type| c.declare_hidden(name.to_string(), VarKind::Signal, ty, span);
-        let vars = TestNames {
-            position: var(self, "truth.position", Type::Point),
-            nearest_source: var(self, "truth.nearest_source", Type::Point),
-            start: var(self, "truth.start", Type::Point),
-            deepest: var(self, "truth.deepest", Type::Point),
-            time: var(self, "time", Type::Quantity(Dimension::TIME)),
-            completed: var(self, "completed", Type::Bool),
-            area: var(self, "the mission's area", Type::Area),
-            reported: Vec::new(),
-            reported_at: Vec::new(),
-        };
-        self.test = Some(TestScope { mission, names: vars, depths: Vec::new() });
-    }
-
     fn expect(&mut self, mode: &ExpectMode, holds: &tree::Expr, span: Span) -> Expect {
-        let holds = self.condition(holds);
+        let holds = self.in_block(|c| c.condition(holds));
+        let needs = self.test.as_mut().map(|test| std::mem::take(&mut test.needs)).unwrap_or_default();
         let when = match mode {
             ExpectMode::EveryRun => When::AtTheEnd(1.0),
             ExpectMode::Always => When::Always,
             ExpectMode::ShareOfRuns(share) => {
                 let value = self.expr_as(share, &Type::Quantity(Dimension::NONE), "a share of the runs");
                 match value.range.constant() {
-                    Some(x) if (0.0..=1.0).contains(&x) => When::AtTheEnd(x),
+                    Some(x) if x > 0.0 && x <= 1.0 => When::AtTheEnd(x),
                     _ => {
                         self.report(
                             Diagnostic::error(
                                 Code::TestsShare,
                                 share.span,
-                                "a share of the runs is a constant from 0 % to 100 %",
+                                "a share of the runs is a constant above 0 % and up to 100 %",
                             )
                             .help("for example `expect in 95 % of runs: …`"),
                         );
@@ -173,111 +173,6 @@ impl<'t> Checker<'t> {
                 }
             }
         };
-        Expect { when, holds, span }
-    }
-
-    /// `truth.position` and the like, and the area of the mission by the mission's name.
-    pub(super) fn test_member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
-        let test = self.test.as_ref()?;
-        let tree::ExprKind::Name(name) = &base.kind else { return None };
-        let id = match (name.as_str(), member.node.as_str()) {
-            ("truth", "position") => test.names.position,
-            ("truth", "nearest_source") => test.names.nearest_source,
-            ("truth", "start") => test.names.start,
-            ("truth", "deepest") => test.names.deepest,
-            ("truth", other) => {
-                let finding =
-                    Diagnostic::error(Code::TestsTruth, member.span, format!("there is no `truth.{other}` to ask for"));
-                let finding = match self.nearest(other, TRUTHS) {
-                    Some(near) => finding.help(format!("did you mean `truth.{near}`?")),
-                    None => finding.help(format!("there is {}", suggest::listed(&TRUTHS))),
-                };
-                self.report(finding);
-                return Some(self.unknown(span));
-            }
-            _ => {
-                let full = &self.activity_signatures[test.mission].name;
-                let mission = full.rsplit('.').next().unwrap_or(full);
-                let own = name == mission && self.area_name(mission).as_deref() == Some(&member.node);
-                own.then_some(test.names.area)?
-            }
-        };
-        Some(self.variable(id, span))
-    }
-
-    /// `truth.depth_at(p)`: how deep the water truly is at a point.
-    pub(super) fn test_method(
-        &mut self,
-        base: &tree::Expr,
-        member: &tree::Name,
-        args: &[tree::Arg],
-        span: Span,
-    ) -> Option<Expr> {
-        self.test.as_ref()?;
-        let is_truth = matches!(&base.kind, tree::ExprKind::Name(name) if name == "truth");
-        if !is_truth || member.node != "depth_at" {
-            return None;
-        }
-        let Some(given) = self.simple_args("depth_at", &[("point", Type::Point)], args, span) else {
-            return Some(self.unknown(span));
-        };
-        let id = self.declare_hidden("truth.depth_at".into(), VarKind::Signal, Type::Quantity(Dimension::LENGTH), span);
-        if let Some(test) = &mut self.test {
-            test.depths.extend(given.into_iter().map(|point| (point, id)));
-        }
-        Some(self.variable(id, span))
-    }
-
-    /// The name that a mission gives its operating area.
-    fn area_name(&self, mission: &str) -> Option<String> {
-        self.modules.iter().flat_map(|m| &m.tree.items).find_map(|item| match item {
-            Item::Activity(a) if matches!(a.kind, ActivityKind::Mission { .. }) && a.name.node == mission => {
-                a.body.clauses.iter().find_map(|c| match &c.kind {
-                    ClauseKind::Area { name, .. } => Some(name.node.clone()),
-                    _ => None,
-                })
-            }
-            _ => None,
-        })
-    }
-
-    /// `reported("source")`: where that was first reported, `reported_at("source")`: when. Without such a report the
-    /// expectation fails, and says so. `has_reported("source")` tells whether there is one.
-    pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
-        self.test.as_ref()?;
-        let when = match name {
-            "reported" => false,
-            // What was reported may be no place: it was reported all the same.
-            "reported_at" | "has_reported" => true,
-            _ => return None,
-        };
-        let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
-        let what = self.plain_text(&text);
-        let ty = if when { Type::Quantity(Dimension::TIME) } else { Type::Point };
-        let id = self.report_var(&what, when, &ty, span);
-        let value = self.variable(id, span);
-        Some(if name == "has_reported" {
-            self.truth(value)
-        } else {
-            Expr { kind: ExprKind::Unwrap(Box::new(value)), ty, span, range: Interval::ANY }
-        })
-    }
-
-    /// The variable that holds where or when something was reported: one for each name.
-    fn report_var(&mut self, what: &str, when: bool, ty: &Type, span: Span) -> usize {
-        let known = self.test.as_ref().and_then(|test| {
-            let table = if when { &test.names.reported_at } else { &test.names.reported };
-            table.iter().find(|(name, _)| name == what).map(|(_, id)| *id)
-        });
-        if let Some(id) = known {
-            return id;
-        }
-        let hidden = format!("report \"{what}\" {}", if when { "at" } else { "place" });
-        let id = self.declare_hidden(hidden, VarKind::Signal, Type::Optional(Box::new(ty.clone())), span);
-        if let Some(TestScope { names, .. }) = &mut self.test {
-            let table = if when { &mut names.reported_at } else { &mut names.reported };
-            table.push((what.to_string(), id));
-        }
-        id
+        Expect { when, holds, needs, span }
     }
 }

@@ -120,6 +120,20 @@ pub struct Expr {
     pub range: Interval,
 }
 
+impl Expr {
+    /// The value of an optional that is known to be present; what is never absent is its own value. This is the only place
+    /// that makes an [`ExprKind::Unwrap`], so that none stands over a value without a presence.
+    pub fn unwrapped(self) -> Expr {
+        match &self.ty {
+            Type::Optional(inner) => {
+                let (ty, span, range) = ((**inner).clone(), self.span, self.range);
+                Expr { kind: ExprKind::Unwrap(Box::new(self)), ty, span, range }
+            }
+            _ => self,
+        }
+    }
+}
+
 /// What an expression is.
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "each variant is what it says")]

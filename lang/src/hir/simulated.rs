@@ -69,11 +69,11 @@ pub struct Test {
 pub struct TestNames<T> {
     /// The vehicle's true position.
     pub position: T,
-    /// The true source nearest to the latest report, else to the vehicle.
+    /// The true source nearest to the latest report, else to the vehicle, if there are any.
     pub nearest_source: T,
     /// Where the vehicle started.
     pub start: T,
-    /// The deepest point of the mission's area.
+    /// The deepest point of the mission's area, if one is deeper than the others.
     pub deepest: T,
     /// Seconds since the run began.
     pub time: T,
@@ -94,6 +94,8 @@ pub struct Expect {
     pub when: When,
     /// The condition.
     pub holds: Expr,
+    /// What it takes for granted: variables that may be absent, and what to say when they are.
+    pub needs: Vec<(VarId, String)>,
     /// Where it stands.
     pub span: Span,
 }
@@ -123,4 +125,12 @@ impl<T: Copy> TestNames<T> {
             reported_at: each(&self.reported_at),
         }
     }
+}
+
+/// The name of a test as that of a file: its letters and digits, the words apart.
+pub fn test_file_name(test: &str) -> String {
+    let plain: String =
+        test.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
+    let words: Vec<&str> = plain.split('_').filter(|w| !w.is_empty()).collect();
+    words.join("_")
 }

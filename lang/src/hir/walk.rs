@@ -4,6 +4,7 @@ use super::{
     Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Stmt, StmtKind, Target,
     TextPart, With,
 };
+use crate::types::Type;
 use std::collections::BTreeSet;
 
 impl Hir {
@@ -20,7 +21,46 @@ impl Hir {
     }
 }
 
+impl Hir {
+    /// The values that a mission, with all that it calls, reports under a name: their types.
+    pub fn reported_by(&self, mission: ActivityId, name: &str) -> Vec<Type> {
+        let mut types = Vec::new();
+        self.each_report(mission, &mut |reported, value| {
+            if reported == name {
+                types.push(value.ty.clone());
+            }
+        });
+        types
+    }
+
+    /// Calls `f` on the name and the value of every report of a mission and of all that it calls.
+    pub fn each_report<'h>(&'h self, mission: ActivityId, f: &mut dyn FnMut(&'h str, &'h Expr)) {
+        for id in self.called_from(mission) {
+            for block in self.activities[id].blocks() {
+                block.each(&mut |stmt| {
+                    if let StmtKind::Report { name, fields } = &stmt.kind
+                        && let Some((_, value)) = fields.first()
+                    {
+                        f(name, value);
+                    }
+                });
+            }
+        }
+    }
+}
+
 impl Activity {
+    /// Its own blocks of statements: reactions, body, what rules do, recovery.
+    pub fn blocks(&self) -> Vec<&Block> {
+        let mut blocks: Vec<&Block> = self.reactions.iter().map(|(_, block)| block).collect();
+        match &self.body {
+            Body::Sequence(block) | Body::Amend { block, .. } => blocks.push(block),
+            Body::Table { rules, .. } => blocks.extend(rules.iter().filter_map(|rule| rule.effect.as_ref())),
+        }
+        blocks.extend(self.mission.iter().filter_map(|m| m.recovery.as_ref()).map(|(_, block)| block));
+        blocks
+    }
+
     /// The activities that it names itself.
     pub fn calls(&self) -> Vec<ActivityId> {
         let mut calls: Vec<ActivityId> = self.calls_with_args().into_iter().map(|(id, _)| id).collect();

@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children};
+use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children, test_file_name};
 use crate::source::Sources;
 use crate::types::TypeTable;
 use albacore_program::{Code, Program, Shape, Slot};
@@ -12,6 +12,8 @@ use albacore_program::{Code, Program, Shape, Slot};
 pub struct TestProgram {
     /// What it is called.
     pub name: String,
+    /// Its name as that of a file.
+    pub file_name: String,
     /// `file:line`.
     pub place: String,
     /// The mission that it runs.
@@ -46,8 +48,8 @@ pub struct ExpectProgram {
     pub depths: Vec<(Code, Slot)>,
     /// The condition.
     pub holds: Code,
-    /// The reports that it speaks of.
-    pub needs: Vec<Slot>,
+    /// What it takes for granted: where the presence stands, and what to say without it.
+    pub needs: Vec<(Slot, String)>,
     /// Named values for the message of a failure.
     pub watched: Vec<(String, Code, Shape)>,
 }
@@ -69,18 +71,12 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         let at = |id: usize| l.frame.vars[id];
         let known = &test.known;
         let slots = known.map(at);
-        let reports: Vec<(usize, Slot)> =
-            known.reported.iter().chain(&known.reported_at).map(|(_, id)| (*id, at(*id))).collect();
         let expects = test
             .expects
             .iter()
             .map(|expect| {
-                let mut needs = Vec::new();
                 let mut asked = Vec::new();
                 depths(&expect.holds, &test.depths, &mut asked);
-                let conditions = asked.iter().map(|(point, _)| point).chain([&expect.holds]);
-                conditions.for_each(|e| unwrapped(e, &mut needs));
-                let needs = reports.iter().filter(|(id, _)| needs.contains(id)).map(|(_, slot)| *slot).collect();
                 let mut sides = Vec::new();
                 compared(&expect.holds, &mut sides);
                 let watched = sides
@@ -96,7 +92,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                     },
                     depths: asked.into_iter().map(|(point, to)| (l.code(point), l.frame.vars[*to])).collect(),
                     holds: l.code(&expect.holds),
-                    needs,
+                    needs: expect.needs.iter().map(|(id, without)| (l.frame.vars[*id], without.clone())).collect(),
                     watched,
                 }
             })
@@ -113,6 +109,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     program.words = words;
     Ok(TestProgram {
         name: test.name.clone(),
+        file_name: test_file_name(&test.name),
         place: sources.place(test.span),
         mission,
         scenario: hir.scenarios[test.scenario].name.clone(),
@@ -122,16 +119,6 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         program,
         slots,
     })
-}
-
-/// The variables whose presence an expression takes for granted.
-fn unwrapped(e: &Expr, out: &mut Vec<usize>) {
-    if let ExprKind::Unwrap(inner) = &e.kind
-        && let ExprKind::Var(id) = inner.kind
-    {
-        out.push(id);
-    }
-    children(e, &mut |child| unwrapped(child, out));
 }
 
 /// The true depths that an expression asks for, those that they are asked with before them.

@@ -7,12 +7,14 @@ mod inputs;
 mod limits;
 mod overlaps;
 mod places;
+mod reports;
 mod told;
 mod unreached;
 
 pub use control::first_watch;
 pub use overlaps::check as overlaps;
 pub use places::operating_area;
+pub use reports::check as tests_reports;
 pub use unreached::check as unreached;
 
 pub use inputs::read as inputs_read;

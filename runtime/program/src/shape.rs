@@ -68,6 +68,18 @@ impl Shape {
         }
     }
 
+    /// The point that a value of it is, or begins with: the first field of a record that is one. Gives the word where it stands.
+    pub fn first_point(&self) -> Option<usize> {
+        match self {
+            Shape::Point => Some(0),
+            Shape::Record(_, fields) => {
+                let first = fields.iter().position(|(_, shape)| matches!(shape, Shape::Point))?;
+                Some(fields[..first].iter().map(|(_, shape)| shape.words() as usize).sum())
+            }
+            _ => None,
+        }
+    }
+
     /// How many words it takes.
     pub fn words(&self) -> u32 {
         match self {

@@ -16,6 +16,8 @@ use std::sync::Arc;
 pub struct TestResult {
     /// Its name.
     pub name: String,
+    /// Its name as that of a file.
+    pub file_name: String,
     /// `file:line`.
     pub place: String,
     /// The seeds that were run.
@@ -57,7 +59,8 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
         let broken: Vec<&Judged> = runs.iter().filter(|r| r.breaches[i].is_some()).collect();
         let held = runs.len() - broken.len();
         let enough = match expect.share {
-            Some(share) => held as f64 >= share * runs.len() as f64,
+            // A share of whole runs: no run is missing for the last bits of a product.
+            Some(share) => held as f64 >= share * runs.len() as f64 - 1e-6,
             None => broken.is_empty(),
         };
         if !enough {
@@ -73,7 +76,14 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
         }
     }
     let traces = runs.into_iter().filter_map(|r| Some((r.seed, r.trace?))).collect();
-    Ok(TestResult { name: test.name.clone(), place: test.place.clone(), seeds: test.seeds, failures, traces })
+    Ok(TestResult {
+        name: test.name.clone(),
+        file_name: test.file_name.clone(),
+        place: test.place.clone(),
+        seeds: test.seeds,
+        failures,
+        traces,
+    })
 }
 
 /// One run and what was expected of it.
@@ -94,7 +104,7 @@ fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError
         if over || !always.is_empty() {
             tell(&mut evaluation, test, &run, over);
         }
-        for &i in always.iter().filter(|&&i| run.tick() > 1 && breaches[i].is_none()).collect::<Vec<_>>() {
+        for &i in always.iter().filter(|&&i| (run.tick() > 1 || over) && breaches[i].is_none()).collect::<Vec<_>>() {
             breaches[i] = breach(&mut evaluation, test, &test.expects[i], &run);
         }
         if over {
@@ -110,12 +120,14 @@ fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError
 
 /// What was found, when an expectation does not hold.
 fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgram, run: &Run) -> Option<String> {
-    let when = number::seconds(run.tick().saturating_sub(1));
-    for need in &expect.needs {
+    let when = || {
+        let at = number::seconds(run.tick().saturating_sub(1)).trim().to_string();
+        let ending = expect.share.and_then(|_| ending(run));
+        ending.map_or(at.clone(), |ending| format!("{at}, {ending}"))
+    };
+    for (need, without) in &expect.needs {
         if evaluation.words(*need, 1)[0] == 0.0 {
-            let mut reports = test.slots.reported.iter().chain(&test.slots.reported_at);
-            let what = reports.find(|(_, slot)| slot == need).map_or("", |(name, _)| name);
-            return Some(format!("nothing was reported as \"{what}\" ({})", when.trim()));
+            return Some(format!("{without} ({})", when()));
         }
     }
     for (point, answer) in &expect.depths {
@@ -134,11 +146,15 @@ fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgra
         let value = number::value(shape, evaluation.words(code.value, shape.words()));
         found.push(format!("{name} = {value}"));
     }
-    Some(format!(
-        "{} ({})",
-        if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") },
-        when.trim()
-    ))
+    let found = if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") };
+    Some(format!("{found} ({})", when()))
+}
+
+/// How a run ended that did not come to its own end, and why.
+fn ending(run: &Run) -> Option<String> {
+    let crate::Summary { outcome, reason, .. } = run.summary(0.0);
+    let why = if reason.is_empty() || reason == outcome { String::new() } else { format!(": {reason}") };
+    (outcome != Outcome::Completed.name()).then(|| format!("{}{why}", outcome.replace('_', " ")))
 }
 
 /// Puts what is true now where the expectations look for it.
@@ -146,24 +162,27 @@ fn tell(evaluation: &mut Evaluation, test: &TestProgram, run: &Run, over: bool) 
     let slots = &test.slots;
     let position = run.true_position();
     evaluation.set(slots.position, &[position.north, position.east]);
-    let (start, deepest) = (run.start(), run.deepest().unwrap_or(position));
+    let start = run.start();
     evaluation.set(slots.start, &[start.north, start.east]);
-    evaluation.set(slots.deepest, &[deepest.north, deepest.east]);
+    evaluation.set(slots.deepest, &if_any(run.deepest()));
     evaluation.set(slots.time, &[run.tick().saturating_sub(1) as f64 * TICK_S]);
     evaluation.set(slots.area, run.area_words().unwrap_or(&[0.0; AREA_WORDS as usize]));
     let reports = run.reports();
     evaluation.set(slots.completed, &[f64::from(u8::from(over && run.outcome() == Some(Outcome::Completed)))]);
-    let place = |r: &crate::Report| Some((r.north_m?, r.east_m?));
+    let place = |r: &crate::Report| Some(Point::new(r.north_m?, r.east_m?));
     let from = reports.latest.unwrap_or(position);
-    let nearest = run.nearest_source(from).unwrap_or(from);
-    evaluation.set(slots.nearest_source, &[nearest.north, nearest.east]);
+    evaluation.set(slots.nearest_source, &if_any(run.nearest_source(from)));
     for (name, slot) in &slots.reported {
         let first = reports.listed.iter().find(|r| r.name == *name).and_then(place);
-        let (north, east) = first.unwrap_or_default();
-        evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), north, east]);
+        evaluation.set(*slot, &if_any(first));
     }
     for (name, slot) in &slots.reported_at {
         let first = reports.listed.iter().find(|r| r.name == *name);
         evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), first.map_or(0.0, |r| r.t_s)]);
     }
+}
+
+/// The words of a place that may be absent.
+fn if_any(place: Option<Point>) -> [f64; 3] {
+    place.map_or([0.0; 3], |place| [1.0, place.north, place.east])
 }

@@ -3,7 +3,6 @@
 use super::recorder::Recorder;
 use crate::summary::Report;
 use albacore_geometry::Point;
-use albacore_program::Shape;
 use albacore_vehicle::TICK_S;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -38,7 +37,8 @@ impl Recorder {
     pub(super) fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
         let program = Arc::clone(&self.plan.program);
         let (id, site) = (site, &program.reports[site as usize]);
-        let place = first_point(site.fields.first().map(|(_, v)| &v.shape), words);
+        let at = site.fields.first().and_then(|(_, value)| value.shape.first_point());
+        let place = at.and_then(|at| Some(Point::new(*words.get(at)?, *words.get(at + 1)?)));
         self.reports.latest = place.or(self.reports.latest);
         if !self.reports.admits(id) {
             return;
@@ -72,24 +72,5 @@ impl Recorder {
         };
         let nearest = self.nearest_source(to).map(|at| (at, source));
         nearest.or(self.deepest_sought().map(|at| (at, "the deepest point of the area")))
-    }
-}
-
-/// The point that a reported value is, or begins with.
-fn first_point(shape: Option<&Shape>, words: &[f64]) -> Option<Point> {
-    let point = |at: usize| Some(Point::new(*words.get(at)?, *words.get(at + 1)?));
-    match shape? {
-        Shape::Point => point(0),
-        Shape::Record(_, fields) => {
-            let mut at = 0;
-            for (_, shape) in fields {
-                if matches!(shape, Shape::Point) {
-                    return point(at);
-                }
-                at += shape.words() as usize;
-            }
-            None
-        }
-        _ => None,
     }
 }
