@@ -55,18 +55,28 @@ impl Kept {
         match folder.journal.try_clone() {
             Ok(file) => Some(file),
             Err(error) => {
-                self.journal_failed(&error);
+                message::write(&self.journal_failed(&error));
                 None
             }
         }
     }
 
-    /// The journal can be written no further.
-    pub fn journal_failed(&mut self, error: &io::Error) {
-        let path = self.path().unwrap_or(Path::new("")).join(JOURNAL);
-        let help = "the mission goes on without; what the journal holds up to here can be read";
-        message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
+    /// The journal can be written no further; gives what to tell.
+    pub fn journal_failed(&mut self, error: &io::Error) -> String {
         self.failed = true;
+        let help = "the mission goes on without; what the journal holds up to here can be read";
+        message::error_text(&format!("`{}` cannot be written: {error}", self.journal_path().display()), Some(help))
+    }
+
+    /// The disk takes no more of the journal; gives what to tell.
+    pub fn journal_stalled(&mut self) -> String {
+        self.failed = true;
+        let text = format!("`{}` is cut short: the disk has taken nothing for 3 s", self.journal_path().display());
+        message::error_text(&text, Some("what it holds up to there can be read; the vehicle was given back before"))
+    }
+
+    fn journal_path(&self) -> PathBuf {
+        self.path().unwrap_or(Path::new("")).join(JOURNAL)
     }
 
     /// The mission's clock runs.

@@ -12,6 +12,7 @@ mod fmt;
 mod graph;
 mod interruption;
 mod kept;
+mod live;
 mod message;
 mod new;
 mod output;
@@ -19,6 +20,8 @@ mod plan;
 mod repl;
 mod run;
 mod scenario;
+mod speaker;
+mod synced;
 mod test;
 mod vehicle;
 

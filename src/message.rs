@@ -171,11 +171,16 @@ pub fn more(findings: &[Diagnostic]) {
 
 /// Prints an error that stands in no script.
 pub fn error(message: &str, help: Option<&str>) {
+    write(&error_text(message, help));
+}
+
+/// The same, for who prints it.
+pub fn error_text(message: &str, help: Option<&str>) -> String {
     let mut text = format!("error: {message}\n");
     if let Some(help) = help {
         text.push_str(&format!("  help: {help}\n"));
     }
-    write(&text);
+    text
 }
 
 /// Standard error may be closed: then nobody listens, and that is all.

@@ -65,7 +65,7 @@ impl Repl {
                 return Exit::Usage;
             }
         };
-        let interrupted = interruption::flag();
+        let interrupted = interruption::ctrl_c();
         if std::io::stdin().is_terminal() { typed(&mut prompt, &interrupted) } else { piped(&mut prompt, &interrupted) }
     }
 }

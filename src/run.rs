@@ -3,15 +3,17 @@
 use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
 use crate::kept::{Asked, Kept, Place, Record, Taken};
+use crate::live::Live;
 use crate::plan::{Choice, Faults, refused};
+use crate::synced::Synced;
 use crate::vehicle::told;
 use crate::{interruption, message, output};
-use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Summary, WrittenUrl};
+use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Sink, Summary, WrittenUrl};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Reports that are printed; the trace has all of them.
 const REPORTS_TOLD_MAX: usize = 20;
@@ -65,31 +67,25 @@ impl Run {
             Ok(prepared) => prepared,
             Err(exit) => return exit,
         };
+        let telling = Telling { json: self.json, on_link: self.link.is_some(), started };
         let interrupted = interruption::flag();
         let mut kept = match self.kept(&plan) {
             Ok(kept) => kept,
             Err(exit) => return exit,
         };
-        if let Some(journal) = kept.journal() {
-            run.with_journal(Box::new(journal), &self.changes());
+        let journal = kept.journal().map(|file| (Box::new(Synced::new(file)) as Sink, self.changes()));
+        if self.link.is_some() {
+            let bar = self.bar(&plan.program.mission.name);
+            return Live { bar, journal, interrupted, kept, telling }.run(run);
+        }
+        if let Some((journal, changes)) = journal {
+            run.with_journal(journal, &changes);
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
-        let summary = run.summary(now().duration_since(started).as_secs_f64());
-        if self.link.is_some() && outcome == Outcome::Failed {
-            message::error(&summary.reason, None);
-        }
+        let summary = run.summary(telling.wall_s());
         let picture = kept.finish(&run, &summary);
-        // Of a vehicle that was never heard there is no more to tell.
-        let begun = self.link.is_none() || outcome != Outcome::Failed || summary.ticks > 0;
-        if begun || self.json {
-            self.tell(&Told { summary: &summary, folder: kept.path() }, picture.as_deref());
-        }
-        match outcome {
-            _ if kept.has_failed() || run.release_failed() => Exit::Failed,
-            Outcome::Failed | Outcome::LinkLost => Exit::Failed,
-            Outcome::Completed => Exit::Well,
-            _ => Exit::NotWell,
-        }
+        telling.tell(&Told { summary: &summary, folder: kept.path() }, outcome, picture.as_deref());
+        Telling::exit(outcome, kept.has_failed() || run.release_failed())
     }
 
     /// The plan, and a run of it at its first tick: in a simulated world or on a link.
@@ -146,11 +142,10 @@ impl Run {
         })
     }
 
-    /// Ticks until the mission ends or the person interrupts it.
+    /// Ticks in a simulated world until the mission ends or the person interrupts it.
     fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut Kept, interrupted: &AtomicBool) -> Outcome {
         let bar = self.bar(&plan.program.mission.name);
-        // A vehicle at the end of a link has a time of its own.
-        let mut pace = self.rate.filter(|_| self.link.is_none()).map(Pace::new);
+        let mut pace = self.rate.map(Pace::new);
         loop {
             if let Some(pace) = &mut pace {
                 std::thread::sleep(pace.left(false));
@@ -161,11 +156,10 @@ impl Run {
                 kept.ticks();
             }
             if let Some(error) = run.journal_failure() {
-                bar.suspend(|| kept.journal_failed(&error));
+                bar.suspend(|| message::write(&kept.journal_failed(&error)));
             }
             for notice in run.take_notices() {
-                let teller = if self.link.is_some() { "link" } else { "vehicle" };
-                bar.suspend(|| message::write(&format!("{teller}: {notice}\n")));
+                bar.suspend(|| message::write(&format!("vehicle: {notice}\n")));
             }
             if let Running::Over(outcome) = running {
                 bar.finish_and_clear();
@@ -190,24 +184,57 @@ impl Run {
         bar.enable_steady_tick(Duration::from_millis(100));
         bar
     }
+}
 
-    fn tell(&self, told: &Told, picture: Option<&Path>) {
+/// How the result of a run is told.
+#[derive(Clone, Copy)]
+pub struct Telling {
+    json: bool,
+    on_link: bool,
+    started: Instant,
+}
+
+impl Telling {
+    /// Seconds since the run was asked for.
+    pub fn wall_s(&self) -> f64 {
+        now().duration_since(self.started).as_secs_f64()
+    }
+
+    /// Tells it.
+    pub fn tell(&self, told: &Told, outcome: Outcome, picture: Option<&Path>) {
+        let summary = told.summary;
+        let link_failed = self.on_link && outcome == Outcome::Failed;
+        if link_failed {
+            message::error(&summary.reason, None);
+        }
         if self.json {
             output::print_json(told);
-        } else {
-            output::print(&human(told.summary, picture));
+        } else if !link_failed || summary.ticks > 0 {
+            // Of a vehicle that was never heard there is no more to tell.
+            output::print(&human(summary, picture));
+        }
+    }
+
+    /// The exit code; `failed` tells whether something that was wanted could not be done besides.
+    pub fn exit(outcome: Outcome, failed: bool) -> Exit {
+        match outcome {
+            _ if failed => Exit::Failed,
+            Outcome::Failed | Outcome::LinkLost => Exit::Failed,
+            Outcome::Completed => Exit::Well,
+            _ => Exit::NotWell,
         }
     }
 }
 
 /// The result as a program reads it.
 #[derive(serde::Serialize)]
-struct Told<'a> {
+pub struct Told<'a> {
+    /// The result.
     #[serde(flatten)]
-    summary: &'a Summary,
+    pub summary: &'a Summary,
     /// Where the run's files are, if it has any.
     #[serde(skip_serializing_if = "Option::is_none")]
-    folder: Option<&'a Path>,
+    pub folder: Option<&'a Path>,
 }
 
 /// The result as a person reads it.

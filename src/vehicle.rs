@@ -3,8 +3,10 @@
 use crate::clock::{self, Pace};
 use crate::exit::Exit;
 use crate::plan::{Faults, refused, scenario_script};
+use crate::speaker::{Speaker, no_thread};
 use crate::{interruption, message};
 use albacore_session::{Dialect, FarEnd, LinkError, Rows, Transport, World, WrittenUrl};
+use indicatif::ProgressBar;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -57,16 +59,22 @@ impl Vehicle {
             Ok(open) => open,
             Err(error) => return told(&error, Exit::Failed),
         };
-        say(&far_end, &format!("link open at {at}"));
+        // A terminal that holds who writes must not hold the vehicle.
+        let mut speaker = match Speaker::new(ProgressBar::hidden()) {
+            Ok(speaker) => speaker,
+            Err(error) => return no_thread(&error),
+        };
+        say(&mut speaker, &far_end, &format!("link open at {at}"));
         let interrupted = interruption::flag();
-        let served = self.serve(&mut far_end, transport.as_mut(), &interrupted);
+        let served = self.serve(&mut far_end, transport.as_mut(), &interrupted, &mut speaker);
         if far_end.unreadable() > 0 {
-            say(&far_end, &format!("{} lines could not be read", far_end.unreadable()));
+            say(&mut speaker, &far_end, &format!("{} lines could not be read", far_end.unreadable()));
         }
-        match served {
-            Ok(()) => Exit::Well,
-            Err(error) => told(&error, Exit::Failed),
+        if let Err(error) = &served {
+            speaker.say(&message::error_text(&error.message, Some(&error.help)));
         }
+        let all_said = speaker.end();
+        if served.is_ok() && all_said { Exit::Well } else { Exit::Failed }
     }
 
     /// The vehicle, and what it says that it speaks.
@@ -85,6 +93,7 @@ impl Vehicle {
         far_end: &mut FarEnd,
         transport: &mut dyn Transport,
         interrupted: &AtomicBool,
+        speaker: &mut Speaker,
     ) -> Result<(), LinkError> {
         let mut pace = Pace::new(self.rate);
         let mut bytes = Vec::new();
@@ -103,7 +112,7 @@ impl Vehicle {
             transport.hold(far_end.is_driven());
             transport.send(&far_end.take_output())?;
             for happening in far_end.take_happenings() {
-                say(far_end, &happening.to_string());
+                say(speaker, far_end, &happening.to_string());
             }
         }
         Ok(())
@@ -111,8 +120,8 @@ impl Vehicle {
 }
 
 /// A line with the vehicle's time.
-fn say(far_end: &FarEnd, what: &str) {
-    message::write(&format!("{:8.1} s  {what}\n", far_end.ticks() as f64 / 10.0));
+fn say(speaker: &mut Speaker, far_end: &FarEnd, what: &str) {
+    speaker.say(&format!("{:8.1} s  {what}\n", far_end.ticks() as f64 / 10.0));
 }
 
 /// Tells what is wrong with the link.

@@ -1,11 +1,11 @@
 //! The journal of a run under way: kept as long as it can be written, and given up without harm to the run.
 
 use crate::run::{Ending, Step, TickRecord};
-use albacore_trace::journal::{Closing, JournalHeader, Writer};
+use albacore_trace::journal::{Closing, Gap, JournalHeader, Writer};
 use std::io;
 
 /// Where a journal's bytes go.
-pub(crate) type Sink = Box<dyn io::Write + Send>;
+pub type Sink = Box<dyn io::Write + Send>;
 
 /// A journal, or what became of it.
 #[derive(Default)]
@@ -36,6 +36,11 @@ impl Keeper {
                 self.writer = None;
             }
         }
+    }
+
+    /// Takes down what is missing.
+    pub(crate) fn gap(&mut self, gap: &Gap) {
+        self.write(|writer| writer.gap(gap));
     }
 
     /// What went wrong, told once.

@@ -38,9 +38,10 @@ pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read,
     standard_modules,
 };
+pub use journal::Sink;
 pub use link::{Called, call};
 pub use plan::{Plan, PlanError};
-pub use run::{Ending, Run, Running, Step, TickRecord};
+pub use run::{Ending, Lived, Means, Run, Running, Step, TickRecord, Told, WAITING_BYTES};
 pub use shown::{Shown, ShownClause, Whence};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, run_test};

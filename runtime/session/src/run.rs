@@ -3,6 +3,8 @@
 //! A driver decides what is commanded and hands on a record of each step; recorders fold over the records.
 
 mod driver;
+mod live;
+mod queue;
 mod record;
 mod recorder;
 mod report;
@@ -25,6 +27,7 @@ use recorder::Recorder;
 use report::Reports;
 use std::io;
 
+pub use live::{Lived, Means, Told, WAITING_BYTES};
 pub use record::{Ending, Step, TickRecord};
 
 /// A run under way.

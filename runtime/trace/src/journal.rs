@@ -1,7 +1,8 @@
 //! The journal: every tick's inputs, command and events, in a file that stays readable wherever the writing of it stops.
 //!
 //! A journal is eight bytes (`ALBJ` and the version of this form), then records one after the other: the first tells what
-//! is run, one follows for each tick, the last tells how it ended. A record is
+//! is run, one follows for each tick, the last tells how it ended. A run in real time does not wait for a disk: where ticks were
+//! not written, a record tells which, with the state of the machine after them, from which a replay can go on. A record is
 //!
 //! ```text
 //! length of the payload   3 bytes, least first, and a fourth that is wrong whenever one of the three is
@@ -18,12 +19,12 @@ mod write;
 pub use read::Reader;
 pub use write::Writer;
 
-use albacore_machine::{Event, Outcome};
+use albacore_machine::{Event, Outcome, State};
 use albacore_vehicle::{Channel, Command, Snapshot};
 use serde::{Deserialize, Serialize};
 
 /// The version of this form.
-pub const JOURNAL_VERSION: u32 = 1;
+pub const JOURNAL_VERSION: u32 = 2;
 
 /// How every journal begins.
 const MAGIC: [u8; 4] = *b"ALBJ";
@@ -78,6 +79,26 @@ pub struct Record {
     pub events: Vec<Event>,
 }
 
+/// Ticks that were not written: the disk did not take them in time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gap {
+    /// The first tick that is missing.
+    pub first: u64,
+    /// The last one.
+    pub last: u64,
+    /// The machine's state after it: a checkpoint.
+    pub state: Box<State>,
+}
+
+/// What stands between the beginning of a journal and its end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    /// A tick.
+    Tick(Record),
+    /// Ticks that were not written.
+    Gap(Gap),
+}
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Closing {
@@ -89,7 +110,7 @@ pub struct Closing {
     pub ticks: u64,
     /// What happened after the last tick, when the end came from outside the mission: a person, a vehicle that failed.
     pub events: Vec<Event>,
-    /// The digest of the full-rate run.
+    /// The digest of the full-rate run, with the ticks that were not written.
     pub digest: u64,
 }
 
@@ -98,8 +119,10 @@ pub struct Closing {
 pub struct Journal {
     /// What was run.
     pub header: JournalHeader,
-    /// Its ticks, in order and without gaps.
+    /// Its ticks, in order.
     pub records: Vec<Record>,
+    /// What is missing between them, in order: mostly nothing.
+    pub gaps: Vec<Gap>,
     /// How the journal ends.
     pub ending: Ending,
 }
@@ -139,9 +162,15 @@ impl Journal {
     /// Reads a whole journal. One that fits memory badly is better read tick by tick, with [`Reader`].
     pub fn read(bytes: &[u8]) -> Result<Self, Unreadable> {
         let mut reader = Reader::new(bytes)?;
-        let records: Vec<Record> = reader.by_ref().collect();
+        let (mut records, mut gaps) = (Vec::new(), Vec::new());
+        for entry in reader.by_ref() {
+            match entry {
+                Entry::Tick(record) => records.push(record),
+                Entry::Gap(gap) => gaps.push(gap),
+            }
+        }
         let header = reader.header().clone();
-        Ok(Journal { header, records, ending: reader.into_ending() })
+        Ok(Journal { header, records, gaps, ending: reader.into_ending() })
     }
 }
 
@@ -167,10 +196,11 @@ impl std::error::Error for Unreadable {}
 
 /// A payload as it is read.
 #[derive(Deserialize)]
-enum Entry {
+enum Payload {
     Header(JournalHeader),
     Tick(Record),
     Closing(Closing),
+    Gap(Gap),
 }
 
 /// A payload as it is written: the same form, from borrowed parts.
@@ -185,6 +215,7 @@ enum Written<'a> {
         events: &'a [Event],
     },
     Closing(&'a Closing),
+    Gap(&'a Gap),
 }
 
 /// The four bytes of a length.

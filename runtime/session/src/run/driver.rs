@@ -101,6 +101,12 @@ impl Driver {
         }
     }
 
+    /// Lets the next step end the run, whose machine may be in any state.
+    pub fn fail(&mut self, reason: &str) {
+        self.reason = reason.to_string();
+        self.next = Next::End(Cause::Mission(Outcome::Failed));
+    }
+
     /// One step: a look for the vehicle's next tick, the tick, or the end. On a link some hundredths of a second go by in it at
     /// most, and some seconds in the end.
     pub fn step(&mut self, record: &mut TickRecord) -> Running {

@@ -74,8 +74,26 @@ impl TickRecord {
         self.area.clear();
     }
 
+    /// About how much memory it takes.
+    pub(super) fn bytes(&self) -> usize {
+        let events: usize = self.events.iter().map(|event| size_of::<Event>() + said(event)).sum();
+        let notices: usize = self.notices.iter().map(|notice| size_of::<String>() + notice.len()).sum();
+        size_of::<Self>() + size_of_val(self.snapshot.samples.as_slice()) + events + notices
+    }
+
     /// Where the vehicle is, as well as that is known.
     pub(super) fn here(&self) -> Option<Point> {
         self.truth.map(|truth| truth.position).or(self.believed)
+    }
+}
+
+/// The bytes of what an event has to say.
+fn said(event: &Event) -> usize {
+    match event {
+        Event::Logged(text) | Event::Aborted(text) => text.len(),
+        Event::Reported(_, words) | Event::Remembered(_, words) | Event::Switched { values: words, .. } => {
+            size_of_val(words.as_slice())
+        }
+        _ => 0,
     }
 }

@@ -96,6 +96,15 @@ impl Recorder {
         }
     }
 
+    /// So many steps before a tick were not taken in.
+    pub fn miss(&mut self, steps: u64, tick: u64) {
+        if steps > 0 {
+            let notice = format!("{steps} ticks before this are not in trace and picture: the host was too slow");
+            self.trace.vehicle(tick, &notice);
+            self.notices.push(notice);
+        }
+    }
+
     /// What a person should hear of the link; taken once.
     pub fn take_notices(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)

@@ -1,8 +1,8 @@
 //! Reading a journal, as far as it is whole.
 
-use super::{Ending, Entry, Flaw, JOURNAL_VERSION, JournalHeader, MAGIC, Record, Unreadable, WORD, sealed};
+use super::{Ending, Entry, Flaw, Gap, JOURNAL_VERSION, JournalHeader, MAGIC, Payload, Unreadable, WORD, sealed};
 
-/// Gives the ticks of a journal one by one, and then how it ends.
+/// Gives the ticks of a journal and what is missing between them one by one, and then how it ends.
 pub struct Reader<'a> {
     bytes: &'a [u8],
     header: JournalHeader,
@@ -15,7 +15,7 @@ pub struct Reader<'a> {
 }
 
 /// What stands at a place instead of a record.
-enum Gap {
+enum Fault {
     Short(String),
     Wrong(String),
 }
@@ -36,10 +36,10 @@ impl<'a> Reader<'a> {
         }
         let start = MAGIC.len() + WORD;
         match record(bytes, start) {
-            Ok((Entry::Header(header), at)) => Ok(Reader { bytes, header, at, tick: 0, ending: None }),
+            Ok((Payload::Header(header), at)) => Ok(Reader { bytes, header, at, tick: 0, ending: None }),
             Ok(_) => Err(Unreadable::Damaged(flaw(start, "what is run"))),
-            Err(Gap::Short(expected)) => Err(Unreadable::CutShort(flaw(start, &expected))),
-            Err(Gap::Wrong(expected)) => Err(Unreadable::Damaged(flaw(start, &expected))),
+            Err(Fault::Short(expected)) => Err(Unreadable::CutShort(flaw(start, &expected))),
+            Err(Fault::Wrong(expected)) => Err(Unreadable::Damaged(flaw(start, &expected))),
         }
     }
 
@@ -59,36 +59,41 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads the record that comes next, unless it is no tick: then the journal ends, one way or the other.
-    fn advance(&mut self) -> Result<Record, Ending> {
+    fn advance(&mut self) -> Result<Entry, Ending> {
         let flaw = |expected: String| Flaw { at: self.at, expected };
         let next = format!("the record of tick {}", self.tick);
         match record(self.bytes, self.at) {
-            Ok((Entry::Tick(record), at)) if record.tick == self.tick => {
+            Ok((Payload::Tick(record), at)) if record.tick == self.tick => {
                 self.at = at;
-                self.tick += 1;
-                Ok(record)
+                self.tick = self.tick.saturating_add(1);
+                Ok(Entry::Tick(record))
+            }
+            Ok((Payload::Gap(gap), at)) if gap.first == self.tick && gap.last >= gap.first && follows(&gap) => {
+                self.at = at;
+                self.tick = gap.state.tick;
+                Ok(Entry::Gap(gap))
             }
             // A copy of the file's end behind itself, or of another file's, is made of records that are each whole.
-            Ok((Entry::Closing(closing), at)) if at == self.bytes.len() => Err(Ending::Complete(closing)),
-            Ok((Entry::Closing(_), at)) => {
+            Ok((Payload::Closing(closing), at)) if at == self.bytes.len() => Err(Ending::Complete(closing)),
+            Ok((Payload::Closing(_), at)) => {
                 Err(Ending::Damaged(Flaw { at, expected: "nothing more, behind the end of the run".into() }))
             }
             Ok(_) => Err(Ending::Damaged(flaw(next))),
-            Err(Gap::Short(expected)) => Err(Ending::CutShort(flaw(format!("{next}, {expected}")))),
-            Err(Gap::Wrong(expected)) => Err(Ending::Damaged(flaw(format!("{next}, {expected}")))),
+            Err(Fault::Short(expected)) => Err(Ending::CutShort(flaw(format!("{next}, {expected}")))),
+            Err(Fault::Wrong(expected)) => Err(Ending::Damaged(flaw(format!("{next}, {expected}")))),
         }
     }
 }
 
 impl Iterator for Reader<'_> {
-    type Item = Record;
+    type Item = Entry;
 
-    fn next(&mut self) -> Option<Record> {
+    fn next(&mut self) -> Option<Entry> {
         if self.ending.is_some() {
             return None;
         }
         match self.advance() {
-            Ok(record) => Some(record),
+            Ok(entry) => Some(entry),
             Err(ending) => {
                 self.ending = Some(ending);
                 None
@@ -97,27 +102,32 @@ impl Iterator for Reader<'_> {
     }
 }
 
+/// Whether a gap's checkpoint is of the tick after it.
+fn follows(gap: &Gap) -> bool {
+    gap.last.checked_add(1) == Some(gap.state.tick)
+}
+
 /// The record at a place, and the place behind it.
-fn record(bytes: &[u8], at: usize) -> Result<(Entry, usize), Gap> {
+fn record(bytes: &[u8], at: usize) -> Result<(Payload, usize), Fault> {
     let rest = bytes.get(at..).unwrap_or_default();
     let Some(head) = rest.get(..WORD) else {
-        return Err(Gap::Short("its length".into()));
+        return Err(Fault::Short("its length".into()));
     };
     let length = usize::from(head[0]) | usize::from(head[1]) << 8 | usize::from(head[2]) << 16;
     if head != sealed(length) {
-        return Err(Gap::Wrong("a length that agrees with its check".into()));
+        return Err(Fault::Wrong("a length that agrees with its check".into()));
     }
     let covered = WORD + length;
     let Some(check) = word(rest, covered) else {
         let missing = covered + WORD - rest.len();
-        return Err(Gap::Short(format!("{missing} bytes longer")));
+        return Err(Fault::Short(format!("{missing} bytes longer")));
     };
     if crc32fast::hash(&rest[..covered]) != check {
-        return Err(Gap::Wrong("bytes that agree with their check".into()));
+        return Err(Fault::Wrong("bytes that agree with their check".into()));
     }
     match postcard::take_from_bytes(&rest[WORD..covered]) {
         Ok((entry, [])) => Ok((entry, at + covered + WORD)),
-        _ => Err(Gap::Wrong("something that this version knows".into())),
+        _ => Err(Fault::Wrong("something that this version knows".into())),
     }
 }
 

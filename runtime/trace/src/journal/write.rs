@@ -1,6 +1,6 @@
 //! Writing a journal: one write call a record.
 
-use super::{Closing, JOURNAL_VERSION, JournalHeader, MAGIC, PAYLOAD_MAX, WORD, Written, sealed};
+use super::{Closing, Gap, JOURNAL_VERSION, JournalHeader, MAGIC, PAYLOAD_MAX, WORD, Written, sealed};
 use albacore_machine::Event;
 use albacore_vehicle::{Command, Snapshot};
 use std::io;
@@ -33,9 +33,15 @@ impl<W: io::Write> Writer<W> {
         self.append(&Written::Tick { tick, snapshot, command, events })
     }
 
-    /// Takes down the end of the run.
+    /// Takes down what is missing.
+    pub fn gap(&mut self, gap: &Gap) -> io::Result<()> {
+        self.append(&Written::Gap(gap))
+    }
+
+    /// Takes down the end of the run, and lets the sink hand on all that it has.
     pub fn close(&mut self, closing: &Closing) -> io::Result<()> {
-        self.append(&Written::Closing(closing))
+        self.append(&Written::Closing(closing))?;
+        self.sink.flush()
     }
 
     /// Writes a record behind the bytes that already wait for it.

@@ -1,0 +1,241 @@
+//! A run in real time: the driver on a thread of its own, which waits for the vehicle and for nothing else.
+//!
+//! Records go to two writers through queues that have bounds. The thread that calls folds those that are kept in memory;
+//! another writes the journal, and may be held by its disk as long as that likes. What a queue does not take is left out and
+//! counted: in the journal a gap is a record of its own, with a checkpoint.
+
+use super::queue::{Feed, Intake, queue};
+use super::record::{Step, TickRecord};
+use super::{Driver, Keeper, Recorder, Run, Running};
+use crate::journal::Sink;
+use albacore_machine::Outcome;
+use albacore_trace::journal::{Gap, JournalHeader};
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::Builder;
+use std::time::Duration;
+
+/// The most that waits for a writer: some two hours of ticks.
+pub const WAITING_BYTES: usize = 64 << 20;
+/// How long one look for a record or for a writer's progress takes.
+const LOOK: Duration = Duration::from_millis(50);
+/// After so many looks in which it has got nothing done, a writer is left: 3 s.
+const PATIENCE_LOOKS: u32 = 60;
+/// Ticks between two looks of the person at the progress.
+const PROGRESS_TICKS: u64 = 10;
+
+/// What a run in real time is done with.
+pub struct Means<'a> {
+    /// Where the journal goes, and the texts of the parameters changed for this run.
+    pub journal: Option<(Sink, Vec<String>)>,
+    /// Raised when the run is to end.
+    pub interrupted: Arc<AtomicBool>,
+    /// Hears what a person should; it must not wait.
+    pub tell: &'a mut dyn FnMut(Told<'_>),
+    /// The most bytes of records that wait for a writer: mostly [`WAITING_BYTES`].
+    pub waiting_bytes: usize,
+}
+
+/// What a person should hear of a run in real time.
+pub enum Told<'a> {
+    /// Of the vehicle, or its link.
+    Notice(&'a str),
+    /// Where the run is: its tick, and the names of the active activities from outside in.
+    Progress(u64, &'a [&'a str]),
+    /// The journal is given up.
+    JournalFailed(io::Error),
+    /// Now and then: there is nothing new.
+    Nothing,
+}
+
+/// A run in real time that is over.
+pub struct Lived {
+    /// The run.
+    pub run: Run,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Whether the journal's end is not written: for 3 s its disk had got nothing done.
+    pub journal_stalled: bool,
+}
+
+impl Run {
+    /// Runs to the end in the vehicle's time, on threads of its own. An error tells of a thread that could not be begun:
+    /// then nothing was sent.
+    pub fn live(self, means: Means<'_>) -> io::Result<Lived> {
+        let Means { journal, interrupted, tell, waiting_bytes } = means;
+        let (memory, records) = queue(waiting_bytes);
+        let mut lines = Lines { memory, unseen: 0, journal: None, gap: None };
+        let mut journalist = None;
+        if let Some((sink, set)) = journal {
+            let (feed, waits) = queue(waiting_bytes);
+            lines.journal = Some(feed);
+            journalist = Some(Journalist::begin(waits, self.header(&set), sink)?);
+        }
+        let Run { seed, driver, mut recorder, journal, record } = self;
+        let driving = Builder::new().name("driver".into()).spawn(move || drive(driver, &interrupted, lines))?;
+        fold(&mut recorder, &records, journalist.as_ref(), tell);
+        let driver = driving.join().map_err(|_| io::Error::other("the driver has panicked: report this"))?;
+        let journal_stalled = journalist.is_some_and(|journalist| !journalist.ends(tell));
+        let outcome = recorder.outcome.unwrap_or(Outcome::Failed);
+        Ok(Lived { run: Run { seed, driver, recorder, journal, record }, outcome, journal_stalled })
+    }
+}
+
+/// Steps to the end. A panic is a fault of the interpreter, and still no reason to leave a vehicle without its release.
+fn drive(mut driver: Driver, interrupted: &AtomicBool, mut lines: Lines) -> Driver {
+    loop {
+        if interrupted.load(Ordering::Relaxed) {
+            driver.interrupt();
+        }
+        let ending = driver.is_ending();
+        let mut record = TickRecord::default();
+        match catch_unwind(AssertUnwindSafe(|| driver.step(&mut record))) {
+            Ok(running) => {
+                lines.hand_on(record, &driver);
+                if running != Running::On {
+                    return driver;
+                }
+            }
+            Err(_) if ending => return driver,
+            Err(_) => driver.fail("the interpreter has panicked: report this"),
+        }
+    }
+}
+
+/// The ways from the driver to the writers.
+struct Lines {
+    memory: Feed<(u64, Arc<TickRecord>)>,
+    /// Steps since the last that went into memory.
+    unseen: u64,
+    journal: Option<Feed<Line>>,
+    /// The first tick that is not in the journal, while there is no room.
+    gap: Option<u64>,
+}
+
+/// What goes to the journal.
+enum Line {
+    Step(Arc<TickRecord>),
+    Gap(Gap),
+}
+
+impl Lines {
+    fn hand_on(&mut self, record: TickRecord, driver: &Driver) {
+        let is_wait = matches!(record.step, Step::Wait);
+        if is_wait && record.notices.is_empty() {
+            return;
+        }
+        let (bytes, is_end, record) = (record.bytes(), matches!(record.step, Step::End(_)), Arc::new(record));
+        if is_end || self.memory.has_room(bytes) {
+            self.memory.put(bytes, (std::mem::take(&mut self.unseen), Arc::clone(&record)));
+        } else {
+            self.unseen += 1;
+        }
+        if !is_wait {
+            self.write(bytes, is_end, record, driver);
+        }
+    }
+
+    fn write(&mut self, bytes: usize, is_end: bool, record: Arc<TickRecord>, driver: &Driver) {
+        let Some(journal) = &mut self.journal else { return };
+        if !(journal.has_room(bytes) || is_end) {
+            self.gap.get_or_insert(record.tick);
+            return;
+        }
+        if let Some(first) = self.gap.take() {
+            let state = Box::new(driver.machine().state().clone());
+            let checkpoint = size_of_val(&*state) + size_of_val(state.words.as_slice());
+            journal.put(checkpoint, Line::Gap(Gap { first, last: state.tick.saturating_sub(1), state }));
+            // A tick that finds room again is the last of the gap: the checkpoint is of the state after it.
+            if !is_end {
+                return;
+            }
+        }
+        journal.put(bytes, Line::Step(record));
+    }
+}
+
+/// Takes in what is kept in memory, and tells what a person should hear.
+fn fold(
+    recorder: &mut Recorder,
+    records: &Intake<(u64, Arc<TickRecord>)>,
+    journalist: Option<&Journalist>,
+    tell: &mut dyn FnMut(Told<'_>),
+) {
+    loop {
+        match records.take(LOOK) {
+            Ok((unseen, record)) => {
+                recorder.miss(unseen, record.tick);
+                recorder.take(&record);
+                for notice in recorder.take_notices() {
+                    tell(Told::Notice(&notice));
+                }
+                if matches!(record.step, Step::Tick) && record.tick.is_multiple_of(PROGRESS_TICKS) {
+                    let activities = &recorder.plan.program.activities;
+                    let names: Vec<&str> =
+                        record.active.iter().map(|id| activities[*id as usize].name.as_str()).collect();
+                    tell(Told::Progress(record.tick, &names));
+                }
+            }
+            Err(RecvTimeoutError::Timeout) => tell(Told::Nothing),
+            Err(RecvTimeoutError::Disconnected) => return,
+        }
+        if let Some(error) = journalist.and_then(|journalist| journalist.failures.try_recv().ok()) {
+            tell(Told::JournalFailed(error));
+        }
+    }
+}
+
+/// The thread that writes the journal, as seen from another.
+struct Journalist {
+    /// How many bytes wait for it.
+    level: Arc<AtomicUsize>,
+    /// Closed at its end.
+    failures: Receiver<io::Error>,
+}
+
+impl Journalist {
+    fn begin(waits: Intake<Line>, header: JournalHeader, sink: Sink) -> io::Result<Self> {
+        let (told, failures) = channel();
+        let level = waits.level();
+        Builder::new().name("journal".into()).spawn(move || write_all(&waits, &header, sink, &told))?;
+        Ok(Journalist { level, failures })
+    }
+
+    /// Waits for its end, as long as it gets anything done; whether it came.
+    fn ends(&self, tell: &mut dyn FnMut(Told<'_>)) -> bool {
+        let (mut level, mut looks) = (usize::MAX, 0);
+        while looks < PATIENCE_LOOKS {
+            match self.failures.recv_timeout(LOOK) {
+                Ok(error) => tell(Told::JournalFailed(error)),
+                Err(RecvTimeoutError::Disconnected) => return true,
+                Err(RecvTimeoutError::Timeout) => {
+                    let now = self.level.load(Ordering::Relaxed);
+                    looks = if now == level { looks + 1 } else { 0 };
+                    level = now;
+                }
+            }
+        }
+        false
+    }
+}
+
+/// Writes a journal to its end, or until it is given up.
+fn write_all(waits: &Intake<Line>, header: &JournalHeader, sink: Sink, told: &Sender<io::Error>) {
+    let mut keeper = Keeper::default();
+    keeper.begin(sink, header);
+    loop {
+        if let Some(error) = keeper.failure() {
+            // Nobody listens any more when the run is over.
+            let _ = told.send(error);
+        }
+        match waits.take(LOOK) {
+            Ok(Line::Step(record)) => keeper.take(&record),
+            Ok(Line::Gap(gap)) => keeper.gap(&gap),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return,
+        }
+    }
+}

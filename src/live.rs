@@ -1,0 +1,92 @@
+//! A run on a link, in real time: nothing here that may be held, a terminal or a disk, holds the driver.
+
+use crate::exit::Exit;
+use crate::interruption;
+use crate::kept::Kept;
+use crate::message;
+use crate::run::{self, Telling};
+use crate::speaker::{Speaker, no_thread, within};
+use albacore_session::{Lived, Means, Run, Sink, Told, WAITING_BYTES};
+use indicatif::ProgressBar;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// So long the disk has for trace and picture, when the vehicle is given back.
+const FILES: Duration = Duration::from_secs(10);
+/// ... and the terminal for the result.
+const RESULT: Duration = Duration::from_secs(2);
+
+const CTRL_Z: &str =
+    "Ctrl-Z would leave the vehicle without commands, and stops nothing here; Ctrl-C ends the mission\n";
+
+/// What a run on a link is done with.
+pub struct Live {
+    /// Shows the progress.
+    pub bar: ProgressBar,
+    /// Where the journal goes, and what was changed for this run.
+    pub journal: Option<(Sink, Vec<String>)>,
+    /// Raised when the run is to end.
+    pub interrupted: Arc<AtomicBool>,
+    /// The run's files.
+    pub kept: Kept,
+    /// How its result is told.
+    pub telling: Telling,
+}
+
+impl Live {
+    /// Runs to the end, gives the vehicle back, and then waits for terminal and disk no longer than is stated.
+    pub fn run(self, run: Run) -> Exit {
+        let Live { bar, journal, interrupted, mut kept, telling } = self;
+        let mut speaker = match Speaker::new(bar) {
+            Ok(speaker) => speaker,
+            Err(error) => return no_thread(&error),
+        };
+        let stopping = interruption::ctrl_z();
+        let mut tell = |told: Told<'_>| {
+            if stopping.swap(false, Ordering::Relaxed) {
+                speaker.say(CTRL_Z);
+            }
+            match told {
+                Told::Notice(notice) => speaker.say(&format!("link: {notice}\n")),
+                Told::Progress(tick, active) => {
+                    kept.ticks();
+                    speaker.progress(tick / 10, || active.join(" > "));
+                }
+                Told::JournalFailed(error) => speaker.say(&kept.journal_failed(&error)),
+                Told::Nothing => {}
+            }
+        };
+        let lived = run.live(Means { journal, interrupted, tell: &mut tell, waiting_bytes: WAITING_BYTES });
+        let Lived { run, outcome, journal_stalled } = match lived {
+            Ok(lived) => lived,
+            Err(error) => return no_thread(&error),
+        };
+        if journal_stalled {
+            speaker.say(&kept.journal_stalled());
+        }
+        let all_said = speaker.end();
+        let (summary, release_failed) = (run.summary(telling.wall_s()), run.release_failed());
+        let folder = kept.path().map(Path::to_path_buf);
+        let result = summary.clone();
+        let files = within(FILES, move || (kept.finish(&run, &result), kept.has_failed()));
+        let told = within(RESULT, move || {
+            let picture = match &files {
+                Some((picture, _)) => picture.as_deref(),
+                None => {
+                    let seconds = FILES.as_secs();
+                    message::error(
+                        &format!("trace and picture are not on the disk after {seconds} s: it is stalled"),
+                        None,
+                    );
+                    None
+                }
+            };
+            telling.tell(&run::Told { summary: &summary, folder: folder.as_deref() }, outcome, picture);
+            files.is_none_or(|(_, failed)| failed)
+        });
+        // A result that nobody could be told is a failure too.
+        Telling::exit(outcome, release_failed || !all_said || told.unwrap_or(true))
+    }
+}

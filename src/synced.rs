@@ -1,0 +1,46 @@
+//! A file whose bytes are on the disk, and not only in the system's memory, a second after they were written.
+
+use crate::clock::now;
+use std::fs::File;
+use std::io::{self, ErrorKind, Write};
+use std::time::{Duration, Instant};
+
+/// So long what was written may be lost with the machine's power.
+const STEP: Duration = Duration::from_secs(1);
+
+/// Writes at once, and lets the disk have it in steps. Who writes waits for the disk: no control loop should.
+pub struct Synced {
+    file: File,
+    due: Instant,
+}
+
+impl Synced {
+    /// Of an open file.
+    pub fn new(file: File) -> Self {
+        Synced { file, due: now() + STEP }
+    }
+
+    fn sync(&mut self) -> io::Result<()> {
+        let synced = self.file.sync_data();
+        self.due = now() + STEP;
+        match synced {
+            // A pipe or a device has no disk behind it.
+            Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::Unsupported) => Ok(()),
+            synced => synced,
+        }
+    }
+}
+
+impl Write for Synced {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        if now() >= self.due {
+            self.sync()?;
+        }
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.sync()
+    }
+}
