@@ -7,6 +7,7 @@ use albacore_link::recon::{FrontSeat, ReconVehicle, Route};
 use albacore_link::{LinkError, Transport, Url};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Handover, Snapshot, Vehicle, Vertical};
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
 
@@ -44,24 +45,45 @@ struct Wire {
     sent: Shared<String>,
 }
 
-/// A wire with a vehicle at its other end, which lives a tick in every look.
+/// The most that one look gives, as a terminal does: some states.
+const LOOK_BYTES: usize = 1000;
+/// A tick of the vehicle.
+const TICK: Duration = Duration::from_millis(100);
+
+/// A wire with a vehicle at its other end, whose time is that of who looks, and goes on while nobody does.
 struct Desk {
     wire: Arc<Wire>,
     far_end: FrontSeat<Simulator>,
     to_vehicle: Vec<u8>,
+    from_vehicle: VecDeque<u8>,
+    ticked: Duration,
+}
+
+impl Desk {
+    fn live(&mut self) {
+        while self.ticked + TICK <= self.wire.now.get() {
+            self.ticked += TICK;
+            self.far_end.tick(&std::mem::take(&mut self.to_vehicle)).unwrap();
+            let said = self.far_end.take_output();
+            if !self.wire.silent.get() {
+                self.from_vehicle.extend(said);
+            }
+        }
+    }
 }
 
 impl Transport for Desk {
-    fn receive(&mut self, into: &mut Vec<u8>, _wait: Duration) -> Result<(), LinkError> {
+    fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError> {
         if self.wire.cut.get() {
             return Err(LinkError::new("the line is gone", "plug it in"));
         }
-        self.wire.now.set(self.wire.now.get() + Duration::from_millis(100));
-        self.far_end.tick(&std::mem::take(&mut self.to_vehicle)).unwrap();
-        let said = self.far_end.take_output();
-        if !self.wire.silent.get() {
-            into.extend(said);
+        self.live();
+        if self.from_vehicle.is_empty() {
+            self.wire.now.set(self.wire.now.get() + wait);
+            self.live();
         }
+        let most = self.from_vehicle.len().min(LOOK_BYTES);
+        into.extend(self.from_vehicle.drain(..most));
         Ok(())
     }
 
@@ -85,7 +107,13 @@ fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
     let start = (Point::ORIGIN, Heading::NORTH);
     let far_end = FrontSeat::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0)).answering(handover);
     let wire = Arc::new(Wire::default());
-    let desk = Desk { wire: Arc::clone(&wire), far_end, to_vehicle: Vec::new() };
+    let desk = Desk {
+        wire: Arc::clone(&wire),
+        far_end,
+        to_vehicle: Vec::new(),
+        from_vehicle: VecDeque::new(),
+        ticked: Duration::ZERO,
+    };
     let clock = Arc::clone(&wire);
     let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
     (ReconVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())), wire)
@@ -269,4 +297,57 @@ fn a_vehicle_that_offers_takes_control_back_before_it_offers_again() {
     vehicle.take_over().unwrap();
     (0..10).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
     vehicle.release().unwrap();
+}
+
+/// The commands of the ticks that came while nobody looked, and of the next: each asks for a heading of its own.
+fn after_a_pause(ticks: u32) -> Vec<(Control, String)> {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    // The vehicle has taken up what it was asked for: nothing has to be said again.
+    (0..20).for_each(|_| {
+        vehicle.sense(&mut snapshot).unwrap();
+        vehicle.command(&AHEAD).unwrap();
+    });
+    wire.now.set(wire.now.get() + TICK * ticks);
+    wire.sent.take();
+    let mut said = Vec::new();
+    for i in 0..ticks + 3 {
+        vehicle.sense(&mut snapshot).unwrap();
+        vehicle.command(&Command { heading: Heading::from_degrees(f64::from(i)), ..AHEAD }).unwrap();
+        said.push((snapshot.control, wire.sent.take()));
+        if snapshot.control == Control::Released {
+            break;
+        }
+    }
+    said
+}
+
+#[test]
+fn after_a_pause_the_newest_command_alone_is_sent() {
+    let said = after_a_pause(40);
+    let late = said.iter().take_while(|(_, sent)| sent.is_empty()).count();
+    assert!((38..=40).contains(&late), "{late} late ticks in silence: {said:?}");
+    let newest = &said[late].1;
+    assert!(newest.starts_with(&format!("#C,Heading,Goal,{late}.0,")) && newest.lines().count() == 1, "{newest}");
+    assert!(said.iter().all(|(control, _)| *control == Control::InControl));
+}
+
+#[test]
+fn after_a_pause_nothing_is_sent_to_a_vehicle_that_has_left_override() {
+    // It leaves who is silent for 5 s.
+    let said = after_a_pause(60);
+    assert_eq!(said.last().unwrap().0, Control::Released);
+    assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{said:?}");
+}
+
+#[test]
+fn a_pause_of_ours_is_no_silence_of_the_vehicle() {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    wire.silent.set(true);
+    wire.now.set(wire.now.get() + Duration::from_secs(60));
+    vehicle.ready().unwrap();
+    wire.silent.set(false);
+    while snapshot.control == Control::InControl {
+        vehicle.sense(&mut snapshot).unwrap();
+    }
+    assert_eq!(snapshot.control, Control::Released, "it was heard again: {:?}", vehicle.notices());
 }

@@ -1,7 +1,7 @@
 //! The controller's side: a state machine of the bytes that come from the vehicle and the ticks that are taken from it.
 //!
-//! It has no clock. The vehicle's time stamps make the ticks, and everything that is sent is sent in one of them, so that the
-//! same bytes give the same run however late they are read.
+//! It has no clock. The vehicle's time stamps make the ticks, so that the same bytes give the same run however late they are read.
+//! What is sent is sent in the newest of them alone: a tick that is late asks for what the vehicle is past.
 
 use super::frame::{Deframer, seal};
 use super::goal::Goal;
@@ -30,6 +30,8 @@ const KEEP_ALIVE_TICKS: u64 = 10;
 const REQUEST_TICKS: u64 = 300;
 /// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
 const LEFT_TICKS: u64 = 3;
+/// So many late ticks one after the other are told.
+const LATE_TICKS: u64 = 10;
 /// Frames that wait for their tick; the oldest are given up.
 const WAITING_MAX: usize = 4096;
 /// Notices that wait to be read.
@@ -92,6 +94,10 @@ pub struct Controller {
     /// Ticks for which the vehicle has said that we do not drive, although we did.
     left: u64,
     goals: [Goal; 3],
+    /// Ticks whose commands came too late to be sent, since the last that was.
+    late: u64,
+    /// Whether the tick that was taken last was late.
+    was_late: bool,
     /// The tick in which something was said last.
     spoke: u64,
     out: Vec<u8>,
@@ -119,6 +125,8 @@ impl Controller {
             lost: false,
             left: 0,
             goals: Default::default(),
+            late: 0,
+            was_late: false,
             spoke: 0,
             out: Vec::new(),
             count: Count::default(),
@@ -160,6 +168,20 @@ impl Controller {
     /// Whether the vehicle's time has come to the next tick.
     pub fn is_due(&self) -> bool {
         self.lost || self.latest_tick.is_some_and(|latest| self.next_tick <= latest)
+    }
+
+    /// Whether the vehicle's time has gone on since the tick that was taken last.
+    fn is_late(&self) -> bool {
+        !self.lost && self.is_due()
+    }
+
+    /// Whether it is the vehicle's last word, of this tick or a later one, that we drive it.
+    fn is_ours(&self) -> bool {
+        let mode = self.heard.back().map_or(self.mode, |heard| heard.mode);
+        self.control == Control::InControl
+            && mode.phase() == Phase::InMission
+            && mode.has(Mode::ACTIVE)
+            && !mode.has(Mode::NOT_ALLOWED)
     }
 
     /// Takes in bytes, however they are cut.
@@ -290,11 +312,18 @@ impl Controller {
             self.goals = Default::default();
         }
         snapshot.control = self.control;
+        let is_late = self.is_late();
+        let was_late = std::mem::replace(&mut self.was_late, is_late);
+        if is_late {
+            return;
+        }
         match (self.want, self.control) {
             (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
             (Want::GiveBack, _) => self.say(&ToVehicle::Override(false)),
-            // The mission stands still, or has not begun: it commands nothing.
-            (Want::Drive { .. }, Control::InControl | Control::Suspended) if tick - self.spoke >= KEEP_ALIVE_TICKS => {
+            // The mission stands still, or has not begun: it commands nothing. After late ticks a command comes first.
+            (Want::Drive { .. }, Control::InControl | Control::Suspended)
+                if tick - self.spoke >= KEEP_ALIVE_TICKS && !was_late =>
+            {
                 self.hello();
             }
             _ => {}
@@ -375,10 +404,22 @@ impl Controller {
     }
 
     /// Sends what of a command has changed, was not taken up, or was sent half a second ago: one goal a tick, the one that has
-    /// waited longest, because vehicles lose datagrams that come at once.
+    /// waited longest, because vehicles lose datagrams that come at once. A command of a tick that is late is not sent, nor one
+    /// for a vehicle that has said meanwhile that we do not drive it.
     pub fn command(&mut self, command: &Command) {
-        if self.control != Control::InControl {
+        if !self.is_ours() {
             return;
+        }
+        if self.is_late() {
+            self.late += 1;
+            return;
+        }
+        let late = std::mem::take(&mut self.late);
+        if late >= LATE_TICKS {
+            let seconds = late as f64 * TICK_S;
+            self.notice(format!(
+                "we were {seconds:.1} s late: the commands of that time were left out, up to the newest"
+            ));
         }
         let vertical = match command.vertical {
             Vertical::Depth(depth) => ToVehicle::Depth(depth),

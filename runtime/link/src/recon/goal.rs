@@ -11,6 +11,8 @@ const UNCONFIRMED_TICKS: u64 = 2;
 const AGAIN_TICKS: u64 = 5;
 /// A goal that the vehicle has not taken up for this many ticks is one that it refuses.
 const IGNORED_TICKS: u64 = 30;
+/// Who has asked for nothing for this many ticks begins anew; fewer are ticks that came late.
+const BREAK_TICKS: u64 = 5;
 /// How far what the vehicle holds may be from what was asked: what a goal that moves comes to while it is on its way. In
 /// degrees (the command filter lets a heading turn by 10 a second), m, and m/s.
 const HEADING_SLACK_DEG: f64 = 10.0;
@@ -35,7 +37,7 @@ pub(super) struct Goal {
 impl Goal {
     /// Takes in what is asked in a tick; gives what to tell when the vehicle has not taken it up for too long.
     pub fn ask(&mut self, message: ToVehicle, now: u64) -> Option<String> {
-        let begins = self.last + 1 < now;
+        let begins = self.asked.is_none() || self.last + BREAK_TICKS < now;
         self.last = now;
         // A depth says nothing of an altitude.
         self.held = self.held.take().filter(|held| discriminant(held) == discriminant(&message));

@@ -12,6 +12,12 @@ pub type HostClock = Box<dyn FnMut() -> Duration + Send>;
 
 /// How long a look for bytes waits, so that who waits can do something else now and then.
 const LOOK: Duration = Duration::from_millis(10);
+/// Who has not looked for this long was stopped, or its machine slept: much of what comes then is old.
+const PAUSE: Duration = Duration::from_millis(500);
+/// After a pause all is there when nothing has come for this long: a terminal gives what waits in parts.
+const QUIET: Duration = Duration::from_millis(30);
+/// ... and in so many looks at most, because a vehicle at a high rate is never quiet.
+const LOOKS_MAX: u32 = 64;
 /// After this much of the host's time without a tick of the vehicle's time the link is lost.
 const SILENCE: Duration = Duration::from_secs(5);
 /// Until the vehicle is heard, it is greeted this often: a datagram has to come from somewhere to be answered.
@@ -30,6 +36,8 @@ pub struct ReconVehicle {
     silence: Duration,
     /// When the last tick of the vehicle's time came.
     ticked: Duration,
+    /// When we looked last for what has come.
+    looked: Duration,
     greeted: Option<Duration>,
     /// The transport has failed: nothing more can be said.
     broken: bool,
@@ -54,18 +62,38 @@ impl ReconVehicle {
             url,
             silence,
             ticked,
+            looked: ticked,
             greeted: None,
             broken: false,
         }
     }
 
-    /// Looks once for bytes, and sends what waits.
-    fn look(&mut self) -> Result<(), VehicleError> {
+    /// Looks once for bytes; whether any came.
+    fn look(&mut self, wait: Duration) -> Result<bool, VehicleError> {
         let mut bytes = Vec::new();
-        let received = self.transport.receive(&mut bytes, LOOK);
+        let received = self.transport.receive(&mut bytes, wait);
         self.controller.hear(&bytes);
         received.or_else(|error| self.fail(error))?;
-        self.send()
+        Ok(!bytes.is_empty())
+    }
+
+    /// Takes in all that has come, so that the last word is known before we speak. After a pause what is still on its way
+    /// through the system is waited for, and only time in which we listened counts as silence.
+    fn catch_up(&mut self) -> Result<(), VehicleError> {
+        let now = (self.clock)();
+        let away = now.saturating_sub(self.looked);
+        let paused = away >= PAUSE;
+        if paused {
+            self.ticked = (self.ticked + away).min(now);
+        }
+        let wait = if paused { QUIET } else { Duration::ZERO };
+        for _ in 0..LOOKS_MAX {
+            if !self.look(wait)? {
+                break;
+            }
+        }
+        self.looked = (self.clock)();
+        Ok(())
     }
 
     fn send(&mut self) -> Result<(), VehicleError> {
@@ -119,8 +147,9 @@ impl Vehicle for ReconVehicle {
         if matches!(self.controller.control(), Control::Released | Control::TimedOut) {
             return Err(VehicleError(format!("before the mission began: {}", self.controller.why())));
         }
+        self.catch_up()?;
         if !self.controller.is_due() {
-            self.look()?;
+            self.look(LOOK)?;
         }
         let now = (self.clock)();
         if self.controller.is_due() {
@@ -167,6 +196,7 @@ impl Vehicle for ReconVehicle {
         if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
             return Err(VehicleError("a command that is no finite number was not sent to the vehicle".into()));
         }
+        self.catch_up()?;
         self.controller.command(command);
         self.send()
     }
@@ -199,7 +229,8 @@ impl Vehicle for ReconVehicle {
                         .into(),
                 ));
             }
-            self.look()?;
+            self.send()?;
+            self.look(LOOK)?;
         }
     }
 

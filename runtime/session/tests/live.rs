@@ -1,0 +1,216 @@
+//! A run in real time: no writer holds the driver, what is left out is told, and nothing else differs from a run that is stepped.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot set up its own run has failed")]
+
+use albacore_machine::Machine;
+use albacore_session::{Lived, Means, Outcome, Plan, Run, Sink, Told, WAITING_BYTES, load};
+use albacore_sim::Simulator;
+use albacore_trace::journal::{Ending, Journal};
+use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError};
+use std::io;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex};
+
+fn plan() -> Plan {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions/box.alb");
+    let script = load(&path, None, &[]).unwrap();
+    Plan::new(&script, "box.alb", None, None).unwrap()
+}
+
+/// What the test and the vehicle both hold.
+#[derive(Default)]
+struct Dock {
+    /// Ticks that may go by.
+    allowed: AtomicU64,
+    commands: AtomicU64,
+    released: AtomicBool,
+    /// The command in which the vehicle's driver panics; none at 0.
+    panics_at: u64,
+}
+
+/// A simulated vehicle whose time is the test's.
+struct Paced {
+    vehicle: Simulator,
+    dock: Arc<Dock>,
+    ticks: u64,
+}
+
+impl Vehicle for Paced {
+    fn channels(&self) -> &[Channel] {
+        self.vehicle.channels()
+    }
+
+    fn ready(&mut self) -> Result<bool, VehicleError> {
+        if self.ticks < self.dock.allowed.load(Ordering::SeqCst) {
+            return Ok(true);
+        }
+        std::thread::yield_now();
+        Ok(false)
+    }
+
+    fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
+        self.ticks += 1;
+        self.vehicle.sense(snapshot)
+    }
+
+    fn take_over(&mut self) -> Result<(), VehicleError> {
+        self.vehicle.take_over()
+    }
+
+    fn command(&mut self, command: &Command) -> Result<(), VehicleError> {
+        let count = self.dock.commands.fetch_add(1, Ordering::SeqCst) + 1;
+        assert_ne!(count, self.dock.panics_at, "out of water");
+        self.vehicle.command(command)
+    }
+
+    fn give_back(&mut self) -> Result<(), VehicleError> {
+        self.vehicle.give_back()
+    }
+
+    fn release(&mut self) -> Result<(), VehicleError> {
+        self.dock.released.store(true, Ordering::SeqCst);
+        self.vehicle.release()
+    }
+
+    fn notices(&mut self) -> Vec<String> {
+        self.vehicle.notices()
+    }
+}
+
+fn run(plan: &Plan, dock: &Arc<Dock>) -> Run {
+    let vehicle = Simulator::new(&plan.scenario, 1).unwrap();
+    Run::on_link(plan, 1, Box::new(Paced { vehicle, dock: Arc::clone(dock), ticks: 0 })).unwrap()
+}
+
+/// A disk that takes nothing while it is stalled.
+#[derive(Clone, Default)]
+struct Disk(Arc<(Mutex<(Vec<u8>, bool)>, Condvar)>);
+
+impl Disk {
+    fn stall(&self, stalled: bool) {
+        self.0.0.lock().unwrap().1 = stalled;
+        self.0.1.notify_all();
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        self.0.0.lock().unwrap().0.clone()
+    }
+}
+
+impl io::Write for Disk {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let state = self.0.0.lock().unwrap();
+        let mut state = self.0.1.wait_while(state, |(_, stalled)| *stalled).unwrap();
+        state.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn live(run: Run, disk: &Disk, waiting_bytes: usize, tell: &mut dyn FnMut(Told<'_>, &AtomicBool)) -> Lived {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    let journal: Sink = Box::new(disk.clone());
+    let mut tell = |told: Told<'_>| tell(told, &flag);
+    run.live(Means { journal: Some((journal, Vec::new())), interrupted, tell: &mut tell, waiting_bytes }).unwrap()
+}
+
+const FREE: u64 = u64::MAX;
+
+#[test]
+fn a_live_run_leaves_the_same_bytes_as_one_that_is_stepped() {
+    let plan = plan();
+    let dock = || Arc::new(Dock { allowed: AtomicU64::new(FREE), ..Dock::default() });
+    let stepped = Disk::default();
+    let mut by_step = run(&plan, &dock());
+    by_step.with_journal(Box::new(stepped.clone()), &[]);
+    let outcome = by_step.to_end();
+    let disk = Disk::default();
+    let lived = live(run(&plan, &dock()), &disk, WAITING_BYTES, &mut |_, _| {});
+    assert_eq!((lived.outcome, lived.journal_stalled), (outcome, false));
+    assert!(disk.bytes() == stepped.bytes(), "the journals differ");
+    assert_eq!(lived.run.trace().to_string(), by_step.trace().to_string());
+    assert_eq!(lived.run.summary(0.0), by_step.summary(0.0));
+    assert_eq!(lived.run.svg(), by_step.svg());
+}
+
+#[test]
+fn a_stalled_disk_holds_no_command_and_leaves_a_gap_with_a_checkpoint() {
+    const STALLED: u64 = 1000;
+    const ENDS: u64 = 2000;
+    let plan = plan();
+    let dock = Arc::new(Dock { allowed: AtomicU64::new(STALLED), ..Dock::default() });
+    let disk = Disk::default();
+    disk.stall(true);
+    let (mut before, mut quiet) = (0, 0);
+    let lived = live(run(&plan, &dock), &disk, 50_000, &mut |told, interrupted| match told {
+        // All that could be commanded was, with nothing written.
+        Told::Nothing if dock.commands.load(Ordering::SeqCst) + 50 < STALLED => {}
+        Told::Nothing if before == 0 => {
+            assert!(disk.bytes().is_empty());
+            disk.stall(false);
+            before = 1;
+        }
+        // What waited is written; then time goes on.
+        Told::Nothing => {
+            let now = disk.bytes().len();
+            quiet = if now == before { quiet + 1 } else { 0 };
+            before = now;
+            if quiet >= 5 {
+                dock.allowed.store(ENDS, Ordering::SeqCst);
+            }
+            if dock.commands.load(Ordering::SeqCst) + 50 >= ENDS {
+                interrupted.store(true, Ordering::SeqCst);
+            }
+        }
+        Told::JournalFailed(error) => panic!("{error}"),
+        Told::Notice(_) | Told::Progress(..) => {}
+    });
+    assert_eq!((lived.outcome, lived.journal_stalled), (Outcome::Interrupted, false));
+    assert!(dock.released.load(Ordering::SeqCst));
+    let journal = Journal::read(&disk.bytes()).unwrap();
+    let Ending::Complete(closing) = &journal.ending else { panic!("{:?}", journal.ending) };
+    assert_eq!(format!("{:016x}", closing.digest), lived.run.summary(0.0).digest, "of all ticks");
+    let [gap, ..] = journal.gaps.as_slice() else { panic!("there is no gap") };
+    assert!(gap.first > 10 && (STALLED..STALLED + 50).contains(&gap.last), "{} to {}", gap.first, gap.last);
+    let missing: u64 = journal.gaps.iter().map(|gap| gap.last - gap.first + 1).sum();
+    assert_eq!(journal.records.len() as u64 + missing, closing.ticks);
+
+    // A replay goes on from the checkpoint.
+    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.channels).unwrap();
+    machine.restore((*gap.state).clone());
+    let until = journal.gaps.get(1).map_or(u64::MAX, |next| next.first);
+    let after: Vec<_> = journal.records.iter().filter(|r| r.tick > gap.last && r.tick < until).collect();
+    assert!(after.len() > 500, "{} ticks", after.len());
+    for record in after {
+        assert_eq!(machine.step(&record.snapshot), record.command, "tick {}", record.tick);
+        assert_eq!(machine.events(), record.events, "tick {}", record.tick);
+    }
+}
+
+#[test]
+fn a_disk_that_stays_stalled_does_not_hold_the_end() {
+    let dock = Arc::new(Dock { allowed: AtomicU64::new(FREE), ..Dock::default() });
+    let disk = Disk::default();
+    disk.stall(true);
+    let lived = live(run(&plan(), &dock), &disk, WAITING_BYTES, &mut |_, _| {});
+    assert_eq!((lived.outcome, lived.journal_stalled), (Outcome::Completed, true));
+    assert!(dock.released.load(Ordering::SeqCst));
+    disk.stall(false);
+}
+
+#[test]
+fn a_panic_gives_the_vehicle_back() {
+    let dock = Arc::new(Dock { allowed: AtomicU64::new(FREE), panics_at: 100, ..Dock::default() });
+    let disk = Disk::default();
+    let lived = live(run(&plan(), &dock), &disk, WAITING_BYTES, &mut |_, _| {});
+    assert_eq!(lived.outcome, Outcome::Failed);
+    assert!(dock.released.load(Ordering::SeqCst));
+    assert!(lived.run.summary(0.0).reason.contains("panicked"));
+    let journal = Journal::read(&disk.bytes()).unwrap();
+    assert!(matches!(journal.ending, Ending::Complete(_)), "{:?}", journal.ending);
+}
