@@ -64,10 +64,24 @@ pub fn ctrl_z() -> Arc<AtomicBool> {
     Arc::new(AtomicBool::new(false))
 }
 
+/// The signals that whoever began the program wants it to be deaf to, as `nohup` does: a bit for each.
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
+}
+
+/// Whether a request is heard. Ctrl-C and the request to terminate always are: a shell ignores the first for what it begins in
+/// the background.
+fn is_heard(request: i32, ignored: u64) -> bool {
+    matches!(request, signal::SIGINT | signal::SIGTERM) || ignored >> (request - 1) & 1 == 0
+}
+
 fn raised_by(requests: &[i32]) -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
+    let ignored = ignored();
     // Without handlers a signal ends the program at once, as it does any other.
-    let Ok(mut signals) = Signals::new(requests) else { return interrupted };
+    let Ok(mut signals) = Signals::new(requests.iter().filter(|request| is_heard(**request, ignored))) else { return interrupted };
     let flag = Arc::clone(&interrupted);
     let handle = signals.handle();
     // This thread waits for signals and for nothing else: it must not write, for a terminal may hold who writes.
