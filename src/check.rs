@@ -44,7 +44,9 @@ impl Check {
                     if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
                         exit = Exit::Script;
                         wrong.extend(findings);
-                    } else if self.cost {
+                    }
+                    // A mission that costs too much is an error, and the one whose bill is wanted.
+                    if self.cost {
                         cost::tell(&script);
                     }
                 }

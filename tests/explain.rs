@@ -16,12 +16,13 @@ const PAGE_LINES_MAX: usize = 40;
 const PAGE_COLUMNS_MAX: usize = 80;
 
 /// What no single script can show: several files, the command line, the prompt, or a script longer than a page.
-const IN_WORDS: [&str; 12] = [
+const IN_WORDS: [&str; 13] = [
     "areas::file",
     "imports::cycle",
     "imports::many",
     "imports::twice",
     "limits::calls",
+    "limits::instructions",
     "prompt::misplaced",
     "prompt::value",
     "set::form",

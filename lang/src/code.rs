@@ -84,9 +84,12 @@ codes! {
     limits {
         LimitsCalls = "calls",
         LimitsConstants = "constants",
+        LimitsInstructions = "instructions",
         LimitsMemory = "memory",
         LimitsRange = "range",
+        LimitsRecord = "record",
         LimitsSetpoint = "setpoint",
+        LimitsSteps = "steps",
     }
     missions {
         MissionsArea = "area",

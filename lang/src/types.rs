@@ -151,8 +151,34 @@ impl TypeTable {
         }
     }
 
-    /// How many words a value of a type takes.
+    /// How many words a value of a type takes. What no program can hold takes the most that can be counted.
     pub fn words(&self, ty: &Type) -> u32 {
-        self.shape(ty).words()
+        match ty {
+            Type::Record(id) => {
+                let fields = self.records[*id].fields.iter();
+                fields.fold(0, |words: u32, (_, ty)| words.saturating_add(self.words(ty)))
+            }
+            Type::Optional(inner) => self.words(inner).saturating_add(1),
+            Type::List(inner, capacity) => self.words(inner).saturating_mul(*capacity).saturating_add(1),
+            simple => self.shape(simple).words(),
+        }
+    }
+
+    /// Whether a type is made of so few parts: its fields, and theirs.
+    pub fn has_parts_at_most(&self, ty: &Type, most: usize) -> bool {
+        let mut left = most;
+        let mut ahead = vec![ty];
+        while let Some(ty) = ahead.pop() {
+            if left == 0 {
+                return false;
+            }
+            left -= 1;
+            match ty {
+                Type::Record(id) => ahead.extend(self.records[*id].fields.iter().map(|(_, ty)| ty)),
+                Type::Optional(inner) | Type::List(inner, _) => ahead.push(inner),
+                _ => {}
+            }
+        }
+        true
     }
 }

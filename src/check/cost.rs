@@ -1,14 +1,14 @@
 //! `check --cost`: a table for each mission.
 
 use crate::output;
-use albacore_session::{Cost, Script};
+use albacore_session::{Cost, Script, grouped as number};
 
 /// Shares and loops beneath this many lines are summed up.
 const LINES: usize = 8;
 
-/// Tells what the missions of a sound script cost.
+/// Tells what the missions of a script cost, but for those with other mistakes than their cost.
 pub fn tell(script: &Script) {
-    for mission in script.missions() {
+    for mission in script.missions().filter(|mission| script.mission_is_sound(&mission.name)) {
         if let Some(Ok(cost)) = script.cost(&mission.name) {
             output::print(&table(&mission.name, &cost));
         }
@@ -20,13 +20,16 @@ fn table(mission: &str, cost: &Cost) -> String {
         "{mission}: at most {} steps a tick, {} of memory, {} instructions\n",
         number(cost.steps),
         bytes(cost.memory.bytes),
-        number(cost.instructions as u64)
+        number(cost.instructions)
     );
     let rows = cost
         .parts
         .iter()
         .map(|part| (number(part.steps), percent(part.steps, cost.steps), part.name.clone(), part.place.clone()));
     section(&mut out, "steps of the dearest tick", rows.collect());
+    let rows = cost.functions.iter();
+    let rows = rows.map(|part| (number(part.steps), String::new(), part.name.clone(), part.place.clone()));
+    section(&mut out, "functions, the steps of a call", rows.collect());
     let rows = cost.loops.iter().map(|round| {
         let name = format!("a loop, {} rounds at most", number(round.rounds));
         (number(round.steps), String::new(), name, round.place.clone())
@@ -68,19 +71,6 @@ fn section(out: &mut String, title: &str, rows: Vec<(String, String, String, Str
 
 fn percent(part: u64, whole: u64) -> String {
     format!("{:.0} %", 100.0 * part as f64 / whole.max(1) as f64)
-}
-
-/// A number with its thousands apart.
-fn number(n: u64) -> String {
-    let digits = n.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
 }
 
 fn bytes(n: u64) -> String {

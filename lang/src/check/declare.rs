@@ -1,14 +1,18 @@
 //! The first pass: what every module declares, before any body is looked at.
 
-use super::{Checker, ClauseInfo, Def, Lazy, Scope, Setting, Signature};
+use super::{Checker, ClauseInfo, Def, Lazy, Module, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Interval};
 use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
 use crate::types::{EnumInfo, RecordInfo, Type};
+use std::collections::BTreeSet;
 
 /// A constant waits for so many others at most that are declared after it.
 const WAITING_MAX: usize = 16;
+
+/// Fields of a record at most, with those of the records that it holds.
+const PARTS_MAX: usize = 256;
 
 impl<'t> Checker<'t> {
     pub(super) fn run(&mut self) {
@@ -24,6 +28,7 @@ impl<'t> Checker<'t> {
                 self.declare_types(m, item);
             }
         }
+        self.records_are_small(modules);
         for (m, module) in modules.iter().enumerate() {
             for item in &module.tree.items {
                 self.declare_signature(m, item);
@@ -73,6 +78,7 @@ impl<'t> Checker<'t> {
             let result = signature.result.clone().unwrap_or(Type::Unknown);
             self.hir.fns.push(hir::Function {
                 name: signature.name.clone(),
+                span: signature.span,
                 vars: Vec::new(),
                 params: 0,
                 result,
@@ -181,7 +187,7 @@ impl<'t> Checker<'t> {
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Record(id)) = self.names[m].get(&name.node) {
                     self.types.records[id].fields = fields;
-                    if self.holds_itself(id, &mut Vec::new()) {
+                    if self.holds_itself(id) {
                         self.types.records[id].fields.clear();
                         let message = format!("the record `{}` would hold itself", name.node);
                         let finding = Diagnostic::error(Code::TypesRecursive, name.span, message);
@@ -212,20 +218,44 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn holds_itself(&self, id: usize, path: &mut Vec<usize>) -> bool {
-        if path.contains(&id) {
-            return true;
-        }
-        path.push(id);
-        let found = self.types.records[id].fields.iter().any(|(_, ty)| {
-            let mut ty = ty;
-            while let Type::Optional(inner) | Type::List(inner, _) = ty {
-                ty = inner;
+    fn holds_itself(&self, id: usize) -> bool {
+        let mut seen = BTreeSet::new();
+        let mut ahead = vec![id];
+        while let Some(record) = ahead.pop() {
+            for (_, ty) in &self.types.records[record].fields {
+                let mut ty = ty;
+                while let Type::Optional(inner) | Type::List(inner, _) = ty {
+                    ty = inner;
+                }
+                match ty {
+                    Type::Record(inner) if *inner == id => return true,
+                    Type::Record(inner) if seen.insert(*inner) => ahead.push(*inner),
+                    _ => {}
+                }
             }
-            matches!(ty, Type::Record(inner) if self.holds_itself(*inner, path))
-        });
-        path.pop();
-        found
+        }
+        false
+    }
+
+    /// Records of records grow with each level: what is made of too many parts keeps none, so that no walk over a type is
+    /// long.
+    fn records_are_small(&mut self, modules: &'t [Module]) {
+        for (m, module) in modules.iter().enumerate() {
+            for item in &module.tree.items {
+                if let Item::Record { name, .. } = item
+                    && let Some(&Def::Record(id)) = self.names[m].get(&name.node)
+                    && !self.types.has_parts_at_most(&Type::Record(id), PARTS_MAX)
+                {
+                    self.types.records[id].fields.clear();
+                    let message = format!("the record `{}` has more than {PARTS_MAX} parts", name.node);
+                    self.report(
+                        Diagnostic::error(Code::LimitsRecord, name.span, message)
+                            .here("with those of the records that it holds")
+                            .help("hold fewer records in one another, or keep several of a kind in a list"),
+                    );
+                }
+            }
+        }
     }
 
     fn declare_signature(&mut self, m: usize, item: &'t Item) {

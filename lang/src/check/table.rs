@@ -9,6 +9,7 @@ use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
 use crate::source::Span;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
+use std::collections::BTreeMap;
 
 impl<'t> Checker<'t> {
     pub(super) fn table(
@@ -249,7 +250,7 @@ impl<'t> Checker<'t> {
             let only_back =
                 rules.iter().all(|r| !matches!(r.target, Target::Behavior(to) if to == i) || r.back) && i != start;
             let ends = match &hir.activities[behaviors[i]].body {
-                Body::Sequence(block) => can_end(block, hir, &mut Vec::new()),
+                Body::Sequence(block) => can_end(block, hir, &mut BTreeMap::new()),
                 _ => false,
             };
             let leaving: Vec<&Rule> = rules.iter().filter(|r| r.sources.contains(&i)).collect();
@@ -288,17 +289,25 @@ impl<'t> Checker<'t> {
                     );
                 }
             }
-            self.shadowed(&leaving, name);
         }
+        self.shadowed(rules, &names);
     }
 
     /// A rule after one of the same source whose guard always holds is never tried.
-    fn shadowed(&mut self, leaving: &[&Rule], name: &tree::Name) {
-        for (k, later) in leaving.iter().enumerate() {
-            let shadow = leaving[..k]
+    fn shadowed(&mut self, rules: &[Rule], names: &[tree::Name]) {
+        for (k, later) in rules.iter().enumerate() {
+            let shares = |earlier: &Rule| earlier.sources.iter().any(|source| later.sources.contains(source));
+            let shadows: Vec<&Rule> = rules[..k]
                 .iter()
-                .find(|earlier| earlier.sources.len() >= later.sources.len() && same_condition(&earlier.on, &later.on));
-            if let Some(earlier) = shadow {
+                .filter(|earlier| earlier.sources.len() >= later.sources.len() && shares(earlier))
+                .filter(|earlier| same_condition(&earlier.on, &later.on))
+                .collect();
+            for source in &later.sources {
+                let (Some(name), Some(earlier)) =
+                    (names.get(*source), shadows.iter().find(|earlier| earlier.sources.contains(source)))
+                else {
+                    continue;
+                };
                 self.report(
                     Diagnostic::error(
                         Code::RulesShadowed,
@@ -316,21 +325,24 @@ impl<'t> Checker<'t> {
 /// Whether a mission's statements never come to their end by themselves.
 pub fn never_ends(hir: &hir::Hir, mission: usize) -> bool {
     match &hir.activities[mission].body {
-        Body::Sequence(block) => !can_end(block, hir, &mut Vec::new()),
+        Body::Sequence(block) => !can_end(block, hir, &mut BTreeMap::new()),
         _ => false,
     }
 }
 
-/// Whether a body can come to its end. `path` holds the activities that are being asked already: recursion is an error of
+/// The activities of which is known whether they never end, those that are being asked among them: recursion is an error of
 /// its own.
-fn can_end(block: &hir::Block, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
+type Known = BTreeMap<usize, bool>;
+
+/// Whether a body can come to its end.
+fn can_end(block: &hir::Block, hir: &hir::Hir, known: &mut Known) -> bool {
     if flow::leaves(block) {
         return finishes(block);
     }
     !block.stmts.iter().any(|stmt| match &stmt.kind {
         // A statement that never ends by itself and is not bounded.
-        hir::StmtKind::Timed(timed) => endless(timed, hir, path),
-        hir::StmtKind::With(_, body) => !can_end(body, hir, path),
+        hir::StmtKind::Timed(timed) => endless(timed, hir, known),
+        hir::StmtKind::With(_, body) => !can_end(body, hir, known),
         hir::StmtKind::Loop(_) => true,
         _ => false,
     })
@@ -345,19 +357,22 @@ fn finishes(block: &hir::Block) -> bool {
     })
 }
 
-fn endless(timed: &hir::Timed, hir: &hir::Hir, path: &mut Vec<usize>) -> bool {
+fn endless(timed: &hir::Timed, hir: &hir::Hir, known: &mut Known) -> bool {
     match &timed.action {
         _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
         hir::Action::Guide(..) | hir::Action::Keep(..) | hir::Action::Watch | hir::Action::Override(_) => {
             flow::endless(timed)
         }
         hir::Action::Call(id, _) => match &hir.activities[*id].body {
-            Body::Sequence(block) if !path.contains(id) => {
-                path.push(*id);
-                let endless = !can_end(block, hir, path);
-                path.pop();
-                endless
-            }
+            Body::Sequence(block) => match known.get(id) {
+                Some(endless) => *endless,
+                None => {
+                    known.insert(*id, false);
+                    let endless = !can_end(block, hir, known);
+                    known.insert(*id, endless);
+                    endless
+                }
+            },
             // A strategy ends by a rule alone.
             Body::Table { behaviors, rules, .. } => {
                 !behaviors.is_empty() && !rules.iter().any(|rule| matches!(rule.target, Target::Finish(_)))

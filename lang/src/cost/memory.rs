@@ -2,12 +2,12 @@
 
 use super::places;
 use crate::hir::Hir;
-use crate::source::Sources;
-use albacore_program::{Input, Program};
-use std::collections::BTreeMap;
+use crate::lower::Lowered;
+use crate::source::{Sources, Span};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The bytes of a number.
-const WORD: u64 = 8;
+pub(super) const WORD: u64 = 8;
 
 /// What a mission keeps from tick to tick, in bytes.
 #[derive(Clone, Debug)]
@@ -29,47 +29,52 @@ pub struct Held {
     pub name: String,
     /// Where it is declared, `file:line`.
     pub place: String,
+    /// And in the source.
+    pub span: Span,
     /// For how many places that begin it: each has room of its own.
     pub places: u64,
     /// The bytes of all of them; what it calls is not among them.
     pub bytes: u64,
 }
 
-/// `units` are the words of each activity's frame, what it calls included.
-pub(super) fn of_mission(
-    hir: &Hir,
-    sources: &Sources,
-    mission: usize,
-    program: &Program,
-    units: &BTreeMap<usize, u32>,
-) -> Memory {
-    let mut places: BTreeMap<usize, u64> = BTreeMap::new();
-    count(hir, mission, 1, &mut places);
-    let words = |id: usize| u64::from(units.get(&id).copied().unwrap_or(0));
-    let mut held: Vec<Held> = places
-        .iter()
-        .map(|(&id, &places)| {
-            let inside: u64 = places::begun(hir, id).into_iter().map(words).sum();
+pub(super) fn of_mission(hir: &Hir, sources: &Sources, mission: usize, lowered: &Lowered) -> Memory {
+    let words = |id: usize| lowered.units.get(&id).map_or(0, |(words, _)| *words);
+    let mut held: Vec<Held> = places(hir, mission)
+        .into_iter()
+        .map(|(id, places)| {
+            let inside = places::begun(hir, id).into_iter().map(words).fold(0, u64::saturating_add);
             let activity = &hir.activities[id];
             let bytes = places.saturating_mul(words(id).saturating_sub(inside)).saturating_mul(WORD);
-            Held { name: activity.full_name.clone(), place: sources.place(activity.span), places, bytes }
+            let place = sources.place(activity.span);
+            Held { name: activity.full_name.clone(), place, span: activity.span, places, bytes }
         })
         .collect();
     held.sort_by(|a, b| b.bytes.cmp(&a.bytes).then_with(|| a.name.cmp(&b.name)));
-    let inputs = program.inputs.iter().map(Input::words).map(u64::from).sum::<u64>() * WORD;
+    let program = &lowered.program;
+    let inputs = program.inputs.iter().map(|input| u64::from(input.words())).sum::<u64>().saturating_mul(WORD);
     let constants = program.constants.len() as u64 * WORD;
-    Memory { bytes: u64::from(program.words) * WORD, inputs, constants, held }
+    Memory { bytes: lowered.words.saturating_mul(WORD), inputs, constants, held }
 }
 
-/// Counts the places that begin each activity, through all that begins them.
-fn count(hir: &Hir, id: usize, times: u64, places: &mut BTreeMap<usize, u64>) {
-    let sum = places.entry(id).or_default();
-    *sum = sum.saturating_add(times);
-    let mut inside: BTreeMap<usize, u64> = BTreeMap::new();
-    for begun in places::begun(hir, id) {
-        *inside.entry(begun).or_default() += 1;
+/// How many places begin each activity, through all that begins them.
+fn places(hir: &Hir, mission: usize) -> BTreeMap<usize, u64> {
+    let mut order = Vec::new();
+    callees_first(hir, mission, &mut BTreeSet::new(), &mut order);
+    let mut places = BTreeMap::from([(mission, 1)]);
+    // Callers first: what an activity begins is counted when all that begin it are.
+    for id in order.into_iter().rev() {
+        let times = places.get(&id).copied().unwrap_or(0);
+        for begun in places::begun(hir, id) {
+            let sum: &mut u64 = places.entry(begun).or_default();
+            *sum = sum.saturating_add(times);
+        }
     }
-    for (begun, sites) in inside {
-        count(hir, begun, times.saturating_mul(sites), places);
+    places
+}
+
+fn callees_first(hir: &Hir, id: usize, seen: &mut BTreeSet<usize>, order: &mut Vec<usize>) {
+    if seen.insert(id) {
+        places::begun(hir, id).into_iter().for_each(|begun| callees_first(hir, begun, seen, order));
+        order.push(id);
     }
 }

@@ -5,6 +5,7 @@
 //! the most rounds that it can make within a tick and every branch the dearer way, so that no tick takes more.
 
 mod bill;
+pub(crate) mod limits;
 mod memory;
 mod places;
 mod work;
@@ -14,8 +15,8 @@ pub use work::Round;
 
 use crate::diagnostic::Diagnostic;
 use crate::hir::Hir;
-use crate::lower;
-use crate::source::Sources;
+use crate::lower::{self, Lowered};
+use crate::source::{Sources, Span};
 use crate::types::TypeTable;
 
 /// What a mission costs.
@@ -25,42 +26,94 @@ pub struct Cost {
     pub steps: u64,
     /// Whose they are in that tick, the most first; the functions that one calls are its own.
     pub parts: Vec<Part>,
+    /// What a call of each function takes, the dearest first.
+    pub functions: Vec<Part>,
     /// The loops that go round within a tick, the dearest first.
     pub loops: Vec<Round>,
     /// What is kept from tick to tick.
     pub memory: Memory,
     /// Instructions.
-    pub instructions: usize,
+    pub instructions: u64,
+    /// Whose they are, the most first.
+    pub code: Vec<Part>,
 }
 
-/// What an activity takes of the dearest tick.
+/// What something takes of a whole.
 #[derive(Clone, Debug)]
 pub struct Part {
     /// Its name, with its module.
     pub name: String,
     /// Where it is declared, `file:line`.
     pub place: String,
-    /// Its own steps; what it calls has a part of its own.
+    /// And in the source.
+    pub span: Span,
+    /// Its own steps, or instructions; what it calls has a part of its own.
     pub steps: u64,
 }
 
-/// The cost of a mission that is sound.
+/// Parts of a whole, the largest first.
+struct Parts(Vec<Part>);
+
+impl Parts {
+    fn sorted(mut parts: Vec<Part>) -> Self {
+        parts.sort_by(|a, b| b.steps.cmp(&a.steps).then_with(|| a.name.cmp(&b.name)));
+        Parts(parts)
+    }
+
+    fn of_activities(hir: &Hir, sources: &Sources, shares: impl Iterator<Item = (usize, u64)>) -> Vec<Part> {
+        shares
+            .map(|(id, steps)| {
+                let activity = &hir.activities[id];
+                let name = activity.full_name.clone();
+                Part { name, place: sources.place(activity.span), span: activity.span, steps }
+            })
+            .collect()
+    }
+
+    fn of_functions(hir: &Hir, sources: &Sources, shares: impl Iterator<Item = (usize, u64)>) -> Vec<Part> {
+        shares
+            .map(|(id, steps)| {
+                let function = &hir.fns[id];
+                let place = sources.place(function.span);
+                Part { name: function.name.clone(), place, span: function.span, steps }
+            })
+            .collect()
+    }
+
+    /// Whose the instructions of a mission are.
+    fn of_code(hir: &Hir, sources: &Sources, lowered: &Lowered) -> Self {
+        let units = lowered.units.iter().map(|(id, (_, ops))| (*id, *ops));
+        let fns = lowered.fns.iter().map(|(id, ops)| (*id, *ops));
+        let mut parts = Parts::of_activities(hir, sources, units);
+        parts.extend(Parts::of_functions(hir, sources, fns));
+        Parts::sorted(parts)
+    }
+}
+
+/// The cost of a mission that is sound, however much it is.
 pub(crate) fn of(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) -> Result<Cost, Vec<Diagnostic>> {
-    let (program, units) = lower::mission_units(hir, types, sources, mission)?;
-    let (bill, loops) = work::of_mission(hir, sources, mission);
-    let mut parts: Vec<Part> = bill
-        .shares()
-        .map(|(id, steps)| {
-            let activity = &hir.activities[id];
-            Part { name: activity.full_name.clone(), place: sources.place(activity.span), steps }
-        })
-        .collect();
-    parts.sort_by(|a, b| b.steps.cmp(&a.steps).then_with(|| a.name.cmp(&b.name)));
+    let lowered = lower::mission_parts(hir, types, sources, mission)?;
+    let tally = work::of_mission(hir, types, sources, mission);
     Ok(Cost {
-        steps: bill.total(),
-        parts,
-        loops,
-        memory: memory::of_mission(hir, sources, mission, &program, &units),
-        instructions: program.ops.len(),
+        steps: tally.bill.total(),
+        parts: Parts::sorted(Parts::of_activities(hir, sources, tally.bill.shares())).0,
+        functions: Parts::of_functions(hir, sources, tally.functions.into_iter()),
+        loops: tally.loops,
+        memory: memory::of_mission(hir, sources, mission, &lowered),
+        instructions: lowered.instructions,
+        code: Parts::of_code(hir, sources, &lowered).0,
     })
+}
+
+/// A number with its thousands apart.
+pub fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
 }

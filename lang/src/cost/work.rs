@@ -4,21 +4,25 @@ use super::bill::Bill;
 use super::places;
 use crate::check::takes_time;
 use crate::hir::{
-    Action, Activity, ActivityId, Block, Body, Builtin, Decl, Expr, ExprKind, FnId, Hir, InputPart, Stmt, StmtKind,
-    Target, TextPart, Timed, Var, With, children,
+    Action, Activity, ActivityId, Block, Body, Builtin, ClauseArg, ClauseUse, Decl, Expr, ExprKind, FnId, Hir,
+    InputPart, Stmt, StmtKind, Target, TextPart, Timed, Var, With, children,
 };
 use crate::source::{Sources, Span};
-use crate::types::Type;
+use crate::types::{Type, TypeTable};
 use albacore_geometry::{AREA_CORNERS_MAX, ROWS_MAX};
 use std::collections::BTreeMap;
 
 const CORNERS: u64 = AREA_CORNERS_MAX as u64;
+/// So many words are copied in the time of a step.
+const WORDS_A_STEP: u64 = 64;
 
 /// A loop that goes round within a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Round {
     /// Where it stands, `file:line`.
     pub place: String,
+    /// And in the source.
+    pub span: Span,
     /// The most rounds.
     pub rounds: u64,
     /// The steps of all of them.
@@ -36,29 +40,83 @@ struct Costs {
 
 struct Work<'a> {
     hir: &'a Hir,
+    types: &'a TypeTable,
     fns: BTreeMap<FnId, u64>,
     activities: BTreeMap<ActivityId, Costs>,
     loops: BTreeMap<Span, (u64, u64)>,
 }
 
+/// What was counted.
+pub(super) struct Tally {
+    /// The steps of the dearest tick.
+    pub bill: Bill,
+    /// The steps of what no activity computes: a scenario, a test.
+    pub apart: u64,
+    /// The loops that go round within a tick, the dearest first.
+    pub loops: Vec<Round>,
+    /// The functions that are called, and what a call of each takes; the dearest first.
+    pub functions: Vec<(FnId, u64)>,
+}
+
 /// The bill of the dearest tick, and the loops in it.
-pub(super) fn of_mission(hir: &Hir, sources: &Sources, mission: ActivityId) -> (Bill, Vec<Round>) {
-    let mut work = Work { hir, fns: BTreeMap::new(), activities: BTreeMap::new(), loops: BTreeMap::new() };
+pub(super) fn of_mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: ActivityId) -> Tally {
+    let mut work = Work::new(hir, types);
     let Costs { begin, tick } = work.activity(mission);
     let (recovery_begins, recovery_goes_on) = work.recovery(mission);
     // In one tick a mission begins, or goes on and may begin its recovery, or is recovering.
     let begin = begin.and(&Bill::of(mission, work.numbers(mission)));
     let bill = begin.or(tick.and(&recovery_begins)).or(recovery_goes_on);
-    let mut loops: Vec<Round> = work
-        .loops
-        .iter()
-        .map(|(span, (rounds, steps))| Round { place: sources.place(*span), rounds: *rounds, steps: *steps })
-        .collect();
-    loops.sort_by(|a, b| b.steps.cmp(&a.steps).then_with(|| a.place.cmp(&b.place)));
-    (bill, loops)
+    work.tally(bill, 0, |span| sources.place(span))
+}
+
+/// What it takes to compute a scenario.
+pub(super) fn of_scenario(hir: &Hir, types: &TypeTable, scenario: usize) -> Tally {
+    let mut work = Work::new(hir, types);
+    let scenario = &hir.scenarios[scenario];
+    let mut steps = work.exprs(scenario.defaults.iter().flatten());
+    for clause in &scenario.clauses {
+        steps = steps.saturating_add(work.clause(clause));
+    }
+    work.tally(Bill::default(), steps, |_| String::new())
+}
+
+/// What it takes to look at the expectations of a test.
+pub(super) fn of_test(hir: &Hir, types: &TypeTable, test: usize) -> Tally {
+    let mut work = Work::new(hir, types);
+    let test = &hir.tests[test];
+    let exprs = test.expects.iter().map(|expect| &expect.holds).chain(test.depths.iter().map(|(point, _)| point));
+    let steps = work.exprs(exprs);
+    work.tally(Bill::default(), steps, |_| String::new())
 }
 
 impl<'a> Work<'a> {
+    fn new(hir: &'a Hir, types: &'a TypeTable) -> Self {
+        Work { hir, types, fns: BTreeMap::new(), activities: BTreeMap::new(), loops: BTreeMap::new() }
+    }
+
+    fn tally(self, bill: Bill, apart: u64, place: impl Fn(Span) -> String) -> Tally {
+        let round = |(span, (rounds, steps)): (Span, (u64, u64))| Round { place: place(span), span, rounds, steps };
+        let mut loops: Vec<Round> = self.loops.into_iter().map(round).collect();
+        loops.sort_by(|a, b| b.steps.cmp(&a.steps).then_with(|| a.span.cmp(&b.span)));
+        let mut functions: Vec<(FnId, u64)> = self.fns.into_iter().collect();
+        functions.sort_by_key(|(id, steps)| (std::cmp::Reverse(*steps), *id));
+        Tally { bill, apart, loops, functions }
+    }
+
+    fn clause(&mut self, clause: &'a ClauseUse) -> u64 {
+        clause.args.iter().fold(1, |steps: u64, (_, arg)| {
+            steps.saturating_add(match arg {
+                ClauseArg::Value(e) => self.expr(e),
+                ClauseArg::Nested(inner) => self.clause(inner),
+            })
+        })
+    }
+
+    /// What it takes to move a value about: large ones are copied.
+    fn moved(&self, ty: &Type) -> u64 {
+        u64::from(self.types.words(ty)) / WORDS_A_STEP
+    }
+
     /// What a mission computes once, as it begins: its parameters, its limits, what it requires.
     fn numbers(&mut self, mission: ActivityId) -> u64 {
         let activity = &self.hir.activities[mission];
@@ -92,7 +150,7 @@ impl<'a> Work<'a> {
             }
             ExprKind::Call(id, args) => {
                 let args: u64 = args.iter().map(|arg| self.expr(arg)).fold(0, u64::saturating_add);
-                sum([1, args, self.function(*id)])
+                sum([1, args, self.function(*id), self.moved(&e.ty)])
             }
             kind => {
                 let weight = match kind {
@@ -102,6 +160,7 @@ impl<'a> Work<'a> {
                 };
                 let mut inside = Vec::new();
                 children(e, &mut |child| inside.push(child));
+                let weight = weight.saturating_add(self.moved(&e.ty));
                 inside.into_iter().fold(weight, |steps, child| steps.saturating_add(self.expr(child)))
             }
         }
@@ -143,7 +202,8 @@ impl<'a> Work<'a> {
         let steps = match &stmt.kind {
             StmtKind::Set(var, e) => sum([self.expr(e), self.sort(*var, vars)]),
             StmtKind::Insert(var, e) | StmtKind::Remove(var, e) => {
-                sum([self.expr(e), capacity(vars.get(*var).map(|v| &v.ty)), self.sort(*var, vars)])
+                let list = vars.get(*var).map(|v| &v.ty);
+                sum([self.expr(e), capacity(list), list.map_or(0, |ty| self.moved(ty)), self.sort(*var, vars)])
             }
             StmtKind::Clear(_) => 0,
             StmtKind::If(condition, a, b) => {
@@ -205,7 +265,9 @@ impl<'a> Work<'a> {
         let Some(order) = &var.order else { return 0 };
         let held = capacity(Some(&var.ty));
         let compared = held.saturating_mul(u64::from(held.max(1).ilog2() + 1));
-        held.saturating_mul(self.expr(&order.key)).saturating_add(compared)
+        // Each element is put where its key finds it, and back.
+        let moved = self.moved(&var.ty).saturating_mul(4);
+        sum([held.saturating_mul(self.expr(&order.key)), compared, moved])
     }
 
     /// The arguments and setpoints of `with`; what the overlays do is their own.

@@ -88,6 +88,8 @@ pub struct Order {
 pub struct Function {
     /// Its name.
     pub name: String,
+    /// Where it is declared.
+    pub span: Span,
     /// All its variables, parameters first.
     pub vars: Vec<Var>,
     /// How many of them are parameters.

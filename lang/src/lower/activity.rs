@@ -1,9 +1,7 @@
 //! Activities to code: the pieces that the machine runs at each point of a tick.
 
 use super::watch::{Timer, positions};
-use super::{Lowering, SortedBy, Sorter, WORDS_MAX};
-use crate::code;
-use crate::diagnostic::Diagnostic;
+use super::{Lowering, SortedBy, Sorter, slot};
 use crate::hir::{self, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::rules;
 use crate::types::Type;
@@ -13,40 +11,27 @@ use albacore_program::{
 };
 
 /// The words that are compared, at most, before a list is put in order anew.
-const COMPARED_WORDS_MAX: u32 = 8;
+const COMPARED_WORDS_MAX: u64 = 8;
 
 impl<'a> Lowering<'a> {
-    pub(super) fn mission(&mut self, id: usize) {
+    /// Lowers a mission; gives the words that it needs.
+    pub(super) fn mission(&mut self, id: usize) -> u64 {
         let activity = &self.hir.activities[id];
         self.find_origin(activity);
         self.inputs();
         self.keep_samples();
-        self.constants_at = Some(self.input_words());
+        self.constants_at = Some(slot(self.input_words()));
         let unit = self.unit(id);
-        let base = self.input_words() + self.program.constants.len() as u32;
+        let base = self.input_words().saturating_add(self.program.constants.len() as u64);
         let mission = &mut self.program.mission;
         mission.name = activity.name.clone();
         mission.activity = unit.activity;
-        mission.base = base;
+        mission.base = slot(base);
         mission.guest = rules::first_watch(self.hir, id).is_some();
         mission.origin = self.origin;
-        self.program.words = base.saturating_add(unit.words);
-        if self.program.words > WORDS_MAX {
-            let span = activity.span;
-            self.findings.push(
-                Diagnostic::error(
-                    code::Code::LimitsMemory,
-                    span,
-                    format!("the mission `{}` needs too much memory", activity.name),
-                )
-                .here(format!(
-                    "{:.1} million numbers, more than {:.1} million",
-                    f64::from(self.program.words) / 1e6,
-                    f64::from(WORDS_MAX) / 1e6
-                ))
-                .help("make its lists shorter, or call fewer behaviors from one another"),
-            );
-        }
+        let words = base.saturating_add(unit.words);
+        self.program.words = slot(words);
+        words
     }
 
     /// The local frame lies about the middle of the positions that the area is made of: of a rectangle its centre.
@@ -88,7 +73,8 @@ impl<'a> Lowering<'a> {
     fn key_reads(&self, order: &hir::Order) -> Option<Vec<(Slot, u32)>> {
         let mut reads = Vec::new();
         let comparable = self.reads(&order.key, order.it, &mut reads);
-        (comparable && reads.iter().map(|(_, words)| words).sum::<u32>() <= COMPARED_WORDS_MAX).then_some(reads)
+        (comparable && reads.iter().map(|(_, words)| u64::from(*words)).sum::<u64>() <= COMPARED_WORDS_MAX)
+            .then_some(reads)
     }
 
     fn reads(&self, e: &Expr, it: usize, out: &mut Vec<(Slot, u32)>) -> bool {

@@ -35,7 +35,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn input_slot(&self, id: usize, offset: u32) -> Slot {
-        ABSOLUTE | (self.program.inputs[id].at + offset)
+        ABSOLUTE | self.program.inputs[id].at.saturating_add(offset)
     }
 
     pub(super) fn copy(&mut self, to: Slot, from: Slot, words: u32) {
@@ -93,7 +93,7 @@ impl<'a> Lowering<'a> {
                 let mut at = to;
                 for field in fields {
                     self.expr_into(field, at);
-                    at += self.words(&field.ty);
+                    at = at.saturating_add(self.words(&field.ty));
                 }
             }
             ExprKind::List(elements) => {
@@ -102,7 +102,7 @@ impl<'a> Lowering<'a> {
                 let mut at = to + 1;
                 for element in elements {
                     self.expr_into(element, at);
-                    at += self.words(&element.ty);
+                    at = at.saturating_add(self.words(&element.ty));
                 }
             }
             ExprKind::If(condition, then, otherwise) => {
@@ -192,11 +192,11 @@ impl<'a> Lowering<'a> {
         }
         // Arguments first: a call inside an argument must not disturb those already in place.
         let slots: Vec<(Slot, u32)> = args.iter().map(|a| (self.expr(a), self.words(&a.ty))).collect();
-        let base = self.temp(code.words);
+        let base = self.temp_frame(code.words);
         let mut at = base;
         for (from, words) in slots {
             self.copy(at, from, words);
-            at += words;
+            at = at.saturating_add(words);
         }
         self.emit(Op::Call { code: code.entry, base });
         self.copy(to, base + code.result, words);
@@ -213,10 +213,10 @@ impl<'a> Lowering<'a> {
         for order in function.vars.iter().filter_map(|v| v.order.as_ref()) {
             self.prepare(&order.key);
         }
-        let before = self.here();
+        let before = self.emitted;
         let entry = std::cell::Cell::new(0);
         let result = std::cell::Cell::new(0);
-        let words = self.twice(&function.vars, 0, |l| {
+        let words = self.twice(&function.vars, |l| {
             l.sorters(&function.vars);
             entry.set(l.here());
             let to = l.lasting(l.words(&function.result));
@@ -225,7 +225,7 @@ impl<'a> Lowering<'a> {
             l.emit(Op::Return);
         });
         self.path.pop();
-        let code = FnCode { entry: entry.get(), result: result.get(), words, ops: self.here() - before };
+        let code = FnCode { entry: entry.get(), result: result.get(), words, ops: self.emitted - before };
         self.fns.insert(id, code);
         code
     }
@@ -236,7 +236,7 @@ impl<'a> Lowering<'a> {
             let mut at = to;
             for operand in operands {
                 self.expr_into(operand, at);
-                at += self.words(&operand.ty);
+                at = at.saturating_add(self.words(&operand.ty));
             }
             return;
         }

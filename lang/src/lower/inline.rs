@@ -7,7 +7,7 @@ use albacore_program::Slot;
 
 /// A function of more instructions is called. The instructions of what it calls in place count, so that code cannot grow
 /// without end.
-const INLINED_OPS_MAX: u32 = 100;
+const INLINED_OPS_MAX: u64 = 100;
 
 impl<'a> Lowering<'a> {
     pub(super) fn is_inlined(&self, id: usize, code: FnCode) -> bool {

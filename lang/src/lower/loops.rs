@@ -38,7 +38,7 @@ impl<'a> Lowering<'a> {
         let Type::List(inner, _) = &list.ty else { return };
         let (words, element) = (self.words(&list.ty), self.words(inner));
         let copy = self.lasting(words);
-        let (counter, found) = (self.lasting(1), self.lasting(1 + element));
+        let (counter, found) = (self.lasting(1), self.lasting(element.saturating_add(1)));
         self.scratch(|l| l.expr_into(list, copy));
         self.emit(Op::Const { to: counter, value: 0.0 });
         let top = self.here();

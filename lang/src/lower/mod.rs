@@ -22,6 +22,7 @@ pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 pub use scenario::{ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 
 use crate::code::Code;
+use crate::cost::limits::{self, INSTRUCTIONS_MAX, WORDS_MAX};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Hir};
 use crate::source::{Sources, Span};
@@ -37,17 +38,14 @@ pub fn origin_of(area: &hir::Expr) -> Option<Geodetic> {
     activity::middle(&found)
 }
 
-/// A run's words at most: a program that needs more is refused.
-const WORDS_MAX: u32 = 4_000_000;
-
 /// A lowered function.
 #[derive(Clone, Copy)]
 struct FnCode {
     entry: Addr,
     result: Slot,
-    words: u32,
+    words: u64,
     /// How many instructions it has.
-    ops: u32,
+    ops: u64,
 }
 
 /// The subroutine that puts an ordered list in order.
@@ -70,7 +68,23 @@ struct SortedBy {
 #[derive(Clone, Copy)]
 struct UnitCode {
     activity: u32,
-    words: u32,
+    words: u64,
+    /// How many instructions it has.
+    ops: u64,
+}
+
+/// A lowered mission, and what it is made of.
+pub struct Lowered {
+    /// The mission.
+    pub program: Program,
+    /// All its words, of which the program says no more than it can hold.
+    pub words: u64,
+    /// All its instructions, of which the program has no more than it can hold.
+    pub instructions: u64,
+    /// The words of each activity's frame, with those of what it calls, and its own instructions.
+    pub units: BTreeMap<usize, (u64, u64)>,
+    /// The instructions of each function that is called.
+    pub fns: BTreeMap<usize, u64>,
 }
 
 /// Lowers one mission and what it needs.
@@ -90,6 +104,8 @@ struct Lowering<'a> {
     mission_args: Option<&'a [hir::Expr]>,
     /// Where constants have their absolute slots: only a mission has room for them.
     constants_at: Option<Slot>,
+    /// How many instructions there are. Those past the most that a program can hold are counted only: it is refused.
+    emitted: u64,
 }
 
 /// The frame of the unit that is being lowered.
@@ -97,13 +113,14 @@ struct Lowering<'a> {
 struct Frame {
     /// Where each variable is.
     vars: Vec<Slot>,
-    /// Words that live on, so far.
-    lasting: u32,
+    /// Words that live on, so far. They may be more than any program can hold, which is then refused: what it holds of
+    /// them has slots that mean nothing.
+    lasting: u64,
     /// Where temporaries begin.
-    temp_base: u32,
+    temp_base: u64,
     /// The temporaries in use, and the most there were.
-    temp: u32,
-    temp_most: u32,
+    temp: u64,
+    temp_most: u64,
     /// The values of temporal operators, by the address of their node.
     timers: BTreeMap<usize, Slot>,
     /// The header of the activity whose code is being lowered, and its result.
@@ -121,22 +138,17 @@ struct Frame {
 
 /// Lowers a mission. The findings are errors that only the whole program shows.
 pub fn mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) -> Result<Program, Vec<Diagnostic>> {
-    mission_with(hir, types, sources, mission, None)
+    within_limits(Lowering::new(hir, types, sources), mission)
 }
 
-/// Lowers a mission, and tells the words of each activity's frame, with those of what it calls.
-pub fn mission_units(
+/// Lowers a mission however large it is, and tells what it is made of.
+pub fn mission_parts(
     hir: &Hir,
     types: &TypeTable,
     sources: &Sources,
     mission: usize,
-) -> Result<(Program, BTreeMap<usize, u32>), Vec<Diagnostic>> {
-    let mut lowering = Lowering::new(hir, types, sources);
-    lowering.mission(mission);
-    if !lowering.findings.is_empty() {
-        return Err(lowering.findings);
-    }
-    Ok((lowering.program, lowering.units.into_iter().map(|(id, unit)| (id, unit.words)).collect()))
+) -> Result<Lowered, Vec<Diagnostic>> {
+    Lowering::new(hir, types, sources).whole(mission)
 }
 
 /// Lowers the mission that is a line of the prompt, in the frame of the vehicle that it drives.
@@ -147,10 +159,7 @@ pub fn line(
     mission: usize,
     origin: Option<Geodetic>,
 ) -> Result<Program, Vec<Diagnostic>> {
-    let mut lowering = Lowering::new(hir, types, sources);
-    lowering.origin = origin;
-    lowering.mission(mission);
-    if lowering.findings.is_empty() { Ok(lowering.program) } else { Err(lowering.findings) }
+    within_limits(Lowering { origin, ..Lowering::new(hir, types, sources) }, mission)
 }
 
 /// The same with arguments in place of the parameters' defaults.
@@ -161,10 +170,19 @@ fn mission_with(
     mission: usize,
     args: Option<&[hir::Expr]>,
 ) -> Result<Program, Vec<Diagnostic>> {
-    let mut lowering = Lowering::new(hir, types, sources);
-    lowering.mission_args = args;
-    lowering.mission(mission);
-    if lowering.findings.is_empty() { Ok(lowering.program) } else { Err(lowering.findings) }
+    within_limits(Lowering { mission_args: args, ..Lowering::new(hir, types, sources) }, mission)
+}
+
+/// A program that a machine can hold, and whose ticks end in time.
+fn within_limits(lowering: Lowering<'_>, mission: usize) -> Result<Program, Vec<Diagnostic>> {
+    let (hir, types, sources) = (lowering.hir, lowering.types, lowering.sources);
+    // Steps first: they are counted without any code.
+    if let Some(finding) = limits::steps(hir, types, sources, mission) {
+        return Err(vec![finding]);
+    }
+    let lowered = lowering.whole(mission)?;
+    let findings = limits::size(hir, sources, mission, &lowered);
+    if findings.is_empty() { Ok(lowered.program) } else { Err(findings) }
 }
 
 impl<'a> Lowering<'a> {
@@ -182,11 +200,30 @@ impl<'a> Lowering<'a> {
             findings: Vec::new(),
             mission_args: None,
             constants_at: None,
+            emitted: 0,
         }
     }
 
+    /// A mission with what it is made of.
+    fn whole(mut self, mission: usize) -> Result<Lowered, Vec<Diagnostic>> {
+        let words = self.mission(mission);
+        if !self.findings.is_empty() {
+            return Err(self.findings);
+        }
+        Ok(Lowered {
+            program: self.program,
+            words,
+            instructions: self.emitted,
+            units: self.units.into_iter().map(|(id, unit)| (id, (unit.words, unit.ops))).collect(),
+            fns: self.fns.into_iter().map(|(id, code)| (id, code.ops)).collect(),
+        })
+    }
+
     fn emit(&mut self, op: Op) -> Addr {
-        self.program.ops.push(op);
+        self.emitted += 1;
+        if self.program.ops.len() < INSTRUCTIONS_MAX {
+            self.program.ops.push(op);
+        }
         self.program.ops.len() as Addr - 1
     }
 
@@ -213,17 +250,27 @@ impl<'a> Lowering<'a> {
 
     /// Words that live as long as the frame.
     fn lasting(&mut self, words: u32) -> Slot {
-        let slot = self.frame.lasting;
-        self.frame.lasting += words;
-        slot
+        self.lasting_frame(u64::from(words))
+    }
+
+    /// The same for the frame of something that is called, which may be larger than any program can hold.
+    fn lasting_frame(&mut self, words: u64) -> Slot {
+        let at = self.frame.lasting;
+        self.frame.lasting = at.saturating_add(words);
+        slot(at)
     }
 
     /// Words that live to the end of the statement.
     fn temp(&mut self, words: u32) -> Slot {
-        let slot = self.frame.temp_base + self.frame.temp;
-        self.frame.temp += words;
+        self.temp_frame(u64::from(words))
+    }
+
+    /// The same for the frame of a function.
+    fn temp_frame(&mut self, words: u64) -> Slot {
+        let at = self.frame.temp_base.saturating_add(self.frame.temp);
+        self.frame.temp = self.frame.temp.saturating_add(words);
         self.frame.temp_most = self.frame.temp_most.max(self.frame.temp);
-        slot
+        slot(at)
     }
 
     /// Frees the temporaries of what is done inside.
@@ -235,25 +282,24 @@ impl<'a> Lowering<'a> {
     }
 
     /// Lowers a unit twice, the second time with temporaries after all that lives on. Gives the words of its frame.
-    fn twice(&mut self, vars: &[hir::Var], first: u32, work: impl Fn(&mut Self)) -> u32 {
+    fn twice(&mut self, vars: &[hir::Var], work: impl Fn(&mut Self)) -> u64 {
         let outer = std::mem::take(&mut self.frame);
         // Callees must be complete before the first pass, so that both passes emit the same: the first pass lowers them.
         let mut temp_base = 0;
         for pass in 0..2 {
             let mark = self.mark();
-            let mut frame = Frame { lasting: first, temp_base, ..Frame::default() };
+            self.frame = Frame { temp_base, ..Frame::default() };
             for var in vars {
-                frame.vars.push(frame.lasting);
-                frame.lasting += self.types.words(&var.ty);
+                let at = self.lasting(self.words(&var.ty));
+                self.frame.vars.push(at);
             }
-            self.frame = frame;
             work(self);
             temp_base = self.frame.lasting;
             if pass == 0 {
                 self.back_to(&mark);
             }
         }
-        let words = self.frame.lasting + self.frame.temp_most;
+        let words = self.frame.lasting.saturating_add(self.frame.temp_most);
         self.frame = outer;
         words
     }
@@ -272,6 +318,7 @@ impl<'a> Lowering<'a> {
             texts: p.texts.len(),
             memories: p.memories.len(),
             findings: self.findings.len(),
+            emitted: self.emitted,
         }
     }
 
@@ -286,6 +333,7 @@ impl<'a> Lowering<'a> {
         p.texts.truncate(mark.texts);
         p.memories.truncate(mark.memories);
         self.findings.truncate(mark.findings);
+        self.emitted = mark.emitted;
     }
 
     /// The frame's origin: the middle of the geodetic positions that the mission's area is made of.
@@ -312,14 +360,11 @@ impl<'a> Lowering<'a> {
 
     /// Input blocks come first in the words of a run, then constants.
     fn inputs(&mut self) {
-        let mut at = 0;
         for input in &self.hir.inputs {
-            let width =
-                self.types.words(&input.ty) + input.fields.iter().map(|(_, ty)| self.types.words(ty)).sum::<u32>();
+            let fields = input.fields.iter().map(|(_, ty)| self.words(ty));
+            let width = fields.fold(self.words(&input.ty), u32::saturating_add).min(WORDS_MAX);
             let shape = self.types.shape(&input.ty);
-            let lowered = Input { name: input.name.clone(), at, width, kept: 0, shape };
-            at += lowered.words();
-            self.program.inputs.push(lowered);
+            self.program.inputs.push(Input { name: input.name.clone(), at: 0, width, kept: 0, shape });
         }
     }
 
@@ -330,8 +375,8 @@ impl<'a> Lowering<'a> {
         let mut at = 0;
         for (input, kept) in self.program.inputs.iter_mut().zip(kept) {
             input.kept = kept;
-            input.at = at;
-            at += input.words();
+            input.at = slot(at);
+            at += u64::from(input.words());
         }
     }
 
@@ -347,8 +392,8 @@ impl<'a> Lowering<'a> {
         Some(ABSOLUTE | (at + index as Slot))
     }
 
-    fn input_words(&self) -> u32 {
-        self.program.inputs.iter().map(Input::words).sum()
+    fn input_words(&self) -> u64 {
+        self.program.inputs.iter().map(|input| u64::from(input.words())).sum()
     }
 
     fn shape(&self, ty: &crate::types::Type) -> Shape {
@@ -371,4 +416,10 @@ struct Mark {
     texts: usize,
     memories: usize,
     findings: usize,
+    emitted: u64,
+}
+
+/// A place in a frame. What no program can hold has a place all the same, until it is refused.
+fn slot(at: u64) -> Slot {
+    at.min(u64::from(WORDS_MAX)) as Slot
 }

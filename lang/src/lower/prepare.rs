@@ -13,12 +13,13 @@ impl<'a> Lowering<'a> {
         self.path.push(activity.full_name.clone());
         self.prepare_activity(id);
         let index = std::cell::Cell::new(0);
-        let words = self.twice(&activity.vars, 0, |l| {
+        let before = self.emitted;
+        let words = self.twice(&activity.vars, |l| {
             l.sorters(&activity.vars);
             index.set(l.activity(id, 0));
         });
         self.path.pop();
-        let unit = UnitCode { activity: index.get(), words };
+        let unit = UnitCode { activity: index.get(), words, ops: self.emitted - before };
         self.units.insert(id, unit);
         unit
     }

@@ -1,8 +1,9 @@
 //! Scenarios to code that computes their numbers, and a description of what each number is.
 
-use super::Lowering;
 use super::activity::middle;
 use super::watch::scenario_positions;
+use super::{Lowering, slot};
+use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse, ExprKind, Hir, TextPart};
 use crate::source::{Sources, Span};
@@ -71,6 +72,9 @@ pub fn scenario(
     origin: Option<Geodetic>,
 ) -> Result<ScenarioProgram, Vec<Diagnostic>> {
     let scenario = &hir.scenarios[id];
+    if let Some(finding) = limits::scenario_steps(hir, types, id) {
+        return Err(vec![finding]);
+    }
     let mut lowering = Lowering::new(hir, types, sources);
     let mut positions = Vec::new();
     scenario_positions(&scenario.clauses, &mut positions);
@@ -80,7 +84,7 @@ pub fn scenario(
     }
     let entry = lowering.here();
     let clauses = std::cell::RefCell::new(Vec::new());
-    let words = lowering.twice(&scenario.vars, 0, |l| {
+    let words = lowering.twice(&scenario.vars, |l| {
         for (default, to) in scenario.defaults.iter().zip(l.frame.vars.clone()) {
             if let Some(e) = default {
                 l.scratch(|l| l.expr_into(e, to));
@@ -90,11 +94,13 @@ pub fn scenario(
         clauses.replace(lowered);
         l.emit(Op::Return);
     });
+    let too_large = limits::of_values(scenario.span, "the scenario", &scenario.name, words, lowering.emitted);
+    lowering.findings.extend(too_large);
     if !lowering.findings.is_empty() {
         return Err(lowering.findings);
     }
     let mut program = lowering.program;
-    program.words = words;
+    program.words = slot(words);
     program.mission.activity = entry;
     Ok(ScenarioProgram {
         name: scenario.name.clone(),

@@ -156,7 +156,7 @@ impl<'a> Lowering<'a> {
                 }
                 With::Overlay(id, args, _) => {
                     let unit = self.units[id];
-                    let base = self.lasting(unit.words);
+                    let base = self.lasting_frame(unit.words);
                     self.scratch(|l| l.args(args, base));
                     self.program.overlays.push(OverlaySite { activity: unit.activity, base });
                     let overlay = self.program.overlays.len() as u32 - 1;
@@ -173,7 +173,7 @@ impl<'a> Lowering<'a> {
         let mut at = base;
         for arg in args {
             self.expr_into(arg, at);
-            at += self.words(&arg.ty);
+            at = at.saturating_add(self.words(&arg.ty));
         }
     }
 
@@ -332,8 +332,8 @@ impl<'a> Lowering<'a> {
     fn begin(&mut self, action: &Action, setpoints: Slot, ended: Slot) -> Running {
         match action {
             Action::Guide(guide, args) => {
-                let words: u32 = args.iter().map(|a| self.words(&a.ty)).sum();
-                let slots = self.lasting(words.max(1));
+                let words: u64 = args.iter().map(|a| u64::from(self.words(&a.ty))).sum();
+                let slots = self.lasting_frame(words.max(1));
                 self.scratch(|l| l.args(args, slots));
                 let state = self.lasting(GUIDANCE_WORDS);
                 self.emit(Op::Begin { guide: *guide, args: slots, state, setpoints });
@@ -350,7 +350,7 @@ impl<'a> Lowering<'a> {
             }
             Action::Call(id, args) => {
                 let unit = self.units[id];
-                let base = self.lasting(unit.words);
+                let base = self.lasting_frame(unit.words);
                 self.scratch(|l| l.args(args, base));
                 self.program.calls.push(CallSite {
                     activity: unit.activity,

@@ -1,6 +1,7 @@
 //! Tests to code: each expectation, and what is printed of it when it fails.
 
-use super::Lowering;
+use super::{Lowering, slot};
+use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children, test_file_name};
 use crate::source::Sources;
@@ -57,6 +58,9 @@ pub struct ExpectProgram {
 /// Lowers a test.
 pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Result<TestProgram, Vec<Diagnostic>> {
     let test = &hir.tests[index];
+    if let Some(finding) = limits::test_steps(hir, types, index) {
+        return Err(vec![finding]);
+    }
     let mission = super::mission_with(hir, types, sources, test.mission, Some(&test.args))?;
     let mut lowering = Lowering::new(hir, types, sources);
     lowering.origin = mission.mission.origin;
@@ -67,7 +71,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         lowering.prepare(point);
     }
     let lowered = std::cell::RefCell::new((Vec::new(), None));
-    let words = lowering.twice(&test.vars, 0, |l| {
+    let words = lowering.twice(&test.vars, |l| {
         let at = |id: usize| l.frame.vars[id];
         let known = &test.known;
         let slots = known.map(at);
@@ -100,13 +104,14 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         lowered.replace((expects, Some(slots)));
     });
     let mut findings = std::mem::take(&mut lowering.findings);
+    findings.extend(limits::of_values(test.span, "the test", &test.name, words, lowering.emitted));
     let (expects, slots) = lowered.into_inner();
     let Some(slots) = slots.filter(|_| findings.is_empty()) else {
         crate::diagnostic::settle(&mut findings);
         return Err(findings);
     };
     let mut program = lowering.program;
-    program.words = words;
+    program.words = slot(words);
     Ok(TestProgram {
         name: test.name.clone(),
         file_name: test_file_name(&test.name),

@@ -89,9 +89,11 @@ impl Shape {
             Shape::Line => 4,
             Shape::Edge => EDGE_WORDS,
             Shape::Area => AREA_WORDS,
-            Shape::Record(_, fields) => fields.iter().map(|(_, shape)| shape.words()).sum(),
-            Shape::Optional(shape) => 1 + shape.words(),
-            Shape::List(shape, capacity) => 1 + capacity * shape.words(),
+            Shape::Record(_, fields) => {
+                fields.iter().fold(0, |words: u32, (_, shape)| words.saturating_add(shape.words()))
+            }
+            Shape::Optional(shape) => shape.words().saturating_add(1),
+            Shape::List(shape, capacity) => shape.words().saturating_mul(*capacity).saturating_add(1),
         }
     }
 }

@@ -22,7 +22,7 @@ mod world;
 
 pub use albacore_diagram as diagram;
 pub use albacore_lang::code::Code;
-pub use albacore_lang::cost::Cost;
+pub use albacore_lang::cost::{Cost, grouped};
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::doc;
 pub use albacore_lang::fmt::format;
