@@ -4,7 +4,8 @@ mod cost;
 
 use crate::exit::Exit;
 use crate::message;
-use std::path::PathBuf;
+use albacore_session::Script;
+use std::path::{Path, PathBuf};
 
 /// Check scripts: every error and warning of all files.
 #[derive(clap::Args)]
@@ -41,6 +42,9 @@ impl Check {
                     }
                     albacore_session::settle(&mut findings);
                     message::findings(&findings, &script.sources);
+                    if findings.is_empty() && !self.cost {
+                        message::write(&format!("{}\n", nothing_wrong(path, &script)));
+                    }
                     if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
                         exit = Exit::Script;
                         wrong.extend(findings);
@@ -61,4 +65,11 @@ impl Check {
         message::more(&wrong);
         exit
     }
+}
+
+/// What is said of a script in which nothing was found: on standard error, as all findings are.
+fn nothing_wrong(path: &Path, script: &Script) -> String {
+    let missions: Vec<String> = script.missions().map(|mission| format!("mission {}", mission.name)).collect();
+    let held = if missions.is_empty() { String::new() } else { format!(" ({})", missions.join(", ")) };
+    format!("{}: no errors{held}", path.display())
 }

@@ -10,7 +10,9 @@ pub fn help(word: &str) -> Option<&'static str> {
         "continue" => "put what else the loop does into an `if`: it then goes round by itself",
         "return" => "a function gives its last expression, and a behavior ends with `finish`",
         "sleep" | "pause" | "delay" => "write `wait for 3 s`",
-        "print" | "println" | "printf" | "echo" => "write `log \"…\"`; a value stands in it between `{` and `}`",
+        "print" | "println" | "printf" | "fprintf" | "disp" | "puts" | "echo" => {
+            "write `log \"…\"`; a value stands in it between `{` and `}`"
+        }
         "elif" | "elsif" | "elseif" => "write `else if`",
         "def" | "func" | "function" => "a function is `fn NAME(x: TYPE) -> TYPE { … }`",
         "class" | "struct" => "a group of values is `record NAME { field: TYPE }`",
@@ -18,6 +20,68 @@ pub fn help(word: &str) -> Option<&'static str> {
         "use" => "`use` stands at the top of the file, at the left margin",
         "switch" | "case" => "write `match VALUE { NAME { … } else { … } }`",
         "repeat" => "write `for n in 1..3 { … }`",
+        "range" => "a range is written `1..10`, or `0..<10` without its last number: `for n in 1..10 { … }`",
+        "mod" | "rem" | "fmod" => "for the remainder of whole numbers write `a - b * floor(a / b)`",
+        "len" | "length" | "size" | "numel" => "the number of elements of a list is `LIST.count`",
+        "pi" | "PI" => "angles have units: half a turn is `180 deg`",
+        "now" | "time" | "clock" | "elapsed" => {
+            "no clock is read: `after 5 min` holds from five minutes after the entry on, as in `until after 5 min`"
+        }
+        "rand" | "random" => "nothing in a mission is left to chance: the same script does the same",
+        "int" | "float" | "double" | "string" | "bool" | "auto" | "local" => {
+            "write `let NAME = VALUE`: its type is that of the value"
+        }
+        "const" => "`const` stands at the left margin; in a block write `let`",
+        "when" | "whenever" => "write `on X { … }` at the top of the behavior; in a table `A -> B on X`",
+        "end" | "endif" | "endwhile" | "endfor" => {
+            "a block stands between `{` and `}`; `finish` ends a behavior or a mission"
+        }
+        "exit" | "quit" => {
+            "`finish` ends a behavior or a mission; `abort \"why\"` ends the mission and begins its recovery"
+        }
+        _ => return maneuver(word),
+    })
+}
+
+/// What other vehicles are told to do, and how ours is told.
+fn maneuver(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "turn" | "left" | "right" | "rotate" => {
+            "name the new course first, then steer it: `let aside = heading + 30 deg`, then `steer aside for 20 s`; \
+             `+` is to starboard, `-` to port"
+        }
+        "dive" | "descend" | "climb" | "ascend" | "rise" => {
+            "write `keep depth 5 m for 1 min`, or the depth after what is driven: `goto POINT at depth 5 m`"
+        }
+        "surface" => "write `keep depth 0 m until depth < 0.5 m`",
+        "stop" | "halt" | "hover" | "stay" | "station" | "station_keep" | "stationkeep" | "drift" => {
+            "write `hold for 5 min` to stay at a place, `wait for 5 min` to go on as before"
+        }
+        "go" | "move" | "transit" | "drive" | "travel" | "waypoint" | "waypt" => {
+            "write `goto POINT`, such as `goto op.center` or `goto position + 100 m toward north`"
+        }
+        "circle" | "orbit" => "write `loiter POINT, radius: 20 m, turns: 1`",
+        "survey" | "lawnmower" | "mow" => "write `for row in AREA.rows(50 m) { follow row }`",
+        "every" | "each" => {
+            "write a loop that waits: `loop { wait for 10 min; … }`; on every tick on which X holds: `on X { … }`"
+        }
+        "set" => "write `with depth 3 m, speed 2 m/s`: it holds to the end of the block",
+        _ => return None,
+    })
+}
+
+/// What to say of a line that begins with the name of an input or setpoint, as if it were a command: `heading 90`.
+pub fn command(word: &str, rest: &str) -> Option<String> {
+    let value = rest.split(['\n', ';', '{', '}']).next().unwrap_or("").trim_start_matches([':', '=', ' ', '\t']).trim();
+    let value = if value.is_empty() { "…" } else { value };
+    Some(match word {
+        "speed" | "depth" | "altitude" => {
+            format!(
+                "write `with {word} {value}`, which holds to the end of the block, or `… at {word} {value}` for one statement"
+            )
+        }
+        "heading" => format!("write `steer heading: {value} for 1 min`"),
+        "course" => format!("write `steer {value} for 1 min`"),
         _ => return None,
     })
 }

@@ -100,7 +100,9 @@ impl Checker<'_> {
             Type::Heading => "a direction is asked for, such as `90 deg`, `north` or `flow.toward`",
             Type::Depth => "a depth is asked for, such as `3 m` or `depth + 1 m`",
             Type::Altitude => "an altitude is asked for, such as `3 m` or `altitude + 1 m`",
-            Type::Point => "a place is asked for, such as `position`, `op.center` or `point(north: 4 m, east: 2 m)`",
+            Type::Point => {
+                "a place is asked for, such as `position`, `op.center`, `36.18°N 75.74°W` or `point(north: 4 m, east: 2 m)`"
+            }
             Type::Vector(_) => "a vector is asked for, such as `10 m toward north` or `POINT - POINT`",
             Type::Area => "an area is asked for: the mission's own, by its name, or `rectangle(…)`",
             Type::Line => "a line is asked for: `line(start, end)`",

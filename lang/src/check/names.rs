@@ -187,7 +187,9 @@ impl<'t> Checker<'t> {
             }
             _ => format!("declare it: `var {0} = …` here, or `memory {0}: TYPE = …` to keep it", name.node),
         };
-        self.report(if finding.help.is_none() { finding.help(help) } else { finding });
+        // Of one or two letters everything is near.
+        let declare = finding.help.is_none() || name.node.chars().count() <= 2;
+        self.report(if declare { finding.help(help) } else { finding });
     }
 
     fn unknown_name_finding(&self, name: &str, span: Span) -> Diagnostic {
@@ -281,11 +283,12 @@ impl<'t> Checker<'t> {
             match self.lookup(self.scope.module, &name.node) {
                 Some(def) => {
                     let what = def.what();
-                    self.report(Diagnostic::error(
-                        Code::NamesAssign,
-                        name.span,
-                        format!("`{}` is {what} and cannot be assigned", name.node),
-                    ));
+                    let help = match foreign::command(&name.node, "") {
+                        Some(help) => help,
+                        None => format!("write `let {} = …` to name a value", name.node),
+                    };
+                    let message = format!("`{}` is {what} and cannot be assigned", name.node);
+                    self.report(Diagnostic::error(Code::NamesAssign, name.span, message).help(help));
                 }
                 None => {
                     self.undeclared(name);

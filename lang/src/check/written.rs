@@ -39,9 +39,18 @@ impl<'t> Checker<'t> {
             let finding = if let Some((unit, name)) = word.node.split_once('/')
                 && dimension::unit(unit, &own).is_some()
             {
-                finding.help(format!("to divide by a variable, write a blank: `{unit} / {name}`"))
+                match nearest_unit(name, &known).filter(|_| name.len() > 1) {
+                    Some(near) => finding.help(format!("did you mean `{unit}/{near}`?")),
+                    None => finding.help(format!("to divide by a variable, write a blank: `{unit} / {name}`")),
+                }
             } else if let Some(habit) = run_together(&word.node, &own) {
                 finding.help(habit)
+            } else if matches!(word.node.as_str(), "N" | "E" | "W" | "°N" | "°S" | "°E" | "°W") {
+                finding.help("a position is its latitude, a blank and its longitude: `36.18°N 75.74°W`")
+            } else if word.node == "M" {
+                finding.help("metres are `m`, nautical miles `nmi`")
+            } else if matches!(word.node.as_str(), "bar" | "dbar" | "mbar" | "Pa" | "kPa") {
+                finding.help("a depth is written in metres: 1 dbar is about 1 m of water")
             } else if let Some(near) = nearest_unit(&word.node, &known) {
                 finding.help(format!("did you mean `{near}`?"))
             } else {
@@ -183,8 +192,9 @@ fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         "radian" | "radians" => "rad",
         "kt" | "kts" => "kn",
         "percent" => "%",
-        "celsius" | "Celsius" | "C" | "K" | "kelvin" | "degF" => "degC",
-        "PSU" | "pss" | "PSS" => "psu",
+        "nm" | "NM" | "nmile" | "nmiles" => "nmi",
+        "°C" | "℃" | "celsius" | "Celsius" | "C" | "K" | "kelvin" | "degF" => "degC",
+        "ppt" | "‰" | "PSU" | "pss" | "PSS" => "psu",
         "mps" => return Some("m/s"),
         "kmh" | "kph" | "kmph" => return Some("km/h"),
         "feet" | "foot" => "ft",

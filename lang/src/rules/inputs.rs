@@ -2,8 +2,11 @@
 
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With, activity_children, children};
+use crate::hir::{
+    Action, Activity, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With, activity_children, children,
+};
 use crate::source::Span;
+use crate::suggest;
 use albacore_program::Guide;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,6 +15,9 @@ const BY_THE_MACHINE: [&str; 3] = ["flow", "depth", "water_depth"];
 
 /// Inputs that are never too old: they tell how things stand with the vehicle, and that of one not heard from as well.
 const OF_THE_LINK: [&str; 2] = ["control", "vehicle_mode"];
+
+/// So many places are shown where an input is read.
+const PLACES_MAX: usize = 3;
 
 struct Walk<'a> {
     hir: &'a Hir,
@@ -26,21 +32,13 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = Vec::new();
     let read = read(hir, mission);
-    for (&input, &span) in &read {
-        let name = &hir.inputs[input].name;
-        if parts.requires.iter().any(|r| r.input == input) || OF_THE_LINK.contains(&name.as_str()) {
-            continue;
-        }
-        findings.push(
-            Diagnostic::warning(
-                Code::MissionsUnrequired,
-                activity.span,
-                format!("the mission `{}` reads `{name}` and does not say how old it may be", activity.name),
-            )
-            .label(span, "read here")
-            .help(format!("add `{name} fresh 5 s, else abort` to its `requires {{ … }}`")),
-        );
-    }
+    let unrequired = |(input, _): &(&usize, &Span)| {
+        let name = hir.inputs[**input].name.as_str();
+        !parts.requires.iter().any(|r| r.input == **input) && !OF_THE_LINK.contains(&name)
+    };
+    let unrequired: Vec<(&str, Span)> =
+        read.iter().filter(unrequired).map(|(&input, &span)| (hir.inputs[input].name.as_str(), span)).collect();
+    findings.extend(missing(activity, &unrequired, !parts.requires.is_empty()));
     for require in parts.requires.iter().filter(|require| !read.contains_key(&require.input)) {
         let name = &hir.inputs[require.input].name;
         if BY_THE_MACHINE.contains(&name.as_str()) {
@@ -54,6 +52,27 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         );
     }
     findings
+}
+
+/// All that a mission reads and does not require, as one finding: its help can be pasted.
+fn missing(activity: &Activity, unrequired: &[(&str, Span)], requires_others: bool) -> Option<Diagnostic> {
+    if unrequired.is_empty() {
+        return None;
+    }
+    let names: Vec<&str> = unrequired.iter().map(|(name, _)| *name).collect();
+    let (reads, old) = (suggest::listed(&names), if names.len() == 1 { "it" } else { "they" });
+    let message = format!("the mission `{}` reads {reads} and does not say how old {old} may be", activity.name);
+    let entry = format!("{} fresh 5 s, else abort", names.join(", "));
+    let help = match requires_others {
+        true => format!("add to its `requires {{ … }}`, on a line of its own: `{entry}`"),
+        false => format!("say it in the mission: `requires {{ {entry} }}`"),
+    };
+    let finding = Diagnostic::warning(Code::MissionsUnrequired, activity.span, message).help(help);
+    // The places in the mission's own file: those that its calls lead to would fill pages.
+    let own = unrequired.iter().filter(|(_, span)| span.file == activity.span.file);
+    let shown = if own.clone().count() == 0 { &unrequired[..1] } else { &[] };
+    let labels = own.take(PLACES_MAX).chain(shown);
+    Some(labels.fold(finding, |finding, (name, span)| finding.label(*span, format!("`{name}` is read here"))))
 }
 
 /// The inputs that a mission reads, with all that it calls, and for each the first place where it does.

@@ -3,6 +3,7 @@
 use super::Rule;
 use super::build::{Builder, parts};
 use super::build_block::{block, modified};
+use super::places;
 use super::tree::*;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -117,6 +118,48 @@ pub(super) fn expr(b: &mut Builder, pair: P) -> Expr {
     built
 }
 
+/// Whether a quantity has a direction for its unit: `36.18N`.
+fn is_direction(quantity: &P) -> bool {
+    let unit = quantity.as_str().trim_end().trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+    matches!(unit.trim_start().trim_start_matches('°'), "N" | "S" | "E" | "W")
+}
+
+/// Refuses a comma for a decimal point, where it can be read as one between two values: `with speed 1,5 m/s`.
+fn refuse_comma(b: &mut Builder, decimals: &P) -> bool {
+    let (text, start) = (decimals.as_span().get_input(), decimals.as_span().start());
+    let Some(before) = text[..start].strip_suffix(',') else { return false };
+    let head = before.trim_end_matches(|c: char| c.is_ascii_digit());
+    let follows_word = head.ends_with([' ', '\t']) && head.trim_end().ends_with(|c: char| c.is_alphabetic());
+    let decimals_text = decimals.as_str().trim_end();
+    if !follows_word || head.len() == before.len() || decimals_text.ends_with(|c: char| c.is_ascii_digit()) {
+        return false;
+    }
+    let span = Span { start: (b.base + head.len()) as u32, ..b.span(decimals) };
+    let quantity = format!("{}.{decimals_text}", &before[head.len()..]);
+    b.refused.push(
+        Diagnostic::error(Code::SyntaxExpected, span, "decimals follow a point, not a comma")
+            .help(format!("write `{quantity}`")),
+    );
+    true
+}
+
+/// Refuses a position as others write it, once for both of its halves; gives whether it is one.
+fn refused_position(b: &mut Builder, half: &P) -> bool {
+    let span = b.span(half);
+    if b.refused.last().is_some_and(|f| f.span().start <= span.start && span.end <= f.span().end) {
+        return true;
+    }
+    let text = half.as_span().get_input();
+    let start = half.as_span().start();
+    // A sign before the first half is an operator to the grammar.
+    let start = if text[..start].ends_with('-') { start - 1 } else { start };
+    let Some((length, ours)) = places::position(&text[start..]) else { return false };
+    let start = (b.base + start) as u32;
+    let span = Span { start, end: start + length as u32, ..span };
+    b.refused.push(places::finding(span, &ours));
+    true
+}
+
 /// What is refused becomes a name that nobody has: it is unknown, and that is told once.
 fn refused(b: &mut Builder, span: Span, message: String) -> Expr {
     let is_part = |f: &Diagnostic| span.start <= f.span().start && f.span().end <= span.end;
@@ -196,6 +239,12 @@ fn primary(b: &mut Builder, pair: P) -> Expr {
     let span = b.span(&pair);
     let kind = match pair.as_rule() {
         Rule::quantity => {
+            if is_direction(&pair) && refused_position(b, &pair) {
+                return Expr { kind: ExprKind::Name(String::new()), span };
+            }
+            if refuse_comma(b, &pair) {
+                return Expr { kind: ExprKind::Name(String::new()), span };
+            }
             let mut inner = pair.into_inner();
             let value = inner.next().and_then(|n| n.as_str().parse().ok()).unwrap_or(0.0);
             ExprKind::Number { value, unit: inner.next().map(|u| name(b, u)) }

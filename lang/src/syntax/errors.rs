@@ -2,7 +2,7 @@
 
 use super::build::{Bad, Place};
 use super::habits::{habit, untyped_memory};
-use super::{Grammar, Rule};
+use super::{Grammar, Rule, places};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::foreign;
@@ -78,8 +78,11 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             return Diagnostic::error(Code::SyntaxClause, span, format!("`{word}` stands at the beginning of a line"))
                 .help(format!("the line before has ended its statement: {mend}"));
         }
-        if let Some(help) = foreign::help(&word) {
+        if let Some(help) = foreign::help(&word).map(str::to_string).or_else(|| foreign::command(&word, after_word)) {
             return finding.help(help);
+        }
+        if after_word.starts_with(":=") {
+            return finding.help(format!("write `let {word} = …`, or `{word} = …` for a `memory`"));
         }
         return match suggest::nearest(&word, words.iter().copied()) {
             Some(near) => finding.help(format!("did you mean `{near}`?")),
@@ -124,6 +127,15 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
         format!("expected {expected}, found {}", found(rest))
     };
     let before = text[..offset].rsplit(['\n', ';', '{']).next().unwrap_or("");
+    if let Some((begins, length, ours)) = places::foreign(before, rest) {
+        let at = start + offset - before.len() + begins;
+        let span = Span { file, start: at as u32, end: (at + length) as u32 };
+        return places::finding(span, &ours);
+    }
+    if text[..offset].trim_end().ends_with("++") {
+        return Diagnostic::error(Code::SyntaxExpected, span, message)
+            .help("an assignment names both sides: `n = n + 1`");
+    }
     match habit(before, rest, &expected) {
         Some(habit) => Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or(message)).help(habit.help),
         None => match missing_comma(before, rest, token) {

@@ -35,12 +35,18 @@ pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
         ("->", "a rule is `A -> B on X`, in a strategy or a mission"),
         ("'", "texts stand between `\"`"),
         ("#", "comments begin with `//`"),
-        ("%", "`%` is the unit percent; for the remainder of whole numbers write `a - b * floor(a / b)`"),
+        (
+            "%",
+            "comments begin with `//`, `%` is the unit percent; for the remainder of whole numbers write `a - b * floor(a / b)`",
+        ),
     ];
     if before.trim_start().starts_with("use ") {
         return only(
             "modules are named by words and dots, from the project's folder: `use search`, `use folder.search`",
         );
+    }
+    if let Some(habit) = super::elsewhere::statement(before, rest, expected) {
+        return Some(habit);
     }
     if let Some((_, help)) = signs.iter().find(|(sign, _)| rest.starts_with(sign)) {
         return only(help);
@@ -146,7 +152,7 @@ fn number(before: &str, rest: &str) -> Option<Habit> {
         });
     }
     let next: String = rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
-    if next.is_empty() || unit.is_empty() {
+    if next.is_empty() || unit.is_empty() || unit.starts_with('°') {
         return None;
     }
     let after = rest[next.len()..].trim_start();
@@ -227,12 +233,12 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
 }
 
 /// The word that a text begins with.
-fn word(text: &str) -> &str {
+pub(super) fn word(text: &str) -> &str {
     text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")
 }
 
 /// What is left of a line.
-fn line_end(text: &str) -> &str {
+pub(super) fn line_end(text: &str) -> &str {
     text.split(['\n', ';', '{', '}']).next().unwrap_or("").trim()
 }
 

@@ -1,0 +1,273 @@
+//! Whole statements as other languages, and other crews, write them.
+
+use super::habits::{Habit, line_end, word};
+
+/// Words that a block follows.
+const BEFORE_BLOCK: [&str; 16] = [
+    "if", "else", "while", "for", "loop", "on", "behavior", "strategy", "overlay", "mission", "recovery", "limits",
+    "requires", "fn", "scenario", "test",
+];
+/// The verbs of statements whose arguments have labels.
+const VERBS: [&str; 5] = ["goto", "follow", "dubins", "steer", "loiter"];
+
+/// The habit behind a statement that could be read up to a place; `expected` tells what the grammar would have taken.
+pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    counted(before, rest)
+        .or_else(|| block(before, rest, expected))
+        .or_else(|| comparison(before, rest))
+        .or_else(|| decimals(before, rest))
+        .or_else(|| label(before, rest))
+        .or_else(|| text(before, rest))
+        .or_else(|| head(before, rest))
+        .or_else(|| operator(before, rest))
+}
+
+fn write(what: impl Into<String>) -> Option<Habit> {
+    Some(Habit { message: None, help: format!("write `{}`", what.into()) })
+}
+
+fn last_word(text: &str) -> &str {
+    text.trim_end().rsplit(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")
+}
+
+/// `for i = 1:10`, `for i in 1 to 10`, `for (i = 0; …)`, `loop 5 {`.
+fn counted(before: &str, rest: &str) -> Option<Habit> {
+    let first = word(before.trim_start());
+    if first == "loop" && rest.starts_with(|c: char| c.is_ascii_digit()) {
+        let count = word(rest);
+        return write(format!("for n in 1..{count} {{ … }}"));
+    }
+    let variable = before.trim_start().strip_prefix("for")?.trim_start();
+    if rest.starts_with('(') {
+        return write("for i in 0..<10 { … }");
+    }
+    let line = format!("{variable}{}", line_end(rest));
+    let range = line.split_once('=').or_else(|| line.split_once(" in "))?.1.replace(" to ", ":");
+    let parts: Vec<&str> = range.split(':').map(str::trim).collect();
+    let name = word(variable);
+    let is_number = |part: &&str| !part.is_empty() && part.chars().all(|c| c.is_alphanumeric() || c == '_');
+    match parts.as_slice() {
+        [first, last] if [first, last].into_iter().all(is_number) => {
+            write(format!("for {name} in {first}..{last} {{ … }}"))
+        }
+        _ if rest.starts_with('=') => write(format!("for {name} in 1..10 {{ … }}")),
+        _ => None,
+    }
+}
+
+/// A block without its braces: `if x:`, `if x log "…"`, `recovery: …`.
+fn block(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let head = before.rsplit('}').next().unwrap_or(before);
+    let first = word(head.trim_start());
+    if !BEFORE_BLOCK.contains(&first) || matches!(first, "requires" | "limits") && before.contains('{') {
+        return None;
+    }
+    let head = head.trim();
+    if let Some(body) = rest.strip_prefix(':').filter(|_| !head.contains("range(")) {
+        let body = line_end(body);
+        let message = Some("a block stands between `{` and `}`".to_string());
+        let help = match body {
+            "" => format!("write `{head} {{`, and `}}` on a line of its own after the block"),
+            body => format!("write `{head} {{ {body} }}`"),
+        };
+        return Some(Habit { message, help });
+    }
+    if first == "else" && rest.starts_with('{') && head != "else" {
+        return write(format!("else if {} {{", head.trim_start_matches("else").trim()));
+    }
+    let begins_body = super::errors::CLAUSE_WORDS.contains(&word(rest)) && word(rest) != "if" && word(rest) != "for";
+    (expected.contains("`{`") && begins_body && first != "mission").then(|| Habit {
+        message: Some("a block stands between `{` and `}`".to_string()),
+        help: format!("write `{head} {{ {} }}`", line_end(rest)),
+    })
+}
+
+/// `depth = 18 m` in a condition.
+fn comparison(before: &str, rest: &str) -> Option<Habit> {
+    let first = word(before.trim_start());
+    let asks = ["if", "while", "on", "abort", "expect", "signal"].contains(&first)
+        || before.contains("->")
+        || [" until ", " on ", "match "].iter().any(|w| before.contains(w));
+    if !asks {
+        return None;
+    }
+    let what = last_word(before);
+    let is = |sign: &str| {
+        let help = format!(
+            "to compare write `{sign}`: `{what} {sign} …`; what is measured is hardly ever equal: `>=` or `<=`"
+        );
+        Some(Habit { message: None, help })
+    };
+    let left = before.trim_end();
+    match rest {
+        _ if rest.starts_with("==") => None,
+        _ if rest.starts_with('=') && !left.ends_with(['<', '>', '=', '!', '~']) => is("=="),
+        _ if rest.starts_with('=') && left.ends_with('~') || rest.starts_with("~=") => write("!="),
+        _ if rest.starts_with('>') && left.ends_with('<') => write("!="),
+        _ if word(rest) == "is" => is("=="),
+        _ => None,
+    }
+}
+
+/// `1,5 m/s`.
+fn decimals(before: &str, rest: &str) -> Option<Habit> {
+    let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).collect::<String>();
+    let (whole, part) = match rest.strip_prefix(',') {
+        Some(part) => (before, part),
+        None => (before.strip_suffix(',')?, rest),
+    };
+    let number = &whole[whole.trim_end_matches(|c: char| c.is_ascii_digit()).len()..];
+    let decimals = digits(part);
+    if number.is_empty() || decimals.is_empty() {
+        return None;
+    }
+    let after = &part[decimals.len()..];
+    let unit: String = after.trim_start().chars().take_while(|c| c.is_alphanumeric() || "/^%°".contains(*c)).collect();
+    let quantity = format!("{number}.{decimals} {unit}");
+    let message = Some("decimals follow a point, not a comma".to_string());
+    Some(Habit { message, help: format!("write `{}`", quantity.trim_end()) })
+}
+
+/// `radius = 20 m`, `loiter p radius 20 m`, `steer heading 90 deg`.
+fn label(before: &str, rest: &str) -> Option<Habit> {
+    let verb = word(before.trim_start());
+    let last = last_word(before);
+    let open = before.matches('(').count() > before.matches(')').count();
+    if rest.starts_with('=') && !rest.starts_with("==") && (open || VERBS.contains(&verb)) && verb != last {
+        return Some(Habit {
+            message: Some("an argument's name is followed by a colon".to_string()),
+            help: format!("write `{last}: {}`", line_end(&rest[1..]).trim_end_matches(')')),
+        });
+    }
+    if verb == "keep" && rest.starts_with('=') {
+        return write(format!("keep {last} {}", line_end(&rest[1..])));
+    }
+    if !VERBS.contains(&verb) && verb != "hold" {
+        return None;
+    }
+    let is_setpoint = ["depth", "altitude", "speed"].contains(&last);
+    if before.contains('°') || is_setpoint || rest[word(rest).len()..].trim_start().starts_with(':') {
+        return None;
+    }
+    let value = line_end(rest);
+    if verb == "hold" {
+        return match word(rest) {
+            "position" | "station" | "here" => write("hold for 5 min"),
+            "depth" | "altitude" => write(format!("hold at {value}")),
+            _ => None,
+        };
+    }
+    if verb == "steer" && matches!(last, "heading" | "course") && rest.starts_with(|c: char| c.is_ascii_digit()) {
+        return write(format!("steer {}{value}", if last == "heading" { "heading: " } else { "" }));
+    }
+    if [" for ", " until ", " within ", " at "].iter().any(|modifier| before.contains(modifier)) {
+        let help = "its arguments stand before `for`, `until`, `within` and `at`: `loiter P, radius: 20 m for 5 min`";
+        return rest.starts_with(',').then(|| Habit { message: None, help: help.to_string() });
+    }
+    if matches!(word(rest), "radius" | "turns" | "clockwise" | "north" | "south" | "east" | "west") {
+        return match word(rest) {
+            way @ ("north" | "south" | "east" | "west") => write(format!("{} toward {way}", last_quantity(before))),
+            name => {
+                let value = value[name.len()..].trim_start_matches([':', '=', ' ']);
+                write(format!(", {name}: {value}"))
+            }
+        };
+    }
+    if !rest.starts_with(|c: char| c.is_ascii_digit()) || last == verb {
+        return None;
+    }
+    match verb {
+        "loiter" => write(format!(", radius: {value}")),
+        "goto" => write(format!(", radius: {value}")),
+        "steer" => Some(Habit {
+            message: None,
+            help: format!("write `steer {last} for 1 min`, or for a distance `goto position + {value} toward {last}`"),
+        }),
+        _ => None,
+    }
+}
+
+/// The number and unit with which a text ends, or dots.
+fn last_quantity(before: &str) -> String {
+    let words: Vec<&str> = before.split_whitespace().collect();
+    match words.as_slice() {
+        [.., number, unit] if number.starts_with(|c: char| c.is_ascii_digit()) => format!("{number} {unit}"),
+        [.., quantity] if quantity.starts_with(|c: char| c.is_ascii_digit()) => (*quantity).to_string(),
+        _ => "…".to_string(),
+    }
+}
+
+/// What should be a text, or follow one.
+fn text(before: &str, rest: &str) -> Option<Habit> {
+    let first = word(before.trim_start());
+    if first == "abort" {
+        if before.trim() == "abort" {
+            let condition = line_end(rest).trim_start_matches(|c: char| c.is_alphabetic()).trim();
+            return match condition {
+                "" => write("abort \"why\""),
+                condition => write(format!("abort \"why\" on {condition}")),
+            };
+        }
+        if ["if", "when"].contains(&word(rest)) {
+            return write("abort \"why\" on X")
+                .map(|habit| Habit { help: format!("{}: `on` in place of `{}`", habit.help, word(rest)), ..habit });
+        }
+    }
+    if first == "report" && rest.starts_with('"') {
+        let name = before.split('"').nth(1).unwrap_or("NAME");
+        let after = line_end(&rest[1..]);
+        let value = after.trim_start_matches([',', ' ', '=']);
+        return write(format!("report \"{name}\": {}", if value.is_empty() { "position" } else { value }));
+    }
+    if first == "log" && rest.starts_with([',', '+']) {
+        let value = line_end(&rest[1..]);
+        return Some(Habit { message: None, help: format!("one text holds it all: `log \"… {{{value}}}\"`") });
+    }
+    None
+}
+
+/// The head of a mission, its limits and what it requires.
+fn head(before: &str, rest: &str) -> Option<Habit> {
+    let first = word(before.trim_start());
+    if first == "mission" {
+        return match word(rest) {
+            "for" | "in" if before.contains("within") || word(rest) == "for" => {
+                write("mission NAME in SCENARIO within 30 min {")
+            }
+            _ => None,
+        };
+    }
+    let value = line_end(rest).split(',').next().unwrap_or("").trim_start_matches([':', '=', ' ']);
+    let name = last_word(before);
+    let bound = name.trim_start_matches("max_").trim_start_matches("min_");
+    let is_limit = ["depth", "altitude", "speed", "turn_rate"].contains(&bound) && before.trim() == name;
+    if is_limit && rest.starts_with([':', '=']) || is_limit && rest.starts_with(|c: char| c.is_ascii_digit()) {
+        let sign = if name.starts_with("min_") || bound == "altitude" { ">=" } else { "<=" };
+        return write(format!("{bound} {sign} {value}"));
+    }
+    None
+}
+
+/// Signs of other languages.
+fn operator(before: &str, rest: &str) -> Option<Habit> {
+    match rest {
+        _ if rest.starts_with(':') && before.ends_with(|c: char| c.is_ascii_digit()) => {
+            Some(Habit { message: None, help: "a time is a quantity: `5 min + 30 s`".to_string() })
+        }
+        _ if rest.starts_with('&') => write("and"),
+        _ if rest.starts_with('|') => write("or"),
+        _ if rest.starts_with('~') => write("not"),
+        _ if rest.starts_with('*') && before.trim_end().ends_with('*') => write("^"),
+        _ if rest.starts_with('?') => write("if X { A } else { B }"),
+        _ if rest.starts_with('.') && rest[1..].starts_with(|c: char| c.is_ascii_digit()) => {
+            write(format!("0{}", line_end(rest).split([' ', ')', ',']).next().unwrap_or("")))
+        }
+        _ if rest.starts_with('%') && before.trim().is_empty() => {
+            Some(Habit { message: None, help: "comments begin with `//`".to_string() })
+        }
+        _ if rest.starts_with("--") || before.trim() == "--" => {
+            Some(Habit { message: None, help: "comments begin with `//`".to_string() })
+        }
+        _ => None,
+    }
+}
