@@ -241,7 +241,7 @@ fn head(before: &str, rest: &str) -> Option<Habit> {
     let name = last_word(before);
     let bound = name.trim_start_matches("max_").trim_start_matches("min_");
     let is_limit = ["depth", "altitude", "speed", "turn_rate"].contains(&bound) && before.trim() == name;
-    if is_limit && rest.starts_with([':', '=']) || is_limit && rest.starts_with(|c: char| c.is_ascii_digit()) {
+    if is_limit && rest.starts_with(|c: char| matches!(c, ':' | '=') || c.is_ascii_digit()) {
         let sign = if name.starts_with("min_") || bound == "altitude" { ">=" } else { "<=" };
         return write(format!("{bound} {sign} {value}"));
     }
