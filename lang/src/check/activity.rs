@@ -1,7 +1,6 @@
 //! Behaviors, strategies, overlays and missions: their declarations, and what each kind may hold.
 
 use super::expr::article;
-use super::facts;
 use super::{Checker, Driving, Scope, Setting, Temporal, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -162,6 +161,12 @@ impl<'t> Checker<'t> {
                     );
                 }
                 let id = self.declare(name, VarKind::Memory, written);
+                if let Some(range) = Self::implied_range(&self.scope.vars[id].ty) {
+                    self.scope.vars[id].range = range;
+                }
+                if let Some(init) = &init {
+                    self.assigned_in_range(id, init);
+                }
                 self.list_order(id, ty);
                 parts.decls.push(Decl::Memory(id, init));
             }
@@ -181,7 +186,7 @@ impl<'t> Checker<'t> {
             }
             ClauseKind::Reaction { on, block } => {
                 let condition = self.instant(Temporal::Yes, |c| c.condition(on));
-                let facts = facts::shown(&condition, true);
+                let facts = self.shown(&condition, true);
                 let block = self.with_setting(Setting::Instant, |c| {
                     c.in_block(|c| {
                         c.scope.facts.learn(facts);

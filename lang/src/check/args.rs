@@ -5,11 +5,12 @@ use super::{Checker, Def, ParamInfo};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval};
+use crate::hir::{Builtin, Expr, ExprKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
 use crate::{foreign, suggest};
+use albacore_arithmetic::{Operation, Sqrt};
 
 /// Verbs whose setpoints are told after `at`, not among their arguments.
 const GUIDANCE: [&str; 5] = ["goto", "follow", "dubins", "loiter", "steer"];
@@ -343,7 +344,7 @@ impl<'t> Checker<'t> {
             }
             return self.unknown(span);
         };
-        if x.range.low < 0.0 {
+        if !Sqrt::is_defined([x.range]) {
             self.report(
                 Diagnostic::error(Code::RangesNegative, x.span, "this may be negative, and then it has no square root")
                     .help("write `sqrt(max(x, 0))`, or `sqrt(abs(x))`"),
@@ -398,10 +399,8 @@ impl<'t> Checker<'t> {
             "max" => self.operation(Builtin::Max, values, ty, span),
             _ => {
                 let high = values.pop().unwrap_or_else(|| self.unknown(span));
-                let range = Interval::new(values[1].range.low, high.range.high);
                 let low = self.operation(Builtin::Max, values, ty.clone(), span);
-                let held = self.operation(Builtin::Min, vec![low, high], ty, span);
-                if range.low <= range.high { Expr { range, ..held } } else { held }
+                self.operation(Builtin::Min, vec![low, high], ty, span)
             }
         }
     }

@@ -4,9 +4,9 @@ use super::expr::article;
 use super::{Checker, Driving, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Block, Expr, Interval, Order, Stmt, StmtKind, VarKind};
+use crate::hir::{self, Block, Expr, Stmt, StmtKind, VarKind};
 use crate::source::Span;
-use crate::syntax::tree::{self, Action, Clause, ClauseKind, TyKind};
+use crate::syntax::tree::{self, Action, Clause, ClauseKind};
 use crate::types::Type;
 
 impl<'t> Checker<'t> {
@@ -50,33 +50,11 @@ impl<'t> Checker<'t> {
             } else {
                 self.declare(&param.name, VarKind::Param, info.ty.clone())
             };
-            self.scope.vars[id].range = info.range.unwrap_or(Interval::ANY);
+            if let Some(range) = info.range {
+                self.scope.vars[id].range = range;
+            }
             self.list_order(id, &param.ty);
         }
-    }
-
-    /// `[Point; 6] by most KEY`: the key is a function of `it`.
-    pub(super) fn list_order(&mut self, id: usize, ty: &tree::Ty) {
-        let TyKind::List { order: Some((most, key)), .. } = &ty.kind else { return };
-        let Type::List(inner, _) = self.scope.vars[id].ty.clone() else { return };
-        let span = key.span;
-        let (it, key) = self.in_block(|c| {
-            let it = c.declare_hidden("it".to_string(), VarKind::Let, *inner, span);
-            let key = c.expr(key, None);
-            (it, key)
-        });
-        if !matches!(key.ty, Type::Int | Type::Quantity(_) | Type::Depth | Type::Altitude | Type::Unknown) {
-            let name = self.type_name(&key.ty);
-            self.report(
-                Diagnostic::error(
-                    Code::TypesKey,
-                    span,
-                    format!("a list is ordered by a number, not by {}", article(&name)),
-                )
-                .help("for example `by most it.along(upflow)`"),
-            );
-        }
-        self.scope.vars[id].order = Some(Order { most: *most, it, key: Box::new(key) });
     }
 
     /// A block of statements.
@@ -181,6 +159,7 @@ impl<'t> Checker<'t> {
                 let ty = id.map_or(Type::Unknown, |id| self.scope.vars[id].ty.clone());
                 let value = self.expr_as(value, &ty, &format!("`{}`", name.node));
                 let id = id?;
+                self.assigned_in_range(id, &value);
                 self.scope.facts.forget(id);
                 StmtKind::Set(id, value)
             }
@@ -424,7 +403,6 @@ impl<'t> Checker<'t> {
             K::If { condition, then, otherwise } => return self.if_stmt(condition, then, otherwise.as_ref(), span),
             K::Match { on, arms } => {
                 let (on, arms, otherwise) = self.match_arms(on, arms, None, false, span);
-                self.time_may_pass(arms.iter().map(|(_, b)| b).chain(&otherwise));
                 StmtKind::Match(on, arms, otherwise)
             }
             K::Call(callee, args) => match &callee.kind {
@@ -457,35 +435,6 @@ impl<'t> Checker<'t> {
 
     fn unused(&mut self, span: Span, help: &str) {
         self.report(Diagnostic::error(Code::FlowUnused, span, "this computes a value that nobody reads").help(help));
-    }
-
-    fn list_change(&mut self, base: &tree::Expr, what: &str, args: &[tree::Arg], span: Span) -> Option<Stmt> {
-        let tree::ExprKind::Name(name) = &base.kind else {
-            self.report(
-                Diagnostic::error(Code::NamesAssign, base.span, "only a list that has a name can be changed")
-                    .help("keep it in a `memory`"),
-            );
-            return None;
-        };
-        let name = tree::Name { node: name.clone(), span: base.span };
-        let id = self.assignable(&name)?;
-        let Type::List(inner, _) = self.scope.vars[id].ty.clone() else {
-            let ty = self.type_name(&self.scope.vars[id].ty.clone());
-            let message = format!("`{what}` changes a list, this is {}", article(&ty));
-            let finding = Diagnostic::error(Code::TypesList, base.span, message).here(format!("`{ty}`"));
-            self.report(finding.help(format!("another value is replaced as a whole: `{} = VALUE`", name.node)));
-            return None;
-        };
-        self.scope.facts.forget(id);
-        let kind = if what == "clear" {
-            self.positional::<0>("clear", args, span)?;
-            StmtKind::Clear(id)
-        } else {
-            let [item] = self.positional::<1>(what, args, span)?;
-            let item = self.expr_as(&item, &inner, "an element of this list");
-            if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
-        };
-        Some(Stmt { kind, span })
     }
 }
 

@@ -1,7 +1,7 @@
 //! `if` and `match`, as statements and as values.
 
 use super::expr::article;
-use super::facts::{self, Fact};
+use super::facts::Fact;
 use super::{Checker, Temporal, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -23,7 +23,7 @@ impl<'t> Checker<'t> {
             Condition::Holds(e) => {
                 let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
                 let known = |c: &mut Self, holds: bool, block: &tree::Block| {
-                    let facts = facts::shown(&condition, holds);
+                    let facts = c.shown(&condition, holds);
                     c.in_block(|c| {
                         c.scope.facts.learn(facts);
                         c.block(block)
@@ -31,12 +31,13 @@ impl<'t> Checker<'t> {
                 };
                 let then = known(self, true, then);
                 let otherwise = otherwise.map(|b| known(self, false, b)).unwrap_or_default();
-                self.time_may_pass([&then, &otherwise].into_iter());
-                // After `if not x { finish }` x is known.
+                // After `if not x { finish }` x is known, unless the way that goes on changes it.
                 if flow::leaves(&then) {
-                    self.scope.facts.learn(facts::shown(&condition, false));
+                    self.scope.facts.learn(self.shown(&condition, false));
+                    self.changes(&otherwise);
                 } else if flow::leaves(&otherwise) {
-                    self.scope.facts.learn(facts::shown(&condition, true));
+                    self.scope.facts.learn(self.shown(&condition, true));
+                    self.changes(&then);
                 }
                 Some(Stmt { kind: StmtKind::If(condition, then, otherwise), span })
             }
@@ -50,21 +51,17 @@ impl<'t> Checker<'t> {
                     block
                 });
                 let otherwise = otherwise.map(|b| self.in_block(|c| c.block(b))).unwrap_or_default();
-                self.time_may_pass([&then, &otherwise].into_iter());
                 Some(Stmt { kind: StmtKind::If(present, then, otherwise), span })
             }
         }
     }
 
-    pub(super) fn time_may_pass<'a>(&mut self, blocks: impl Iterator<Item = &'a Block>) {
-        let mut assigned = Vec::new();
-        for block in blocks {
-            if flow::may_take_time(block) {
-                self.time_passes();
-            }
-            assigned.extend(block.assigned());
+    /// Forgets what a block changes.
+    fn changes(&mut self, block: &Block) {
+        if flow::may_take_time(block) {
+            self.time_passes();
         }
-        for var in assigned {
+        for var in block.assigned() {
             self.scope.facts.forget(var);
         }
     }
@@ -114,8 +111,8 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         };
         let condition = self.with_temporal(Temporal::No, |c| c.condition(condition));
-        let mut then_block = self.block_knowing(facts::shown(&condition, true), then, expected);
-        let mut else_block = self.block_knowing(facts::shown(&condition, false), otherwise, expected);
+        let mut then_block = self.block_knowing(self.shown(&condition, true), then, expected);
+        let mut else_block = self.block_knowing(self.shown(&condition, false), otherwise, expected);
         let ty = self.join(&mut then_block, &mut else_block, span);
         self.make(ExprKind::If(Box::new(condition), then_block, else_block), ty, span)
     }

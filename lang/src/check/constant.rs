@@ -1,61 +1,64 @@
-//! Ranges of numbers: what an operation can give for what its operands can be. A constant is a range of one number.
+//! Ranges of numbers: what an operation can give for what its operands can be. The rules are those of the arithmetic that the
+//! machine executes; here is which built-in operation is which of them.
 
 use crate::hir::{Builtin, Interval};
-use albacore_geometry::math;
+use crate::types::Type;
+use albacore_arithmetic::Operator;
 
-/// The range of a built-in operation's result.
-pub(super) fn range(op: Builtin, operands: &[Interval]) -> Interval {
-    let a = operands.first().copied().unwrap_or(Interval::ANY);
-    let b = operands.get(1).copied().unwrap_or(Interval::ANY);
-    let result = match op {
-        Builtin::Add => Interval::new(a.low + b.low, a.high + b.high),
-        Builtin::Sub => Interval::new(a.low - b.high, a.high - b.low),
-        Builtin::Neg => Interval { low: -a.high, high: -a.low, not_zero: a.not_zero },
-        Builtin::Mul => {
-            let product = corners(a, b, |x, y| x * y);
-            Interval { not_zero: a.excludes_zero() && b.excludes_zero(), ..product }
-        }
-        Builtin::Div if b.low > 0.0 || b.high < 0.0 => {
-            let quotient = corners(a, b, |x, y| x / y);
-            Interval { not_zero: a.excludes_zero(), ..quotient }
-        }
-        Builtin::Abs if a.low >= 0.0 => a,
-        Builtin::Abs if a.high <= 0.0 => range(Builtin::Neg, &[a]),
-        Builtin::Abs => Interval { low: 0.0, high: a.high.max(-a.low), not_zero: a.not_zero },
-        Builtin::Min => Interval::new(a.low.min(b.low), a.high.min(b.high)),
-        Builtin::Max => Interval::new(a.low.max(b.low), a.high.max(b.high)),
-        Builtin::Sqrt => Interval::new(a.low.max(0.0).sqrt(), a.high.max(0.0).sqrt()),
-        Builtin::Floor => Interval::new(a.low.floor(), a.high.floor()),
-        Builtin::Ceil => Interval::new(a.low.ceil(), a.high.ceil()),
-        Builtin::Round => Interval::new(a.low.round(), a.high.round()),
-        Builtin::Pow => match (a.constant(), b.constant()) {
-            (Some(x), Some(y)) => Interval::exactly(math::pow(x, y)),
-            _ => Interval::ANY,
-        },
-        Builtin::Heading | Builtin::Angle => match a.constant() {
-            Some(x) if op == Builtin::Heading => {
-                Interval::exactly(albacore_geometry::Heading::from_radians(x).radians())
-            }
-            Some(x) => Interval::exactly(albacore_geometry::wrap_angle(x)),
-            None => Interval::ANY,
-        },
-        _ => Interval::ANY,
-    };
-    if result.low.is_nan() || result.high.is_nan() { Interval::ANY } else { result }
+/// The arithmetic of a built-in operation; none of one whose result is no number of its operands.
+pub(super) fn operator(op: Builtin) -> Option<Operator> {
+    use Builtin as B;
+    Some(match op {
+        B::Add => Operator::Add,
+        B::Sub => Operator::Sub,
+        B::Mul => Operator::Mul,
+        B::AddInt => Operator::AddInt,
+        B::SubInt => Operator::SubInt,
+        B::MulInt => Operator::MulInt,
+        B::Div | B::Quotient => Operator::Div,
+        B::Pow => Operator::Pow,
+        B::Neg => Operator::Neg,
+        B::Abs => Operator::Abs,
+        B::Min => Operator::Min,
+        B::Max => Operator::Max,
+        B::Sqrt => Operator::Sqrt,
+        B::Floor => Operator::Floor,
+        B::Ceil => Operator::Ceil,
+        B::Round => Operator::Round,
+        B::Sin => Operator::Sin,
+        B::Cos => Operator::Cos,
+        B::Heading => Operator::WrapHeading,
+        B::Angle => Operator::WrapAngle,
+        // Of vectors, whose components are not followed.
+        B::Length => Operator::Length,
+        B::Dot | B::Along => Operator::Dot,
+        B::Spread => Operator::Spread,
+        B::Lt | B::Le | B::Eq | B::Not | B::And | B::Or => return None,
+        B::AddVector | B::SubVector | B::Scale | B::Toward | B::Pair | B::Line => return None,
+        B::Direction | B::Gap | B::EdgeGap | B::EdgeTangent => return None,
+        B::Rectangle | B::Polygon | B::Center | B::Corner | B::NearestEdge | B::Exit => return None,
+        B::Top | B::At | B::VectorQuotient | B::LineVector | B::Run => return None,
+    })
 }
 
-fn corners(a: Interval, b: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
-    let mut low = f64::INFINITY;
-    let mut high = f64::NEG_INFINITY;
-    for x in [a.low, a.high] {
-        for y in [b.low, b.high] {
-            let value = f(x, y);
-            if value.is_nan() {
-                return Interval::ANY;
-            }
-            low = low.min(value);
-            high = high.max(value);
-        }
+/// The range of a built-in operation's result; none where nothing is known but its type.
+pub(super) fn range(op: Builtin, operands: &[Interval]) -> Option<Interval> {
+    let operator = operator(op)?;
+    match (op, operands) {
+        // Where it is present its divisor is not zero.
+        (Builtin::Quotient, [a, b]) => Some(operator.rule(&[*a, b.and(Interval::NOT_ZERO)])),
+        // `number(angle)`: the same number.
+        (Builtin::Add, [only]) => Some(*only),
+        (Builtin::Length | Builtin::Dot | Builtin::Along | Builtin::Spread, _) => Some(operator.rule(&[])),
+        _ => Some(operator.rule(operands)),
     }
-    Interval::new(low, high)
+}
+
+/// The values of a type, where they are numbers.
+pub(super) fn of_type(ty: &Type) -> Interval {
+    match ty {
+        Type::Int => Interval::INT,
+        Type::Sign => Interval::SIGN,
+        _ => Interval::ANY,
+    }
 }

@@ -3,7 +3,7 @@
 use super::{Checker, ClauseInfo, Def, Lazy, Module, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Interval};
+use crate::hir;
 use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
 use crate::types::{EnumInfo, RecordInfo, Type};
 use std::collections::BTreeSet;
@@ -291,9 +291,9 @@ impl<'t> Checker<'t> {
                         scenario.vars.push(hir::Var {
                             name: info.name,
                             kind: hir::VarKind::Param,
-                            ty: info.ty,
+                            ty: info.ty.clone(),
                             span: info.span,
-                            range: info.range.unwrap_or(Interval::ANY),
+                            range: info.range.unwrap_or_else(|| super::constant::of_type(&info.ty)),
                             walks_constants: false,
                             order: None,
                         });

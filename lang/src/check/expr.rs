@@ -1,7 +1,7 @@
 //! Expressions: names, literals, conversions, conditions.
 
+use super::constant::of_type;
 use super::facts::Place;
-use super::sense::INT_MAX;
 use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -10,6 +10,7 @@ use crate::hir::{Builtin, Expr, ExprKind, Interval, TextPart};
 use crate::source::Span;
 use crate::syntax::tree::{self, Unary};
 use crate::types::Type;
+use albacore_arithmetic::INT_MAX;
 
 impl<'t> Checker<'t> {
     pub(super) fn unknown(&self, span: Span) -> Expr {
@@ -21,18 +22,20 @@ impl<'t> Checker<'t> {
             ExprKind::Number(x) => Interval::exactly(*x),
             ExprKind::Do(op, operands) => {
                 let ranges: Vec<Interval> = operands.iter().map(|o| o.range).collect();
-                super::constant::range(*op, &ranges)
+                super::constant::range(*op, &ranges).unwrap_or_else(|| of_type(&ty))
             }
             ExprKind::Present(inner) => inner.range,
             ExprKind::If(_, a, b) => match (&a.value, &b.value) {
-                (Some(a), Some(b)) => Interval {
-                    low: a.range.low.min(b.range.low),
-                    high: a.range.high.max(b.range.high),
-                    not_zero: a.range.excludes_zero() && b.range.excludes_zero(),
-                },
+                (Some(a), Some(b)) => a.range.or(b.range),
                 _ => Interval::ANY,
             },
-            _ => Interval::ANY,
+            ExprKind::Match(_, arms, otherwise) => {
+                let values = arms.iter().map(|(_, block)| block).chain(otherwise).map(|block| block.value.as_ref());
+                let ranges = values.map(|value| value.map_or(Interval::ANY, |value| value.range));
+                ranges.reduce(Interval::or).unwrap_or(Interval::ANY)
+            }
+            ExprKind::Else(a, b) => a.range.or(b.range),
+            _ => of_type(&ty),
         };
         // What can be only one number is that number.
         let kind = match (range.constant(), &kind, ty.present()) {
@@ -222,9 +225,17 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         }
         self.temporal_allowed(span, "for");
-        let holds = self.condition(holds);
-        let duration = self.duration(duration, "the time after `for`");
+        let (holds, duration) = self.watched(|c| (c.condition(holds), c.duration(duration, "the time after `for`")));
         self.make(ExprKind::HeldFor(Box::new(holds), Box::new(duration)), Type::Bool, span)
+    }
+
+    /// Works on what a temporal operator watches: it is computed on every tick, whatever stands beside it.
+    fn watched<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+        let standing = self.scope.standing.known();
+        let beside = std::mem::replace(&mut self.scope.facts, standing);
+        let result = self.on_later_ticks(work);
+        self.scope.facts = beside;
+        result
     }
 
     pub(super) fn temporal_allowed(&mut self, span: Span, word: &str) {
@@ -245,12 +256,12 @@ impl<'t> Checker<'t> {
             }
             Unary::Becomes => {
                 self.temporal_allowed(span, "becomes");
-                let value = self.condition(operand);
+                let value = self.watched(|c| c.condition(operand));
                 self.make(ExprKind::Becomes(Box::new(value)), Type::Bool, span)
             }
             Unary::After => {
                 self.temporal_allowed(span, "after");
-                let time = self.duration(operand, "the time after `after`");
+                let time = self.watched(|c| c.duration(operand, "the time after `after`"));
                 self.make(ExprKind::After(Box::new(time)), Type::Bool, span)
             }
             Unary::Pos => {

@@ -1,6 +1,11 @@
-//! What a test has shown: that an optional is present, that a number is not zero.
+//! What a test has shown: that an optional is present, that a number lies in a range.
+//!
+//! A fact is of the value that is read next: an assignment takes it away, wherever in a block it stands, and so does time that
+//! goes by. What is computed on other ticks than the one on which it stands, such as a condition over time, is read without
+//! what a test beside it has shown.
 
 use crate::hir::{Builtin, Expr, ExprKind, InputId, InputPart, Interval, Var, VarId, VarKind};
+use crate::types::Type;
 
 /// Something of which facts can be known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,10 +29,19 @@ impl Fact {
     }
 }
 
+/// Why something is known no more.
+#[derive(Clone, Copy, Debug)]
+enum Change {
+    Assigned(VarId),
+    Time,
+}
+
 /// What is known here.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Facts {
     known: Vec<Fact>,
+    /// What has changed since the block began that is being looked at.
+    changes: Vec<Change>,
 }
 
 impl Facts {
@@ -40,24 +54,17 @@ impl Facts {
     }
 
     /// A known range, made narrower by what tests have shown.
-    pub fn narrowed(&self, place: Place, mut range: Interval) -> Interval {
-        for fact in &self.known {
-            if let Fact::Within(p, shown) = fact
-                && *p == place
-            {
-                range = Interval {
-                    low: range.low.max(shown.low),
-                    high: range.high.min(shown.high),
-                    not_zero: range.not_zero || shown.not_zero,
-                };
-            }
-        }
-        range
+    pub fn narrowed(&self, place: Place, range: Interval) -> Interval {
+        self.known.iter().fold(range, |range, fact| match fact {
+            Fact::Within(p, shown) if *p == place => range.and(*shown),
+            _ => range,
+        })
     }
 
     /// An assignment: nothing is known of the variable any more.
     pub fn forget(&mut self, var: VarId) {
         self.known.retain(|f| f.place() != Place::Var(var));
+        self.changes.push(Change::Assigned(var));
     }
 
     /// Time goes by: only what cannot change is known still.
@@ -66,6 +73,29 @@ impl Facts {
             Place::Var(v) => matches!(vars[v].kind, VarKind::Param | VarKind::Let | VarKind::Loop | VarKind::Area),
             Place::Input(_) => false,
         });
+        if !matches!(self.changes.last(), Some(Change::Time)) {
+            self.changes.push(Change::Time);
+        }
+    }
+
+    /// The same knowledge, for another place.
+    pub fn known(&self) -> Facts {
+        Facts { known: self.known.clone(), changes: Vec::new() }
+    }
+
+    /// Begins a block; gives what is known outside it.
+    pub fn enter(&mut self) -> Facts {
+        Facts { known: self.known.clone(), changes: std::mem::take(&mut self.changes) }
+    }
+
+    /// Ends a block: of what is known outside it, all stays known that did not change in it.
+    pub fn leave(&mut self, outside: Facts, vars: &[Var]) {
+        for change in std::mem::replace(self, outside).changes {
+            match change {
+                Change::Assigned(var) => self.forget(var),
+                Change::Time => self.forget_changeable(vars),
+            }
+        }
     }
 }
 
@@ -78,13 +108,13 @@ fn place(expr: &Expr) -> Option<Place> {
 }
 
 /// What is known when a condition holds, or when it does not.
-pub(super) fn shown(condition: &Expr, holds: bool) -> Vec<Fact> {
+pub(super) fn shown(condition: &Expr, holds: bool, vars: &[Var]) -> Vec<Fact> {
     match &condition.kind {
         ExprKind::IsPresent(inner) if holds => place(inner).map(Fact::Present).into_iter().collect(),
-        ExprKind::Do(Builtin::Not, operands) => shown(&operands[0], !holds),
+        ExprKind::Do(Builtin::Not, operands) => shown(&operands[0], !holds, vars),
         // Both hold, or neither: otherwise one of them could be the other way.
-        ExprKind::Do(Builtin::And, operands) if holds => both(operands, holds),
-        ExprKind::Do(Builtin::Or, operands) if !holds => both(operands, holds),
+        ExprKind::Do(Builtin::And, operands) if holds => both(operands, holds, vars),
+        ExprKind::Do(Builtin::Or, operands) if !holds => both(operands, holds, vars),
         ExprKind::Do(Builtin::Lt, operands) => compared(&operands[0], &operands[1], holds, true),
         ExprKind::Do(Builtin::Le, operands) => compared(&operands[0], &operands[1], holds, false),
         ExprKind::Do(Builtin::Eq, operands) if !holds => {
@@ -96,17 +126,24 @@ pub(super) fn shown(condition: &Expr, holds: bool) -> Vec<Fact> {
             } else {
                 return Vec::new();
             };
-            let range = Interval { not_zero: true, ..Interval::ANY };
+            let range = if other.ty == Type::Int { Interval::INT.without_below(1.0) } else { Interval::NOT_ZERO };
             place(other).map(|p| Fact::Within(p, range)).into_iter().collect()
         }
-        ExprKind::HeldFor(inner, _) if holds => shown(inner, true),
-        ExprKind::Becomes(inner) if holds => shown(inner, true),
+        // Both were updated at the beginning of the tick: what has been assigned since is not what they have seen.
+        ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) if holds => {
+            let mut facts = shown(inner, true, vars);
+            facts.retain(|fact| match fact.place() {
+                Place::Var(v) => !matches!(vars[v].kind, VarKind::Memory | VarKind::Var),
+                Place::Input(_) => true,
+            });
+            facts
+        }
         _ => Vec::new(),
     }
 }
 
-fn both(operands: &[Expr], holds: bool) -> Vec<Fact> {
-    operands.iter().flat_map(|o| shown(o, holds)).collect()
+fn both(operands: &[Expr], holds: bool, vars: &[Var]) -> Vec<Fact> {
+    operands.iter().flat_map(|o| shown(o, holds, vars)).collect()
 }
 
 /// `a < b` or `a <= b`, or its contrary.
@@ -115,12 +152,22 @@ fn compared(a: &Expr, b: &Expr, holds: bool, strict: bool) -> Vec<Fact> {
     let strict = strict == holds;
     let mut facts = Vec::new();
     if let Some(place) = place(high) {
-        let not_zero = strict && low.range.low >= 0.0;
-        facts.push(Fact::Within(place, Interval { low: low.range.low, high: f64::INFINITY, not_zero }));
+        let bound = low.range.low;
+        let bound = match (strict, &high.ty) {
+            (true, Type::Int) => bound.floor() + 1.0,
+            (true, _) => bound.next_up(),
+            (false, _) => bound,
+        };
+        facts.push(Fact::Within(place, Interval::at_least(bound)));
     }
     if let Some(place) = place(low) {
-        let not_zero = strict && high.range.high <= 0.0;
-        facts.push(Fact::Within(place, Interval { low: f64::NEG_INFINITY, high: high.range.high, not_zero }));
+        let bound = high.range.high;
+        let bound = match (strict, &low.ty) {
+            (true, Type::Int) => bound.ceil() - 1.0,
+            (true, _) => bound.next_down(),
+            (false, _) => bound,
+        };
+        facts.push(Fact::Within(place, Interval::at_most(bound)));
     }
     facts
 }

@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::flow::takes_time;
-use super::{Checker, Temporal, facts};
+use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -10,6 +10,7 @@ use crate::hir::{Block, Expr, ExprKind, Interval, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Condition, ForOver};
 use crate::types::Type;
+use albacore_arithmetic::INT_MAX;
 
 /// A loop that takes no time goes round this often at most: every tick must end, and soon.
 const ROUNDS_MAX: f64 = 10_000.0;
@@ -34,7 +35,7 @@ impl<'t> Checker<'t> {
                 (var, c.block(block))
             });
             // Written so that a bound that is no number counts as none.
-            let exact = first.range.low.abs().max(end.abs()) < super::sense::INT_MAX;
+            let exact = first.range.low.abs().max(end.abs()) < INT_MAX;
             let bounded = exact && end - first.range.low <= ROUNDS_MAX;
             // A bound that is wrong has been told of.
             if !bounded && first.ty != Type::Unknown && last.ty != Type::Unknown {
@@ -131,7 +132,7 @@ impl<'t> Checker<'t> {
         let (condition, bind, body) = match condition {
             Condition::Holds(e) => {
                 let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
-                let facts = facts::shown(&condition, true);
+                let facts = self.shown(&condition, true);
                 let body = self.in_block(|c| {
                     c.scope.facts.learn(facts);
                     c.block(block)

@@ -11,6 +11,7 @@ use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_arithmetic::{Age, Operation, counted};
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const VECTOR: Type = Type::Vector(Dimension::LENGTH);
@@ -97,10 +98,7 @@ impl<'t> Checker<'t> {
             (Type::Point, "east") => part(self, value, 1, LENGTH),
             (Type::Vector(d), "north") => part(self, value, 0, Type::Quantity(d)),
             (Type::Vector(d), "east") => part(self, value, 1, Type::Quantity(d)),
-            (Type::Vector(d), "length") => {
-                let length = self.operation(Builtin::Length, vec![value], Type::Quantity(d), span);
-                Expr { range: Interval { low: 0.0, high: f64::INFINITY, not_zero: false }, ..length }
-            }
+            (Type::Vector(d), "length") => self.operation(Builtin::Length, vec![value], Type::Quantity(d), span),
             (Type::Vector(_), "toward") => self.operation(Builtin::Direction, vec![value], Type::Heading, span),
             (Type::Area, "center") => self.operation(Builtin::Center, vec![value], Type::Point, span),
             (Type::Area, "edges") => {
@@ -125,7 +123,7 @@ impl<'t> Checker<'t> {
             }
             (Type::List(_, n), "count") => {
                 let count = part(self, value, 0, Type::Int);
-                Expr { range: Interval::new(0.0, f64::from(n)), ..count }
+                Expr { range: counted(n), ..count }
             }
             (Type::List(inner, _), "first") => {
                 let zero = self.make(ExprKind::Number(0.0), Type::Int, span);
@@ -186,7 +184,7 @@ impl<'t> Checker<'t> {
         match member.node.as_str() {
             "age" => {
                 return Some(Expr {
-                    range: Interval { low: 0.0, high: f64::INFINITY, not_zero: false },
+                    range: Age::rule([Interval::ANY]),
                     ..read(InputPart::Age, Type::Quantity(Dimension::TIME))?
                 });
             }
@@ -392,6 +390,6 @@ impl<'t> Checker<'t> {
             }
         };
         let part = InputPart::Hits(Box::new(limit.clone()), count);
-        Expr { kind: ExprKind::Input(input, part), ty: Type::Int, span, range: Interval::new(0.0, f64::from(count)) }
+        Expr { kind: ExprKind::Input(input, part), ty: Type::Int, span, range: counted(count) }
     }
 }

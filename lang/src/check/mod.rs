@@ -14,6 +14,7 @@ mod expr;
 mod facts;
 mod flow;
 mod hidden;
+mod lists;
 mod loops;
 mod members;
 mod mission;
@@ -190,6 +191,8 @@ struct Scope {
     vars: Vec<hir::Var>,
     visible: Visible,
     facts: Facts,
+    /// What was known where the condition begins that is being looked at.
+    standing: Facts,
     /// What `finish` must give: none where it cannot stand.
     finish: Option<Option<Type>>,
     /// The block in which the vehicle is ours already: neither `watch` nor `override` can stand there.
@@ -205,6 +208,7 @@ impl Scope {
             vars: Vec::new(),
             visible: Visible::default(),
             facts: Facts::default(),
+            standing: Facts::default(),
             finish: None,
             driving: None,
         }
@@ -323,20 +327,37 @@ impl<'t> Checker<'t> {
         (result, std::mem::replace(&mut self.scope, outer))
     }
 
-    /// Works in a block: its names and what it learns are forgotten at its end.
+    /// Works in a block: its names and what it learns are forgotten at its end, and so is what it changes.
     fn in_block<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
-        let (visible, facts) = (self.scope.visible.len(), self.scope.facts.clone());
+        let (visible, outside) = (self.scope.visible.len(), self.scope.facts.enter());
         let result = work(self);
         self.scope.visible.truncate(visible);
-        self.scope.facts = facts;
+        self.scope.facts.leave(outside, &self.scope.vars);
         result
     }
 
-    /// Works where other temporal operators are allowed.
+    /// Works on what is computed on later ticks too, or on others: nothing is known there of what can change by then.
+    fn on_later_ticks<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.scope.facts.enter();
+        self.time_passes();
+        let result = work(self);
+        self.scope.facts = before;
+        result
+    }
+
+    /// What is known when a condition holds, or when it does not.
+    fn shown(&self, condition: &hir::Expr, holds: bool) -> Vec<facts::Fact> {
+        facts::shown(condition, holds, &self.scope.vars)
+    }
+
+    /// Works where other temporal operators are allowed. They watch from the beginning of their condition: what is known there
+    /// is what they know.
     fn with_temporal<T>(&mut self, temporal: Temporal, work: impl FnOnce(&mut Self) -> T) -> T {
         let outer = std::mem::replace(&mut self.scope.temporal, temporal);
+        let standing = std::mem::replace(&mut self.scope.standing, self.scope.facts.known());
         let result = work(self);
         self.scope.temporal = outer;
+        self.scope.standing = standing;
         result
     }
 

@@ -1,5 +1,6 @@
 //! Names: what each stands for, who may be declared, read and assigned.
 
+use super::constant::of_type;
 use super::facts::Place;
 use super::{Checker, Def, Setting};
 use crate::code::Code;
@@ -82,12 +83,13 @@ impl<'t> Checker<'t> {
 
     pub(super) fn declare_hidden(&mut self, name: String, kind: VarKind, ty: Type, span: Span) -> VarId {
         let id = self.scope.vars.len();
+        let range = of_type(&ty);
         self.scope.vars.push(hir::Var {
             name: name.clone(),
             kind,
             ty,
             span,
-            range: Interval::ANY,
+            range,
             walks_constants: false,
             order: None,
         });
@@ -138,7 +140,9 @@ impl<'t> Checker<'t> {
                     return self.unknown(span);
                 }
                 let input = &self.hir.inputs[*id];
-                let range = self.scope.facts.narrowed(Place::Input(*id), Interval::ANY);
+                // No sample is held to the two values of a sign: what an input tells is a whole number.
+                let of_type = if input.ty == Type::Sign { Interval::INT } else { of_type(&input.ty) };
+                let range = self.scope.facts.narrowed(Place::Input(*id), of_type);
                 Expr { kind: ExprKind::Input(*id, InputPart::Value), ty: input.ty.clone(), span, range }
             }
             other => {

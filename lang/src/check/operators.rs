@@ -3,7 +3,6 @@
 use super::Checker;
 use super::advice::{partner, sides_help};
 use super::expr::article;
-use super::facts;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -11,6 +10,7 @@ use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
 use crate::source::{Span, Spanned};
 use crate::syntax::tree::{self, Binary};
 use crate::types::Type;
+use albacore_arithmetic::{Div, Operation, Pow};
 
 const ANGLE: Type = Type::Quantity(Dimension::ANGLE);
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
@@ -108,10 +108,11 @@ impl<'t> Checker<'t> {
             }
         }
         let a = self.condition(left);
-        let before = self.scope.facts.clone();
-        self.scope.facts.learn(facts::shown(&a, op.node == Binary::And));
-        let b = self.condition(right);
-        self.scope.facts = before;
+        let shown = self.shown(&a, op.node == Binary::And);
+        let b = self.in_block(|c| {
+            c.scope.facts.learn(shown);
+            c.condition(right)
+        });
         let builtin = if op.node == Binary::And { Builtin::And } else { Builtin::Or };
         self.operation(builtin, vec![a, b], Type::Bool, span)
     }
@@ -147,7 +148,7 @@ impl<'t> Checker<'t> {
     fn sum(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
         use Type::*;
         let (op_, ty) = match (&a.ty, &b.ty) {
-            (Int | Sign, Int | Sign) => (Builtin::Add, Int),
+            (Int | Sign, Int | Sign) => (Builtin::AddInt, Int),
             (Heading, t) | (t, Heading) if *t == ANGLE => {
                 let sum = self.operation(Builtin::Add, vec![a, b], ANGLE, span);
                 return self.operation(Builtin::Heading, vec![sum], Heading, span);
@@ -167,7 +168,7 @@ impl<'t> Checker<'t> {
     fn difference(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
         use Type::*;
         let (op_, ty) = match (&a.ty, &b.ty) {
-            (Int | Sign, Int | Sign) => (Builtin::Sub, Int),
+            (Int | Sign, Int | Sign) => (Builtin::SubInt, Int),
             (Heading, Heading) => {
                 let difference = self.operation(Builtin::Sub, vec![a, b], ANGLE, span);
                 return self.operation(Builtin::Angle, vec![difference], ANGLE, span);
@@ -193,7 +194,7 @@ impl<'t> Checker<'t> {
     fn product(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
         match (&a.ty, &b.ty) {
             (Type::Int | Type::Sign, Type::Int | Type::Sign) => {
-                self.operation(Builtin::Mul, vec![a, b], Type::Int, span)
+                self.operation(Builtin::MulInt, vec![a, b], Type::Int, span)
             }
             (Type::Vector(v), t) if t.dimension().is_some() => {
                 let ty = Type::Vector(*v * t.dimension().unwrap_or_default());
@@ -228,7 +229,7 @@ impl<'t> Checker<'t> {
             },
         };
         let of_vector = matches!(ty, Type::Vector(_));
-        if !(b.range.excludes_zero() || b.ty == Type::Sign) {
+        if !Div::is_defined([a.range, b.range]) {
             let quotient = if of_vector { Builtin::VectorQuotient } else { Builtin::Quotient };
             return self.operation(quotient, vec![a, b], ty.optional(), span);
         }
@@ -251,7 +252,7 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         };
-        if power < 0.0 || power.fract() != 0.0 && a.range.low < 0.0 {
+        if !Pow::is_defined([a.range, b.range]) {
             self.report(
                 Diagnostic::error(Code::TypesPower, b.span, "this power has no value for some bases")
                     .help("use a positive whole power, `sqrt(x)`, or divide"),

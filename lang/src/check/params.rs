@@ -8,6 +8,7 @@ use crate::hir::{self, Interval};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_arithmetic::LARGEST;
 
 /// A parameter set from outside, as by `--set cpt_2005.beta=30deg`.
 #[derive(Clone, Debug)]
@@ -55,7 +56,7 @@ impl<'t> Checker<'t> {
                 self.report(finding);
             }
             let ty = self.written_type(m, &param.ty);
-            let range = param.range.as_ref().and_then(|r| self.constant_range(m, r, &ty));
+            let written = param.range.as_ref().and_then(|r| self.constant_range(m, r, &ty));
             let replaced = owner.and_then(|owner| self.take_override(m, owner, &param.name.node));
             let what = if replaced.is_some() { "the value" } else { "the default" };
             let default = replaced.as_ref().or(param.default.as_ref()).map(|written| {
@@ -63,11 +64,13 @@ impl<'t> Checker<'t> {
                 let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, what));
                 value
             });
-            match (&default, range) {
+            match (&default, written) {
                 (Some(default), Some(range)) => self.in_range(default, range, &param.name.node, param.name.span),
                 (Some(default), None) if owner.is_some() => self.sensible_default(default, &param.name.node),
                 _ => {}
             }
+            // A function may well be given the negative difference of two times; what takes time may not.
+            let range = written.or_else(|| owner.and_then(|_| Self::implied_range(&ty)));
             infos.push(ParamInfo { name: param.name.node.clone(), ty, default, range, span: param.name.span });
         }
         infos
@@ -160,9 +163,18 @@ impl<'t> Checker<'t> {
         }
     }
 
+    /// Checks that a value can be assigned: a memory whose range is assumed where it is read is held to it.
+    pub(super) fn assigned_in_range(&mut self, id: hir::VarId, value: &hir::Expr) {
+        let hir::Var { kind, range, name, span, ty, .. } = &self.scope.vars[id];
+        if *kind == hir::VarKind::Memory && Self::implied_range(ty).is_some() {
+            let (range, name, span) = (*range, name.clone(), *span);
+            self.in_range(value, range, &name, span);
+        }
+    }
+
     /// Checks that a value is in a parameter's range, as far as the value is known.
     pub(super) fn in_range(&mut self, value: &hir::Expr, range: Interval, param: &str, declared: Span) {
-        if value.ty == Type::Unknown || (value.range.low >= range.low && value.range.high <= range.high) {
+        if value.ty == Type::Unknown || range.covers(value.range) {
             return;
         }
         // Where a range ends at 1 or before, it is of shares: `4 %`.
@@ -172,7 +184,7 @@ impl<'t> Checker<'t> {
             false => self.shown_number(x, &value.ty),
         };
         let percent = value.range.constant().map(|x| x * 0.01).filter(|x| *x >= range.low && *x <= range.high);
-        let (bounds, among) = match (range.low.is_finite(), range.high.is_finite()) {
+        let (bounds, among) = match (range.low > -LARGEST, range.high < LARGEST) {
             (true, false) => (format!("{} or more", show(range.low)), "of"),
             (false, true) => (format!("{} or less", show(range.high)), "of"),
             _ => (format!("{}..{}", show(range.low), show(range.high)), "in"),
@@ -195,7 +207,10 @@ impl<'t> Checker<'t> {
                 value.span,
                 format!("this may be outside the range of `{param}`, {bounds}"),
             )
-            .help("give what it is computed from a range of its own, or hold it with `clamp(x, low, high)`"),
+            .help(match range == Interval::NOT_NEGATIVE && value.ty == Type::Quantity(Dimension::TIME) {
+                true => "no time is negative: write `max(0 s, …)`",
+                false => "give what it is computed from a range of its own, or hold it with `clamp(x, low, high)`",
+            }),
         };
         self.report(
             finding.label(declared, format!("`{param}` is {}{bounds}", if among == "in" { "in " } else { "" })),

@@ -5,14 +5,12 @@ use super::Checker;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::Expr;
+use crate::hir::{Expr, Interval};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_arithmetic::{INT_MAX, LARGEST, Operation, Ticks};
 use std::f64::consts::TAU;
-
-/// Beyond this, 2^53, adding one changes nothing.
-pub(super) const INT_MAX: f64 = 9_007_199_254_740_992.0;
 
 /// A quantity is this large at most, in metres, seconds and what they make: the sun is nearer.
 pub(super) const QUANTITY_MAX: f64 = 1e12;
@@ -24,14 +22,29 @@ impl<'t> Checker<'t> {
     /// The duration of `for T`, `within T`, `fresh T` and `after T`.
     pub(super) fn duration(&mut self, e: &tree::Expr, what: &str) -> Expr {
         let value = self.expr_as(e, &Type::Quantity(Dimension::TIME), what);
+        if value.ty == Type::Unknown {
+            return value;
+        }
         if value.range.high <= 0.0 {
             let how = if value.range.high < 0.0 { "negative" } else { "zero" };
             self.report(
                 Diagnostic::error(Code::RangesDuration, value.span, format!("{what} is {how}"))
                     .help("write a time longer than 0 s"),
             );
+        } else if !Ticks::is_defined([value.range]) {
+            self.report(
+                Diagnostic::error(Code::RangesDuration, value.span, format!("{what} may be negative"))
+                    .here("how short can this be?")
+                    .help("write `max(0 s, …)`: 0 s is one tick, the shortest time there is"),
+            );
         }
         value
+    }
+
+    /// The range of an activity's parameter that has none of its own, and of a memory: a time is not negative. What is given or
+    /// assigned is held to it, so that it can be waited for wherever it is read.
+    pub(super) fn implied_range(ty: &Type) -> Option<Interval> {
+        (*ty == Type::Quantity(Dimension::TIME)).then_some(Interval::NOT_NEGATIVE)
     }
 
     /// A setpoint or a limit of depth, altitude or speed.
@@ -91,9 +104,10 @@ impl<'t> Checker<'t> {
         let (largest, shown) = match value.ty {
             Type::Int => (INT_MAX, format!("whole numbers go to {INT_MAX}")),
             // What is computed from quantities may be far from what any is: only what is no number any more is refused.
-            _ => (f64::MAX, format!("numbers go to {:e}", f64::MAX)),
+            _ => (LARGEST, format!("numbers go to {LARGEST:e}")),
         };
-        if x.abs() <= largest {
+        // What would be larger has been held to the largest.
+        if x.abs() < largest {
             return value;
         }
         self.report(

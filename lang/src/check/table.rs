@@ -1,7 +1,6 @@
 //! The switching table: which behavior follows which, and that none is forgotten.
 
 use super::expr::article;
-use super::facts;
 use super::{Checker, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -155,17 +154,17 @@ impl<'t> Checker<'t> {
             rule.sources.iter().filter_map(|name| self.behavior_named(name, names)).collect()
         };
         let on = self.rule_condition(&rule.on);
-        let facts = facts::shown(&on, true);
+        let facts = self.shown(&on, true);
         let (target, effect) = self.with_setting(Setting::Instant, |c| {
             c.in_block(|c| {
                 c.scope.facts.learn(facts);
-                let effect = rule.effect.as_ref().map(|b| c.in_block(|c| c.block(b)));
                 // The result is computed before `do` runs: what the guard has shown holds.
                 let target = match &rule.target {
                     tree::Target::Behavior(_) => to.flatten().map(Target::Behavior),
                     tree::Target::Finish(value, span) => c.rule_result(value.as_ref(), *span, result),
                     tree::Target::Abort(why, _) => Some(Target::Abort(c.literal_text(why))),
                 };
+                let effect = rule.effect.as_ref().map(|b| c.in_block(|c| c.block(b)));
                 (target, effect)
             })
         });

@@ -82,9 +82,10 @@ impl<'t> Checker<'t> {
         let (action, ends, result_ty) = self.action(&timed.action, timed.span)?;
         let duration = timed.duration.as_ref().map(|e| self.duration(e, "the time after `for`"));
         let within = timed.within.as_ref().map(|e| self.duration(e, "the time after `within`"));
-        let until = timed.until.as_ref().map(|e| self.with_temporal(Temporal::Yes, |c| c.condition(e)));
         let at = self.setpoints(&timed.at);
         self.time_passes();
+        // It is first tried on the tick after the statement began.
+        let until = timed.until.as_ref().map(|e| self.with_temporal(Temporal::Yes, |c| c.condition(e)));
         let result = bind.map(|(name, ty)| {
             let cut = duration.is_some() || until.is_some() || within.is_some();
             let found = match (&action, result_ty) {
@@ -155,7 +156,7 @@ impl<'t> Checker<'t> {
         Some(match action {
             tree::Action::Guide { verb, args } => return self.guidance(verb, args, span),
             tree::Action::Keep(setpoint) => {
-                let (channel, value) = self.setpoint(setpoint)?;
+                let (channel, value) = self.on_later_ticks(|c| c.setpoint(setpoint))?;
                 (Action::Keep(channel, value), false, None)
             }
             tree::Action::Hold => (Action::Guide(Guide::Hold, Vec::new()), false, None),
@@ -230,7 +231,7 @@ impl<'t> Checker<'t> {
                 span: verb.span,
             };
         let yes = |b: bool| Some((ExprKind::Number(f64::from(u8::from(b))), Type::Bool, Interval::ANY));
-        let positive = Some(Interval { low: 0.1, high: f64::INFINITY, not_zero: true });
+        let positive = Some(Interval::at_least(0.1));
         // A turning radius of 0 stands for the one that the speed and the command filter allow.
         let turning = || param("radius", LENGTH, length(0.0), positive);
         let (guide, params, ends) = match verb.node.as_str() {
@@ -254,7 +255,7 @@ impl<'t> Checker<'t> {
                 let params = vec![
                     param("center", Type::Point, None, None),
                     param("radius", LENGTH, None, positive),
-                    param("turns", Type::Quantity(Dimension::NONE), turns, Some(Interval::new(0.0, f64::INFINITY))),
+                    param("turns", Type::Quantity(Dimension::NONE), turns, Some(Interval::NOT_NEGATIVE)),
                     param("clockwise", Type::Bool, yes(true), None),
                 ];
                 (Guide::Loiter, params, true)
@@ -264,7 +265,9 @@ impl<'t> Checker<'t> {
             }
             _ => (Guide::Steer, vec![param("course", Type::Heading, None, None)], false),
         };
-        let values = self.arguments(&verb.node, &params, args, span, None)?;
+        let read_anew = matches!(guide, Guide::Steer | Guide::SteerHeading);
+        let read = |c: &mut Self| c.arguments(&verb.node, &params, args, span, None);
+        let values = if read_anew { self.on_later_ticks(read) } else { read(self) }?;
         let ends = ends && !loiters_for_ever(guide, &values);
         Some((Action::Guide(guide, values), ends, None))
     }

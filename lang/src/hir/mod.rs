@@ -1,13 +1,12 @@
 //! The checked program: names resolved, types known, every conversion spelt out. What lowering reads.
 
 mod activity;
-mod interval;
 mod same;
 mod simulated;
 mod walk;
 
 pub use activity::*;
-pub use interval::Interval;
+pub use albacore_arithmetic::Interval;
 pub use same::{mentions_done, same_condition};
 pub use simulated::*;
 pub use walk::{activity_children, block_children, calls_in, children};
@@ -213,6 +212,9 @@ pub enum Builtin {
     Quotient,
     /// A vector over a number, absent where that is zero.
     VectorQuotient,
+    AddInt,
+    SubInt,
+    MulInt,
     Pow,
     Neg,
     Abs,

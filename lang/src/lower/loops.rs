@@ -29,7 +29,7 @@ impl<'a> Lowering<'a> {
     fn count_up(&mut self, counter: Slot) {
         self.scratch(|l| {
             let one = l.number(1.0);
-            l.emit(Op::Add { to: counter, a: counter, b: one });
+            l.emit(Op::AddInt { to: counter, a: counter, b: one });
         });
     }
 

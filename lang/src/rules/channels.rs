@@ -130,7 +130,7 @@ impl Walk<'_> {
             ExprKind::Var(id) => self.given.get(id).copied().unwrap_or(Interval::ANY),
             _ => Interval::ANY,
         };
-        Interval { low: given.low.max(e.range.low), high: given.high.min(e.range.high), ..e.range }
+        given.and(e.range)
     }
 
     /// Walks what is called with some arguments.

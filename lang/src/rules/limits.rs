@@ -4,6 +4,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Expr, Hir, Interval};
 use crate::source::Span;
+use albacore_arithmetic::LARGEST;
 use albacore_program::Channel;
 
 /// A limit with its number.
@@ -33,7 +34,7 @@ pub(super) fn beyond(limits: &[Limit], channel: Channel, setpoint: &Expr, range:
     let wholly = |l: &&Limit| if l.least { range.high < l.value } else { range.low > l.value };
     let partly = |l: &&Limit| {
         let end = if l.least { range.low } else { range.high };
-        end.is_finite() && if l.least { end < l.value } else { end > l.value }
+        end.abs() < LARGEST && if l.least { end < l.value } else { end > l.value }
     };
     let (name, unit) = match channel {
         Channel::Depth => ("depth", "m"),

@@ -96,8 +96,8 @@ fn compared(e: &Expr) -> Option<(&Expr, Interval)> {
     let ExprKind::Do(Builtin::Lt | Builtin::Le, operands) = &e.kind else { return None };
     let (low, high) = (&operands[0], &operands[1]);
     match (low.range.constant(), high.range.constant()) {
-        (None, Some(bound)) => Some((low, Interval { high: bound, ..Interval::ANY })),
-        (Some(bound), None) => Some((high, Interval { low: bound, ..Interval::ANY })),
+        (None, Some(bound)) => Some((low, Interval::at_most(bound))),
+        (Some(bound), None) => Some((high, Interval::at_least(bound))),
         _ => None,
     }
 }

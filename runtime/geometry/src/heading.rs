@@ -24,8 +24,7 @@ impl Heading {
             return Heading(angle_rad + 0.0);
         }
         let wrapped = angle_rad - TAU * (angle_rad / TAU).floor();
-        // An angle a hair below a full turn rounds up to it.
-        Heading(if wrapped >= TAU { 0.0 } else { wrapped + 0.0 })
+        Heading(if (0.0..TAU).contains(&wrapped) { wrapped + 0.0 } else { remainder(angle_rad) })
     }
 
     /// The heading of an angle in degrees, clockwise from north, wrapped.
@@ -93,7 +92,19 @@ pub fn wrap_angle(angle_rad: f64) -> f64 {
         return angle_rad;
     }
     let wrapped = angle_rad - TAU * (angle_rad / TAU + 0.5).floor();
-    if wrapped <= -PI { wrapped + TAU } else { wrapped }
+    let wrapped = if wrapped <= -PI { wrapped + TAU } else { wrapped };
+    if wrapped > -PI && wrapped <= PI {
+        return wrapped;
+    }
+    let turned = remainder(angle_rad);
+    if turned > PI { turned - TAU } else { turned }
+}
+
+/// What an angle is beyond whole turns, in [0, 2 pi), where so many turns round that a product of them would miss it.
+fn remainder(angle_rad: f64) -> f64 {
+    let rest = angle_rad.rem_euclid(TAU);
+    // An angle a hair below a full turn rounds up to it.
+    if rest < TAU { rest + 0.0 } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -115,6 +126,24 @@ mod tests {
         assert_eq!(Heading::from_radians(-1e-18).radians(), 0.0);
         assert!(Heading::from_radians(TAU).radians() < TAU);
         assert!((Heading::from_degrees(-90.0).degrees() - 270.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn angles_of_any_size_lie_within_a_turn() {
+        for exponent in -300..=150 {
+            for k in [1.0, 3.7, 9.99] {
+                let magnitude = k * crate::math::pow(10.0, f64::from(exponent));
+                for angle in [magnitude, -magnitude] {
+                    assert!((0.0..TAU).contains(&Heading::from_radians(angle).radians()), "{angle:e}");
+                    let wrapped = wrap_angle(angle);
+                    assert!(wrapped > -PI && wrapped <= PI, "{angle:e} becomes {wrapped:e}");
+                }
+            }
+        }
+        for turns in 1..1_000_000 {
+            let angle = (f64::from(turns) * TAU).next_down();
+            assert!((0.0..TAU).contains(&Heading::from_radians(angle).radians()), "{angle:e}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Areas in words: a count of corners, then for each its point and the outward normal of the edge that begins there.
 
-use crate::execute::bounded;
 use crate::state::Run;
+use albacore_arithmetic::bounded;
 use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector, row};
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Slot};
 
@@ -14,8 +14,8 @@ impl Run {
     }
 
     pub fn set_point(&mut self, at: Slot, p: Point) {
-        self.set(at, p.north);
-        self.set(at + 1, p.east);
+        self.set(at, bounded(p.north));
+        self.set(at + 1, bounded(p.east));
     }
 
     pub fn vector(&self, at: Slot) -> Vector {
@@ -89,7 +89,7 @@ impl Run {
             }
             _ => f64::INFINITY,
         });
-        gaps.fold(f64::INFINITY, f64::min)
+        bounded(gaps.fold(f64::INFINITY, f64::min))
     }
 
     pub fn nearest_edge(&self, area: Slot, p: Point) -> Edge {

@@ -3,9 +3,13 @@
 //! They are apart from the others so that words and frame are found once for a row of instructions, and not anew for every
 //! operand.
 
-use crate::execute::{bounded, ticks, truth};
+use crate::execute::truth;
 use crate::trig::Trig;
-use albacore_geometry::{Heading, Vector, math, wrap_angle};
+use albacore_arithmetic::{
+    Abs, Add, AddInt, Ceil, Cos, Div, Dot, Floor, Length, Max, Min, Mul, MulInt, Neg, Operation, Pow, Round, Sin, Sqrt,
+    Sub, SubInt, Ticks, WrapAngle, WrapHeading, bounded,
+};
+use albacore_geometry::Vector;
 use albacore_program::{ABSOLUTE, AREA_CORNER_WORDS, Op, Slot, header};
 
 /// The words of a run, as code with a frame's base sees them.
@@ -76,6 +80,11 @@ impl Frame<'_> {
     }
 }
 
+#[inline]
+fn dot(a: Vector, b: Vector) -> f64 {
+    Dot::execute([a.north, a.east, b.north, b.east])
+}
+
 /// Executes instructions up to the first that needs more than words, and gives its address.
 pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -> usize {
     let mut pc = from;
@@ -86,32 +95,32 @@ pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -
             Op::CopyMany { to, from, words } => f.copy(to, from, words),
             Op::Clear { to, words } => f.clear(to, words),
 
-            Op::Add { to, a, b: c } => f.set(to, bounded(f.get(a) + f.get(c))),
-            Op::Sub { to, a, b: c } => f.set(to, bounded(f.get(a) - f.get(c))),
-            Op::Mul { to, a, b: c } => f.set(to, bounded(f.get(a) * f.get(c))),
-            Op::Div { to, a, b: c } => {
-                let divisor = f.get(c);
-                f.set(to, if divisor == 0.0 { 0.0 } else { bounded(f.get(a) / divisor) });
-            }
+            Op::Add { to, a, b: c } => f.set(to, Add::execute([f.get(a), f.get(c)])),
+            Op::Sub { to, a, b: c } => f.set(to, Sub::execute([f.get(a), f.get(c)])),
+            Op::Mul { to, a, b: c } => f.set(to, Mul::execute([f.get(a), f.get(c)])),
+            Op::Div { to, a, b: c } => f.set(to, Div::execute([f.get(a), f.get(c)])),
             Op::Quotient { to, a, b: c } => {
-                let (dividend, divisor) = (f.get(a), f.get(c));
-                f.set(to, truth(divisor != 0.0));
-                f.set(to + 1, if divisor == 0.0 { 0.0 } else { bounded(dividend / divisor) });
+                let operands = [f.get(a), f.get(c)];
+                f.set(to, truth(operands[1] != 0.0));
+                f.set(to + 1, Div::execute(operands));
             }
-            Op::Min { to, a, b: c } => f.set(to, f.get(a).min(f.get(c))),
-            Op::Max { to, a, b: c } => f.set(to, f.get(a).max(f.get(c))),
-            Op::Pow { to, a, b: c } => f.set(to, bounded(math::pow(f.get(a), f.get(c)))),
-            Op::Neg { to, a } => f.set(to, math::canonical_zero(-f.get(a))),
-            Op::Abs { to, a } => f.set(to, f.get(a).abs()),
-            Op::Sqrt { to, a } => f.set(to, f.get(a).max(0.0).sqrt()),
-            Op::Floor { to, a } => f.set(to, f.get(a).floor()),
-            Op::Ceil { to, a } => f.set(to, f.get(a).ceil()),
-            Op::Round { to, a } => f.set(to, f.get(a).round()),
-            Op::Sin { to, a } => f.set(to, math::sin(f.get(a))),
-            Op::Cos { to, a } => f.set(to, math::cos(f.get(a))),
-            Op::WrapHeading { to, a } => f.set(to, Heading::from_radians(f.get(a)).radians()),
-            Op::WrapAngle { to, a } => f.set(to, wrap_angle(f.get(a))),
-            Op::Ticks { to, a } => f.set(to, ticks(f.get(a))),
+            Op::AddInt { to, a, b: c } => f.set(to, AddInt::execute([f.get(a), f.get(c)])),
+            Op::SubInt { to, a, b: c } => f.set(to, SubInt::execute([f.get(a), f.get(c)])),
+            Op::MulInt { to, a, b: c } => f.set(to, MulInt::execute([f.get(a), f.get(c)])),
+            Op::Min { to, a, b: c } => f.set(to, Min::execute([f.get(a), f.get(c)])),
+            Op::Max { to, a, b: c } => f.set(to, Max::execute([f.get(a), f.get(c)])),
+            Op::Pow { to, a, b: c } => f.set(to, Pow::execute([f.get(a), f.get(c)])),
+            Op::Neg { to, a } => f.set(to, Neg::execute([f.get(a)])),
+            Op::Abs { to, a } => f.set(to, Abs::execute([f.get(a)])),
+            Op::Sqrt { to, a } => f.set(to, Sqrt::execute([f.get(a)])),
+            Op::Floor { to, a } => f.set(to, Floor::execute([f.get(a)])),
+            Op::Ceil { to, a } => f.set(to, Ceil::execute([f.get(a)])),
+            Op::Round { to, a } => f.set(to, Round::execute([f.get(a)])),
+            Op::Sin { to, a } => f.set(to, Sin::execute([f.get(a)])),
+            Op::Cos { to, a } => f.set(to, Cos::execute([f.get(a)])),
+            Op::WrapHeading { to, a } => f.set(to, WrapHeading::execute([f.get(a)])),
+            Op::WrapAngle { to, a } => f.set(to, WrapAngle::execute([f.get(a)])),
+            Op::Ticks { to, a } => f.set(to, Ticks::execute([f.get(a)])),
 
             Op::Lt { to, a, b: c } => f.set(to, truth(f.get(a) < f.get(c))),
             Op::Le { to, a, b: c } => f.set(to, truth(f.get(a) <= f.get(c))),
@@ -134,10 +143,10 @@ pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -
                 let direction = trig.toward(f.vector(vector));
                 f.set(to, direction);
             }
-            Op::Length { to, vector } => f.set(to, bounded(f.vector(vector).length())),
-            Op::Dot { to, a, b: c } => f.set(to, bounded(f.vector(a).dot(f.vector(c)))),
+            Op::Length { to, vector } => f.set(to, Length::execute([f.get(vector), f.get(vector + 1)])),
+            Op::Dot { to, a, b: c } => f.set(to, dot(f.vector(a), f.vector(c))),
             Op::Along { to, vector, heading } => {
-                let along = f.vector(vector).dot(trig.unit(f.get(heading)));
+                let along = dot(f.vector(vector), trig.unit(f.get(heading)));
                 f.set(to, along);
             }
 
@@ -151,7 +160,7 @@ pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -
                 f.copy(to + 4, here + 2, 2);
             }
             Op::EdgeGap { to, edge, point } => {
-                let gap = (f.vector(edge) - f.vector(point)).dot(f.vector(edge + 4));
+                let gap = dot(f.vector(edge) - f.vector(point), f.vector(edge + 4));
                 f.set(to, gap);
             }
 

@@ -7,10 +7,7 @@ use crate::lists::Order;
 use crate::state::Run;
 use albacore_geometry::{Area, Heading, Point};
 use albacore_program::{Addr, Channel, Op, OverrideEnd, Program, Slot, Text, TextPart, number};
-use albacore_vehicle::{TICK_S, Vertical};
-
-/// The largest number that arithmetic gives: its square is a number still.
-const LARGEST: f64 = 1e150;
+use albacore_vehicle::Vertical;
 
 /// Why code stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -257,19 +254,6 @@ fn cut(text: &mut String, bytes_max: usize) {
     }
 }
 
-/// What would be too large for a number is the largest: no arithmetic fails in the water.
-pub(crate) fn bounded(x: f64) -> f64 {
-    if x.abs() <= LARGEST {
-        return x;
-    }
-    if x.is_nan() { 0.0 } else { LARGEST.copysign(x) }
-}
-
 pub(crate) fn truth(b: bool) -> f64 {
     if b { 1.0 } else { 0.0 }
-}
-
-/// Rule 1: whole ticks, rounded up, at least one. A hair above a whole number of ticks is rounding, not a longer time.
-pub(crate) fn ticks(seconds: f64) -> f64 {
-    (seconds / TICK_S - 1e-6).ceil().max(1.0)
 }

@@ -1,12 +1,10 @@
 //! Samples into the blocks of words where programs read them.
 
 use crate::state::{Run, Senses};
+use albacore_arithmetic::{Age, Operation};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_program::{Input, Program, Slot};
-use albacore_vehicle::{Channel, Sample, TICK_S};
-
-/// The seconds that an input is old before it has had any sample.
-const NEVER_S: f64 = 1e9;
+use albacore_vehicle::{Channel, Sample};
 
 /// An input that a mission requires and the vehicle does not deliver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,7 +57,8 @@ pub(crate) fn senses(program: &Program) -> Senses {
 }
 
 impl Run {
-    /// Takes in the samples of a tick. A sample with a number that is none is as if it had not come.
+    /// Takes in the samples of a tick. A sample that no value of its input can be is as if it had not come: the checker's
+    /// ranges hold for what is taken in.
     pub fn take_in(&mut self, program: &Program, wiring: &[Option<u32>], samples: &[Sample]) {
         for input in &program.inputs {
             // Until a sample comes the peak is the latest value.
@@ -72,7 +71,7 @@ impl Run {
             let input = &program.inputs[*index as usize];
             let width = (input.width as usize).min(sample.reading.len());
             let numbers = &sample.reading[..width];
-            if numbers.iter().any(|x| !x.is_finite()) {
+            if !input.admits(numbers) {
                 continue;
             }
             // The block is found once, not anew for each of its words.
@@ -99,7 +98,7 @@ impl Run {
     }
 
     pub fn age_s(&self, input: &Input) -> f64 {
-        if self.has_sample(input) { self.age_ticks(input) * TICK_S } else { NEVER_S }
+        Age::execute([if self.has_sample(input) { self.age_ticks(input) } else { -1.0 }])
     }
 
     /// How many of the last `of` samples reached a limit.

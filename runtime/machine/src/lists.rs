@@ -1,6 +1,7 @@
 //! Bounded lists in words: a count, then the elements.
 
 use crate::state::Run;
+use albacore_arithmetic::{Operation, Spread, bounded};
 use albacore_geometry::Vector;
 use albacore_program::{Addr, Program, Slot};
 
@@ -154,10 +155,10 @@ impl Run {
         let mut high = f64::NEG_INFINITY;
         for i in 0..self.count(list) {
             let at = list + 1 + 2 * i;
-            let along = self.vector(at).dot(unit);
+            let along = bounded(self.vector(at).dot(unit));
             low = low.min(along);
             high = high.max(along);
         }
-        if low <= high { high - low } else { 0.0 }
+        Spread::execute([low, high])
     }
 }

@@ -10,18 +10,21 @@ mod guide;
 pub mod number;
 mod op;
 mod shape;
+mod slot;
 
 pub use activity::*;
 pub use cause::*;
 pub use guide::*;
 pub use op::*;
 pub use shape::*;
+pub use slot::*;
 
+use albacore_arithmetic::Interval;
 use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 5;
+pub const PROGRAM_VERSION: u32 = 6;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -154,6 +157,12 @@ impl Input {
     pub const COUNT: u32 = 2;
     /// The latest sample.
     pub const VALUE: u32 = 3;
+
+    /// Whether a sample can be a value of this input. Its further fields may be any numbers.
+    pub fn admits(&self, sample: &[f64]) -> bool {
+        let words = self.shape.words() as usize;
+        sample.iter().all(|x| Interval::ANY.holds(*x)) && (sample.len() < words || self.shape.admits(&sample[..words]))
+    }
 
     /// The words of its block.
     pub fn words(&self) -> u32 {

@@ -1,14 +1,7 @@
 //! The machine's instructions: three-address code over slots of words.
 
-use crate::{Cause, Channel, Guide};
+use crate::{Addr, Cause, Channel, Guide, Slot};
 use serde::{Deserialize, Serialize};
-
-/// An offset from the base of a frame, or with [`ABSOLUTE`] from the first word of a run.
-pub type Slot = u32;
-/// Marks an operand that belongs to no frame: an input or a constant. Nothing is written there.
-pub const ABSOLUTE: Slot = 1 << 31;
-/// An index into [`crate::Program::ops`].
-pub type Addr = u32;
 
 /// One instruction. `to` is where the result goes; booleans are 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +26,6 @@ pub enum Op {
         to: Slot,
         words: u32,
     },
-
     // ---- arithmetic on one word
     Add {
         to: Slot,
@@ -58,6 +50,22 @@ pub enum Op {
     },
     /// `to` is 1 and the quotient follows, or both are 0 where `b` is zero.
     Quotient {
+        to: Slot,
+        a: Slot,
+        b: Slot,
+    },
+    /// Of whole numbers, which end at 2^53.
+    AddInt {
+        to: Slot,
+        a: Slot,
+        b: Slot,
+    },
+    SubInt {
+        to: Slot,
+        a: Slot,
+        b: Slot,
+    },
+    MulInt {
         to: Slot,
         a: Slot,
         b: Slot,
@@ -124,7 +132,6 @@ pub enum Op {
         to: Slot,
         a: Slot,
     },
-
     // ---- tests
     Lt {
         to: Slot,
@@ -156,7 +163,6 @@ pub enum Op {
         a: Slot,
         b: Slot,
     },
-
     // ---- north/east plane; vectors and points are two words
     AddVector {
         to: Slot,
@@ -200,7 +206,6 @@ pub enum Op {
         vector: Slot,
         heading: Slot,
     },
-
     // ---- areas
     /// From a centre, the heading of the long side, length and width.
     Rectangle {
@@ -270,7 +275,6 @@ pub enum Op {
         point: Slot,
         heading: Slot,
     },
-
     // ---- lists: a count, then room for `capacity` elements of `words`
     /// Adds at the end; when full the oldest, the first, goes.
     Push {
@@ -322,7 +326,6 @@ pub enum Op {
         list: Slot,
         heading: Slot,
     },
-
     // ---- inputs
     /// Seconds since the latest sample.
     Age {
@@ -336,7 +339,6 @@ pub enum Op {
         limit: Slot,
         of: u32,
     },
-
     // ---- time, by the age of the activity whose header is at `owner`
     /// `X for T`: `since` holds the age since which X has held, or -1; `to` whether that is `ticks` ago.
     HeldFor {
@@ -364,7 +366,6 @@ pub enum Op {
         to: Slot,
         owner: Slot,
     },
-
     // ---- flow of control
     Jump {
         to: Addr,
@@ -404,7 +405,6 @@ pub enum Op {
         base: Slot,
     },
     Return,
-
     // ---- statements that take time
     /// Gives the tick away; the body goes on after this instruction.
     Yield,
@@ -479,7 +479,6 @@ pub enum Op {
     Abort {
         why: u32,
     },
-
     // ---- what the world hears
     Report {
         site: u32,

@@ -1,5 +1,6 @@
 //! How words are read: the shape of a value, for traces, texts and the values of a scenario.
 
+use albacore_arithmetic::Interval;
 use serde::{Deserialize, Serialize};
 
 /// What a run of words means.
@@ -77,6 +78,25 @@ impl Shape {
                 Some(fields[..first].iter().map(|(_, shape)| shape.words() as usize).sum())
             }
             _ => None,
+        }
+    }
+
+    /// Whether words can be such a value: what is counted is whole, and no number is larger than is kept.
+    pub fn admits(&self, words: &[f64]) -> bool {
+        let whole = |x: f64, range: Interval| x.fract() == 0.0 && range.holds(x);
+        match (self, words) {
+            (Shape::Bool, [x]) => *x == 0.0 || *x == 1.0,
+            (Shape::Int, [x]) => whole(*x, Interval::INT),
+            (Shape::Enum(variants), [x]) => whole(*x, Interval::new(0.0, variants.len().max(1) as f64 - 1.0)),
+            (Shape::Record(_, fields), _) => {
+                let mut rest = words;
+                fields.iter().all(|(_, shape)| {
+                    let (field, after) = rest.split_at((shape.words() as usize).min(rest.len()));
+                    rest = after;
+                    shape.admits(field)
+                })
+            }
+            _ => words.iter().all(|x| Interval::ANY.holds(*x)),
         }
     }
 

@@ -183,6 +183,12 @@ fn fits(x: f64) -> f64 {
     if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) }
 }
 
+/// Whole numbers end where they can be counted.
+fn whole(x: f64) -> f64 {
+    const MOST: f64 = (1_u64 << 53) as f64;
+    x.clamp(-MOST, MOST)
+}
+
 fn fitting(v: Vector) -> Value {
     Value::pair(fits(v.north), fits(v.east))
 }
@@ -196,6 +202,9 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Add => fits(n(0) + n(1)),
         B::Sub => fits(n(0) - n(1)),
         B::Mul => fits(n(0) * n(1)),
+        B::AddInt => whole(n(0) + n(1)),
+        B::SubInt => whole(n(0) - n(1)),
+        B::MulInt => whole(n(0) * n(1)),
         B::Div if n(1) == 0.0 => 0.0,
         B::Div => fits(n(0) / n(1)),
         B::Quotient | B::VectorQuotient if n(1) == 0.0 => return Value::Maybe(None),
@@ -207,9 +216,9 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Min => n(0).min(n(1)),
         B::Max => n(0).max(n(1)),
         B::Sqrt => n(0).max(0.0).sqrt(),
-        B::Floor => n(0).floor(),
-        B::Ceil => n(0).ceil(),
-        B::Round => n(0).round(),
+        B::Floor => whole(n(0).floor()),
+        B::Ceil => whole(n(0).ceil()),
+        B::Round => whole(n(0).round()),
         B::Sin => math::sin(n(0)),
         B::Cos => math::cos(n(0)),
         B::Heading => Heading::from_radians(n(0)).radians(),
@@ -227,7 +236,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Direction => at(0).vector().toward().radians(),
         B::Length => fits(at(0).vector().length()),
         B::Dot => fits(at(0).vector().dot(at(1).vector())),
-        B::Along => at(0).vector().along(at(1).heading()),
+        B::Along => fits(at(0).vector().along(at(1).heading())),
         B::Pair | B::Line => return Value::Parts(operands.to_vec()),
         B::Rectangle => {
             let area = Area::rectangle(at(0).point(), at(1).heading(), n(2), n(3));
@@ -243,13 +252,13 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
             return fitting(line.end - line.start);
         }
         B::Center => return Value::of_point(center(at(0).edges())),
-        B::Gap => gap(at(0).edges(), at(1).point()),
+        B::Gap => fits(gap(at(0).edges(), at(1).point())),
         B::Corner => {
             let near = operands.get(2).map_or_else(|| center(at(0).edges()), Value::point);
             return Value::of_point(corner(at(0).edges(), at(1).heading(), near));
         }
         B::NearestEdge => return Value::of_edge(nearest_edge(at(0).edges(), at(1).point())),
-        B::EdgeGap => at(0).edge().gap(at(1).point()),
+        B::EdgeGap => fits(at(0).edge().gap(at(1).point())),
         B::EdgeTangent => at(0).edge().tangent(at(1).heading()).radians(),
         B::Exit => return Value::of_point(exit(at(0).edges(), at(1).point(), at(2).heading())),
         B::Run => return fitting(exit(at(0).edges(), at(1).point(), at(2).heading()) - at(1).point()),
@@ -264,7 +273,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Spread => {
             let along: Vec<f64> = at(0).list().iter().map(|p| p.point().along(at(1).heading())).collect();
             let (low, high) = along.iter().fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
-            if along.is_empty() { 0.0 } else { high - low }
+            if along.is_empty() { 0.0 } else { fits(high - low) }
         }
     };
     Value::Number(number)

@@ -313,7 +313,7 @@ impl Generator {
             _ => {
                 self.count("for range");
                 let name = self.fresh("n");
-                let range = self.random.clone().of(&["0..<3", "1..2", "-1..1", "1..clamp($I, 0, 2)"]);
+                let range = self.random.clone().of(&["0..<3", "1..2", "-1..1", "1..clamp($i.count, 0, 2)"]);
                 let range = self.filled(range, 1);
                 self.braces(&format!("for {name} in {range}"), |g| {
                     g.declare(&name, Ty::Int, false);

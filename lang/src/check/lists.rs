@@ -1,0 +1,73 @@
+//! Lists that are changed and kept in order.
+
+use super::Checker;
+use super::expr::article;
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Order, Stmt, StmtKind, VarKind};
+use crate::source::Span;
+use crate::syntax::tree::{self, TyKind};
+use crate::types::Type;
+
+impl<'t> Checker<'t> {
+    /// `[Point; 6] by most KEY`: the key is a function of `it`.
+    pub(super) fn list_order(&mut self, id: usize, ty: &tree::Ty) {
+        let TyKind::List { order: Some((most, key)), .. } = &ty.kind else { return };
+        let Type::List(inner, _) = self.scope.vars[id].ty.clone() else { return };
+        let span = key.span;
+        let (it, key) = self.in_block(|c| {
+            // It is computed whenever the list changes, and on every tick.
+            c.time_passes();
+            let it = c.declare_hidden("it".to_string(), VarKind::Let, *inner, span);
+            let key = c.expr(key, None);
+            (it, key)
+        });
+        if !matches!(key.ty, Type::Int | Type::Quantity(_) | Type::Depth | Type::Altitude | Type::Unknown) {
+            let name = self.type_name(&key.ty);
+            self.report(
+                Diagnostic::error(
+                    Code::TypesKey,
+                    span,
+                    format!("a list is ordered by a number, not by {}", article(&name)),
+                )
+                .help("for example `by most it.along(upflow)`"),
+            );
+        }
+        self.scope.vars[id].order = Some(Order { most: *most, it, key: Box::new(key) });
+    }
+
+    pub(super) fn list_change(
+        &mut self,
+        base: &tree::Expr,
+        what: &str,
+        args: &[tree::Arg],
+        span: Span,
+    ) -> Option<Stmt> {
+        let tree::ExprKind::Name(name) = &base.kind else {
+            self.report(
+                Diagnostic::error(Code::NamesAssign, base.span, "only a list that has a name can be changed")
+                    .help("keep it in a `memory`"),
+            );
+            return None;
+        };
+        let name = tree::Name { node: name.clone(), span: base.span };
+        let id = self.assignable(&name)?;
+        let Type::List(inner, _) = self.scope.vars[id].ty.clone() else {
+            let ty = self.type_name(&self.scope.vars[id].ty.clone());
+            let message = format!("`{what}` changes a list, this is {}", article(&ty));
+            let finding = Diagnostic::error(Code::TypesList, base.span, message).here(format!("`{ty}`"));
+            self.report(finding.help(format!("another value is replaced as a whole: `{} = VALUE`", name.node)));
+            return None;
+        };
+        self.scope.facts.forget(id);
+        let kind = if what == "clear" {
+            self.positional::<0>("clear", args, span)?;
+            StmtKind::Clear(id)
+        } else {
+            let [item] = self.positional::<1>(what, args, span)?;
+            let item = self.expr_as(&item, &inner, "an element of this list");
+            if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
+        };
+        Some(Stmt { kind, span })
+    }
+}
