@@ -81,7 +81,9 @@ fn raised_by(requests: &[i32]) -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let ignored = ignored();
     // Without handlers a signal ends the program at once, as it does any other.
-    let Ok(mut signals) = Signals::new(requests.iter().filter(|request| is_heard(**request, ignored))) else { return interrupted };
+    let Ok(mut signals) = Signals::new(requests.iter().filter(|request| is_heard(**request, ignored))) else {
+        return interrupted;
+    };
     let flag = Arc::clone(&interrupted);
     let handle = signals.handle();
     // This thread waits for signals and for nothing else: it must not write, for a terminal may hold who writes.

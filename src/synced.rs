@@ -12,15 +12,20 @@ const STEP: Duration = Duration::from_secs(1);
 pub struct Synced {
     file: File,
     due: Instant,
+    /// Whether anything was written since the disk had all of it.
+    is_new: bool,
 }
 
 impl Synced {
     /// Of an open file.
     pub fn new(file: File) -> Self {
-        Synced { file, due: now() + STEP }
+        Synced { file, due: now() + STEP, is_new: false }
     }
 
     fn sync(&mut self) -> io::Result<()> {
+        if !std::mem::take(&mut self.is_new) {
+            return Ok(());
+        }
         let synced = self.file.sync_data();
         self.due = now() + STEP;
         match synced {
@@ -34,6 +39,7 @@ impl Synced {
 impl Write for Synced {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.file.write(bytes)?;
+        self.is_new = true;
         if now() >= self.due {
             self.sync()?;
         }
@@ -42,5 +48,12 @@ impl Write for Synced {
 
     fn flush(&mut self) -> io::Result<()> {
         self.sync()
+    }
+}
+
+/// What was written last is on the disk too, when nobody has asked: nobody is left who could be told that it is not.
+impl Drop for Synced {
+    fn drop(&mut self) {
+        let _ = self.sync();
     }
 }

@@ -6,128 +6,15 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot start its own programs has failed")]
 #![cfg(unix)]
 
+mod link {
+    pub mod far_end;
+}
+
 use albacore_trace::journal::{Ending, Journal};
+use link::far_end::*;
 use std::net::UdpSocket;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::Output;
 use std::time::Duration;
-
-const EXCURSION: &str = "tests/link/excursion.alb";
-const RATE: [&str; 2] = ["--rate", "50"];
-
-fn albacore(args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
-    command.args(args).current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1").stdin(Stdio::null());
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    command
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn send(signal: &str, child: &Child) {
-    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-    assert!(sent.success());
-}
-
-/// An empty folder of a test's own.
-fn empty(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("link-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// Asks again and again, for minutes.
-#[track_caller]
-fn eventually<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
-    for _ in 0..24_000 {
-        if let Some(answer) = ask() {
-            return answer;
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    panic!("in vain: {what}");
-}
-
-/// Waits until a file has so many bytes: the mission of its journal is then well under way.
-#[track_caller]
-fn grown(path: &Path, bytes: u64) {
-    eventually("a journal", || std::fs::metadata(path).ok().filter(|m| m.len() > bytes));
-}
-
-/// The far end, and what it says.
-struct Vehicle {
-    child: Child,
-    log: PathBuf,
-    /// Where the other end finds it.
-    link: String,
-}
-
-impl Vehicle {
-    #[track_caller]
-    fn serve(link: &str, folder: &Path) -> Self {
-        Vehicle::serve_world(&format!("{EXCURSION}#bay"), link, folder)
-    }
-
-    #[track_caller]
-    fn serve_world(world: &str, link: &str, folder: &Path) -> Self {
-        let log = folder.join("vehicle.log");
-        let file = std::fs::File::create(&log).unwrap();
-        let mut command = albacore(&["vehicle", world, "--link", link, "--rows", "400x30x50"]);
-        let child = command.args(RATE).stderr(file).spawn().unwrap();
-        let mut vehicle = Vehicle { child, log, link: String::new() };
-        vehicle.says("link open at ");
-        vehicle.says("leg 1 of 50");
-        let said = vehicle.said();
-        vehicle.link = said.split("link open at ").nth(1).unwrap().lines().next().unwrap().to_string();
-        vehicle
-    }
-
-    fn said(&self) -> String {
-        std::fs::read_to_string(&self.log).unwrap()
-    }
-
-    /// Waits until it has said this.
-    #[track_caller]
-    fn says(&self, what: &str) {
-        eventually(&format!("{what}, in {}", self.log.display()), || self.said().contains(what).then_some(()));
-    }
-
-    fn mission(&self, more: &[&str]) -> Command {
-        let mut command = albacore(&["run", EXCURSION, "--link", &self.link]);
-        command.args(RATE).args(more);
-        command
-    }
-
-    /// A mission that does not end by itself, once it drives the vehicle.
-    #[track_caller]
-    fn driven(&self, more: &[&str]) -> Child {
-        self.driven_by("stay", more)
-    }
-
-    #[track_caller]
-    fn driven_by(&self, mission: &str, more: &[&str]) -> Child {
-        let run = self.mission(&["--mission", mission]).args(more).spawn().unwrap();
-        self.says("override taken");
-        run
-    }
-
-    /// Ctrl-C.
-    fn stop(mut self) -> (Option<i32>, String) {
-        send("-INT", &self.child);
-        (self.child.wait().unwrap().code(), self.said())
-    }
-}
-
-/// A test that fails leaves no vehicle behind.
-impl Drop for Vehicle {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
 
 /// A mission takes over, drives, gives back; the vehicle returns to where it was taken and goes on with its row.
 fn there_and_back(name: &str, link: &str) {

@@ -5,9 +5,9 @@
 
 use super::origin::beside;
 use crate::disk;
+use crate::synced::Synced;
 use albacore_trace::Digest;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -15,13 +15,13 @@ use std::path::{Path, PathBuf};
 const RECORD: usize = 17;
 
 /// Where a table's checksums go.
-pub struct Sums(File);
+pub struct Sums(Synced);
 
 impl Sums {
     /// Begins with these lines.
     pub fn begin<'a>(table: &Path, lines: impl Iterator<Item = &'a [u8]>) -> io::Result<Self> {
         let text: String = lines.map(record).collect();
-        disk::replace(&path(table), text.as_bytes()).map(Sums)
+        disk::replace(&path(table), text.as_bytes()).map(|file| Sums(Synced::new(file)))
     }
 
     /// Adds a line.

@@ -8,6 +8,7 @@ use super::origin::Origin;
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
 use crate::disk;
+use crate::synced::Synced;
 use albacore_session::campaign::{Columns, Row, Tally};
 use std::fs::{File, TryLockError};
 use std::io::{self, Read, Write};
@@ -26,7 +27,7 @@ pub struct Table {
 
 enum State {
     /// Rows are added at the end.
-    Adding(File, Sums),
+    Adding(Synced, Sums),
     /// Rows in the middle are run again first. The file is left as it is until all of them are known, and locked.
     Mending(File, Lines),
 }
@@ -69,7 +70,7 @@ impl Table {
         let mut sums = Sums::begin(path, std::iter::empty())?;
         file.write_all(&head)?;
         sums.add(&head)?;
-        let state = State::Adding(file, sums);
+        let state = State::Adding(Synced::new(file), sums);
         Ok(Table { path: path.to_path_buf(), state, rows: 0, known: None, changed: Vec::new() })
     }
 
@@ -137,7 +138,7 @@ impl Table {
             disk::replace(&self.path, &written)?
         };
         let sums = Sums::begin(&self.path, known.into_iter())?;
-        self.state = State::Adding(file, sums);
+        self.state = State::Adding(Synced::new(file), sums);
         Ok(())
     }
 

@@ -1,0 +1,197 @@
+//! A run on a link is held by nothing but its vehicle: not by a terminal that takes nothing, not by a pause; and every signal
+//! that ends a program gives the vehicle back.
+//!
+//! Nothing is timed: what is waited for is waited for long.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot start its own programs has failed")]
+#![cfg(target_os = "linux")]
+
+mod link {
+    pub mod far_end;
+}
+
+use albacore_trace::journal::{Ending, Journal};
+use link::far_end::*;
+use nix::fcntl::OFlag;
+use nix::pty::{PtyMaster, grantpt, posix_openpt, ptsname_r, unlockpt};
+use std::fs::File;
+use std::io::{Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Stdio};
+
+/// A terminal with somebody at it, who reads nothing unless asked.
+struct Terminal {
+    person: PtyMaster,
+    line: File,
+}
+
+impl Terminal {
+    fn new() -> Self {
+        let person = posix_openpt(OFlag::O_RDWR | OFlag::O_NOCTTY).unwrap();
+        grantpt(&person).unwrap();
+        unlockpt(&person).unwrap();
+        let path = ptsname_r(&person).unwrap();
+        let line = File::options().read(true).write(true).custom_flags(OFlag::O_NOCTTY.bits()).open(path).unwrap();
+        Terminal { person, line }
+    }
+
+    fn line(&self) -> Stdio {
+        self.line.try_clone().unwrap().into()
+    }
+
+    fn ctrl_s(&mut self) {
+        self.person.write_all(b"\x13").unwrap();
+    }
+
+    /// Reads until this was said.
+    fn says(&mut self, what: &str) {
+        let mut said = Vec::new();
+        let mut part = [0; 1024];
+        while !String::from_utf8_lossy(&said).contains(what) {
+            let count = self.person.read(&mut part).unwrap();
+            assert!(count > 0, "{}", String::from_utf8_lossy(&said));
+            said.extend_from_slice(&part[..count]);
+        }
+    }
+}
+
+#[track_caller]
+fn ended(child: &mut Child) -> std::process::ExitStatus {
+    eventually("the end of the run", || child.try_wait().unwrap())
+}
+
+#[test]
+fn a_frozen_terminal_holds_neither_commands_nor_the_end() {
+    let folder = empty("frozen");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let mut terminal = Terminal::new();
+    let out = folder.join("run");
+    let mut run = vehicle.mission(&["--mission", "stay", "--out"]);
+    let mut run = run.arg(&out).stdout(terminal.line()).stderr(terminal.line()).spawn().unwrap();
+    vehicle.says("override taken");
+    // The progress is drawn ten times a second.
+    terminal.says("stay");
+    terminal.ctrl_s();
+    let journal = out.join("journal");
+    let bytes = std::fs::metadata(&journal).unwrap().len();
+    // Some two minutes of the vehicle's time, which leaves who is silent for 5 s.
+    grown(&journal, bytes + 150_000);
+    assert!(!vehicle.said().contains("timed out"), "{}", vehicle.said());
+    assert!(run.try_wait().unwrap().is_none());
+    send("-TERM", &run);
+    assert_eq!(ended(&mut run).code(), Some(4), "its result was told to nobody");
+    vehicle.says("override released");
+    assert!(!vehicle.said().contains("timed out"), "{}", vehicle.said());
+    let journal = Journal::read(&std::fs::read(journal).unwrap()).unwrap();
+    assert!(matches!(journal.ending, Ending::Complete(_)), "{:?}", journal.ending);
+    assert!(out.join("trace.txt").exists() && out.join("run.svg").exists());
+}
+
+#[test]
+fn a_frozen_terminal_does_not_hold_the_served_vehicle() {
+    let folder = empty("frozen-vehicle");
+    let mut terminal = Terminal::new();
+    let mut command = albacore(&["vehicle", &format!("{EXCURSION}#bay"), "--link", "udp:127.0.0.1:0?dialect=recon"]);
+    let mut vehicle = command.args(RATE).stderr(terminal.line()).spawn().unwrap();
+    let mut said = String::new();
+    let mut part = [0; 1024];
+    while !said.contains("?dialect=recon") {
+        let count = terminal.person.read(&mut part).unwrap();
+        said.push_str(&String::from_utf8_lossy(&part[..count]));
+    }
+    terminal.ctrl_s();
+    let link = said.split("link open at ").nth(1).unwrap().split_whitespace().next().unwrap().to_string();
+    let out = folder.join("run");
+    let mut run = albacore(&["run", EXCURSION, "--link", &link, "--out"]);
+    let output = run.args([&out.display().to_string(), RATE[0], RATE[1]]).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    send("-TERM", &vehicle);
+    assert_eq!(ended(&mut vehicle).code(), Some(4), "what it had to say was told to nobody");
+}
+
+#[test]
+fn every_signal_that_ends_a_program_gives_the_vehicle_back() {
+    let folder = empty("signals");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let signals =
+        ["INT", "TERM", "QUIT", "HUP", "USR1", "USR2", "ALRM", "VTALRM", "PROF", "IO", "ABRT", "XCPU", "XFSZ"];
+    for (count, signal) in (1..).zip(signals) {
+        let mut run = vehicle.mission(&["--mission", "stay", "--no-out"]).spawn().unwrap();
+        eventually(signal, || (vehicle.said().matches("override taken").count() == count).then_some(()));
+        send(&format!("-{signal}"), &run);
+        let status = ended(&mut run);
+        assert_eq!((status.code(), status.signal()), (Some(1), None), "{signal}: {}", vehicle.said());
+        eventually(signal, || (vehicle.said().matches("override released").count() == count).then_some(()));
+    }
+    let (_, said) = vehicle.stop();
+    assert!(!said.contains("timed out"), "{said}");
+}
+
+#[test]
+fn what_is_to_be_ignored_ends_nothing() {
+    let folder = empty("nohup");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let run = vehicle.mission(&["--mission", "stay", "--no-out"]);
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", "trap '' HUP; exec \"$0\" \"$@\""]).arg(run.get_program()).args(run.get_args());
+    shell.current_dir(env!("CARGO_MANIFEST_DIR")).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut run = shell.spawn().unwrap();
+    vehicle.says("override taken");
+    send("-HUP", &run);
+    send("-HUP", &run);
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    assert!(run.try_wait().unwrap().is_none() && !vehicle.said().contains("override released"));
+    send("-TERM", &run);
+    assert_eq!(ended(&mut run).code(), Some(1));
+}
+
+#[test]
+fn ctrl_z_leaves_no_vehicle_without_commands() {
+    let folder = empty("ctrl-z");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let log = folder.join("run.log");
+    let mut run = vehicle.mission(&["--mission", "stay", "--no-out"]);
+    let mut run = run.stderr(File::create(&log).unwrap()).spawn().unwrap();
+    vehicle.says("override taken");
+    send("-TSTP", &run);
+    eventually("a word on Ctrl-Z", || {
+        std::fs::read_to_string(&log).unwrap().contains("Ctrl-Z would leave the vehicle").then_some(())
+    });
+    send("-INT", &run);
+    assert_eq!(ended(&mut run).code(), Some(1));
+    assert!(!vehicle.said().contains("timed out"), "{}", vehicle.said());
+}
+
+#[test]
+fn after_a_pause_nothing_is_sent_to_a_vehicle_that_has_left() {
+    for (name, link) in [("pause-pty", "pty:?dialect=recon"), ("pause-udp", "udp:127.0.0.1:0?dialect=recon")] {
+        let folder = empty(name);
+        let vehicle = Vehicle::serve(link, &folder);
+        let mut run = vehicle.driven(&["--no-out"]);
+        send("-STOP", &run);
+        vehicle.says("override timed out");
+        vehicle.says("returns");
+        send("-CONT", &run);
+        let code = ended(&mut run).code();
+        let said = vehicle.said();
+        // A line may be full meanwhile, and the vehicle's last word lost: then it is silent, and lost.
+        assert!(matches!(code, Some(1 | 4)), "{name}: {code:?} {said}");
+        assert!(!said.contains("refused"), "a command to a vehicle that nobody drives: {said}");
+    }
+}
+
+#[test]
+fn a_second_signal_ends_a_program_that_is_held() {
+    let mut terminal = Terminal::new();
+    terminal.ctrl_s();
+    let mut run = albacore(&["run", "missions/box.alb", "--no-out"]);
+    let mut run = run.stdout(terminal.line()).stderr(terminal.line()).spawn().unwrap();
+    // A simulated run waits for its terminal; the first signal asks it to end, and it does not come to that.
+    let status = eventually("an end at last", || {
+        send("-TERM", &run);
+        std::thread::sleep(std::time::Duration::from_millis(400));
+        run.try_wait().unwrap()
+    });
+    assert!(status.code() == Some(128 + 15) || status.signal() == Some(15), "{status:?}");
+}
