@@ -1,6 +1,6 @@
 //! A run in real time: no writer holds the driver, what is left out is told, and nothing else differs from a run that is stepped.
 
-#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot set up its own run has failed")]
+#![expect(clippy::unwrap_used, reason = "a test that cannot set up its own run has failed")]
 
 use albacore_machine::Machine;
 use albacore_session::{Lived, Means, Outcome, Plan, Run, Sink, Told, WAITING_BYTES, load};
@@ -85,24 +85,31 @@ fn run(plan: &Plan, dock: &Arc<Dock>) -> Run {
 
 /// A disk that takes nothing while it is stalled.
 #[derive(Clone, Default)]
-struct Disk(Arc<(Mutex<(Vec<u8>, bool)>, Condvar)>);
+struct Disk(Arc<Platter>);
+
+#[derive(Default)]
+struct Platter {
+    bytes: Mutex<Vec<u8>>,
+    stalled: Mutex<bool>,
+    turns: Condvar,
+}
 
 impl Disk {
     fn stall(&self, stalled: bool) {
-        self.0.0.lock().unwrap().1 = stalled;
-        self.0.1.notify_all();
+        *self.0.stalled.lock().unwrap() = stalled;
+        self.0.turns.notify_all();
     }
 
     fn bytes(&self) -> Vec<u8> {
-        self.0.0.lock().unwrap().0.clone()
+        self.0.bytes.lock().unwrap().clone()
     }
 }
 
 impl io::Write for Disk {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let state = self.0.0.lock().unwrap();
-        let mut state = self.0.1.wait_while(state, |(_, stalled)| *stalled).unwrap();
-        state.0.extend_from_slice(bytes);
+        let stalled = self.0.stalled.lock().unwrap();
+        let _turning = self.0.turns.wait_while(stalled, |stalled| *stalled).unwrap();
+        self.0.bytes.lock().unwrap().extend_from_slice(bytes);
         Ok(bytes.len())
     }
 
