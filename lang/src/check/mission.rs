@@ -10,19 +10,24 @@ use crate::syntax::tree::{self, ActivityKind};
 use crate::types::Type;
 use albacore_program::Channel;
 
-/// The limit that is no channel's.
+/// The limits that are no channel's.
 const TURN_RATE: &str = "turn_rate";
+const LATENCY: &str = "latency";
 
 impl Checker<'_> {
     /// `altitude >= 1.5 m`.
     pub(super) fn limit(&mut self, limit: &tree::Expr, mission: &mut Mission) {
-        let help = "for example `altitude >= 1.5 m`, `depth <= 30 m`, `speed <= 2.6 m/s` or `turn_rate <= 6 deg/s`";
+        let help = "for example `altitude >= 1.5 m`, `depth <= 30 m`, `speed <= 2.6 m/s`, `turn_rate <= 6 deg/s` or \
+                    `latency <= 2 s`";
         let tree::ExprKind::Binary(op, left, right) = &limit.kind else {
             self.report(Diagnostic::error(Code::MissionsLimit, limit.span, "a limit is a comparison").help(help));
             return;
         };
         if matches!(&left.kind, tree::ExprKind::Name(name) if name == TURN_RATE) {
             return self.turn_rate(limit, op, right, mission);
+        }
+        if matches!(&left.kind, tree::ExprKind::Name(name) if name == LATENCY) {
+            return self.latency(limit, op, right, mission);
         }
         let channel = match &left.kind {
             tree::ExprKind::Name(name) if name == "altitude" => (Channel::Altitude, Type::Altitude),
@@ -33,7 +38,7 @@ impl Checker<'_> {
                     Diagnostic::error(
                         Code::MissionsLimit,
                         left.span,
-                        "limits hold `altitude`, `depth`, `speed` and `turn_rate`",
+                        "limits hold `altitude`, `depth`, `speed`, `turn_rate` and `latency`",
                     )
                     .help(help),
                 );
@@ -86,6 +91,23 @@ impl Checker<'_> {
             self.report(finding);
         }
         mission.turn_rate = Some(value);
+    }
+
+    /// `latency <= 2 s`.
+    fn latency(&mut self, limit: &tree::Expr, op: &Spanned<tree::Binary>, right: &tree::Expr, mission: &mut Mission) {
+        if op.node != tree::Binary::Le {
+            let message = "a link may always be quicker: its round trip has a greatest value alone";
+            self.report(Diagnostic::error(Code::MissionsLimit, op.span, message).help("write `latency <= 2 s`"));
+            return;
+        }
+        let value = self.duration(right, "the limit");
+        if let Some(first) = &mission.latency {
+            let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
+                .label(first.span, "the first")
+                .help("keep one of them");
+            self.report(finding);
+        }
+        mission.latency = Some(value);
     }
 
     pub(super) fn require(&mut self, require: &tree::Require, mission: &mut Mission) {

@@ -125,7 +125,7 @@ impl<'a> Work<'a> {
             steps = sum([
                 steps,
                 self.exprs(&parts.within),
-                self.exprs(parts.limits.iter().map(|(_, _, e)| e).chain(&parts.turn_rate)),
+                self.exprs(parts.limits.iter().map(|(_, _, e)| e).chain(&parts.turn_rate).chain(&parts.latency)),
             ]);
             for require in &parts.requires {
                 let asked = [&require.at_first, &require.hold_for].into_iter().flatten();

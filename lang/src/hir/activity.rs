@@ -109,6 +109,8 @@ pub struct Mission {
     pub limits: Vec<(Channel, bool, Expr)>,
     /// The fastest turn that is commanded.
     pub turn_rate: Option<Expr>,
+    /// The longest round trip over the vehicle's link.
+    pub latency: Option<Expr>,
     /// The inputs it cannot do without.
     pub requires: Vec<Require>,
     /// What runs after a time-out or an abort.

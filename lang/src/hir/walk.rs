@@ -323,7 +323,7 @@ pub fn activity_children<'e>(activity: &'e Activity, f: &mut dyn FnMut(&'e Expr)
     if let Some(mission) = &activity.mission {
         mission.within.iter().for_each(&mut *f);
         mission.limits.iter().for_each(|(_, _, e)| f(e));
-        mission.turn_rate.iter().for_each(&mut *f);
+        mission.turn_rate.iter().chain(&mission.latency).for_each(&mut *f);
         for require in &mission.requires {
             f(&require.fresh);
             require.at_first.iter().chain(&require.hold_for).for_each(&mut *f);

@@ -301,6 +301,7 @@ impl<'a> Lowering<'a> {
             }
         }
         limits.turn_rate_max = mission.turn_rate.as_ref().map(|e| self.code(e));
+        limits.latency_max = mission.latency.as_ref().map(|e| self.ticks_code(e));
         let mut requires = Vec::new();
         for require in &mission.requires {
             requires.push(Require {

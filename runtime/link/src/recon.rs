@@ -4,6 +4,7 @@
 //! other, and from the 2003 paper (Arrieta, Farrell, Li & Pang, OMAE2003-37273), which says what it is for; where these are
 //! silent the choice is ours and said so. `docs/links.md` tells the rest.
 
+mod clocks;
 mod controller;
 mod fields;
 mod frame;
@@ -12,6 +13,7 @@ mod goal;
 mod happening;
 mod message;
 mod mode;
+mod round_trip;
 mod seawater;
 mod vehicle;
 mod vehicle_time;
@@ -23,4 +25,5 @@ pub use front_seat::FrontSeat;
 pub use happening::Happening;
 pub use message::{Adcp, Ctd, FromVehicle, Malformed, SpeedGoal, State, ToVehicle};
 pub use mode::{Mode, Phase};
+pub use round_trip::Moment;
 pub use vehicle::{HostClock, ReconVehicle};

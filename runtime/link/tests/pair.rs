@@ -7,6 +7,7 @@ use albacore_link::recon::{Controller, FrontSeat, Happening, Milestone, Rows};
 use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
 use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
+use std::collections::VecDeque;
 
 /// A generator for tests (SplitMix64): what goes wrong is the same in every run.
 struct Chance(u64);
@@ -33,6 +34,27 @@ impl Chance {
 struct Wire {
     chance: Chance,
     share: f64,
+}
+
+/// What is under way on a wire, one portion for each tick that it takes.
+#[derive(Default)]
+struct Delay(VecDeque<Vec<u8>>);
+
+impl Delay {
+    fn of(ticks: usize) -> Self {
+        Delay(std::iter::repeat_n(Vec::new(), ticks).collect())
+    }
+
+    /// Puts in what is sent in a tick, and gives what arrives in it.
+    fn carry(&mut self, bytes: Vec<u8>) -> Vec<u8> {
+        self.0.push_back(bytes);
+        self.0.pop_front().unwrap_or_default()
+    }
+
+    /// The wire becomes longer by some ticks.
+    fn lengthen(&mut self, ticks: usize) {
+        (0..ticks).for_each(|_| self.0.push_front(Vec::new()));
+    }
 }
 
 impl Wire {
@@ -73,6 +95,8 @@ struct Pair {
     vehicle: FrontSeat<Simulator>,
     controller: Controller,
     wire: Wire,
+    there: Delay,
+    back: Delay,
     to_vehicle: Vec<u8>,
     snapshot: Snapshot,
     /// Every change of control that the controller saw, and what happened at the vehicle.
@@ -93,6 +117,8 @@ impl Pair {
             vehicle: FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(3.0)),
             controller: Controller::new(frame()),
             wire: Wire { chance: Chance(seed), share },
+            there: Delay::default(),
+            back: Delay::default(),
             to_vehicle: Vec::new(),
             snapshot: Snapshot::default(),
             controls: Vec::new(),
@@ -102,10 +128,10 @@ impl Pair {
 
     /// A tick of the vehicle, and those of the controller that come of it.
     fn tick(&mut self, command: Option<&Command>) {
-        let bytes = std::mem::take(&mut self.to_vehicle);
+        let bytes = self.there.carry(std::mem::take(&mut self.to_vehicle));
         self.vehicle.tick(&bytes).unwrap();
         self.happenings.extend(self.vehicle.take_happenings());
-        let bytes = self.vehicle.take_output();
+        let bytes = self.back.carry(self.vehicle.take_output());
         self.controller.hear(&self.wire.carry(&bytes));
         while self.controller.is_due() {
             self.controller.sense(&mut self.snapshot);
@@ -359,6 +385,60 @@ fn no_bytes_whatever_make_either_side_fail() {
         }
     }
     assert!(pair.controller.count().unreadable > 1000 && pair.vehicle.unreadable() > 1000);
+}
+
+/// Drives for a while over a wire that takes so many ticks each way; the round trip as it was known in each tick of ours.
+fn delayed(there: usize, back: usize, seed: u64, share: f64, ticks: usize, course: impl Fn(usize) -> f64) -> Vec<u64> {
+    let mut pair = Pair::new("400x20x2", seed, share);
+    (pair.there, pair.back) = (Delay::of(there), Delay::of(back));
+    pair.ticks(20 + back, None);
+    pair.controller.take_over();
+    pair.send();
+    let mut known = Vec::new();
+    for tick in 0..ticks {
+        let heading = Heading::from_degrees(course(tick));
+        pair.tick(Some(&Command { heading, ..EAST }));
+        if pair.controls.last() == Some(&Control::InControl) {
+            known.push(pair.snapshot.lag.round_trip);
+        }
+    }
+    assert!(known.len() > ticks / 2, "it drove: {:?}", pair.controls);
+    known
+}
+
+#[test]
+fn the_delay_of_the_link_is_known_and_never_taken_for_less() {
+    for (there, back) in [(0, 0), (0, 1), (5, 5), (100, 0), (0, 100), (50, 50)] {
+        let delay = (there + back) as u64;
+        let steady = delayed(there, back, 1, 0.0, 700, |_| 90.0);
+        let settled = &steady[(delay as usize + 20).min(steady.len() - 1)..];
+        assert!(settled.iter().all(|known| (delay..=delay + 12).contains(known)), "{there} + {back}: {settled:?}");
+        // Longer than 2 s it is within 3 s, whoever measures.
+        assert!(delay < 20 || steady[31] > 20, "{there} + {back}: {:?}", &steady[..40]);
+        let turning = delayed(there, back, 1, 0.0, 700, |tick| (tick / 3) as f64 % 360.0);
+        let settled = &turning[(delay as usize + 20).min(turning.len() - 1)..];
+        assert!(settled.iter().all(|known| (delay..=delay + 20).contains(known)), "{there} + {back}: {settled:?}");
+    }
+}
+
+/// A wire that loses one line in a hundred is no wire that lags.
+#[test]
+fn a_bad_wire_is_not_taken_for_a_slow_one() {
+    for seed in 1..=5 {
+        let known = delayed(0, 0, seed, 0.01, 2000, |tick| (tick / 10) as f64 % 360.0);
+        assert!(known.iter().all(|known| *known <= 20), "seed {seed}: {:?}", known.iter().max());
+    }
+}
+
+#[test]
+fn a_link_that_becomes_slow_is_found_out_before_its_answer_comes() {
+    let mut pair = excursion(1, 0.0);
+    assert!(pair.snapshot.lag.round_trip <= 2, "{:?}", pair.snapshot.lag);
+    pair.there.lengthen(40);
+    pair.ticks(35, Some(&east()));
+    assert!(pair.snapshot.lag.round_trip > 20, "{:?}", pair.snapshot.lag);
+    pair.ticks(100, Some(&east()));
+    assert!((40..=52).contains(&pair.snapshot.lag.round_trip), "{:?}", pair.snapshot.lag);
 }
 
 /// The run of the controller is a function of the bytes, however they are cut and however late they are read.

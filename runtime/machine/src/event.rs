@@ -58,6 +58,12 @@ pub enum Event {
     Silenced,
     /// So many lines of log and report were not written; from here on they are again.
     Unwritten(u64),
+    /// The round trip over the vehicle's link takes longer than it may: s, and at most.
+    Lagging(f64, f64),
+    /// It no longer does.
+    LaggingEnded,
+    /// The mission's time is up by the host's clock, and not yet by the vehicle's: the two, s.
+    HostTimeUp(f64, f64),
 }
 
 /// How a mission ended.

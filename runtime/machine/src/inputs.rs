@@ -92,9 +92,9 @@ impl Run {
         self.get(input.at + Input::STAMP) >= 0.0
     }
 
-    /// Ticks since the latest sample.
+    /// Ticks since the latest sample was taken: since its stamp, and the most that it can have been on its way.
     pub fn age_ticks(&self, input: &Input) -> f64 {
-        self.state.tick as f64 - self.get(input.at + Input::STAMP)
+        self.state.tick as f64 - self.get(input.at + Input::STAMP) + self.state.lag.round_trip as f64
     }
 
     pub fn age_s(&self, input: &Input) -> f64 {

@@ -6,6 +6,7 @@
 mod activity;
 mod allowance;
 mod area;
+mod clocks;
 mod command;
 mod compute;
 mod control;

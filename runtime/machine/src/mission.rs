@@ -8,7 +8,7 @@ use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
-use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, Vertical};
+use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot, Vertical};
 use std::sync::Arc;
 
 /// Executes one mission.
@@ -41,8 +41,11 @@ impl Run {
             declared: Declared::default(),
             limited: [false; 3],
             requires: Vec::new(),
+            link: Requirement::LINK,
+            lag: Lag::default(),
             within: None,
             began: 0,
+            host_began: 0,
             overridden: Overridden::default(),
             allowance: Allowance::new(p.reports.len()),
         };
@@ -156,6 +159,7 @@ impl Machine {
         run.events.clear();
         run.state.overridden = Overridden::default();
         run.events.extend(run.state.allowance.tick());
+        run.state.lag = snapshot.lag;
         run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
         let command = run.live(p);
@@ -201,7 +205,7 @@ impl Run {
             Phase::Over(_) => None,
             Phase::Waiting => {
                 self.state.phase = Phase::Awaiting;
-                self.state.began = self.state.tick;
+                self.begin_to_count();
                 self.execute(p, p.mission.params, p.mission.base);
                 self.take_requirements(p);
                 self.await_inputs(p)
@@ -249,7 +253,7 @@ impl Run {
             return self.after_step(p, Status::Running);
         }
         if self.time_is_up() {
-            self.events.push(Event::TimedOut);
+            self.tell_time_is_up();
             return self.over(p, Outcome::TimedOut);
         }
         if p.mission.guest {
@@ -264,11 +268,6 @@ impl Run {
         })
     }
 
-    fn time_is_up(&self) -> bool {
-        let lived = (self.state.tick - self.state.began) as f64;
-        self.state.within.is_some_and(|ticks| lived >= ticks)
-    }
-
     /// The numbers of the requirements and of the time limit.
     fn take_requirements(&mut self, p: &Program) {
         let mut requires = Vec::new();
@@ -279,6 +278,9 @@ impl Run {
         }
         self.state.requires = requires;
         self.state.within = p.mission.within.as_ref().map(|code| self.number(p, code));
+        if let Some(code) = &p.mission.limits.latency_max {
+            self.state.link.fresh = self.number(p, code);
+        }
     }
 
     fn start(&mut self, p: &Program) {
@@ -303,7 +305,7 @@ impl Run {
     }
 
     fn time_out(&mut self, p: &Program) -> Option<Command> {
-        self.events.push(Event::TimedOut);
+        self.tell_time_is_up();
         self.recover(p, Outcome::TimedOut)
     }
 
@@ -311,7 +313,8 @@ impl Run {
     /// is held.
     fn hold_while_stale(&mut self, p: &Program, time_is_up: bool) -> Option<Option<Command>> {
         let tick = self.state.tick;
-        let (mut any_stale, mut lost) = (false, None);
+        let lagging = self.lagging();
+        let (mut any_stale, mut lost) = (lagging.is_some(), self.lost_link(lagging.as_deref()));
         for (i, require) in p.mission.requires.iter().enumerate() {
             let input = &p.inputs[require.input as usize];
             // Before its first sample the `at first` value holds.
@@ -324,7 +327,8 @@ impl Run {
             // Each has a patience of its own, which counts from when it became stale.
             let Requirement { patience, since, .. } = self.state.requires[i];
             if stale && (tick - since) as f64 >= patience.unwrap_or(0.0) {
-                lost = lost.or(Some(&input.name));
+                let cause = lagging.as_ref().map(|lagging| format!(": {lagging}")).unwrap_or_default();
+                lost = lost.or_else(|| Some(format!("no fresh `{}`{cause}", input.name)));
             }
             any_stale |= stale;
         }
@@ -339,8 +343,7 @@ impl Run {
             _ => self.state.tick,
         };
         self.state.phase = Phase::Holding(since);
-        if let Some(name) = lost {
-            let why = format!("no fresh `{name}`");
+        if let Some(why) = lost {
             self.events.push(Event::Aborted(why));
             return Some(self.recover(p, Outcome::Aborted));
         }
@@ -380,7 +383,7 @@ impl Run {
         let Some(recovery) = p.mission.recovery.filter(|_| wish == Wish::Drive) else { return self.over(p, outcome) };
         self.state.wish = wish;
         // Frozen now, as every time limit is (rule 4).
-        self.state.began = self.state.tick;
+        self.begin_to_count();
         self.state.within = recovery.within.as_ref().map(|code| self.number(p, code));
         self.state.phase = Phase::Recovering(outcome, self.state.tick);
         self.enter(p, recovery.activity, base, Some(at + header::SETPOINTS));

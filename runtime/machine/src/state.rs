@@ -5,8 +5,8 @@ use crate::allowance::Allowance;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_program::{Slot, setpoints};
-use albacore_vehicle::{Command, Control, Vertical};
+use albacore_program::{LATENCY_MAX_S, LATENCY_PATIENCE_S, Slot, setpoints};
+use albacore_vehicle::{Command, Control, Lag, TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 
 /// Everything that a run remembers from one tick to the next.
@@ -34,12 +34,18 @@ pub struct State {
     pub(crate) limited: [bool; 3],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
     pub(crate) requires: Vec<Requirement>,
+    /// The same of the vehicle's link: the longest round trip for freshness.
+    pub(crate) link: Requirement,
+    /// How far behind the vehicle this tick is.
+    pub(crate) lag: Lag,
     /// What the mission's own declarations have put in force: that stays for the recovery.
     pub(crate) declared: Declared,
     /// The time limit in ticks of the mission, and later of its recovery, and the tick from which it counts: the first on
     /// which we drive.
     pub(crate) within: Option<f64>,
     pub(crate) began: u64,
+    /// The same by the host's clock, where it counts.
+    pub(crate) host_began: u64,
     /// Channels that overlays set in this tick.
     pub(crate) overridden: Overridden,
     /// What may still be written by `log` and `report`.
@@ -107,6 +113,16 @@ pub(crate) struct Requirement {
     pub stale: bool,
     /// The tick on which it was found stale.
     pub since: u64,
+}
+
+impl Requirement {
+    /// What a link must be like of which a mission says nothing.
+    pub const LINK: Requirement = Requirement {
+        fresh: LATENCY_MAX_S / TICK_S,
+        patience: Some(LATENCY_PATIENCE_S / TICK_S),
+        stale: false,
+        since: 0,
+    };
 }
 
 /// What the declarations of a mission put in force.

@@ -91,6 +91,12 @@ pub struct Code {
     pub value: Slot,
 }
 
+/// The longest round trip over a vehicle's link on which a mission that names none goes on, s. Ours: at 2 m/s the vehicle is
+/// then 4 m from where it says, about what dead reckoning between fixes comes to.
+pub const LATENCY_MAX_S: f64 = 2.0;
+/// For so long a mission holds on a link that lags, before it aborts, s.
+pub const LATENCY_PATIENCE_S: f64 = 10.0;
+
 /// What no command may exceed: each is code, run at the mission's start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
@@ -108,6 +114,8 @@ pub struct Limits {
     pub speed_max: Option<Code>,
     /// Radians per second of the course that is commanded, at most; else what the command filter has.
     pub turn_rate_max: Option<Code>,
+    /// Ticks that the round trip over the vehicle's link may take; else [`LATENCY_MAX_S`].
+    pub latency_max: Option<Code>,
 }
 
 /// An input that the mission cannot do without.

@@ -102,6 +102,12 @@ impl Wording {
             Event::Stale(input) => ("stale", self.names.input(*input).to_string()),
             Event::Fresh(input) => ("fresh", self.names.input(*input).to_string()),
             Event::Aborted(why) => ("abort", self.columns(&one_line(why), Some(position), "", "")),
+            Event::Lagging(takes, may_take) => ("link", format!("round trip {takes:.1} s, more than {may_take:.1} s")),
+            Event::LaggingEnded => ("link", "round trip within its limit again".to_string()),
+            Event::HostTimeUp(host, vehicle) => {
+                let what = format!("by the host's clock: {host:.0} s of it, {vehicle:.0} s of the vehicle's");
+                ("timeout", what)
+            }
             Event::TimedOut => ("timeout", self.columns("the mission's time is up", Some(position), "", "")),
             Event::Silenced => {
                 let (once, second) = (LINES_AT_ONCE_MAX, LINES_A_TICK_MAX as f64 / TICK_S);

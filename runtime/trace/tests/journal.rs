@@ -23,7 +23,7 @@ fn header() -> JournalHeader {
 
 fn records() -> Vec<Record> {
     let snapshot = |readings: &[(u16, &[f64])]| {
-        let mut snapshot = Snapshot { samples: vec![], control: Control::InControl };
+        let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
         readings.iter().for_each(|(channel, numbers)| snapshot.push(*channel, numbers));
         snapshot
     };

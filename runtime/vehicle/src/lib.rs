@@ -61,6 +61,15 @@ pub enum Control {
     TimedOut,
 }
 
+/// How a link lags behind the vehicle, in ticks of the vehicle's time. A simulated vehicle has no link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Lag {
+    /// The round trip over the link: beyond their stamps samples are no older than this.
+    pub round_trip: u64,
+    /// What has passed since tick 0 by the host's clock; none where there is no time but the vehicle's.
+    pub host: Option<u64>,
+}
+
 /// All that came from the vehicle in one tick.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
@@ -68,6 +77,8 @@ pub struct Snapshot {
     pub samples: Vec<Sample>,
     /// Who drives now.
     pub control: Control,
+    /// How far behind that is.
+    pub lag: Lag,
 }
 
 impl Snapshot {

@@ -1,12 +1,16 @@
 //! The controller's side: a state machine of the bytes that come from the vehicle and the ticks that are taken from it.
 //!
-//! It has no clock. The vehicle's time stamps make the ticks, so that the same bytes give the same run however late they are read.
-//! What is sent is sent in the newest of them alone: a tick that is late asks for what the vehicle is past.
+//! It has no clock: the host's time is told to it, and measures nothing but the round trip. The vehicle's time stamps make the
+//! ticks, so that the same bytes give the same samples however late they are read. What is sent is sent in the newest of them
+//! alone: a tick that is late asks for what the vehicle is past.
 
-use super::frame::{Deframer, seal};
+mod speak;
+
+use super::frame::Deframer;
 use super::goal::Goal;
-use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
+use super::message::{Adcp, FromVehicle, State, ToVehicle};
 use super::mode::{Mode, Phase};
+use super::round_trip::{Moment, RoundTrip};
 use super::vehicle_time::{Stamp, VehicleTime};
 use albacore_geometry::math::atan2;
 use albacore_geometry::{Heading, TangentFrame, Vector};
@@ -14,8 +18,9 @@ use albacore_vehicle::channels::{
     self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
     VEHICLE_MODE, WATER_DEPTH,
 };
-use albacore_vehicle::{Channel, Command, Control, Sample, Snapshot, TICK_S, Vertical};
+use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot, TICK_S};
 use std::collections::VecDeque;
+use std::time::Duration;
 
 /// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
 /// 2 m comes to, m an axis.
@@ -24,14 +29,10 @@ const POSITION_SIGMA: f64 = 3.0;
 pub(super) const FULL_SCALE_VOLTS: f64 = 5.0;
 /// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
 const DRIFT_TICKS: u64 = 50;
-/// Who commands nothing says at least this often that it is there.
-const KEEP_ALIVE_TICKS: u64 = 10;
 /// A vehicle that answers, but does not let us drive for this many ticks, refuses.
 const REQUEST_TICKS: u64 = 300;
 /// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
 const LEFT_TICKS: u64 = 3;
-/// So many late ticks one after the other are told.
-const LATE_TICKS: u64 = 10;
 /// Frames that wait for their tick; the oldest are given up.
 const WAITING_MAX: usize = 4096;
 /// Notices that wait to be read.
@@ -98,8 +99,12 @@ pub struct Controller {
     late: u64,
     /// Whether the tick that was taken last was late.
     was_late: bool,
-    /// The tick in which something was said last.
+    round_trip: RoundTrip,
+    /// The host's time, as it was told last.
+    host: Duration,
+    /// The tick in which something was said last, and that in which the round trip was asked for.
     spoke: u64,
+    asked: u64,
     out: Vec<u8>,
     count: Count,
     notices: Vec<String>,
@@ -127,12 +132,25 @@ impl Controller {
             goals: Default::default(),
             late: 0,
             was_late: false,
+            round_trip: RoundTrip::new(1.0),
+            host: Duration::ZERO,
             spoke: 0,
+            asked: 0,
             out: Vec::new(),
             count: Count::default(),
             notices: Vec::new(),
             told: String::new(),
         }
+    }
+
+    /// The same, of a vehicle that runs so many times faster than real time.
+    pub fn at_rate(self, rate: f64) -> Self {
+        Controller { round_trip: RoundTrip::new(rate), ..self }
+    }
+
+    /// The host's time now, since any moment.
+    pub fn tell_time(&mut self, host: Duration) {
+        self.host = host;
     }
 
     /// What the vehicle measures.
@@ -215,7 +233,8 @@ impl Controller {
                 self.gather(TEMPERATURE, &[ctd.temperature]);
                 self.gather(SALINITY, &[ctd.salinity]);
             }
-            FromVehicle::Version(_) | FromVehicle::Other(_) => {}
+            FromVehicle::Version(_) => self.round_trip.answered(self.moment()),
+            FromVehicle::Other(_) => {}
         }
     }
 
@@ -232,6 +251,7 @@ impl Controller {
             }
         };
         self.latest_tick = Some(tick);
+        self.round_trip.shown(state.heading_goal, state.depth_goal, self.moment());
         let position = self.frame.to_point(state.position);
         self.gather(POSITION, &[position.north, position.east, POSITION_SIGMA]);
         if let Some((angle, _)) = self.drift.filter(|(_, of)| tick.saturating_sub(*of) <= DRIFT_TICKS) {
@@ -310,8 +330,11 @@ impl Controller {
             // The first commands of the first override are accepted after a question only.
             self.say(&ToVehicle::Query("Depth".into()));
             self.goals = Default::default();
+            self.round_trip.begin(self.moment());
         }
         snapshot.control = self.control;
+        let round_trip = if self.drives() { self.round_trip.ticks(self.moment()) } else { 0 };
+        snapshot.lag = Lag { round_trip, host: None };
         let is_late = self.is_late();
         let was_late = std::mem::replace(&mut self.was_late, is_late);
         if is_late {
@@ -320,14 +343,20 @@ impl Controller {
         match (self.want, self.control) {
             (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
             (Want::GiveBack, _) => self.say(&ToVehicle::Override(false)),
-            // The mission stands still, or has not begun: it commands nothing. After late ticks a command comes first.
-            (Want::Drive { .. }, Control::InControl | Control::Suspended)
-                if tick - self.spoke >= KEEP_ALIVE_TICKS && !was_late =>
-            {
-                self.hello();
+            // After late ticks a command comes first.
+            (Want::Drive { .. }, Control::InControl | Control::Suspended) if self.spoke < tick && !was_late => {
+                self.ask(tick);
             }
             _ => {}
         }
+    }
+
+    fn drives(&self) -> bool {
+        matches!(self.control, Control::InControl | Control::Suspended)
+    }
+
+    fn moment(&self) -> Moment {
+        Moment { tick: self.latest_tick.unwrap_or(0), host: self.host }
     }
 
     /// Who drives, by the mode that the vehicle reports.
@@ -385,96 +414,10 @@ impl Controller {
         control
     }
 
-    /// Asks for control; the following ticks tell how that goes.
-    pub fn take_over(&mut self) {
-        if matches!(self.want, Want::Listen | Want::GiveBack) {
-            self.want = Want::Drive { since: self.next_tick };
-            self.say(&ToVehicle::Override(true));
-        }
-    }
-
-    /// Gives control back and listens on; the following ticks say so again until the vehicle drives itself.
-    pub fn give_back(&mut self) {
-        if let Want::Drive { .. } = self.want {
-            self.want = Want::GiveBack;
-            self.control = Control::Monitoring;
-            self.left = 0;
-            self.say(&ToVehicle::Override(false));
-        }
-    }
-
-    /// Sends what of a command has changed, was not taken up, or was sent half a second ago: one goal a tick, the one that has
-    /// waited longest, because vehicles lose datagrams that come at once. A command of a tick that is late is not sent, nor one
-    /// for a vehicle that has said meanwhile that we do not drive it.
-    pub fn command(&mut self, command: &Command) {
-        if !self.is_ours() {
-            return;
-        }
-        if self.is_late() {
-            self.late += 1;
-            return;
-        }
-        let late = std::mem::take(&mut self.late);
-        if late >= LATE_TICKS {
-            let seconds = late as f64 * TICK_S;
-            self.notice(format!(
-                "we were {seconds:.1} s late: the commands of that time were left out, up to the newest"
-            ));
-        }
-        let vertical = match command.vertical {
-            Vertical::Depth(depth) => ToVehicle::Depth(depth),
-            Vertical::Altitude(altitude) => ToVehicle::Altitude(altitude),
-        };
-        let speed = ToVehicle::Speed(SpeedGoal::MetresPerSecond(command.speed));
-        let now = self.next_tick;
-        for (i, message) in [ToVehicle::Heading(command.heading), speed, vertical].into_iter().enumerate() {
-            if let Some(ignored) = self.goals[i].ask(message, now) {
-                self.notice(ignored);
-            }
-        }
-        // Something else was said in this tick.
-        if self.spoke + 1 == now {
-            return;
-        }
-        let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now)?, goal)));
-        let Some((text, goal)) = due.min_by_key(|(_, goal)| goal.sent.as_ref().map(|(_, tick)| *tick)) else { return };
-        goal.sent = Some((text.clone(), now));
-        self.say(&text);
-    }
-
-    /// Says that we are here, without asking for anything.
-    pub fn hello(&mut self) {
-        self.say(&ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into()));
-    }
-
     /// The host has heard nothing for too long: the next tick says so.
     pub fn lose(&mut self, why: String) {
         self.lost = true;
         self.notice(why);
-    }
-
-    /// Gives control back: call it now and then until it is true, which it is when the vehicle's mode says so. Who never asked
-    /// for control has none to give.
-    pub fn release(&mut self) -> bool {
-        let heard = self.heard.drain(..).next_back().map(|heard| heard.mode);
-        match self.want {
-            Want::Listen => return true,
-            // What was heard before we asked is no answer.
-            Want::Drive { .. } | Want::GiveBack => self.want = Want::Leave,
-            Want::Leave => {
-                if heard.is_some_and(|mode| !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)) {
-                    self.control = Control::Released;
-                    return true;
-                }
-            }
-        }
-        self.say(&ToVehicle::Override(false));
-        false
-    }
-
-    fn say(&mut self, message: &impl ToString) {
-        self.spoke = self.next_tick.saturating_sub(1);
-        self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
     }
 
     /// What was told last is not told again.

@@ -1,6 +1,8 @@
 //! A vehicle at the end of a link: the controller's state machine, a transport, and the host's clock.
 
+use super::clocks::Clocks;
 use super::controller::Controller;
+use super::round_trip::host_ticks;
 use crate::transport::Transport;
 use crate::url::{Place, Url};
 use albacore_geometry::TangentFrame;
@@ -39,6 +41,11 @@ pub struct ReconVehicle {
     /// When we looked last for what has come.
     looked: Duration,
     greeted: Option<Duration>,
+    /// When the first tick was taken.
+    begun: Option<Duration>,
+    rate: f64,
+    clocks: Clocks,
+    notices: Vec<String>,
     /// The transport has failed: nothing more can be said.
     broken: bool,
 }
@@ -56,7 +63,7 @@ impl ReconVehicle {
         let ticked = clock();
         let silence = SILENCE.div_f64(rate.clamp(0.01, 1.0));
         ReconVehicle {
-            controller: Controller::new(frame),
+            controller: Controller::new(frame).at_rate(rate),
             transport,
             clock,
             url,
@@ -64,6 +71,10 @@ impl ReconVehicle {
             ticked,
             looked: ticked,
             greeted: None,
+            begun: None,
+            rate,
+            clocks: Clocks::new(rate),
+            notices: Vec::new(),
             broken: false,
         }
     }
@@ -72,6 +83,7 @@ impl ReconVehicle {
     fn look(&mut self, wait: Duration) -> Result<bool, VehicleError> {
         let mut bytes = Vec::new();
         let received = self.transport.receive(&mut bytes, wait);
+        self.controller.tell_time((self.clock)());
         self.controller.hear(&bytes);
         received.or_else(|error| self.fail(error))?;
         Ok(!bytes.is_empty())
@@ -182,7 +194,13 @@ impl Vehicle for ReconVehicle {
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         while !self.ready()? {}
+        let now = (self.clock)();
+        self.controller.tell_time(now);
         self.controller.sense(snapshot);
+        let begun = *self.begun.get_or_insert(now);
+        let host = host_ticks(now.saturating_sub(begun), self.rate);
+        snapshot.lag.host = Some(host);
+        self.notices.extend(self.clocks.tick(host));
         self.send()
     }
 
@@ -235,6 +253,8 @@ impl Vehicle for ReconVehicle {
     }
 
     fn notices(&mut self) -> Vec<String> {
-        self.controller.take_notices()
+        let mut notices = self.controller.take_notices();
+        notices.append(&mut self.notices);
+        notices
     }
 }

@@ -10,7 +10,7 @@ use albacore_machine::{Event, Machine, Outcome, Wish};
 use albacore_navigation::Vigil;
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS};
 use albacore_trace::{Digest, Release};
-use albacore_vehicle::{VehicleError, Vertical};
+use albacore_vehicle::{Lag, VehicleError, Vertical};
 use std::sync::Arc;
 
 /// A run takes this many ticks at most: ten days.
@@ -212,6 +212,11 @@ impl Driver {
             match event {
                 Event::Aborted(why) => self.reason.clone_from(why),
                 Event::TimedOut => self.reason = "time limit".to_string(),
+                Event::HostTimeUp(host, vehicle) => {
+                    self.reason = format!(
+                        "time limit by the host's clock: {host:.0} s of it, {vehicle:.0} s of the vehicle's, which runs slow"
+                    );
+                }
                 _ => {}
             }
         }
@@ -233,6 +238,11 @@ impl Driver {
     fn hash(&mut self, record: &TickRecord) {
         let digest = &mut self.digest;
         digest.word(record.tick);
+        let Lag { round_trip, host } = record.snapshot.lag;
+        if record.snapshot.lag != Lag::default() {
+            digest.word(round_trip);
+            digest.word(host.unwrap_or(0));
+        }
         for sample in &record.snapshot.samples {
             digest.word(u64::from(sample.channel));
             digest.numbers(&sample.reading);

@@ -1,6 +1,6 @@
 //! A snapshot in the journal: of each reading only the numbers up to the last that is not zero, which halves the file.
 
-use albacore_vehicle::{Control, Reading, Sample, Snapshot};
+use albacore_vehicle::{Control, Lag, Reading, Sample, Snapshot};
 use serde::de::Error;
 use serde::ser::SerializeTuple;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -9,10 +9,11 @@ struct Samples<'a>(&'a [Sample]);
 struct Short<'a>(&'a Sample);
 
 pub(super) fn serialize<S: Serializer>(snapshot: &Snapshot, serializer: S) -> Result<S::Ok, S::Error> {
-    let mut pair = serializer.serialize_tuple(2)?;
-    pair.serialize_element(&Samples(&snapshot.samples))?;
-    pair.serialize_element(&snapshot.control)?;
-    pair.end()
+    let mut parts = serializer.serialize_tuple(3)?;
+    parts.serialize_element(&Samples(&snapshot.samples))?;
+    parts.serialize_element(&snapshot.control)?;
+    parts.serialize_element(&snapshot.lag)?;
+    parts.end()
 }
 
 impl Serialize for Samples<'_> {
@@ -31,8 +32,8 @@ impl Serialize for Short<'_> {
 }
 
 pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Snapshot, D::Error> {
-    let (samples, control) = <(Vec<(u16, Vec<f64>)>, Control)>::deserialize(deserializer)?;
-    let mut snapshot = Snapshot { samples: Vec::with_capacity(samples.len()), control };
+    let (samples, control, lag) = <(Vec<(u16, Vec<f64>)>, Control, Lag)>::deserialize(deserializer)?;
+    let mut snapshot = Snapshot { samples: Vec::with_capacity(samples.len()), control, lag };
     for (channel, numbers) in samples {
         if numbers.len() > Reading::default().len() {
             return Err(D::Error::invalid_length(numbers.len(), &"a reading's numbers"));

@@ -1,0 +1,120 @@
+//! What the controller says: who is to drive, its goals, and that it is there.
+
+use super::{Controller, Want};
+use crate::recon::frame::seal;
+use crate::recon::message::{SpeedGoal, ToVehicle};
+use crate::recon::mode::Mode;
+use albacore_vehicle::{Command, Control, TICK_S, Vertical};
+
+/// Who commands nothing says at least this often that it is there; the question that measures the round trip may not count.
+const KEEP_ALIVE_TICKS: u64 = 10;
+/// So many late ticks one after the other are told.
+const LATE_TICKS: u64 = 10;
+
+impl Controller {
+    /// Asks what tells the round trip, when it is time; says at least that we are here, where the mission stands still, or has
+    /// not begun, and commands nothing.
+    pub(super) fn ask(&mut self, tick: u64) {
+        let now = self.moment();
+        if tick - self.spoke >= KEEP_ALIVE_TICKS {
+            self.hello();
+        } else if self.round_trip.is_due(now) {
+            self.round_trip.ask(now);
+            self.asked = tick;
+            self.utter(&ToVehicle::VersionRequest);
+        }
+    }
+
+    /// Asks for control; the following ticks tell how that goes.
+    pub fn take_over(&mut self) {
+        if matches!(self.want, Want::Listen | Want::GiveBack) {
+            self.want = Want::Drive { since: self.next_tick };
+            self.say(&ToVehicle::Override(true));
+        }
+    }
+
+    /// Gives control back and listens on; the following ticks say so again until the vehicle drives itself.
+    pub fn give_back(&mut self) {
+        if let Want::Drive { .. } = self.want {
+            self.want = Want::GiveBack;
+            self.control = Control::Monitoring;
+            self.left = 0;
+            self.say(&ToVehicle::Override(false));
+        }
+    }
+
+    /// Sends what of a command has changed, was not taken up, or was sent half a second ago: one goal a tick, the one that has
+    /// waited longest, because vehicles lose datagrams that come at once. A command of a tick that is late is not sent, nor one
+    /// for a vehicle that has said meanwhile that we do not drive it.
+    pub fn command(&mut self, command: &Command) {
+        if !self.is_ours() {
+            return;
+        }
+        if self.is_late() {
+            self.late += 1;
+            return;
+        }
+        let late = std::mem::take(&mut self.late);
+        if late >= LATE_TICKS {
+            let seconds = late as f64 * TICK_S;
+            self.notice(format!(
+                "we were {seconds:.1} s late: the commands of that time were left out, up to the newest"
+            ));
+        }
+        let vertical = match command.vertical {
+            Vertical::Depth(depth) => ToVehicle::Depth(depth),
+            Vertical::Altitude(altitude) => ToVehicle::Altitude(altitude),
+        };
+        let speed = ToVehicle::Speed(SpeedGoal::MetresPerSecond(command.speed));
+        let now = self.next_tick;
+        for (i, message) in [ToVehicle::Heading(command.heading), speed, vertical].into_iter().enumerate() {
+            if let Some(ignored) = self.goals[i].ask(message, now) {
+                self.notice(ignored);
+            }
+        }
+        // Something else was said in this tick.
+        if self.spoke + 1 == now || self.asked + 1 == now {
+            return;
+        }
+        let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now)?, goal)));
+        let Some((text, goal)) = due.min_by_key(|(_, goal)| goal.sent.as_ref().map(|(_, tick)| *tick)) else { return };
+        goal.sent = Some((text.clone(), now));
+        let sent = goal.asked.clone();
+        let moment = self.moment();
+        sent.iter().for_each(|goal| self.round_trip.sent(goal, moment));
+        self.say(&text);
+    }
+
+    /// Says that we are here, without asking for anything.
+    pub fn hello(&mut self) {
+        self.say(&ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into()));
+    }
+
+    /// Gives control back: call it now and then until it is true, which it is when the vehicle's mode says so. Who never asked
+    /// for control has none to give.
+    pub fn release(&mut self) -> bool {
+        let heard = self.heard.drain(..).next_back().map(|heard| heard.mode);
+        match self.want {
+            Want::Listen => return true,
+            // What was heard before we asked is no answer.
+            Want::Drive { .. } | Want::GiveBack => self.want = Want::Leave,
+            Want::Leave => {
+                if heard.is_some_and(|mode| !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)) {
+                    self.control = Control::Released;
+                    return true;
+                }
+            }
+        }
+        self.say(&ToVehicle::Override(false));
+        false
+    }
+
+    pub(super) fn say(&mut self, message: &impl ToString) {
+        self.spoke = self.next_tick.saturating_sub(1);
+        self.utter(message);
+    }
+
+    fn utter(&mut self, message: &impl ToString) {
+        self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
+    }
+}
