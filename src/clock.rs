@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use std::time::{Duration, Instant, SystemTime};
 
 /// Seconds of a vehicle's time in a tick.
-const TICK: Duration = Duration::from_millis(100);
+pub const TICK: Duration = Duration::from_millis(100);
 
 /// Now.
 #[expect(clippy::disallowed_methods, reason = "how long something took on the wall is no part of any result")]

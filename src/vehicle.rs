@@ -2,10 +2,10 @@
 
 use crate::clock::{self, Pace};
 use crate::exit::Exit;
-use crate::plan::{Faults, refused, scenario_script};
+use crate::plan::{Faults, refused, scenario_script, sound};
 use crate::speaker::{Speaker, no_thread};
 use crate::{interruption, message};
-use albacore_session::{Dialect, FarEnd, LinkError, Rows, Transport, World, WrittenUrl};
+use albacore_session::{Dialect, FarEnd, Faulty, LinkError, LinkFault, Rows, Transport, World, WrittenUrl};
 use indicatif::ProgressBar;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -35,6 +35,10 @@ pub struct Vehicle {
     seed: u64,
     #[command(flatten)]
     faults: Faults,
+    /// Let something go wrong on the link, with each message and both ways: `loss: 5 %, corrupt: 1 %, split: 5 %, repeat: 1 %,
+    /// reorder: 1 %, delay: 200 ms`, `loss: 100 %, from: 60 s, to: 65 s`, by the vehicle's time and the seed.
+    #[arg(long, value_name = "CLAUSE")]
+    link_faults: Vec<String>,
     /// Change a parameter of the script.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -55,10 +59,15 @@ impl Vehicle {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),
         };
-        let (mut transport, at) = match albacore_session::serve(&url) {
+        let faults = match self.link_faults() {
+            Ok(faults) => faults,
+            Err(exit) => return exit,
+        };
+        let (transport, at) = match albacore_session::serve(&url) {
             Ok(open) => open,
             Err(error) => return told(&error, Exit::Failed),
         };
+        let mut transport = Faulty::new(transport, faults, self.seed);
         // A terminal that holds who writes must not hold the vehicle.
         let mut speaker = match Speaker::new(ProgressBar::hidden()) {
             Ok(speaker) => speaker,
@@ -66,7 +75,7 @@ impl Vehicle {
         };
         say(&mut speaker, &far_end, &format!("link open at {at}"));
         let interrupted = interruption::flag();
-        let served = self.serve(&mut far_end, transport.as_mut(), &interrupted, &mut speaker);
+        let served = self.serve(&mut far_end, &mut transport, &interrupted, &mut speaker);
         if far_end.unreadable() > 0 {
             say(&mut speaker, &far_end, &format!("{} lines could not be read", far_end.unreadable()));
         }
@@ -86,12 +95,18 @@ impl Vehicle {
         Ok((world.far_end(self.seed, self.rows).map_err(refused)?, world.dialect))
     }
 
+    /// What goes wrong on the link.
+    fn link_faults(&self) -> Result<Vec<LinkFault>, Exit> {
+        let script = sound(Ok(albacore_session::load_link_faults(&self.link_faults)))?;
+        albacore_session::link_faults(&script).map_err(|error| refused(&error))
+    }
+
     /// Ticks at the rate that was asked for, but in real time while a guest that drives is silent: it may only be late, and
     /// the time that it has is the vehicle's.
     fn serve(
         &self,
         far_end: &mut FarEnd,
-        transport: &mut dyn Transport,
+        transport: &mut Faulty<impl Transport>,
         interrupted: &AtomicBool,
         speaker: &mut Speaker,
     ) -> Result<(), LinkError> {
@@ -107,6 +122,7 @@ impl Vehicle {
             // No wait for bytes is this short.
             std::thread::sleep(left);
             pace.begin();
+            transport.pass(clock::TICK * far_end.ticks() as u32);
             far_end.tick(&bytes).map_err(|error| LinkError::new(error.to_string(), "report this: it should not be"))?;
             bytes.clear();
             transport.hold(far_end.is_driven());

@@ -10,5 +10,5 @@ mod transport;
 mod url;
 
 pub use error::LinkError;
-pub use transport::{Transport, call, serve};
+pub use transport::{Faulty, LinkFault, Transport, call, serve};
 pub use url::{Dialect, Place, Url, WrittenUrl};

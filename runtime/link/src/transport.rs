@@ -1,10 +1,12 @@
 //! Bytes over a wire. Nothing here waits longer than it was told to, and what the other end does not take is lost, as on a wire.
 
+mod faulty;
 mod tty;
 mod udp;
 
 use crate::error::LinkError;
 use crate::url::{Place, Url};
+pub use faulty::{Faulty, LinkFault};
 use nix::errno::Errno;
 use nix::poll::{PollFd, PollFlags, poll};
 use std::os::fd::RawFd;
@@ -23,6 +25,20 @@ pub trait Transport {
 
     /// From here on, and until it is let go, nobody is heard but who was heard last. A line has one other end anyway.
     fn hold(&mut self, _held: bool) {}
+}
+
+impl<T: Transport + ?Sized> Transport for Box<T> {
+    fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError> {
+        (**self).receive(into, wait)
+    }
+
+    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
+        (**self).send(lines)
+    }
+
+    fn hold(&mut self, held: bool) {
+        (**self).hold(held);
+    }
 }
 
 /// Opens a link to a vehicle.

@@ -6,13 +6,14 @@ use albacore_lang::{FileFault, Library, Script, nearest};
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 12] = [
+const STDLIB: [(&str, &str); 13] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
     ("craft", include_str!("../../../stdlib/craft.alb")),
     ("faults", include_str!("../../../stdlib/faults.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("instruments", include_str!("../../../stdlib/instruments.alb")),
+    ("links", include_str!("../../../stdlib/links.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
     ("scenarios", include_str!("../../../stdlib/scenarios.alb")),
@@ -283,7 +284,7 @@ impl Library for Files {
         let wanted = path.join(".");
         Err(match nearest(&wanted, known.iter().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),
-            None if known.len() <= LISTED_MAX => format!("there is {}", known.join(", ")),
+            None if known.len() <= LISTED_MAX.max(STDLIB.len()) => format!("there is {}", known.join(", ")),
             None => {
                 let standard: Vec<&str> = STDLIB.iter().map(|(name, _)| *name).collect();
                 format!("there is {}, and the scripts of this project's folder", standard.join(", "))

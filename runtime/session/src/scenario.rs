@@ -19,7 +19,7 @@ use albacore_link::Dialect;
 use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
-use clause::Clause;
+pub(crate) use clause::Clause;
 pub(crate) use objected::objected;
 use std::path::Path;
 
@@ -166,6 +166,7 @@ fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
         "battery" => sensors::battery(scenario, c),
         "ctd" => sensors::ctd(scenario, c),
         "sounder" => sensors::sounder(scenario, c),
+        "link_fault" => Err("it is what `albacore vehicle --link-faults` takes, not part of a world".to_string()),
         other => Err(format!("the simulator knows no `{other}`")),
     }
 }

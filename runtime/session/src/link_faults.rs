@@ -1,0 +1,58 @@
+//! What goes wrong on a link, from the command line: clauses of the module `links`, read and checked as those of a scenario.
+
+use crate::files;
+use crate::plan::PlanError;
+use crate::scenario::{Clause, words};
+use albacore_lang::Script;
+use albacore_lang::code::Code;
+use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::source::Source;
+use albacore_link::LinkFault;
+use std::time::Duration;
+
+/// The scenario that the clauses make.
+const SCENARIO: &str = "command_line";
+/// The clause, and the module that declares it.
+const CLAUSE: &str = "link_fault";
+const MODULE: &str = "links";
+
+/// The script that the texts of `--link-faults` make: its findings tell what is wrong with them. A text is what stands between
+/// the parentheses of a clause: `loss: 5 %, delay: 200 ms`.
+pub fn load_link_faults(texts: &[String]) -> Script {
+    let clauses: String = texts.iter().map(|text| format!("    {MODULE}.{CLAUSE}({})\n", text.trim())).collect();
+    let unused = if texts.is_empty() { String::new() } else { format!("use {MODULE}\n") };
+    let text = format!("{unused}scenario {SCENARIO} {{\n{clauses}}}\n");
+    files::load_text(Source { name: "--link-faults".into(), text: text.into() })
+}
+
+/// What the script of [`load_link_faults`] lets go wrong.
+pub fn link_faults(script: &Script) -> Result<Vec<LinkFault>, PlanError> {
+    let wrong = |findings| PlanError::script(findings, script);
+    let Some(lowered) = script.scenario(SCENARIO, None) else { return Ok(Vec::new()) };
+    let lowered = lowered.map_err(wrong)?;
+    let words = words(&lowered);
+    let read = |clause| {
+        let c = Clause { clause, words: &words };
+        if clause.name != CLAUSE {
+            let message = format!("`--link-faults` takes what a link suffers from, not `{}`", clause.name);
+            let finding = Diagnostic::error(Code::ScenariosClause, clause.span, message);
+            return Err(finding.help("write `loss: 5 %, delay: 200 ms`, for example"));
+        }
+        fault(&c).map_err(|what| Diagnostic::error(Code::ScenariosClause, clause.span, what))
+    };
+    lowered.clauses.iter().map(read).collect::<Result<_, _>>().map_err(|finding| wrong(vec![finding]))
+}
+
+fn fault(c: &Clause) -> Result<LinkFault, String> {
+    let seconds = |name: &str| Ok::<_, String>(Duration::from_secs_f64(c.number(name)?.max(0.0)));
+    Ok(LinkFault {
+        loss: c.number("loss")?,
+        corrupt: c.number("corrupt")?,
+        split: c.number("split")?,
+        repeat: c.number("repeat")?,
+        reorder: c.number("reorder")?,
+        delay: seconds("delay")?,
+        from: seconds("from")?,
+        to: Some(seconds("to")?).filter(|to| !to.is_zero()),
+    })
+}
