@@ -18,7 +18,7 @@ impl Completions {
         let mut script = Vec::new();
         let name = command.get_name().to_string();
         clap_complete::generate(self.shell, &mut command, name, &mut script);
-        output::print(&String::from_utf8_lossy(&script));
+        output::print_raw(&String::from_utf8_lossy(&script));
         Exit::Well
     }
 }

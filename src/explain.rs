@@ -18,11 +18,11 @@ impl Explain {
     /// Prints a page, or a list of codes.
     pub fn run(&self) -> Exit {
         let Some(name) = self.code.as_deref() else {
-            output::print(&list(Code::ALL));
+            output::print_raw(&list(Code::ALL));
             return Exit::Well;
         };
         if let Some(code) = Code::named(name) {
-            output::print(&page(code));
+            output::print_raw(&page(code));
             return Exit::Well;
         }
         let group: Vec<Code> = Code::ALL.iter().copied().filter(|code| code.group() == name).collect();
@@ -30,7 +30,7 @@ impl Explain {
             message::error(&format!("there is no code `{name}`"), Some(&suggestion(name)));
             return Exit::Usage;
         }
-        output::print(&list(&group));
+        output::print_raw(&list(&group));
         Exit::Well
     }
 }

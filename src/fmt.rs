@@ -3,7 +3,7 @@
 use crate::exit::Exit;
 use crate::{disk, interruption, message, output};
 use albacore_session::{Source, Sources};
-use similar::TextDiff;
+use similar::{DiffOp, TextDiff};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,6 +11,8 @@ use std::sync::atomic::Ordering;
 
 /// So many lines of a difference are shown.
 const SHOWN_MAX: usize = 20;
+/// So many lines are compared, from the first that differs.
+const COMPARED_MAX: usize = 200;
 
 /// Lay out scripts in the one style.
 #[derive(clap::Args)]
@@ -102,15 +104,45 @@ fn check(source: &Source, formatted: &str) -> Exit {
     if *formatted == *source.text {
         return Exit::Well;
     }
-    let diff = TextDiff::from_lines(&*source.text, formatted).unified_diff().context_radius(1).to_string();
     let mut text = format!("{} is not formatted\n", source.name);
-    diff.lines().take(SHOWN_MAX).for_each(|line| text.push_str(&format!("    {line}\n")));
-    let more = diff.lines().count().saturating_sub(SHOWN_MAX);
-    if more > 0 {
-        text.push_str(&format!("    and {more} more lines\n"));
-    }
+    text.push_str(&difference(&source.text, formatted));
     output::print(&text);
     Exit::NotWell
+}
+
+/// The first lines of what differs between two texts. A comparison of the whole is quadratic where every line changes.
+fn difference(old: &str, new: &str) -> String {
+    let (old, new, is_all) = compared(old, new);
+    let diff = TextDiff::from_lines(old, new).unified_diff().context_radius(1).to_string();
+    let mut text: String = diff.lines().take(SHOWN_MAX).map(|line| format!("    {line}\n")).collect();
+    match diff.lines().count().saturating_sub(SHOWN_MAX) {
+        _ if !is_all => text.push_str("    and more lines\n"),
+        0 => {}
+        more => text.push_str(&format!("    and {more} more lines\n")),
+    }
+    text
+}
+
+/// The parts of two texts that are compared, and whether they are all of them: up to some lines behind the first that differs.
+/// Where they are cut, the lines behind the last that they share are left out: their fellows may be in what was cut off.
+fn compared<'a>(old: &'a str, new: &'a str) -> (&'a str, &'a str, bool) {
+    let alike = old.lines().zip(new.lines()).take_while(|(a, b)| a == b).count();
+    let head = |text: &'a str, lines: usize| {
+        let length = text.split_inclusive('\n').take(lines).map(str::len).sum::<usize>();
+        text.get(..length).unwrap_or(text)
+    };
+    let (some_old, some_new) = (head(old, alike + COMPARED_MAX), head(new, alike + COMPARED_MAX));
+    if some_old.len() == old.len() && some_new.len() == new.len() {
+        return (old, new, true);
+    }
+    let shared = TextDiff::from_lines(some_old, some_new).ops().iter().rev().find_map(|op| match op {
+        DiffOp::Equal { old_index, new_index, len } => Some((old_index + len, new_index + len)),
+        _ => None,
+    });
+    match shared.filter(|(old, new)| *old > alike && *new > alike) {
+        Some((a, b)) => (head(some_old, a), head(some_new, b), false),
+        None => (some_old, some_new, false),
+    }
 }
 
 /// A script itself, or those of a folder and the folders in it. What is hidden is left alone, and no link is followed.
@@ -138,4 +170,30 @@ fn gather(path: &Path, scripts: &mut Vec<PathBuf>) -> Result<(), Exit> {
         }
     }
     exit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A text in which every line changes takes no more than a few lines' work.
+    #[test]
+    fn only_the_first_of_many_lines_that_differ_are_compared() {
+        let many = |blank: &str| (0..30_000).map(|i| format!("let{blank}a{i} = {i}\n")).collect::<String>();
+        let (old, new) = (many("  "), many(" "));
+        let (a, b, is_all) = compared(&old, &new);
+        assert_eq!((a.lines().count(), b.lines().count(), is_all), (COMPARED_MAX, COMPARED_MAX, false));
+        let told = difference(&old, &new);
+        assert!(told.starts_with("    @@ -1,200 +1,200 @@\n    -let  a0 = 0\n"), "{told}");
+        assert_eq!((told.lines().count(), told.ends_with("    and more lines\n")), (SHOWN_MAX + 1, true), "{told}");
+    }
+
+    /// What is cut off is not told as deleted or added.
+    #[test]
+    fn where_a_comparison_ends_nothing_seems_to_change() {
+        let lines = |n: usize| (0..n).map(|i| format!("{i}\n")).collect::<String>();
+        let (old, new) = (lines(1000), format!("first\n{}", lines(1000)));
+        assert_eq!(difference(&old, &new), "    @@ -1 +1,2 @@\n    +first\n     0\n    and more lines\n");
+        assert_eq!(difference(&lines(3), &lines(4)), "    @@ -3 +3,2 @@\n     2\n    +3\n");
+    }
 }

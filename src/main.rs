@@ -78,7 +78,12 @@ fn main() -> ExitCode {
         Err(error) => {
             // Help and version are no errors; a closed pipe is no crash.
             let usage = error.use_stderr();
-            let _ = error.print();
+            // What it repeats of the arguments may be anything; its help is ours, and has its styles.
+            if usage {
+                message::write(&error.render().to_string());
+            } else {
+                let _ = error.print();
+            }
             return ExitCode::from(if usage { Exit::Usage } else { Exit::Well });
         }
     };

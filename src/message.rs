@@ -1,5 +1,6 @@
 //! Messages on standard error: findings with their source, and plain errors with their help.
 
+use albacore_session::seen::{masked, one_line, shown};
 use albacore_session::{Diagnostic, FileId, Severity, Sources, Span};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource};
 use std::collections::BTreeSet;
@@ -42,10 +43,10 @@ impl<'a> Shown<'a> {
             let source = sources.get(frame.unwrap_or(place.file));
             Shown {
                 finding,
-                source: NamedSource::new(&source.name, source.text.to_string()),
+                source: NamedSource::new(one_line(&source.name), masked(&source.text)),
                 labels: labels.map(|(i, label)| drawn(i == 0, label)).collect(),
                 related: Vec::new(),
-                message: message.to_string(),
+                message: shown(message),
                 is_part: frame.is_some(),
             }
         };
@@ -57,7 +58,7 @@ impl<'a> Shown<'a> {
 
 /// The frame is headed by the line and column of the mistake, not of the first label in the file.
 fn drawn(is_mistake: bool, (span, text): &(Span, String)) -> LabeledSpan {
-    let text = if text.is_empty() { None } else { Some(text.clone()) };
+    let text = if text.is_empty() { None } else { Some(shown(text)) };
     let place = (span.start as usize, (span.end - span.start) as usize);
     if is_mistake { LabeledSpan::new_primary_with_span(text, place) } else { LabeledSpan::new_with_span(text, place) }
 }
@@ -92,7 +93,7 @@ impl miette::Diagnostic for Shown<'_> {
 
     fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
         let help = self.finding.help.as_ref().filter(|_| !self.is_part)?;
-        Some(Box::new(help))
+        Some(Box::new(shown(help)))
     }
 
     fn source_code(&self) -> Option<&dyn miette::SourceCode> {
@@ -135,12 +136,12 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     }
     for &finding in &drawn {
         if finding.labels.iter().any(|(span, _)| sources.line_length(*span) > LINE_MAX) {
-            text.push_str(&plain(finding, sources));
+            text.push_str(&shown(&plain(finding, sources)));
             continue;
         }
-        let shown = Shown::new(finding, sources);
-        if handler.render_report(&mut text, &shown).is_err() {
-            text.push_str(&finding.message);
+        let drawable = Shown::new(finding, sources);
+        if handler.render_report(&mut text, &drawable).is_err() {
+            text.push_str(&drawable.message);
         }
         text.push('\n');
     }
@@ -158,7 +159,7 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     if !counted.is_empty() {
         text.push_str(&format!("{}\n", counted.join(", ")));
     }
-    write(&text);
+    raw(&text);
 }
 
 /// Says where a person learns more of what was found. Who reads a log, or has the next message a line later, needs no such line.
@@ -183,7 +184,12 @@ pub fn error_text(message: &str, help: Option<&str>) -> String {
     text
 }
 
-/// Standard error may be closed: then nobody listens, and that is all.
+/// Writes for a person: what cannot be seen is written out, for texts of scripts, vehicles and files are in it.
 pub fn write(text: &str) {
+    raw(&shown(text));
+}
+
+/// Writes what has been made to be seen. Standard error may be closed: then nobody listens, and that is all.
+fn raw(text: &str) {
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }

@@ -1,6 +1,7 @@
 //! Standard output: results, for a person or a program.
 
 use crate::message;
+use albacore_session::seen::{is_unseen, shown};
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,9 +9,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Whether a result could not be written. There is one standard output, and so one of these.
 static FAILED: AtomicBool = AtomicBool::new(false);
 
-/// Prints a result. A closed pipe is silent: nobody wants to know. Any other failure is said, once, and is a failure of the
-/// program.
+/// Prints a result for a person: what cannot be seen is written out, for texts of scripts, vehicles and files are in it.
 pub fn print(text: &str) {
+    print_raw(&shown(text));
+}
+
+/// Prints what has been made to be seen, or is data for a program. A closed pipe is silent: nobody wants to know. Any other failure is said, once, and is a failure of the
+/// program.
+pub fn print_raw(text: &str) {
     let mut out = std::io::stdout().lock();
     if let Err(error) = out.write_all(text.as_bytes()).and_then(|()| out.flush())
         && error.kind() != ErrorKind::BrokenPipe
@@ -23,7 +29,7 @@ pub fn print(text: &str) {
 /// Prints a result as one JSON object.
 pub fn print_json(result: &impl Serialize) {
     match serde_json::to_string_pretty(result) {
-        Ok(text) => print(&(text + "\n")),
+        Ok(text) => print_raw(&(seen_json(&text) + "\n")),
         Err(error) => {
             FAILED.store(true, Ordering::Relaxed);
             message::error(&format!("the result cannot be written as JSON: {error}"), None);
@@ -34,4 +40,18 @@ pub fn print_json(result: &impl Serialize) {
 /// Whether a result was lost.
 pub fn has_failed() -> bool {
     FAILED.load(Ordering::Relaxed)
+}
+
+/// JSON in which texts hold nothing unseen: the same values, more of them written as escapes.
+fn seen_json(json: &str) -> String {
+    let mut out = String::with_capacity(json.len());
+    for c in json.chars() {
+        if is_unseen(c) && c != '\n' {
+            let mut units = [0; 2];
+            out.extend(c.encode_utf16(&mut units).iter().map(|unit| format!("\\u{unit:04x}")));
+        } else {
+            out.push(c);
+        }
+    }
+    out
 }

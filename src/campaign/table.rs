@@ -10,6 +10,7 @@ use super::sums::{self, Sums};
 use crate::disk;
 use crate::synced::Synced;
 use albacore_session::campaign::{Columns, Row, Tally};
+use albacore_session::seen::one_line;
 use std::fs::{File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -260,16 +261,32 @@ fn seed_of(line: &[u8], columns: &Columns) -> Option<String> {
 
 /// A row as it stands in the file. Names and reasons may have line ends in them; a row is one line.
 fn line(cells: &[String]) -> Vec<u8> {
-    let plain = |cell: &String| cell.chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>();
+    let plain = |cell: &String| no_formula(one_line(cell));
     let mut writer = csv::Writer::from_writer(Vec::new());
     // Memory takes everything.
     let _ = writer.write_record(cells.iter().map(plain));
     writer.into_inner().unwrap_or_default()
 }
 
+/// A text that a spreadsheet would compute stands behind a `'`, which makes it a text there. Numbers are numbers.
+fn no_formula(cell: String) -> String {
+    let is_number = cell.parse::<f64>().is_ok_and(f64::is_finite);
+    let starts_one =
+        cell.trim_start().starts_with(['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}']);
+    if starts_one && !is_number { format!("'{cell}") } else { cell }
+}
+
 #[cfg(test)]
 mod tests {
     use super::line;
+
+    #[test]
+    fn a_spreadsheet_computes_nothing_of_a_text() {
+        let cells = ["=1+1", "+1", "-12.5", "-1e-3", "@SUM(1)", "\t=cmd()", "\r-2+3", "-", "a=b", "\u{1b}[2J", "+inf"];
+        let cells: Vec<String> = cells.iter().map(|cell| cell.to_string()).collect();
+        let expected = "'=1+1,+1,-12.5,-1e-3,'@SUM(1),' =cmd(),' -2+3,'-,a=b,\\u{1b}[2J,'+inf\n";
+        assert_eq!(String::from_utf8(line(&cells)).unwrap(), expected);
+    }
 
     #[test]
     fn a_row_is_one_line() {

@@ -3,6 +3,7 @@
 use super::markdown::DIAGRAM;
 use super::names::{Names, Use, anchor};
 use super::{Module, drawn};
+use albacore_session::seen::shown;
 use pulldown_cmark::{CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd, html};
 
 const STYLE: &str = include_str!("style.css");
@@ -140,5 +141,5 @@ fn is_channel(word: &str) -> bool {
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    shown(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

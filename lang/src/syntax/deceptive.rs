@@ -3,6 +3,7 @@
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
+use albacore_program::seen::is_unseen;
 
 /// Cyrillic and Greek letters, and signs, beside those that they look like.
 const LOOK_ALIKES: [(&str, &str); 3] = [
@@ -14,11 +15,7 @@ const LOOK_ALIKES: [(&str, &str); 3] = [
 /// What changes how a script looks and not what it means, in comments and texts too: controls of the direction of writing,
 /// marks without width, letters without a shape, control codes.
 pub(super) fn deceives(c: char) -> bool {
-    let unseen = matches!(c,
-        '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{180e}' | '\u{200b}'..='\u{200f}'
-        | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{3164}' | '\u{feff}' | '\u{ffa0}'
-        | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}');
-    unseen || (c.is_control() && !matches!(c, '\n' | '\r' | '\t'))
+    is_unseen(c) && !matches!(c, '\n' | '\r' | '\t')
 }
 
 /// What a character in code was meant to be, when it looks like another: a blank, a digit, a letter, a sign.

@@ -3,6 +3,7 @@
 use crate::graph::{Graph, Node, numbered};
 use crate::wrap::wrapped;
 use albacore_lang::diagram::{Diagram, Guard};
+use albacore_program::seen::shown;
 
 /// Labels are broken after so many letters.
 const LETTERS: usize = 32;
@@ -52,6 +53,6 @@ fn tooltip(guards: &[Guard]) -> Option<String> {
 /// A text as `dot` takes it. A newline becomes the two letters that `dot` reads as one; what looks like an entity of HTML
 /// stays what it is.
 fn quoted(text: &str) -> String {
-    let escaped = text.replace('&', "&amp;").replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
+    let escaped = shown(text).replace('&', "&amp;").replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
     format!("\"{escaped}\"")
 }

@@ -2,6 +2,7 @@
 
 use crate::graph::{Graph, Node, numbered};
 use albacore_lang::diagram::Diagram;
+use albacore_program::seen::one_line;
 
 /// The diagram as a Mermaid flowchart. What rules do besides switching is left out: there is no place for it.
 pub fn mermaid(diagram: &Diagram) -> String {
@@ -38,14 +39,13 @@ fn quoted(text: &str) -> String {
 /// A text as Mermaid takes it between quotes, where it looks for HTML and Markdown.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in one_line(text).chars() {
         match c {
             '"' => out.push_str("#quot;"),
             '<' => out.push_str("#lt;"),
             '>' => out.push_str("#gt;"),
             '&' => out.push_str("#amp;"),
             '#' | '*' | '`' | '\\' => out.push_str(&format!("#{};", u32::from(c))),
-            c if c.is_control() => out.push(' '),
             c => out.push(c),
         }
     }

@@ -9,6 +9,7 @@ mod cause;
 mod guide;
 pub mod number;
 mod op;
+pub mod seen;
 mod shape;
 mod slot;
 

@@ -32,6 +32,7 @@ pub use albacore_lang::{Script, nearest};
 pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{Dialect, Faulty, LinkError, LinkFault, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;
+pub use albacore_program::seen;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
 pub use check::findings;
 pub use faults::{Faults, load_faults};

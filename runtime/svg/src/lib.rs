@@ -1,6 +1,7 @@
 //! The bytes of an SVG: elements, coordinates with one decimal, and texts without danger.
 
 use albacore_program::number::fixed;
+use albacore_program::seen::one_line;
 use std::fmt::Write;
 
 /// The width of an average letter, in parts of its size: that of the widest of the fonts asked for.
@@ -89,17 +90,16 @@ pub fn px(x: f64) -> String {
     text.strip_suffix(".0").map(str::to_string).unwrap_or(text)
 }
 
-/// A text as XML takes it. What XML forbids altogether becomes a blank.
+/// A text as XML takes it, with whatever cannot be seen, and what XML forbids, written out.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in one_line(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            c if c.is_control() || c == '\u{fffe}' || c == '\u{ffff}' => out.push(' '),
             c => out.push(c),
         }
     }

@@ -2,10 +2,10 @@
 
 use crate::active::Active;
 use crate::wording::Wording;
-use crate::words::one_line;
 use albacore_geometry::{Heading, Point};
 use albacore_machine::{Event, Outcome};
 use albacore_program::number;
+use albacore_program::seen::one_line;
 use albacore_program::{Cause, Program};
 
 /// Ticks between samples unless told otherwise: a minute.
@@ -210,7 +210,7 @@ impl BehaviorTrace {
     fn say(&mut self, kind: Kind, tick: u64, verb: &str, line: &str) {
         if self.lines.len() < LINES_MAX || verb == "end" || verb == "control" {
             let line = format!("{}  {verb:<7}  {line}", number::seconds(tick));
-            self.lines.push((kind, line.trim_end().to_string()));
+            self.lines.push((kind, one_line(line.trim_end())));
         } else {
             self.left_out += 1;
         }

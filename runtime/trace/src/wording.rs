@@ -2,10 +2,11 @@
 
 use crate::active::Active;
 use crate::names::Names;
-use crate::words::{INDENT, cause_name, channel_name, control_name, indented, one_line};
+use crate::words::{INDENT, cause_name, channel_name, control_name, indented};
 use albacore_geometry::Point;
 use albacore_machine::{Event, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::number;
+use albacore_program::seen::one_line;
 use albacore_program::{ActivityId, Cause, Channel, Program, Rule, Shape};
 use albacore_vehicle::TICK_S;
 

@@ -11,11 +11,6 @@ pub fn indented(depth: usize, what: &str) -> String {
     format!("{:width$}{what}", "", width = depth * INDENT)
 }
 
-/// Texts of scripts may have line ends in them; an event is one line.
-pub fn one_line(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
-}
-
 /// Why an activity was left.
 pub fn cause_name(cause: Cause) -> &'static str {
     match cause {

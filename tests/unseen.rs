@@ -1,0 +1,104 @@
+//! What others wrote is shown, and never obeyed: no control character of a script, a file's name, an argument or a URL reaches
+//! the terminal or a file that a person reads.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+
+use albacore_session::seen::is_unseen;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Clears the screen, turns the direction of writing, and is colour without an escape.
+const EVIL: &str = "e\u{1b}[2J\u{202e}\u{9b}31mvil";
+
+const SCRIPT: &str = r#"
+mission north in calm within 5 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 200 m)
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 5 min { goto op.center }
+    limits { speed <= 2 m/s }
+    with depth 3 m, speed 1 m/s
+    log "line\nand =1+1"
+    steer 0 deg for 3 s
+    report "=1+1": position
+    abort "=1+1\n@SUM(A1)"
+}
+"#;
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("unseen").join(format!("{name}-{EVIL}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// All that the program writes, in which nothing may be that nobody sees.
+fn said(folder: &Path, arguments: &[&str]) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    let output =
+        command.args(arguments).current_dir(folder).env("NO_COLOR", "1").stdin(Stdio::null()).output().unwrap();
+    let text = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+    assert_eq!(unseen(&text), None, "{arguments:?}: {}", text.escape_debug());
+    text
+}
+
+fn unseen(text: &str) -> Option<char> {
+    text.chars().find(|c| is_unseen(*c) && !matches!(c, '\n' | '\t'))
+}
+
+#[test]
+fn a_message_shows_what_it_is_about_and_obeys_nothing() {
+    let folder = folder("messages");
+    let name = format!("{EVIL}.alb");
+    std::fs::write(folder.join(&name), format!("mission m {{ log \"{EVIL}\"\n    gotoo {EVIL}\n}}\n")).unwrap();
+    let evil_set = format!("{EVIL}=3 {EVIL}");
+    let evil_option = format!("--{EVIL}");
+    let evil_link = format!("udp://{EVIL}:1/{EVIL}?{EVIL}");
+    for arguments in [
+        &["check", &name][..],
+        &["check", "--set", &evil_set, &name],
+        &["fmt", "--check", &name],
+        &["test", &name],
+        &["run", &format!("{EVIL}{EVIL}.alb")],
+        &["run", &name, "--in", EVIL],
+        &["run", &name, &evil_option],
+        &["explain", EVIL],
+        &["new", EVIL],
+        &["graph", &name, EVIL],
+        &["doc", &name],
+    ] {
+        let said = said(&folder, arguments);
+        assert!(said.contains("\\u{") || said.contains('?'), "{arguments:?}: {said}");
+    }
+    std::fs::write(folder.join("north.alb"), SCRIPT).unwrap();
+    let link = said(&folder, &["run", "north.alb", "--link", &evil_link]);
+    assert!(link.contains("\\u{"), "{link}");
+    let set = said(&folder, &["run", "north.alb", "--json", "--set", &evil_set]);
+    assert!(set.contains("\\u{"), "{set}");
+}
+
+#[test]
+fn what_is_kept_of_a_run_holds_nothing_unseen() {
+    let folder = folder("kept");
+    std::fs::write(folder.join("north.alb"), SCRIPT).unwrap();
+    said(&folder, &["run", "north.alb", "--out", EVIL]);
+    let trace = std::fs::read_to_string(folder.join(EVIL).join("trace.txt")).unwrap_or_default();
+    let files: Vec<PathBuf> = std::fs::read_dir(folder.join(EVIL)).unwrap().map(|f| f.unwrap().path()).collect();
+    let mut read = 0;
+    for file in files {
+        if let Ok(text) = std::fs::read_to_string(&file) {
+            assert_eq!(unseen(&text), None, "{}", file.display().to_string().escape_debug());
+            read += 1;
+        }
+    }
+    assert!(read >= 2, "{trace}");
+}
+
+#[test]
+fn a_table_holds_no_formula() {
+    let folder = folder("table");
+    std::fs::write(folder.join("north.alb"), SCRIPT).unwrap();
+    said(&folder, &["campaign", "north.alb", "--seeds", "1..2", "--out", "table.csv"]);
+    let table = std::fs::read_to_string(folder.join("table.csv")).unwrap();
+    assert!(table.contains(",aborted,'=1+1 @SUM(A1),"), "{table}");
+    assert!(!table.contains(",=") && !table.contains(",@") && !table.contains(",+"), "{table}");
+}
