@@ -103,6 +103,7 @@ fn run(script: &str, delay: usize, slowness: f64) -> (Outcome, String, f64, Dura
     let vehicle = ReconVehicle::new(url, Box::new(desk), frame, 1.0, now);
     let mut run = Run::on_link(&plan, 1, Box::new(vehicle)).unwrap();
     let outcome = run.to_end();
+    assert!(!run.release_failed(), "the answer is waited for as long as the link takes");
     let seen = seen.lock().unwrap();
     (outcome, run.summary(0.0).reason, seen.farthest, seen.now)
 }

@@ -6,7 +6,7 @@ use super::round_trip::host_ticks;
 use crate::transport::Transport;
 use crate::url::{Place, Url};
 use albacore_geometry::TangentFrame;
-use albacore_vehicle::{Channel, Command, Control, Snapshot, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 use std::time::Duration;
 
 /// The host's time since any moment. Only the command line may read a clock; a test gives what it likes.
@@ -24,8 +24,10 @@ const LOOKS_MAX: u32 = 64;
 const SILENCE: Duration = Duration::from_secs(5);
 /// Until the vehicle is heard, it is greeted this often: a datagram has to come from somewhere to be answered.
 const HELLO: Duration = Duration::from_secs(1);
-/// The vehicle has this long to say that it has taken control back.
+/// The vehicle has this long to say that it has taken control back, and twice the round trip, which may not
+/// be known in full yet, up to a limit.
 const RELEASE: Duration = Duration::from_secs(3);
+const RELEASE_TICKS_MAX: u64 = 300;
 /// ... and is told again this often.
 const RELEASE_AGAIN: Duration = Duration::from_millis(100);
 
@@ -44,6 +46,8 @@ pub struct ReconVehicle {
     /// When the first tick was taken.
     begun: Option<Duration>,
     rate: f64,
+    /// The round trip in the last tick, ticks.
+    round_trip: u64,
     clocks: Clocks,
     notices: Vec<String>,
     /// The transport has failed: nothing more can be said.
@@ -73,6 +77,7 @@ impl ReconVehicle {
             greeted: None,
             begun: None,
             rate,
+            round_trip: 0,
             clocks: Clocks::new(rate),
             notices: Vec::new(),
             broken: false,
@@ -197,6 +202,7 @@ impl Vehicle for ReconVehicle {
         let now = (self.clock)();
         self.controller.tell_time(now);
         self.controller.sense(snapshot);
+        self.round_trip = snapshot.lag.round_trip;
         let begun = *self.begun.get_or_insert(now);
         let host = host_ticks(now.saturating_sub(begun), self.rate);
         snapshot.lag.host = Some(host);
@@ -231,6 +237,8 @@ impl Vehicle for ReconVehicle {
             return Ok(());
         }
         let begun = (self.clock)();
+        let under_way = TICK_S * (2 * self.round_trip).min(RELEASE_TICKS_MAX) as f64 / self.rate.clamp(0.01, 1.0);
+        let patience = RELEASE + Duration::from_secs_f64(under_way);
         let mut asked: Option<Duration> = None;
         loop {
             let now = (self.clock)();
@@ -240,7 +248,7 @@ impl Vehicle for ReconVehicle {
                     return Ok(());
                 }
             }
-            if now.saturating_sub(begun) >= RELEASE {
+            if now.saturating_sub(begun) >= patience {
                 return Err(VehicleError(
                     "the vehicle did not say that it has taken control back: it leaves override by itself when nothing is \
                      heard for 5 s"
