@@ -5,7 +5,7 @@ mod markdown;
 mod names;
 
 use crate::exit::Exit;
-use crate::{disk, message, output, plan};
+use crate::{disk, interruption, message, output, plan};
 use albacore_session::diagram::{self, Diagram};
 use albacore_session::doc::{Page, page};
 use albacore_session::{FileId, Script, Sources};
@@ -75,6 +75,8 @@ impl Doc {
             message::error(&format!("`{}` cannot be written: {error}", folder.display()), None);
             Exit::Failed
         };
+        // Who interrupts now has whole files, and no temporary ones.
+        let _held = interruption::flag();
         std::fs::create_dir_all(folder).map_err(unwritable)?;
         let index = ("index", self.dressed("Modules", &markdown::index(&modules), None, &names));
         let named = modules.iter().map(|module| module.name.as_str()).zip(pages);

@@ -1,7 +1,7 @@
 //! `albacore graph`: the switching diagram of a strategy.
 
 use crate::exit::Exit;
-use crate::{disk, message, plan};
+use crate::{disk, interruption, message, plan};
 use albacore_session::diagram::{self, Diagram};
 use std::io::Write;
 use std::path::PathBuf;
@@ -55,6 +55,8 @@ impl Graph {
             let _ = std::io::stdout().lock().write_all(text.as_bytes());
             return Exit::Well;
         };
+        // Who interrupts now has whole files, and no temporary ones.
+        let _held = interruption::flag();
         match disk::whole(path, text) {
             Ok(()) => Exit::Well,
             Err(error) => {

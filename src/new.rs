@@ -5,11 +5,12 @@ mod name;
 use crate::disk::{PartFolder, whole};
 use crate::exit::Exit;
 use crate::test::snapshot_file;
-use crate::{message, output};
+use crate::{interruption, message, output};
 use albacore_session::{Faults, Script, Source, Sources, run_test};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 /// Start a project: a folder with a mission that runs, and its test.
 #[derive(clap::Args)]
@@ -77,9 +78,14 @@ fn make(folder: &Path) -> Result<String, Refusal> {
         return Err(Refusal::usage(message, "make it first, or give a name without a folder".into()));
     }
     let unwritable = |error: io::Error| Refusal::unwritable(folder, &error);
+    let interrupted = interruption::flag();
     let part = PartFolder::beside(folder).map_err(unwritable)?;
     if !fill(part.path(), &mission).map_err(unwritable)? {
         return Err(Refusal::taken(&mission));
+    }
+    if interrupted.load(Ordering::Relaxed) {
+        let help = "nothing was made; the same command begins anew".into();
+        return Err(Refusal { exit: Exit::NotWell, message: "interrupted".into(), help });
     }
     part.become_folder(folder).map_err(unwritable)?;
     Ok(mission)

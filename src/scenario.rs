@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use crate::plan::{refused, scenario_script};
-use crate::{disk, message, output};
+use crate::{disk, interruption, message, output};
 use albacore_session::{Shown, Whence};
 use std::path::{Path, PathBuf};
 
@@ -69,6 +69,8 @@ impl Show {
         let path = self.out.clone().unwrap_or_else(usual);
         // A folder that somebody names is there, or mistyped.
         let folder = if self.out.is_none() { path.parent() } else { None };
+        // Who interrupts now has whole files, and no temporary ones.
+        let _held = interruption::flag();
         let made = folder.map_or(Ok(()), std::fs::create_dir_all);
         match made.and_then(|()| disk::whole(&path, &shown.svg)) {
             Ok(()) => {

@@ -184,6 +184,19 @@ fn a_disk_that_is_full_leaves_nothing_behind() {
     assert_eq!(std::fs::read_to_string(folder.join("plan.alb")).unwrap(), PLAN);
 }
 
+#[test]
+fn who_interrupts_finds_a_whole_project_or_none() {
+    let folder = empty("interrupted");
+    let mut child = command(&folder, "new reef").stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    while names(&folder).is_empty() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let _ = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let code = child.wait().unwrap().code();
+    assert!(matches!(code, Some(0 | 1)), "{code:?}");
+    assert_eq!(names(&folder), if code == Some(0) { vec!["reef"] } else { Vec::new() });
+}
+
 /// Nothing else in the program opens a file to write it, moves it or removes it.
 #[test]
 fn only_one_place_writes() {

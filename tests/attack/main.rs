@@ -3,8 +3,10 @@
 //!
 //! ```text
 //! ATTACK_SEEDS=1000 cargo test --release --test attack -- --nocapture
-//! ATTACK_FIRST=41 ATTACK_SEEDS=1 cargo test --test attack -- --nocapture
+//! ATTACK_FIRST=41 ATTACK_SEEDS=1 ATTACK_TOLD=1 cargo test --test attack -- --nocapture
 //! ```
+//!
+//! The second prints the trace of each run.
 //!
 //! - No command is sent that is not finite or outside the mission's limits, and the vehicle holds none outside its own.
 //! - What is sent is what the mission commands at that moment: nothing old, and not much at once.
