@@ -1,7 +1,7 @@
 //! What a checked block does to time and to what follows it.
 
 use super::timed::loiters_for_ever;
-use crate::hir::{Action, Block, Stmt, StmtKind, Timed};
+use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed};
 use crate::source::Span;
 use albacore_program::Guide;
 
@@ -16,12 +16,16 @@ pub(crate) fn takes_time(block: &Block) -> bool {
         StmtKind::With(_, body) => takes_time(body),
         // A range that holds at least one number goes round at least once.
         StmtKind::ForRange { first, last, inclusive, body, .. } => {
-            let least = last.range.low - first.range.high + if *inclusive { 1.0 } else { 0.0 };
-            least >= 1.0 && takes_time(body)
+            goes_round(first, last, *inclusive) && takes_time(body)
         }
         StmtKind::ForEdges { body, .. } => takes_time(body),
         _ => false,
     })
+}
+
+/// Whether a range is known to hold at least one number.
+pub(crate) fn goes_round(first: &Expr, last: &Expr, inclusive: bool) -> bool {
+    last.range.low - first.range.high >= if inclusive { 0.0 } else { 1.0 }
 }
 
 /// Whether some path through a block takes time.

@@ -34,7 +34,7 @@ mod vehicle;
 mod visible;
 mod written;
 
-pub(crate) use flow::takes_time;
+pub(crate) use flow::{goes_round, takes_time};
 pub use params::Override;
 pub use table::never_ends;
 

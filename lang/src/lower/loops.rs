@@ -1,6 +1,7 @@
 //! `for` to code: what is walked is fixed when the loop begins.
 
 use super::Lowering;
+use crate::check::goes_round;
 use crate::hir::{self, Block, Expr};
 use crate::types::Type;
 use albacore_program::{Op, Slot};
@@ -16,14 +17,15 @@ impl<'a> Lowering<'a> {
             true => (Op::JumpUnlessAtMost { a: counter, b: end, to }, Op::JumpIfAtMost { a: counter, b: end, to }),
             false => (Op::JumpUnlessLess { a: counter, b: end, to }, Op::JumpIfLess { a: counter, b: end, to }),
         };
-        let none = self.emit(goes_on(0).0);
+        // A loop may rely on it that this one takes time. Then there is no way past its first round, whatever the numbers are.
+        let none = (!goes_round(first, last, inclusive)).then(|| self.emit(goes_on(0).0));
         let top = self.here();
         let to = self.frame.vars[var];
         self.copy(to, counter, 1);
         self.body(body);
         self.count_up(counter);
         self.emit(goes_on(top).1);
-        self.land(none);
+        self.land_all(none.into_iter().collect());
     }
 
     fn count_up(&mut self, counter: Slot) {
@@ -87,13 +89,12 @@ impl<'a> Lowering<'a> {
         let area = self.walked_area(area);
         let counter = self.lasting(1);
         self.emit(Op::Const { to: counter, value: 0.0 });
-        let none = self.emit(Op::JumpUnlessLess { a: counter, b: area, to: 0 });
         let top = self.here();
         let to = self.frame.vars[var];
         self.emit(Op::EdgeAt { to, area, index: counter });
         self.body(body);
         self.count_up(counter);
+        // An area has an edge: there is no way past the first round.
         self.emit(Op::JumpIfLess { a: counter, b: area, to: top });
-        self.land(none);
     }
 }

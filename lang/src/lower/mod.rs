@@ -182,7 +182,12 @@ fn within_limits(lowering: Lowering<'_>, mission: usize) -> Result<Program, Vec<
     }
     let lowered = lowering.whole(mission)?;
     let findings = limits::size(hir, sources, mission, &lowered);
-    if findings.is_empty() { Ok(lowered.program) } else { Err(findings) }
+    if !findings.is_empty() {
+        return Err(findings);
+    }
+    // What the checker has let through is looked through again, in every test.
+    debug_assert_eq!(lowered.program.verify(), Ok(()));
+    Ok(lowered.program)
 }
 
 impl<'a> Lowering<'a> {

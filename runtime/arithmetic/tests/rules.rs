@@ -185,6 +185,14 @@ fn whole_numbers_end_where_they_can_be_counted() {
     }
 }
 
+#[test]
+fn a_time_is_a_tick_at_least() {
+    for seconds in [-LARGEST, -1.0, 0.0, 1e-300, 0.1, 0.1 + 1e-9] {
+        assert_eq!(Operator::Ticks.execute(&[seconds]), 1.0, "{seconds} s");
+    }
+    assert_eq!(Operator::Ticks.execute(&[0.3001]), 4.0);
+}
+
 /// What the checker may conclude, and what it may not.
 #[test]
 fn zero_is_excluded_by_magnitudes_alone() {

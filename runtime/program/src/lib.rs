@@ -12,6 +12,7 @@ mod op;
 pub mod seen;
 mod shape;
 mod slot;
+mod verify;
 
 pub use activity::*;
 pub use cause::*;
@@ -19,6 +20,7 @@ pub use guide::*;
 pub use op::*;
 pub use shape::*;
 pub use slot::*;
+pub use verify::Unsound;
 
 use albacore_arithmetic::Interval;
 use albacore_geometry::Geodetic;

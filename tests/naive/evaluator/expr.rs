@@ -62,7 +62,20 @@ pub fn values(w: &mut World<'_>, s: Scope<'_, '_>, list: &[Expr]) -> Vec<Value> 
     list.iter().map(|e| value(w, s, e)).collect()
 }
 
+/// The value of an expression, which lies in the range that the checker has claimed of it.
 pub fn value(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
+    let value = computed(w, s, e);
+    let number = match &value {
+        Value::Maybe(inside) => inside.as_deref(),
+        value => Some(value),
+    };
+    if let Some(Value::Number(x)) = number {
+        assert!(e.range.holds(*x), "{x:e} is not in {:?}, which is claimed of {:?}", e.range, e.kind);
+    }
+    value
+}
+
+fn computed(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
     w.steps += 1;
     match &e.kind {
         ExprKind::Number(x) => Value::Number(*x),
@@ -91,6 +104,11 @@ pub fn value(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
             Value::Maybe(Some(value)) => *value,
             _ => value(w, s, b),
         },
+        // The right side is read only where the left has not decided: it may know what the left has shown.
+        ExprKind::Do(op @ (Builtin::And | Builtin::Or), operands) => {
+            let decided = *op == Builtin::Or;
+            Value::truth(if holds(w, s, &operands[0]) == decided { decided } else { holds(w, s, &operands[1]) })
+        }
         ExprKind::Do(op, operands) => {
             let operands = values(w, s, operands);
             builtin(*op, &operands)
@@ -205,8 +223,10 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::AddInt => whole(n(0) + n(1)),
         B::SubInt => whole(n(0) - n(1)),
         B::MulInt => whole(n(0) * n(1)),
-        B::Div if n(1) == 0.0 => 0.0,
-        B::Div => fits(n(0) / n(1)),
+        B::Div => {
+            assert!(n(1) != 0.0, "the checker has shown that no divisor is zero");
+            fits(n(0) / n(1))
+        }
         B::Quotient | B::VectorQuotient if n(1) == 0.0 => return Value::Maybe(None),
         B::Quotient => return Value::Number(fits(n(0) / n(1))).present(),
         B::VectorQuotient => return fitting(fits(1.0 / n(1)) * at(0).vector()).present(),
@@ -215,7 +235,10 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Abs => n(0).abs(),
         B::Min => n(0).min(n(1)),
         B::Max => n(0).max(n(1)),
-        B::Sqrt => n(0).max(0.0).sqrt(),
+        B::Sqrt => {
+            assert!(n(0) >= 0.0, "the checker has shown that no root is of what is negative");
+            n(0).sqrt()
+        }
         B::Floor => whole(n(0).floor()),
         B::Ceil => whole(n(0).ceil()),
         B::Round => whole(n(0).round()),

@@ -1,0 +1,248 @@
+//! What code must keep to, looked through once more after it is made: every place that an instruction names is there, nothing
+//! is written among inputs and constants, and every tick ends. A way through code that leads back to where it was gives the
+//! tick away, or counts its rounds towards an end that stands.
+//!
+//! It takes no word for anything from what the checker has shown of a script. How often a counted loop goes round is not looked
+//! at here; the bill of a mission tells that.
+
+use crate::{ABSOLUTE, AREA_WORDS, Addr, EDGE_WORDS, Op, Program, Slot};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Code that must not be run, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unsound {
+    /// The instruction.
+    pub at: Addr,
+    /// What is wrong with it.
+    pub why: &'static str,
+}
+
+impl Program {
+    /// Looks through all code.
+    pub fn verify(&self) -> Result<(), Unsound> {
+        for (at, op) in self.ops.iter().enumerate() {
+            let unsound = |why| Unsound { at: at as Addr, why };
+            if jump(op).is_some_and(|to| to as usize >= self.ops.len()) {
+                return Err(unsound("it leads to where there is no code"));
+            }
+            if let Some((to, words)) = written(op) {
+                if to & ABSOLUTE != 0 {
+                    return Err(unsound("it writes among inputs and constants"));
+                }
+                if u64::from(to) + u64::from(words) > u64::from(self.words) {
+                    return Err(unsound("it writes beyond the words of a run"));
+                }
+            }
+            let is_there = match op {
+                Op::Enter { call } | Op::Step { call, .. } | Op::Cut { call, .. } => {
+                    (*call as usize) < self.calls.len()
+                }
+                Op::PutOn { overlay } | Op::TakeOff { overlay } => (*overlay as usize) < self.overlays.len(),
+                Op::Report { site } => (*site as usize) < self.reports.len(),
+                Op::Log { text } | Op::Abort { why: text } => (*text as usize) < self.texts.len(),
+                Op::Changed { memory } => (*memory as usize) < self.memories.len(),
+                Op::Age { input, .. } | Op::Hits { input, .. } => (*input as usize) < self.inputs.len(),
+                _ => true,
+            };
+            if !is_there {
+                return Err(unsound("it names what is not there"));
+            }
+        }
+        self.every_tick_ends((0..self.ops.len() as Addr).collect())
+    }
+
+    /// Where code may go on in the same tick.
+    fn next(&self, at: Addr) -> [Option<Addr>; 2] {
+        let op = &self.ops[at as usize];
+        let goes_on = !matches!(op, Op::Jump { .. } | Op::Return | Op::Yield | Op::End | Op::Finish | Op::Abort { .. });
+        [jump(op), (goes_on && (at as usize + 1) < self.ops.len()).then_some(at + 1)]
+    }
+
+    /// Whether no way among these instructions leads round and round in one tick. What counts a loop's rounds is taken out, and
+    /// what is left is looked at again: the loops in it must have counters of their own.
+    fn every_tick_ends(&self, code: BTreeSet<Addr>) -> Result<(), Unsound> {
+        let mut open = vec![code];
+        while let Some(code) = open.pop() {
+            for ring in self.rings(&code) {
+                let counters: Vec<Addr> = ring.iter().copied().filter(|&at| self.counts(at, &ring)).collect();
+                if counters.is_empty() {
+                    let at = ring.first().copied().unwrap_or_default();
+                    return Err(Unsound { at, why: "it goes round without taking time" });
+                }
+                open.push(ring.into_iter().filter(|at| !counters.contains(at)).collect());
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether an instruction counts the rounds of a ring: it adds one to a word that nothing else in the ring writes, and the
+    /// ring is left when that word has come to its end, which nothing in the ring writes either.
+    fn counts(&self, at: Addr, ring: &BTreeSet<Addr>) -> bool {
+        let Op::AddInt { to, a, b } = self.ops[at as usize] else { return false };
+        let stands = |slot: Slot, except: Option<Addr>| {
+            ring.iter().filter(|&&other| Some(other) != except).all(|&other| {
+                !written(&self.ops[other as usize]).is_some_and(|(to, words)| slot >= to && slot - to < words)
+            })
+        };
+        if to != a || !self.is_one(b, at) || !stands(to, Some(at)) {
+            return false;
+        }
+        let leaves = |at: Addr| !ring.contains(&at);
+        let looks = |other: Addr| match self.ops[other as usize] {
+            Op::JumpIfLess { a, b, .. } | Op::JumpIfAtMost { a, b, .. } => {
+                a == to && stands(b, None) && leaves(other + 1)
+            }
+            Op::At { list: of, index, .. } | Op::RowAt { area: of, index, .. } => {
+                let next = self.ops.get(other as usize + 1);
+                let is_left = matches!(next, Some(Op::JumpUnless { to, .. }) if leaves(*to));
+                index == to && stands(of, None) && is_left
+            }
+            _ => false,
+        };
+        // Every round that is counted is looked at.
+        let unlooked: BTreeSet<Addr> = ring.iter().copied().filter(|&other| !looks(other)).collect();
+        self.rings(&unlooked).iter().all(|ring| !ring.contains(&at))
+    }
+
+    /// Whether a word is one: a constant, or set so by the instruction before.
+    fn is_one(&self, slot: Slot, at: Addr) -> bool {
+        if slot & ABSOLUTE != 0 {
+            let inputs: u32 = self.inputs.iter().map(crate::Input::words).sum();
+            let index = (slot & !ABSOLUTE).checked_sub(inputs);
+            return index.is_some_and(|index| self.constants.get(index as usize) == Some(&1.0));
+        }
+        let before = at.checked_sub(1).and_then(|at| self.ops.get(at as usize));
+        matches!(before, Some(Op::Const { to, value }) if *to == slot && *value == 1.0)
+    }
+
+    /// The sets of instructions each of which leads to every other of its set (Tarjan's, without calling itself).
+    fn rings(&self, code: &BTreeSet<Addr>) -> Vec<BTreeSet<Addr>> {
+        let mut rings = Vec::new();
+        let mut index: BTreeMap<Addr, (usize, usize)> = BTreeMap::new();
+        let mut waiting: Vec<Addr> = Vec::new();
+        let mut is_waiting: BTreeSet<Addr> = BTreeSet::new();
+        for &root in code {
+            if index.contains_key(&root) {
+                continue;
+            }
+            let mut path: Vec<(Addr, usize)> = vec![(root, 0)];
+            while let Some((at, way)) = path.pop() {
+                if way == 0 {
+                    let n = index.len();
+                    index.insert(at, (n, n));
+                    waiting.push(at);
+                    is_waiting.insert(at);
+                }
+                let next = self.next(at);
+                if let Some(&to) = next.get(way) {
+                    path.push((at, way + 1));
+                    match to.filter(|to| code.contains(to)) {
+                        Some(to) if !index.contains_key(&to) => path.push((to, 0)),
+                        Some(to) if is_waiting.contains(&to) => lower(&mut index, at, to),
+                        _ => {}
+                    }
+                    continue;
+                }
+                if let Some(&(from, _)) = path.last() {
+                    lower(&mut index, from, at);
+                }
+                if index.get(&at).is_some_and(|(n, low)| n == low) {
+                    let begin = waiting.iter().rposition(|&other| other == at).unwrap_or(0);
+                    let ring: BTreeSet<Addr> = waiting.drain(begin..).collect();
+                    ring.iter().for_each(|other| _ = is_waiting.remove(other));
+                    if ring.len() > 1 || next.contains(&Some(at)) {
+                        rings.push(ring);
+                    }
+                }
+            }
+        }
+        rings
+    }
+}
+
+/// What one instruction reaches the other reaches too.
+fn lower(index: &mut BTreeMap<Addr, (usize, usize)>, at: Addr, to: Addr) {
+    let reached = index.get(&to).map_or(usize::MAX, |(_, low)| *low);
+    if let Some((_, low)) = index.get_mut(&at) {
+        *low = (*low).min(reached);
+    }
+}
+
+/// Where an instruction may jump to.
+fn jump(op: &Op) -> Option<Addr> {
+    match *op {
+        Op::Jump { to }
+        | Op::JumpIf { to, .. }
+        | Op::JumpUnless { to, .. }
+        | Op::JumpIfLess { to, .. }
+        | Op::JumpUnlessLess { to, .. }
+        | Op::JumpIfAtMost { to, .. }
+        | Op::JumpUnlessAtMost { to, .. } => Some(to),
+        _ => None,
+    }
+}
+
+/// The words that an instruction itself writes. Functions and activities that it calls have frames of their own.
+fn written(op: &Op) -> Option<(Slot, u32)> {
+    Some(match *op {
+        Op::CopyMany { to, words, .. } | Op::Clear { to, words } => (to, words),
+        Op::Quotient { to, .. } => (to, 2),
+        Op::AddVector { to, .. } | Op::SubVector { to, .. } | Op::Scale { to, .. } | Op::Toward { to, .. } => (to, 2),
+        Op::Center { to, .. } | Op::Corner { to, .. } | Op::Exit { to, .. } => (to, 2),
+        Op::Rectangle { to, .. } | Op::Polygon { to, .. } => (to, AREA_WORDS),
+        Op::EdgeAt { to, .. } | Op::NearestEdge { to, .. } => (to, EDGE_WORDS),
+        Op::RowAt { to, .. } => (to, 4),
+        Op::Push { list, words, capacity, .. } | Op::PushSorted { list, words, capacity, .. } => {
+            (list, 1 + words * capacity)
+        }
+        Op::Remove { list, words, .. } | Op::Sort { list, words, .. } => (list, 1 + words),
+        Op::At { to, words, .. } | Op::Top { to, words, .. } => (to, 1 + words),
+        Op::Guide { ended, .. } | Op::Step { ended, .. } => (ended, 1),
+        Op::Answer { ours, .. } => (ours, 1),
+        Op::Driven { suspended, .. } => (suspended, 1),
+        Op::Const { to, .. }
+        | Op::Copy { to, .. }
+        | Op::Add { to, .. }
+        | Op::Sub { to, .. }
+        | Op::Mul { to, .. }
+        | Op::Div { to, .. }
+        | Op::AddInt { to, .. }
+        | Op::SubInt { to, .. }
+        | Op::MulInt { to, .. }
+        | Op::Min { to, .. }
+        | Op::Max { to, .. }
+        | Op::Pow { to, .. }
+        | Op::Neg { to, .. }
+        | Op::Abs { to, .. }
+        | Op::Sqrt { to, .. }
+        | Op::Floor { to, .. }
+        | Op::Ceil { to, .. }
+        | Op::Round { to, .. }
+        | Op::Sin { to, .. }
+        | Op::Cos { to, .. }
+        | Op::WrapHeading { to, .. }
+        | Op::WrapAngle { to, .. }
+        | Op::Ticks { to, .. }
+        | Op::Lt { to, .. }
+        | Op::Le { to, .. }
+        | Op::Eq { to, .. }
+        | Op::Not { to, .. }
+        | Op::And { to, .. }
+        | Op::Or { to, .. }
+        | Op::Direction { to, .. }
+        | Op::Length { to, .. }
+        | Op::Dot { to, .. }
+        | Op::Along { to, .. }
+        | Op::Gap { to, .. }
+        | Op::EdgeGap { to, .. }
+        | Op::EdgeTangent { to, .. }
+        | Op::Spread { to, .. }
+        | Op::Age { to, .. }
+        | Op::Hits { to, .. }
+        | Op::HeldFor { to, .. }
+        | Op::Becomes { to, .. }
+        | Op::Elapsed { to, .. }
+        | Op::Now { to, .. } => (to, 1),
+        _ => return None,
+    })
+}
