@@ -52,6 +52,7 @@ fn line(p: &Program, event: &Event) -> String {
         Event::Lagging(takes, may_take) => format!("lagging {takes} {may_take}"),
         Event::LaggingEnded => "lagging no more".to_string(),
         Event::HostTimeUp(host, vehicle) => format!("timeout by host {host} {vehicle}"),
+        Event::Adrift(adrift) => format!("adrift {adrift}"),
         Event::Silenced => "silenced".to_string(),
         Event::Unwritten(lines) => format!("unwritten {lines}"),
         Event::Ended(outcome) => format!("end {}", outcome.name()),

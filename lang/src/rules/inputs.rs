@@ -13,6 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Inputs that the machine reads without being asked: to go over ground in moving water, and to hold a vertical limit.
 const BY_THE_MACHINE: [&str; 3] = ["flow", "depth", "water_depth"];
 
+/// Inputs that a `hold` keeps its place by, where they have come; without them it lies still.
+const BY_HOLD: [&str; 2] = ["position", "course"];
+
 /// Inputs that are never too old: they tell how things stand with the vehicle, and that of one not heard from as well.
 const OF_THE_LINK: [&str; 2] = ["control", "vehicle_mode"];
 
@@ -24,6 +27,8 @@ struct Walk<'a> {
     seen: BTreeSet<usize>,
     /// For each input that is read the first place where it is.
     read: BTreeMap<usize, Span>,
+    /// Whether it holds anywhere.
+    holds: bool,
 }
 
 /// Finds the inputs that a mission reads, with all that it calls, and does not require.
@@ -31,7 +36,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = Vec::new();
-    let read = read(hir, mission);
+    let Walk { read, holds, .. } = walk(hir, mission);
     let unrequired = |(input, _): &(&usize, &Span)| {
         let name = hir.inputs[**input].name.as_str();
         !parts.requires.iter().any(|r| r.input == **input) && !OF_THE_LINK.contains(&name)
@@ -41,7 +46,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     findings.extend(missing(activity, &unrequired, !parts.requires.is_empty()));
     for require in parts.requires.iter().filter(|require| !read.contains_key(&require.input)) {
         let name = &hir.inputs[require.input].name;
-        if BY_THE_MACHINE.contains(&name.as_str()) {
+        if BY_THE_MACHINE.contains(&name.as_str()) || holds && BY_HOLD.contains(&name.as_str()) {
             continue;
         }
         let message = format!("the mission `{}` requires `{name}`, and nothing in it reads it", activity.name);
@@ -77,9 +82,13 @@ fn missing(activity: &Activity, unrequired: &[(&str, Span)], requires_others: bo
 
 /// The inputs that a mission reads, with all that it calls, and for each the first place where it does.
 pub fn read(hir: &Hir, mission: usize) -> BTreeMap<usize, Span> {
-    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new() };
+    walk(hir, mission).read
+}
+
+fn walk(hir: &Hir, mission: usize) -> Walk<'_> {
+    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new(), holds: false };
     walk.activity(mission);
-    walk.read
+    walk
 }
 
 impl Walk<'_> {
@@ -135,6 +144,10 @@ impl Walk<'_> {
                 Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, _) => {
                     self.note("position", stmt.span);
                     self.note("course", stmt.span);
+                    self.note("heading", stmt.span);
+                }
+                Action::Guide(Guide::Hold, _) => {
+                    self.holds = true;
                     self.note("heading", stmt.span);
                 }
                 Action::Guide(Guide::Wait, _) | Action::Watch | Action::Override(_) => {}

@@ -18,6 +18,7 @@ mod own_plan;
 pub mod parameters;
 mod route;
 mod rows;
+mod station;
 mod words;
 
 pub use compensate::{ThroughWater, through_water};
@@ -31,3 +32,4 @@ pub use own_plan::{Milestone, OwnPlan};
 pub use parameters::{turning_radius, turning_radius_in_flow};
 pub use route::{Route, Waypoints};
 pub use rows::Rows;
+pub use station::{Station, Stay, Whereabouts};

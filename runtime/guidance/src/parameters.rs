@@ -14,6 +14,28 @@ pub const CROSS_TRACK_MAX: f64 = 45.0 * DEGREE;
 /// A point is reached within this many metres: R = 10 m (2005 paper, Table IV).
 pub const ARRIVAL_RADIUS: f64 = 10.0;
 
+/// A vehicle that keeps its place lies still within this many metres of it, and goes back from there. Ours: as near as a
+/// point is reached.
+pub const STATION_OUTER_RADIUS: f64 = ARRIVAL_RADIUS;
+
+/// It lies still again within this many metres. Ours.
+pub const STATION_INNER_RADIUS: f64 = 3.0;
+
+/// It goes back so fast that it would be there in this many seconds. Ours: at 1 m/s from the outer radius.
+pub const STATION_RETURN_TIME: f64 = 10.0;
+
+/// It goes back no slower than this many m/s over ground, if it may: below, rudders have little to act on. Ours.
+pub const STATION_SPEED_MIN: f64 = 0.5;
+
+/// Nor faster than this many m/s over ground, whatever else allows: nobody is in a hurry. Ours.
+pub const STATION_SPEED_MAX: f64 = 1.5;
+
+/// It is adrift when it has been carried so many metres farther off on its way back. Ours.
+pub const STATION_ADRIFT: f64 = 2.0 * STATION_OUTER_RADIUS;
+
+/// A position older than this many seconds says nothing of where a vehicle drifts. Ours.
+pub const STATION_POSITION_AGE_MAX: f64 = 5.0;
+
 /// A line is followed once the course is within this angle of it, in radians: theta of appendix A.2, which the paper
 /// leaves open. Ours: 30 degrees.
 pub const LINE_CAPTURE_ANGLE: f64 = 30.0 * DEGREE;

@@ -1,7 +1,7 @@
 //! From what a statement asks to what the vehicle is told: amendments, limits, command filter, flow compensation.
 
 use crate::guide::Filter;
-use crate::state::{Limits, Run};
+use crate::state::{Asked, Limits, Run};
 use crate::{Event, execute::Flow};
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MIN;
@@ -20,7 +20,11 @@ impl Run {
         let asked = &mut self.state.asked;
         asked.vertical = overridden.vertical.unwrap_or(asked.vertical);
         asked.speed = overridden.speed.unwrap_or(asked.speed);
-        let asked = *asked;
+        let mut asked = *asked;
+        // A place is kept: for this tick only, so that whatever comes after it begins from lying still.
+        if let Some((course, speed)) = self.state.way_back {
+            asked = Asked { course, speed: overridden.speed.unwrap_or(speed), over_ground: true, ..asked };
+        }
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);

@@ -56,6 +56,8 @@ pub enum Event {
     Awaited(u32),
     /// More is logged and reported than is written: from here on nothing is.
     Silenced,
+    /// A place is to be kept, and the vehicle is carried off though it goes back: whether that is so from here on.
+    Adrift(bool),
     /// So many lines of log and report were not written; from here on they are again.
     Unwritten(u64),
     /// The round trip over the vehicle's link takes longer than it may: s, and at most.

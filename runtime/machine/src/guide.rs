@@ -1,12 +1,15 @@
 //! Guidance statements: their laws' states in words, and what they ask for.
 
+use crate::Event;
 use crate::state::{Asked, Run};
-use albacore_geometry::Heading;
+use albacore_geometry::{Heading, Point};
 use albacore_guidance::dubins::{Pose, Words};
-use albacore_guidance::parameters::TURN_LEAD_TIME;
-use albacore_guidance::{Circling, CommandFilter, FollowLine, Goto, GotoPose, Loiter, turning_radius_in_flow};
-use albacore_program::{Guide, Slot, setpoints};
-use albacore_vehicle::Vertical;
+use albacore_guidance::parameters::{STATION_POSITION_AGE_MAX, TURN_LEAD_TIME};
+use albacore_guidance::{
+    Circling, CommandFilter, FollowLine, Goto, GotoPose, Loiter, Station, Whereabouts, turning_radius_in_flow,
+};
+use albacore_program::{Guide, Input, Slot, setpoints};
+use albacore_vehicle::{TICK_S, Vertical};
 
 /// Speeds below this, in m/s, turn in no circle worth planning with.
 const PLANNING_SPEED_MIN: f64 = 0.1;
@@ -65,7 +68,11 @@ impl Run {
                 let law = Loiter::new(self.point(args), self.get(args + 2), circling, turns, lead);
                 self.store(state, law.to_words());
             }
-            Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => {}
+            Guide::Hold => {
+                let law = Station::new(self.known_position());
+                self.store(state, law.to_words());
+            }
+            Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Wait => {}
         }
     }
 
@@ -111,7 +118,7 @@ impl Run {
                 let Asked { course, over_ground, .. } = self.state.asked;
                 self.ask(course, over_ground, setpoints);
                 if !self.in_overlay {
-                    self.state.asked.speed = 0.0;
+                    self.keep_station(state, setpoints);
                 }
                 return false;
             }
@@ -119,6 +126,28 @@ impl Run {
         };
         self.ask(guidance.course, true, setpoints);
         guidance.arrived
+    }
+
+    /// Lies still, or goes back to the place that is kept. What goes on after it goes on from lying still.
+    fn keep_station(&mut self, state: Slot, setpoints: Slot) {
+        self.state.asked.speed = 0.0;
+        let most = self.state.limits.speed.1;
+        let speed = self.get(setpoints + setpoints::SPEED);
+        let speed = if speed == setpoints::NO_SPEED { most } else { speed };
+        let at = Whereabouts { position: self.known_position(), course: self.course() };
+        let mut law = Station::from_words(&self.load(state));
+        let stay = law.step(at, speed);
+        self.store(state, law.to_words());
+        self.state.way_back = stay.way;
+        self.events.extend(stay.adrift.map(Event::Adrift));
+    }
+
+    /// Where the vehicle is, if that has been heard of late.
+    fn known_position(&self) -> Option<Point> {
+        let at = self.senses.position?;
+        let stamp = self.get(at + Input::STAMP);
+        let age_s = (self.state.tick as f64 - stamp) * TICK_S;
+        (stamp >= 0.0 && age_s <= STATION_POSITION_AGE_MAX).then(|| self.position())
     }
 
     /// Asks for a course with the setpoints in force. Overlays ask for no course.

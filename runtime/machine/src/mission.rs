@@ -47,6 +47,7 @@ impl Run {
             began: 0,
             host_began: 0,
             overridden: Overridden::default(),
+            way_back: None,
             allowance: Allowance::new(p.reports.len()),
         };
         Run {
@@ -158,6 +159,7 @@ impl Machine {
         let p = program.as_ref();
         run.events.clear();
         run.state.overridden = Overridden::default();
+        run.state.way_back = None;
         run.events.extend(run.state.allowance.tick());
         run.state.lag = snapshot.lag;
         run.take_in(p, wiring, &snapshot.samples);

@@ -48,6 +48,8 @@ pub struct State {
     pub(crate) host_began: u64,
     /// Channels that overlays set in this tick.
     pub(crate) overridden: Overridden,
+    /// The way back to a place that is kept, of this tick: a course and a speed over ground.
+    pub(crate) way_back: Option<(Heading, f64)>,
     /// What may still be written by `log` and `report`.
     pub(crate) allowance: Allowance,
 }

@@ -110,6 +110,8 @@ impl Wording {
                 ("timeout", what)
             }
             Event::TimedOut => ("timeout", self.columns("the mission's time is up", Some(position), "", "")),
+            Event::Adrift(true) => ("hold", "adrift: carried off although it goes back to its place".to_string()),
+            Event::Adrift(false) => ("hold", "adrift no more".to_string()),
             Event::Silenced => {
                 let (once, second) = (LINES_AT_ONCE_MAX, LINES_A_TICK_MAX as f64 / TICK_S);
                 ("limit", format!("log and report  more than {once} lines at once and {second:.0} a second"))

@@ -100,6 +100,7 @@ impl<'p> Evaluator<'p> {
         self.w.events.clear();
         self.w.steps = 0;
         self.w.kept = Setpoints::default();
+        self.w.way_back = None;
         self.w.earn();
         self.w.sense(self.sensors, &snapshot.samples);
         if snapshot.control != self.control {
@@ -217,6 +218,7 @@ impl<'p> Evaluator<'p> {
             let (low, high) = &mut self.limits[*channel as usize];
             *(if *least { low } else { high }) = value;
         }
+        self.w.fastest = self.limits[Channel::Speed as usize].1;
         begun
     }
 
@@ -326,7 +328,10 @@ impl<'p> Evaluator<'p> {
         let kept = self.w.kept;
         self.w.asked.vertical = kept.vertical.unwrap_or(self.w.asked.vertical);
         self.w.asked.speed = kept.speed.unwrap_or(self.w.asked.speed);
-        let asked = self.w.asked;
+        let mut asked = self.w.asked;
+        if let Some((course, speed)) = self.w.way_back {
+            asked = Asked { course, speed: kept.speed.unwrap_or(speed), over_ground: true, ..asked };
+        }
         let amended = self.recovery.amended(&mut self.w, asked.course);
         let amended = self.mission.amended(&mut self.w, amended);
         let speed = self.limit(Channel::Speed, asked.speed);

@@ -8,7 +8,9 @@ use super::world::{World, ticks};
 use albacore_geometry::Heading;
 use albacore_guidance::dubins::{Pose, Words};
 use albacore_guidance::parameters::TURN_LEAD_TIME;
-use albacore_guidance::{Circling, FollowLine, Goto, GotoPose, Guidance, Loiter, turning_radius_in_flow};
+use albacore_guidance::{
+    Circling, FollowLine, Goto, GotoPose, Guidance, Loiter, Station, Whereabouts, turning_radius_in_flow,
+};
 use albacore_lang::hir::{Action, Expr, Timed};
 use albacore_program::{Cause, Channel, Guide};
 use albacore_vehicle::Vertical;
@@ -53,7 +55,8 @@ pub enum Law {
     Follow(FollowLine),
     Dubins(GotoPose),
     Loiter(Loiter),
-    /// `steer`, `hold`, `wait`: nothing to remember.
+    Station(Station),
+    /// `steer`, `wait`: nothing to remember.
     None,
 }
 
@@ -151,14 +154,22 @@ impl<'p> Underway<'p> {
                 Law::Follow(law) => law.step(position, course),
                 Law::Dubins(law) => law.step(position, course),
                 Law::Loiter(law) => law.step(position, course),
+                Law::Station(law) => {
+                    ask(w, w.asked.course, w.asked.over_ground, self.setpoints);
+                    w.asked.speed = 0.0;
+                    let most = w.fastest;
+                    let at = Whereabouts { position: w.known_position(), course };
+                    let stay = law.step(at, self.setpoints.speed.unwrap_or(most));
+                    w.way_back = stay.way;
+                    if let Some(adrift) = stay.adrift {
+                        w.say(format!("adrift {adrift}"));
+                    }
+                    return Ok(false);
+                }
                 Law::None => {
                     match guide {
                         Guide::Steer => ask(w, args[0].heading(), true, self.setpoints),
                         Guide::SteerHeading => ask(w, args[0].heading(), false, self.setpoints),
-                        Guide::Hold => {
-                            ask(w, w.asked.course, w.asked.over_ground, self.setpoints);
-                            w.asked.speed = 0.0;
-                        }
                         _ => {}
                     }
                     return Ok(false);
@@ -215,6 +226,7 @@ fn law(w: &World<'_>, guide: Guide, args: &[Value], setpoints: Setpoints) -> Law
             let circling = if args[3].holds() { Circling::Clockwise } else { Circling::Anticlockwise };
             Law::Loiter(Loiter::new(args[0].point(), n(1), circling, turns, lead))
         }
-        Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => Law::None,
+        Guide::Hold => Law::Station(Station::new(w.known_position())),
+        Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Wait => Law::None,
     }
 }

@@ -3,7 +3,7 @@
 use super::timed::Setpoints;
 use super::value::Value;
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
-use albacore_guidance::parameters::TURN_RATE_MAX;
+use albacore_guidance::parameters::{STATION_POSITION_AGE_MAX, TURN_RATE_MAX};
 use albacore_lang::hir::{Expr, Hir, InputPart, Stmt};
 use albacore_lang::source::Sources;
 use albacore_lang::types::{Type, TypeTable};
@@ -38,6 +38,10 @@ pub struct World<'p> {
     pub inputs: Vec<Sensed>,
     pub tick: u64,
     pub asked: Asked,
+    /// The way back to a place that is kept, of this tick.
+    pub way_back: Option<(Heading, f64)>,
+    /// The mission's limit of speed.
+    pub fastest: f64,
     /// The fastest turn that is commanded, rad/s.
     pub turn_rate: f64,
     /// What overlays that own a channel keep in this tick.
@@ -75,6 +79,8 @@ impl<'p> World<'p> {
             frame,
             tick: 0,
             asked,
+            way_back: None,
+            fastest: f64::MAX,
             turn_rate: TURN_RATE_MAX,
             kept: Setpoints::default(),
             is_recovering: false,
@@ -175,6 +181,13 @@ impl<'p> World<'p> {
 
     pub fn position(&self) -> Point {
         self.sample("position").map_or(Point::ORIGIN, |words| Point::new(words[0], words[1]))
+    }
+
+    /// The position, unless it is too old to tell where a vehicle drifts.
+    pub fn known_position(&self) -> Option<Point> {
+        let id = self.hir.inputs.iter().position(|input| input.name == "position")?;
+        let age = self.tick - self.inputs[id].stamp?;
+        (age as f64 * TICK_S <= STATION_POSITION_AGE_MAX).then(|| self.position())
     }
 
     pub fn heading(&self) -> Heading {
