@@ -22,6 +22,8 @@ const WELL_AFTER_TICKS: u64 = 150;
 /// Depth and altitude add up to the depth of the water, but for this, m, and for a while.
 const SUM_MAX: f64 = 2.0;
 const UNEVEN_TICKS: u64 = 100;
+/// Below this speed over ground a vehicle stands still, m/s.
+const AT_REST: f64 = 0.05;
 
 /// The channels that are watched.
 const WATCHED: [(u16, Kind); 8] = [
@@ -171,6 +173,10 @@ impl Vigil {
             }
         }
         for channel in &mut self.channels {
+            // A vehicle that stands still has no course.
+            if channel.is_of(Kind::Course) && self.motion.speed() < AT_REST {
+                channel.excuse(tick);
+            }
             channel.wait(tick, &mut self.sights);
         }
         let command = command.filter(|_| snapshot.control == Control::InControl);
@@ -178,6 +184,11 @@ impl Vigil {
         self.commanded.look(&heard, command, self.motion.speed(), &mut self.sights);
         self.add_up(&heard, water_depth);
         self.sights.settle()
+    }
+
+    /// Whether something is seen now.
+    pub(crate) fn sees(&self, sight: Sight) -> bool {
+        self.sights.sees(sight)
     }
 
     /// Depth and altitude add up to the depth of the water.

@@ -15,6 +15,12 @@ const NOISE_CHANGES: u64 = 300;
 /// A channel is noisy where neighbouring differences correlate by less than this: of white noise it is -1/2, of a random walk 0, of
 /// a smooth motion 1.
 const NOISE_CORRELATION: f64 = -0.25;
+/// ... and where they are larger than the rounding of the last bits, in SI units, and than the smallest of them, which may be the step
+/// in which a link tells numbers: a value between two steps flickers like noise and then rests for minutes.
+const NOISE_MIN: f64 = 1e-4;
+const NOISE_STEPS: f64 = 1.2;
+/// ... and where it has never rested for more samples than this: a link may repeat what a slow sensor told.
+const NOISE_REST_MAX: u64 = 12;
 /// A noisy value stands still when so many samples are the same. At an end of its scale a sensor may well rest for a while.
 const STUCK_SAMPLES: u64 = 50;
 const STUCK_AT_END_SAMPLES: u64 = 200;
@@ -67,7 +73,7 @@ impl Kind {
     }
 
     /// Whether a reading can be: the ocean is 11 km deep, no tide runs at 10 m/s, no vehicle of ours at 15.
-    fn can_be(self, reading: Reading) -> bool {
+    pub(crate) fn can_be(self, reading: Reading) -> bool {
         let [a, b, c, _] = reading;
         match self {
             Kind::Position => a.abs() <= 1e5 && b.abs() <= 1e5 && c >= 0.0,
@@ -80,7 +86,7 @@ impl Kind {
     }
 
     /// Whether one reading can follow another after some seconds.
-    fn can_follow(self, now: Reading, before: Reading, time: f64) -> bool {
+    pub(crate) fn can_follow(self, now: Reading, before: Reading, time: f64) -> bool {
         let change = (now[0] - before[0]).abs();
         match self {
             Kind::Position => {
@@ -120,6 +126,8 @@ pub(super) struct Channel {
     same_most: u64,
     /// So many samples were another than the one before.
     changes: u64,
+    /// The smallest of these changes.
+    step: f64,
     /// Means of the squared differences of neighbours, and of their products.
     difference: f64,
     variance: f64,
@@ -138,6 +146,7 @@ impl Channel {
             same: 0,
             same_most: 0,
             changes: 0,
+            step: f64::INFINITY,
             difference: 0.0,
             variance: 0.0,
             covariance: 0.0,
@@ -170,7 +179,10 @@ impl Channel {
         if before == reading {
             self.same += 1;
         } else {
-            self.same_most = self.same_most.max(self.same);
+            // A rest that was told of says nothing of how long it rests when all is well.
+            if !sights.sees(Sight::Stuck(self.kind)) {
+                self.same_most = self.same_most.max(self.same);
+            }
             self.same = 0;
             self.learn(reading[0] - before[0]);
         }
@@ -187,6 +199,15 @@ impl Channel {
         Some(Told { reading, same: tick - since, lively })
     }
 
+    pub fn is_of(&self, kind: Kind) -> bool {
+        self.kind == kind
+    }
+
+    /// It may well be silent now.
+    pub fn excuse(&mut self, tick: u64) {
+        self.last = self.last.max(tick);
+    }
+
     /// A tick has gone by.
     pub fn wait(&self, tick: u64, sights: &mut Sights) {
         let Some(period) = self.period else { return };
@@ -197,6 +218,7 @@ impl Channel {
 
     fn learn(&mut self, difference: f64) {
         self.changes += 1;
+        self.step = if difference == 0.0 { self.step } else { self.step.min(difference.abs()) };
         let share = 1.0 / self.changes.min(NOISE_CHANGES) as f64;
         self.variance += share * (difference * difference - self.variance);
         self.covariance += share * (difference * self.difference - self.covariance);
@@ -206,8 +228,16 @@ impl Channel {
     /// Whether the channel has shown that it never stays the same for long.
     fn is_lively(&self) -> bool {
         match self.kind {
+            // Whether it stands still under way is asked elsewhere; at rest it may.
+            Kind::Position => false,
             Kind::Flow => self.samples >= MEAN_SAMPLES && self.same_most <= MEAN_SAME_MAX,
-            _ => self.changes >= NOISE_CHANGES && self.covariance < NOISE_CORRELATION * self.variance,
+            _ => {
+                let least = NOISE_MIN.max(NOISE_STEPS * self.step);
+                self.changes >= NOISE_CHANGES
+                    && self.covariance < NOISE_CORRELATION * self.variance
+                    && self.variance > least * least
+                    && self.same_most <= NOISE_REST_MAX
+            }
         }
     }
 

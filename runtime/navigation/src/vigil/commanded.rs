@@ -27,6 +27,8 @@ const DEPTH_SAME: u64 = 200;
 const ALTITUDE_SAME: u64 = 100;
 const DEPTH_CHANGES: f64 = 1.0;
 const DEPTH_MEAN_TICKS: f64 = 200.0;
+/// An altitude so near to the one commanded, m, is held.
+const HELD: f64 = 0.5;
 
 /// What is remembered of how commands are followed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -107,10 +109,12 @@ impl Commanded {
             Vertical::Altitude(altitude) => (heard.altitude, altitude, Sight::AltitudeNotAsCommanded),
         };
         let Some(told) = told else { return };
-        // Where the water is too shallow for an altitude the vehicle swims at the surface.
-        let cannot = matches!(vertical, Vertical::Altitude(_)) && self.depth.last < SURFACE;
+        // Where the water is too shallow for an altitude the vehicle swims at the surface; from there it has yet to set out.
+        if matches!(vertical, Vertical::Altitude(_)) && self.depth.last < SURFACE {
+            self.goal = None;
+            return;
+        }
         let off = match vertical {
-            Vertical::Altitude(_) if cannot => 0.0,
             Vertical::Altitude(_) => (told.reading[0] - wanted).abs(),
             Vertical::Depth(_) => self.depth.off(wanted),
         };
@@ -133,7 +137,11 @@ impl Commanded {
     /// An altitude that stays the same while the depth changes, and is not what is held.
     fn look_at_altitude(&mut self, told: Option<Told>, command: Option<&Command>, sights: &mut Sights) {
         let Some(told) = told else { return };
-        let is_held = !command.is_some_and(|c| matches!(c.vertical, Vertical::Depth(_)));
+        let is_held = match command.map(|command| command.vertical) {
+            Some(Vertical::Depth(_)) => false,
+            Some(Vertical::Altitude(goal)) => (told.reading[0] - goal).abs() < HELD,
+            None => true,
+        };
         if told.same == 0 || is_held {
             self.depth_then = None;
             return;

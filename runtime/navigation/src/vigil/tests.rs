@@ -112,3 +112,31 @@ fn each_trouble_has_its_name() {
     };
     assert_eq!(first(COURSE, aside).map(|(_, what)| what), told(0, "course and position disagree").map(|t| t.1));
 }
+
+/// A value that a link tells in steps: it flickers between two of them for minutes, and then rests.
+#[test]
+fn a_flicker_between_two_steps_is_no_noise() {
+    let told = watched(20_000, |tick, snapshot| {
+        let flickers = tick < 12_000 && (tick * 7_919 % 101).is_multiple_of(2);
+        for sample in &mut snapshot.samples {
+            if sample.channel == SPEED {
+                sample.reading[0] = if flickers { 2.01 } else { 2.0 };
+            }
+        }
+    });
+    assert_eq!(told, []);
+}
+
+/// The last bits of a course that is computed are no noise of a sensor.
+#[test]
+fn rounding_is_no_noise() {
+    let told = watched(20_000, |tick, snapshot| {
+        let last_bits = if tick < 12_000 { (tick * 7_919 % 101) as f64 * 1e-15 } else { 0.0 };
+        for sample in &mut snapshot.samples {
+            if sample.channel == COURSE {
+                sample.reading[0] += last_bits;
+            }
+        }
+    });
+    assert_eq!(told, []);
+}
