@@ -159,16 +159,16 @@ fn a_flooded_vehicle_holds_its_depth_or_sinks() {
     let path = "tests/faults/flooded.alb";
     let script = load(Path::new(path), None, &[]).unwrap();
     assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
-    let trace = |kilograms: u32, seed: u64| {
+    let trace = |kilograms: u32, seed: u64, outcome: Outcome| {
         let text = format!("flooding({kilograms} kg, within: 30 s), from: 2 min, to: 5 min");
         let faults = Faults::of(&load_faults(&[text])).unwrap();
         let plan = Plan::new(&script, path, None, None).unwrap().with_faults(&faults).unwrap();
         let mut run = Run::new(&plan, seed).unwrap();
-        assert_eq!(run.to_end(), Outcome::Completed);
+        assert_eq!(run.to_end(), outcome);
         run.trace().to_string()
     };
     for seed in 1..=seeds() {
-        let (held, sunk) = (trace(3, seed), trace(9, seed));
+        let (held, sunk) = (trace(3, seed, Outcome::Completed), trace(9, seed, Outcome::Aground));
         for trace in [&held, &sunk] {
             for what in [
                 "  120.0 s  vehicle  fault: flooding",

@@ -55,6 +55,8 @@ fn line(p: &Program, event: &Event) -> String {
         Event::Adrift(adrift) => format!("adrift {adrift}"),
         Event::Silenced => "silenced".to_string(),
         Event::Unwritten(lines) => format!("unwritten {lines}"),
+        Event::BottomLost(deepest) => format!("bottom lost {deepest:?}"),
+        Event::BottomFound => "bottom found".to_string(),
         Event::Ended(outcome) => format!("end {}", outcome.name()),
     }
 }

@@ -70,6 +70,7 @@ impl<'t> Checker<'t> {
             }
         };
         if kind == Kind::Mission {
+            self.require_for_limits(&mut parts.mission);
             self.mission_header(a, &mut parts.mission);
         }
         hir::Activity {

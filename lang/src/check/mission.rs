@@ -4,11 +4,11 @@ use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Mission, Require};
+use crate::hir::{Expr, ExprKind, Interval, Mission, Require};
 use crate::source::Spanned;
 use crate::syntax::tree::{self, ActivityKind};
 use crate::types::Type;
-use albacore_program::Channel;
+use albacore_program::{Channel, LIMIT_FRESH_S, LIMIT_PATIENCE_S};
 
 /// The limits that are no channel's.
 const TURN_RATE: &str = "turn_rate";
@@ -151,6 +151,27 @@ impl Checker<'_> {
             let (fresh, hold_for) = (fresh.clone(), hold_for.clone());
             mission.requires.push(Require { input, span: name.span, fresh, at_first, hold_for });
         }
+    }
+
+    /// Limits of depth and altitude are held by what is known of the depth: a mission that has one requires that input, whether it
+    /// says so or not.
+    pub(super) fn require_for_limits(&self, mission: &mut Mission) {
+        let vertical =
+            mission.limits.iter().find(|(channel, ..)| matches!(channel, Channel::Depth | Channel::Altitude));
+        let Some((_, _, Expr { span, .. })) = vertical else { return };
+        let Some(input) = self.hir.inputs.iter().position(|input| input.name == "depth") else { return };
+        if mission.requires.iter().any(|require| require.input == input) {
+            return;
+        }
+        let span = *span;
+        let seconds = |value: f64| Expr {
+            kind: ExprKind::Number(value),
+            ty: Type::Quantity(Dimension::TIME),
+            span,
+            range: Interval::exactly(value),
+        };
+        let (fresh, hold_for) = (seconds(LIMIT_FRESH_S), Some(seconds(LIMIT_PATIENCE_S)));
+        mission.requires.push(Require { input, span, fresh, at_first: None, hold_for });
     }
 
     pub(super) fn mission_header(&mut self, a: &tree::Activity, mission: &mut Mission) {

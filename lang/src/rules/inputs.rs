@@ -11,7 +11,7 @@ use albacore_program::Guide;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Inputs that the machine reads without being asked: to go over ground in moving water, and to hold a vertical limit.
-const BY_THE_MACHINE: [&str; 3] = ["flow", "depth", "water_depth"];
+const BY_THE_MACHINE: [&str; 4] = ["flow", "depth", "altitude", "water_depth"];
 
 /// Inputs that a `hold` keeps its place by, where they have come; without them it lies still.
 const BY_HOLD: [&str; 2] = ["position", "course"];

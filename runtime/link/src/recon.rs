@@ -10,6 +10,7 @@ mod fields;
 mod frame;
 mod front_seat;
 mod goal;
+mod grounding;
 mod happening;
 mod message;
 mod mode;

@@ -7,7 +7,7 @@ use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MIN;
 use albacore_guidance::through_water;
 use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, header};
-use albacore_vehicle::{Command, TICK_S, Vertical};
+use albacore_vehicle::{Command, TICK_S};
 
 /// An amendment smaller than this, in radians, is not worth a line of trace; it ends below half of it.
 const AMENDMENT_TOLD_RAD: f64 = 0.02;
@@ -28,7 +28,7 @@ impl Run {
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
-        let vertical = self.limit_vertical(asked.vertical);
+        let vertical = self.limit_vertical(p, asked.vertical);
         let mut filter = Filter::new(self.state.filtered);
         let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;
@@ -150,31 +150,15 @@ impl Run {
         })
     }
 
-    fn limit_vertical(&mut self, asked: Vertical) -> Vertical {
-        // Depth and altitude are bound to one another where the water depth is known: the limits of both hold.
-        let water = self.water_depth();
-        let Limits { altitude, depth, .. } = self.state.limits;
-        match asked {
-            Vertical::Altitude(metres) => {
-                let deepest = water.map_or(0.0, |water| (water - depth.1).max(0.0));
-                Vertical::Altitude(self.limit(Channel::Altitude, metres).max(deepest))
-            }
-            Vertical::Depth(metres) => {
-                let floor = water.map_or(f64::MAX, |water| (water - altitude.0).max(0.0));
-                Vertical::Depth(self.limit(Channel::Depth, metres).min(floor))
-            }
-        }
-    }
-
     /// Holds a setpoint within its limits, and says when that begins and when it ends.
-    fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
+    pub fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
         let (index, (low, high)) = match channel {
             Channel::Depth => (0, self.state.limits.depth),
             Channel::Altitude => (1, self.state.limits.altitude),
             Channel::Speed => (2, self.state.limits.speed),
         };
         // Standing still is always allowed: it is what a hold asks for.
-        let given = if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.clamp(low, high.max(low)) };
+        let given = if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.max(low).min(high.max(low)) };
         let held = given != asked;
         if held != self.state.limited[index] {
             self.state.limited[index] = held;

@@ -66,6 +66,10 @@ pub enum Event {
     LaggingEnded,
     /// The mission's time is up by the host's clock, and not yet by the vehicle's: the two, s.
     HostTimeUp(f64, f64),
+    /// How deep the water is below is not known any more: what a least altitude allows from here on, in metres of depth.
+    BottomLost(f64),
+    /// It is known again.
+    BottomFound,
 }
 
 /// How a mission ended.
@@ -87,6 +91,8 @@ pub enum Outcome {
     LinkLost,
     /// The vehicle or the machine failed.
     Failed,
+    /// The vehicle lay on the bottom at its end, or for too long on the way.
+    Aground,
 }
 
 impl Outcome {
@@ -101,6 +107,7 @@ impl Outcome {
             Outcome::ReleasedByVehicle => "released_by_vehicle",
             Outcome::LinkLost => "link_lost",
             Outcome::Failed => "failed",
+            Outcome::Aground => "aground",
         }
     }
 }

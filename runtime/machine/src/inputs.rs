@@ -51,7 +51,7 @@ pub(crate) fn senses(program: &Program) -> Senses {
         heading: at("heading"),
         flow: at("flow"),
         depth: at("depth"),
-        water_depth: at("water_depth"),
+        altitude: at("altitude"),
         control: at("control"),
     }
 }
@@ -86,6 +86,7 @@ impl Run {
             }
             *count += 1.0;
         }
+        self.sound();
     }
 
     pub fn has_sample(&self, input: &Input) -> bool {
@@ -137,9 +138,5 @@ impl Run {
 
     pub fn depth(&self) -> f64 {
         self.value(self.senses.depth).map_or(0.0, |at| self.get(at))
-    }
-
-    pub fn water_depth(&self) -> Option<f64> {
-        self.value(self.senses.water_depth).map(|at| self.get(at))
     }
 }

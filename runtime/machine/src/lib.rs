@@ -6,6 +6,7 @@
 mod activity;
 mod allowance;
 mod area;
+mod bottom;
 mod clocks;
 mod command;
 mod compute;
@@ -20,6 +21,7 @@ mod state;
 mod trig;
 
 pub use allowance::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX, TEXT_BYTES_MAX};
+pub use bottom::Chart;
 pub use event::{Event, Outcome};
 pub use execute::Evaluation;
 pub use inputs::MissingInput;

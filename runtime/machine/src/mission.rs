@@ -2,14 +2,18 @@
 
 use crate::activity::Status;
 use crate::allowance::Allowance;
+use crate::bottom::{Bottom, Chart};
 use crate::inputs::{MissingInput, senses, wiring};
 use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State, Wish};
 use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
-use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot, Vertical};
+use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot, TICK_S, Vertical};
 use std::sync::Arc;
+
+/// A mission whose vehicle has lain on the bottom for so long, s, is aborted: its recovery leads up.
+const AGROUND_MAX_S: f64 = 30.0;
 
 /// Executes one mission.
 #[derive(Clone)]
@@ -39,6 +43,8 @@ impl Run {
             control: Control::Disconnected,
             limits: Limits::NONE,
             declared: Declared::default(),
+            bottom: Bottom::default(),
+            aground: None,
             limited: [false; 3],
             requires: Vec::new(),
             link: Requirement::LINK,
@@ -57,6 +63,7 @@ impl Run {
             abort: None,
             deserted: None,
             senses: senses(p),
+            chart: None,
             trig: Trig::new(),
         }
     }
@@ -73,6 +80,12 @@ impl Machine {
         let wiring = wiring(&program, channels)?;
         let run = Run::new(&program);
         Ok(Machine { program, wiring, run })
+    }
+
+    /// The same with a chart, for where the vehicle hears no echo of the bottom.
+    pub fn with_chart(mut self, chart: Option<Chart>) -> Self {
+        self.run.chart = chart;
+        self
     }
 
     /// The program.
@@ -164,6 +177,7 @@ impl Machine {
         run.state.lag = snapshot.lag;
         run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
+        run.state.aground = snapshot.aground.then(|| run.state.aground.unwrap_or(run.state.tick));
         let command = run.live(p);
         run.state.tick += 1;
         command
@@ -216,6 +230,10 @@ impl Run {
             Phase::Running | Phase::Holding(_) => {
                 // The time limit bounds the run: it does not stand still while the mission is held.
                 let time_is_up = self.time_is_up();
+                if self.is_stranded() {
+                    self.events.push(Event::Aborted(format!("aground for {AGROUND_MAX_S} s")));
+                    return self.recover(p, Outcome::Aground);
+                }
                 if let Some(held) = self.hold_while_stale(p, time_is_up) {
                     return held;
                 }
@@ -422,10 +440,22 @@ impl Run {
         self.over(p, outcome)
     }
 
-    /// The end: everything is left, nothing more is commanded.
+    /// Whether the vehicle that we drive has lain on the bottom for too long: what the mission asks for does not free it.
+    fn is_stranded(&self) -> bool {
+        let lain = self.state.aground.map_or(0, |since| self.state.tick.saturating_sub(since));
+        self.state.wish == Wish::Drive && lain as f64 * TICK_S >= AGROUND_MAX_S
+    }
+
+    /// The end: everything is left, nothing more is commanded. A mission that leaves its vehicle on the bottom has not come to
+    /// its own end, whatever it says.
     fn over(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         if matches!(self.state.phase, Phase::Over(_)) {
             return None;
+        }
+        let ended_by_us = matches!(outcome, Outcome::Completed | Outcome::TimedOut | Outcome::Aborted);
+        let stranded = ended_by_us && self.state.aground.is_some();
+        if stranded && outcome == Outcome::Completed {
+            self.events.push(Event::Aborted(String::from("the vehicle lies on the bottom")));
         }
         let cause = match outcome {
             Outcome::Completed => Cause::Done,
@@ -438,6 +468,7 @@ impl Run {
         }
         self.leave(p, p.mission.activity, base, cause);
         self.events.extend(self.state.allowance.end());
+        let outcome = if stranded { Outcome::Aground } else { outcome };
         self.state.phase = Phase::Over(outcome);
         self.events.push(Event::Ended(outcome));
         None

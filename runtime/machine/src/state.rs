@@ -2,6 +2,7 @@
 
 use crate::Outcome;
 use crate::allowance::Allowance;
+use crate::bottom::{Bottom, Chart};
 use crate::trig::Trig;
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MAX;
@@ -30,6 +31,10 @@ pub struct State {
     pub(crate) control: Control,
     /// The mission's limits, once it runs.
     pub(crate) limits: Limits,
+    /// What is known of the water below.
+    pub(crate) bottom: Bottom,
+    /// Since which tick the vehicle has lain on the bottom.
+    pub(crate) aground: Option<u64>,
     /// For each channel whether a limit holds it back.
     pub(crate) limited: [bool; 3],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
@@ -154,6 +159,8 @@ pub(crate) struct Run {
     /// The outcome of that, where it is another than that the script aborted it.
     pub deserted: Option<Outcome>,
     pub senses: Senses,
+    /// What is known of the water's depth beforehand.
+    pub chart: Option<Chart>,
     pub trig: Trig,
 }
 
@@ -167,7 +174,7 @@ pub(crate) struct Senses {
     pub heading: Option<Slot>,
     pub flow: Option<Slot>,
     pub depth: Option<Slot>,
-    pub water_depth: Option<Slot>,
+    pub altitude: Option<Slot>,
     pub control: Option<Slot>,
 }
 

@@ -230,7 +230,12 @@ impl Sights {
     }
 
     fn sees(&self, sight: Sight) -> bool {
-        self.seen.iter().any(|(known, _)| *known == sight)
+        self.last_seen(sight).is_some()
+    }
+
+    /// When it was seen last, if that is not over yet.
+    fn last_seen(&self, sight: Sight) -> Option<u64> {
+        self.seen.iter().find(|(known, _)| *known == sight).map(|(_, last)| *last)
     }
 
     /// What has begun, and what is over.

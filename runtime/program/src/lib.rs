@@ -99,6 +99,12 @@ pub struct Code {
 pub const LATENCY_MAX_S: f64 = 2.0;
 /// For so long a mission holds on a link that lags, before it aborts, s.
 pub const LATENCY_PATIENCE_S: f64 = 10.0;
+/// The age, in seconds, beyond which what a vertical limit is held by counts for nothing: depth and altitude. What the mission
+/// itself `requires` of them comes first.
+pub const LIMIT_FRESH_S: f64 = 5.0;
+/// How long, in seconds, a mission holds for the depth that a vertical limit needs before it aborts, unless its `requires` says
+/// otherwise.
+pub const LIMIT_PATIENCE_S: f64 = 30.0;
 
 /// What no command may exceed: each is code, run at the mission's start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

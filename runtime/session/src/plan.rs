@@ -8,8 +8,9 @@ use albacore_lang::diagnostic::{Diagnostic, Severity};
 use albacore_lang::source::{Source, Sources};
 use albacore_lang::{Script, suggestion};
 use albacore_link::Dialect;
+use albacore_machine::Chart;
 use albacore_program::Program;
-use albacore_sim::Scenario;
+use albacore_sim::{Bottom, Ground, Scenario};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
 use std::path::Path;
@@ -28,6 +29,8 @@ pub struct Plan {
     pub sources: Vec<SourceDigest>,
     /// What the one may miss in the other, with places in the mission's script.
     pub warnings: Vec<Diagnostic>,
+    /// The survey of the bottom that the mission's scenario names: what is known of the water's depth beforehand.
+    survey: Option<Arc<Bottom>>,
 }
 
 /// Why a script cannot be run as asked.
@@ -97,8 +100,24 @@ impl Plan {
                 "give a corner or the center of its area as latitude and longitude, such as `36°10.8'N 75°44.4'W`";
             return Err(PlanError::Asked(message, Some(help.into())));
         }
+        let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
+        let survey = match own {
+            Some(own) => survey(&world::scenario(script, &own, program.mission.origin)?.1.world),
+            None => None,
+        };
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
-        Ok(Plan { program, scenario, scenario_name: link.to_string(), sources: sources(script), warnings: Vec::new() })
+        let (scenario_name, sources) = (link.to_string(), sources(script));
+        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), survey })
+    }
+
+    /// What is known of the water's depth beforehand, where it was surveyed. What a scenario makes up is no knowledge of a place.
+    pub(crate) fn chart(&self) -> Option<Chart> {
+        let survey = Arc::clone(self.survey.as_ref()?);
+        let Ground::Grid(grid) = &survey.ground else { return None };
+        let area = grid.area()?;
+        Some(Arc::new(move |at, within| {
+            area.edges().all(|edge| edge.gap(at) >= 0.0).then(|| survey.shallowest_within(within, at))
+        }))
     }
 
     /// The same with faults added to those of the scenario.
@@ -123,9 +142,10 @@ impl Plan {
     /// A mission that is lowered already, in a scenario of the script.
     pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
         let (lowered, understood) = world::scenario(script, wanted, program.mission.origin)?;
+        let survey = survey(&understood.world);
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();
-        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new() })
+        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), survey })
     }
 }
 
@@ -169,6 +189,12 @@ fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String,
         Some(Err(findings)) => Err(PlanError::script(findings, script)),
         None => Err(PlanError::Asked(format!("`{file}` has no mission `{name}`"), None)),
     }
+}
+
+/// The bottom of a scenario without its pits, if it was surveyed.
+fn survey(world: &Scenario) -> Option<Arc<Bottom>> {
+    let ground = world.bottom.ground.clone();
+    matches!(ground, Ground::Grid(_)).then(|| Arc::new(Bottom { ground, pits: Vec::new() }))
 }
 
 /// What a script was made from.

@@ -381,6 +381,7 @@ impl Vehicle for Simulator {
         }
         snapshot.samples.clear();
         snapshot.control = self.control;
+        snapshot.aground = self.incidents.is_aground();
         self.told = self.control;
         self.measure(tick, snapshot);
         self.faults.filter(tick, &mut snapshot.samples);
@@ -437,10 +438,6 @@ impl Vehicle for Simulator {
             }
             _ => self.did,
         }
-    }
-
-    fn is_aground(&self) -> bool {
-        self.incidents.is_aground()
     }
 
     fn notices(&mut self) -> Vec<String> {

@@ -117,6 +117,10 @@ impl Wording {
                 ("limit", format!("log and report  more than {once} lines at once and {second:.0} a second"))
             }
             Event::Unwritten(lines) => ("limit", format!("log and report  {lines} more not written")),
+            Event::BottomLost(deepest) => {
+                ("limit", format!("altitude unknown: no deeper than {}", number::metres(*deepest)))
+            }
+            Event::BottomFound => ("limit", "altitude known again".to_string()),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),
         })
     }

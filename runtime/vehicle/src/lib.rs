@@ -79,6 +79,8 @@ pub struct Snapshot {
     pub control: Control,
     /// How far behind that is.
     pub lag: Lag,
+    /// Whether the vehicle lies on the bottom, and says so.
+    pub aground: bool,
 }
 
 impl Snapshot {
@@ -153,11 +155,6 @@ pub trait Vehicle {
     /// none, or cannot tell.
     fn held(&self) -> Option<Command> {
         None
-    }
-
-    /// Whether it lies on the bottom and knows so.
-    fn is_aground(&self) -> bool {
-        false
     }
 
     /// What a person should hear of the link since they were last told. No mission can read it.

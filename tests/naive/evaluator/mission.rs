@@ -35,6 +35,29 @@ struct Required {
     stale_since: Option<u64>,
 }
 
+/// What was heard of the bottom, m.
+#[derive(Clone, Copy)]
+struct Echo {
+    tick: u64,
+    altitude: f64,
+    depth: f64,
+    water: f64,
+    sum: f64,
+}
+
+#[derive(Default)]
+struct Bottom {
+    echo: Option<Echo>,
+    lost: bool,
+    begun: Option<u64>,
+    commanded: Option<Vertical>,
+}
+
+/// So long a vertical limit goes by what was sensed: 5 s.
+const FRESH_TICKS: u64 = 50;
+/// A vehicle that lies on the bottom for so long is stranded: 30 s.
+const STRANDED_TICKS: u64 = 300;
+
 /// The naive evaluator of one mission.
 pub struct Evaluator<'p> {
     pub w: World<'p>,
@@ -52,6 +75,9 @@ pub struct Evaluator<'p> {
     limits: [(f64, f64); 3],
     limited: [bool; 3],
     filter: CommandFilter,
+    bottom: Bottom,
+    /// Since when the vehicle has lain on the bottom.
+    aground: Option<u64>,
     control: Control,
 }
 
@@ -86,6 +112,8 @@ impl<'p> Evaluator<'p> {
             limits: [(0.0, f64::MAX); 3],
             limited: [false; 3],
             filter: CommandFilter::new(w.heading()),
+            bottom: Bottom::default(),
+            aground: None,
             control: Control::Disconnected,
             w,
         })
@@ -103,6 +131,8 @@ impl<'p> Evaluator<'p> {
         self.w.way_back = None;
         self.w.earn();
         self.w.sense(self.sensors, &snapshot.samples);
+        self.bottom.hear(&self.w);
+        self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
         if snapshot.control != self.control {
             self.control = snapshot.control;
             self.w.say(format!("control {:?}", self.control));
@@ -224,6 +254,10 @@ impl<'p> Evaluator<'p> {
 
     fn run(&mut self) -> Option<Command> {
         let time_is_up = self.time_is_up();
+        if self.aground.is_some_and(|since| self.w.tick - since >= STRANDED_TICKS) {
+            self.w.say("abort aground for 30 s".into());
+            return self.begin_recovery("aground", Cause::Aborted);
+        }
         if self.is_stale() {
             return self.hold(time_is_up);
         }
@@ -314,11 +348,15 @@ impl<'p> Evaluator<'p> {
 
     fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {
         if self.phase != Phase::Over {
+            let stranded = self.aground.is_some() && ["completed", "timed_out", "aborted"].contains(&outcome);
+            if stranded && outcome == "completed" {
+                self.w.say("abort the vehicle lies on the bottom".into());
+            }
             self.recovery.leave(&mut self.w, Cause::Preempted);
             self.mission.leave(&mut self.w, cause);
             self.phase = Phase::Over;
             self.w.tell_unwritten();
-            self.w.say(format!("end {outcome}"));
+            self.w.say(format!("end {}", if stranded { "aground" } else { outcome }));
         }
         None
     }
@@ -335,27 +373,60 @@ impl<'p> Evaluator<'p> {
         let amended = self.recovery.amended(&mut self.w, asked.course);
         let amended = self.mission.amended(&mut self.w, amended);
         let speed = self.limit(Channel::Speed, asked.speed);
-        let water = self.w.water_depth();
-        let vertical = match asked.vertical {
-            // Where the water depth is known, the limits of depth and altitude both hold.
-            Vertical::Altitude(asked) => {
-                let given = self.limit(Channel::Altitude, asked);
-                let deepest = self.limits[Channel::Depth as usize].1;
-                Vertical::Altitude(water.map_or(given, |water| given.max(water - deepest)).max(0.0))
-            }
-            Vertical::Depth(asked) => {
-                let given = self.limit(Channel::Depth, asked);
-                let lowest = self.limits[Channel::Altitude as usize].0;
-                Vertical::Depth(water.map_or(given, |water| given.min((water - lowest).max(0.0))))
-            }
-        };
+        let vertical = self.vertical(asked.vertical);
         let course = self.filter.step(amended, self.w.turn_rate, TICK_S);
         if (asked.over_ground || amended != asked.course) && speed > 0.0 {
             let fastest = self.limits[Channel::Speed as usize].1;
             let water = through_water(course, speed, self.w.flow(), fastest);
+            self.bottom.commanded = Some(vertical);
             return Command { heading: water.heading, speed: water.speed, vertical };
         }
-        Command { heading: course, speed: speed.max(0.0), vertical }
+        let command = Command { heading: course, speed: speed.max(0.0), vertical };
+        self.bottom.commanded = Some(vertical);
+        command
+    }
+
+    /// Section 8: the limits of depth and altitude both hold; without an echo of the bottom the vehicle goes no deeper than where
+    /// the least altitude was last known to hold, and where there never was one, to the surface.
+    fn vertical(&mut self, asked: Vertical) -> Vertical {
+        let (low, high) = self.limits[Channel::Depth as usize];
+        let (lowest, highest) = self.limits[Channel::Altitude as usize];
+        let names = ["altitude", "water_depth"];
+        let own = self.required.iter().filter(|r| names.contains(&&*self.w.hir.inputs[r.input].name)).map(|r| r.fresh);
+        let fresh = own.min().unwrap_or(FRESH_TICKS);
+        let young = self.w.tick - *self.bottom.begun.get_or_insert(self.w.tick) <= FRESH_TICKS;
+        let echo = self.bottom.echo;
+        let known = echo.filter(|echo| self.w.tick - echo.tick <= fresh);
+        let floor = match (known, echo) {
+            (Some(echo), _) => Some(echo.water - lowest),
+            (None, _) if lowest == 0.0 && matches!(asked, Vertical::Depth(_)) => None,
+            (None, Some(echo)) => Some(echo.depth.min(echo.water - lowest)),
+            (None, None) if young => Some(self.w.depth().unwrap_or(0.0)),
+            (None, None) => Some(0.0),
+        };
+        let deepest = floor.map_or(high, |floor| floor.max(0.0).min(high));
+        let lost = known.is_none() && lowest > 0.0 && !(echo.is_none() && young);
+        if lost != std::mem::replace(&mut self.bottom.lost, lost) {
+            self.w.say(if lost { format!("bottom lost {deepest:?}") } else { "bottom found".into() });
+        }
+        match asked {
+            Vertical::Altitude(asked) => {
+                let given = self.limit(Channel::Altitude, asked);
+                match known {
+                    Some(echo) => {
+                        let most = if low > 0.0 { (echo.sum - low).max(lowest) } else { f64::MAX };
+                        Vertical::Altitude(given.min(most).max(echo.sum - high).max(0.0))
+                    }
+                    None if lowest > 0.0 || high < f64::MAX => Vertical::Depth(deepest),
+                    None => Vertical::Altitude(given),
+                }
+            }
+            Vertical::Depth(asked) => {
+                let given = self.limit(Channel::Depth, asked);
+                let least = known.map_or(0.0, |echo| echo.water - highest);
+                Vertical::Depth(given.max(least).min(deepest).max(0.0))
+            }
+        }
     }
 
     fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
@@ -368,6 +439,22 @@ impl<'p> Evaluator<'p> {
             self.w.say(format!("limit {channel:?} {how}"));
         }
         given
+    }
+}
+
+impl Bottom {
+    fn hear(&mut self, w: &World) {
+        let (Some(altitude), Some(depth)) = (w.lately("altitude", 0), w.lately("depth", FRESH_TICKS)) else { return };
+        let sum = depth + altitude;
+        let held = matches!(self.commanded, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
+        let new = Echo { tick: w.tick, altitude, depth, water: sum, sum };
+        self.echo = Some(match self.echo {
+            // It may be an old one.
+            Some(old) if old.altitude == altitude && !held => {
+                Echo { depth: old.depth.min(depth), water: old.water.min(sum), ..new }
+            }
+            _ => new,
+        });
     }
 }
 

@@ -206,8 +206,11 @@ impl<'p> World<'p> {
         self.sample("heading").is_some()
     }
 
-    pub fn water_depth(&self) -> Option<f64> {
-        self.sample("water_depth").map(|words| words[0])
+    /// An input that guidance reads, if it has been told within so many ticks.
+    pub fn lately(&self, name: &str, ticks: u64) -> Option<f64> {
+        let id = self.hir.inputs.iter().position(|input| input.name == name)?;
+        let stamp = self.inputs[id].stamp?;
+        (self.tick - stamp <= ticks).then(|| self.inputs[id].latest[0])
     }
 
     /// Also what `at first` says.

@@ -8,6 +8,7 @@ mod speak;
 
 use super::frame::Deframer;
 use super::goal::Goal;
+use super::grounding::Grounding;
 use super::message::{Adcp, FromVehicle, State, ToVehicle};
 use super::mode::{Mode, Phase};
 use super::round_trip::{Moment, RoundTrip};
@@ -99,6 +100,7 @@ pub struct Controller {
     late: u64,
     /// Whether the tick that was taken last was late.
     was_late: bool,
+    grounding: Grounding,
     round_trip: RoundTrip,
     /// The host's time, as it was told last.
     host: Duration,
@@ -134,6 +136,7 @@ impl Controller {
             was_late: false,
             round_trip: RoundTrip::new(1.0),
             host: Duration::ZERO,
+            grounding: Grounding::default(),
             spoke: 0,
             asked: 0,
             out: Vec::new(),
@@ -225,6 +228,7 @@ impl Controller {
             FromVehicle::Fluorometer { value, .. } => self.gather(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
             FromVehicle::Battery { percent, .. } => self.gather(BATTERY, &[percent / 100.0]),
             FromVehicle::Accepted(text) => self.take_in_echo(&text),
+            FromVehicle::Error(code, text) if self.grounding.hear(code, &text, self.next_tick) => {}
             FromVehicle::Error(code, text) => {
                 let comma = if text.is_empty() { "" } else { ", " };
                 self.notice(format!("the vehicle says: error {code}{comma}{text}"));
@@ -335,6 +339,7 @@ impl Controller {
         snapshot.control = self.control;
         let round_trip = if self.drives() { self.round_trip.ticks(self.moment()) } else { 0 };
         snapshot.lag = Lag { round_trip, host: None };
+        snapshot.aground = self.grounding.is_aground(tick);
         let is_late = self.is_late();
         let was_late = std::mem::replace(&mut self.was_late, is_late);
         if is_late {

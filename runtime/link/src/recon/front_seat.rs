@@ -6,6 +6,7 @@
 use super::controller::FULL_SCALE_VOLTS;
 use super::fields::DAY_MS;
 use super::frame::{Deframer, seal};
+use super::grounding;
 use super::happening::Happening;
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
@@ -33,8 +34,7 @@ const CAPACITY_WH: f64 = 1000.0;
 const NOT_IN_OVERRIDE: u32 = 1;
 const OUT_OF_BOUNDS: u32 = 2;
 const NOT_SERVED: u32 = 3;
-const AGROUND: u32 = 4;
-const FREE_AGAIN: u32 = 5;
+// 4 and 5 tell of the bottom: `grounding`.
 const NOT_UNDERSTOOD: u32 = 6;
 
 /// So much of a message that cannot be understood is shown, bytes.
@@ -398,12 +398,13 @@ impl<V: Vehicle> FrontSeat<V> {
         }
     }
 
-    /// Says once that the vehicle has run aground, and that it has come free: its state has no flag for it.
+    /// Says that the vehicle lies on the bottom, as long as it does, and once that it has come free: its state has no flag for
+    /// it.
     fn tell_grounding(&mut self) {
-        let aground = self.vehicle.is_aground();
-        if aground != self.aground {
-            let (code, what) = if aground { (AGROUND, "aground") } else { (FREE_AGAIN, "free of the bottom again") };
-            self.say(&FromVehicle::Error(code, what.to_string()));
+        let aground = self.snapshot.aground;
+        let again = aground && self.tick.is_multiple_of(grounding::AGAIN_TICKS);
+        if aground != self.aground || again {
+            self.say(&grounding::told(aground));
             self.aground = aground;
         }
     }

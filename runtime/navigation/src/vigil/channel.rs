@@ -178,6 +178,10 @@ impl Channel {
         };
         if before == reading {
             self.same += 1;
+            // It is well again when it changes, not when it happens to fit what it says.
+            if sights.last_seen(Sight::Stuck(self.kind)).is_some_and(|last| last >= since) {
+                sights.see(Sight::Stuck(self.kind));
+            }
         } else {
             // A rest that was told of says nothing of how long it rests when all is well.
             if !sights.sees(Sight::Stuck(self.kind)) {

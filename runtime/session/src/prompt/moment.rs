@@ -2,7 +2,7 @@
 
 use albacore_lang::prompt::{Left, Named};
 use albacore_machine::{Event, Machine, Outcome};
-use albacore_navigation::Vigil;
+use albacore_navigation::Trust;
 use albacore_program::number;
 use albacore_sim::Simulator;
 use albacore_trace::{BehaviorTrace, Header};
@@ -29,7 +29,7 @@ pub struct Moment {
     recent: VecDeque<(u64, Vec<Sample>)>,
     /// What the vehicle was last told.
     command: Option<Command>,
-    vigil: Vigil,
+    trust: Trust,
     /// What the vehicle gave notice of and what was noticed of it, with its tick, and is not told yet.
     notices: Vec<(u64, String)>,
 }
@@ -98,7 +98,7 @@ impl Moment {
             task: None,
             recent: VecDeque::new(),
             command: None,
-            vigil: Vigil::default(),
+            trust: Trust::default(),
             notices: Vec::new(),
         };
         moment.note();
@@ -107,7 +107,7 @@ impl Moment {
     }
 
     fn sense(&mut self) -> Result<(), VehicleError> {
-        self.recent.push_back((self.tick, self.snapshot.samples.clone()));
+        self.recent.push_back((self.tick, self.trust.believed().samples.clone()));
         if self.recent.len() > RECENT_TICKS {
             self.recent.pop_front();
         }
@@ -119,9 +119,14 @@ impl Moment {
 
     /// Notes what this tick gives notice of, as a run does.
     fn note(&mut self) {
-        let sightings = self.vigil.look(self.tick, &self.snapshot, self.command.as_ref());
-        let notices = self.vehicle.notices().into_iter().chain(sightings.iter().map(ToString::to_string));
+        let doubts = self.trust.look(self.tick, &self.snapshot, self.command.as_ref());
+        let notices = self.vehicle.notices().into_iter().chain(doubts);
         self.notices.extend(notices.map(|notice| (self.tick, notice)));
+    }
+
+    /// What of this tick's snapshot can be believed.
+    pub fn believed(&self) -> &Snapshot {
+        self.trust.believed()
     }
 
     /// What was sensed lately, this tick left out.
@@ -136,7 +141,7 @@ impl Moment {
         }
         let mut command = None;
         if let Some(task) = &mut self.task {
-            command = task.machine.step(&self.snapshot);
+            command = task.machine.step(self.trust.believed());
             task.tell(self.tick, say);
             if let Some(end) = task.end() {
                 self.task = None;
@@ -163,7 +168,7 @@ impl Moment {
     pub fn place(&self) -> String {
         let sensed = |name: &str| {
             let channel = self.vehicle.channels().iter().position(|c| c.name == name)?;
-            self.snapshot.samples.iter().rev().find(|s| s.channel as usize == channel).map(|s| s.reading)
+            self.believed().samples.iter().rev().find(|s| s.channel as usize == channel).map(|s| s.reading)
         };
         let [north, east, ..] = sensed("position").unwrap_or([f64::NAN; 4]);
         let heading = number::heading(sensed("heading").map_or(f64::NAN, |r| r[0]));

@@ -7,7 +7,7 @@ use crate::craft::Craft;
 use crate::plan::{Plan, PlanError};
 use albacore_geometry::Point;
 use albacore_machine::{Event, Machine, Outcome, Wish};
-use albacore_navigation::Vigil;
+use albacore_navigation::Trust;
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS};
 use albacore_trace::{Digest, Release};
 use albacore_vehicle::{Lag, VehicleError, Vertical};
@@ -20,7 +20,7 @@ const TICKS_MAX: u64 = 8_640_000;
 pub(crate) struct Driver {
     machine: Machine,
     vehicle: Craft,
-    vigil: Vigil,
+    trust: Trust,
     digest: Digest,
     /// Whether the vehicle has been asked to let us drive, and not been given back since.
     asked_for_control: bool,
@@ -58,11 +58,12 @@ impl Driver {
     /// Before the first tick.
     pub fn new(plan: &Plan, vehicle: Craft) -> Result<Self, PlanError> {
         let machine = Machine::new(Arc::clone(&plan.program), vehicle.channels())
-            .map_err(|missing| PlanError::Asked(missing.to_string(), None))?;
+            .map_err(|missing| PlanError::Asked(missing.to_string(), None))?
+            .with_chart(plan.chart());
         Ok(Driver {
             machine,
             vehicle,
-            vigil: Vigil::default(),
+            trust: Trust::default(),
             digest: Digest::new(),
             asked_for_control: false,
             reason: String::new(),
@@ -136,14 +137,14 @@ impl Driver {
         }
         self.vehicle.port().sense(&mut record.snapshot)?;
         self.follow_wish()?;
-        let sightings = self.vigil.look(record.tick, &record.snapshot, self.machine.state().command.as_ref());
-        record.command = self.machine.step(&record.snapshot);
+        let doubts = self.trust.look(record.tick, &record.snapshot, self.machine.state().command.as_ref());
+        record.command = self.machine.step(self.trust.believed());
         let sent = record.command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
         let sent = sent.and_then(|()| self.follow_wish());
         record.step = Step::Tick;
         self.note_events(record);
         self.hear(record);
-        record.notices.extend(sightings.iter().map(ToString::to_string));
+        record.notices.extend(doubts);
         self.describe(record);
         if let Err(error) = sent {
             self.next = Next::End(Cause::failure(&error));

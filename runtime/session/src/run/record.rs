@@ -65,6 +65,7 @@ impl TickRecord {
         self.tick = tick;
         self.step = Step::Wait;
         self.snapshot.samples.clear();
+        self.snapshot.aground = false;
         self.command = None;
         self.events.clear();
         self.notices.clear();

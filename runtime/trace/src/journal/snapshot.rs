@@ -9,10 +9,11 @@ struct Samples<'a>(&'a [Sample]);
 struct Short<'a>(&'a Sample);
 
 pub(super) fn serialize<S: Serializer>(snapshot: &Snapshot, serializer: S) -> Result<S::Ok, S::Error> {
-    let mut parts = serializer.serialize_tuple(3)?;
+    let mut parts = serializer.serialize_tuple(4)?;
     parts.serialize_element(&Samples(&snapshot.samples))?;
     parts.serialize_element(&snapshot.control)?;
     parts.serialize_element(&snapshot.lag)?;
+    parts.serialize_element(&snapshot.aground)?;
     parts.end()
 }
 
@@ -32,8 +33,8 @@ impl Serialize for Short<'_> {
 }
 
 pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Snapshot, D::Error> {
-    let (samples, control, lag) = <(Vec<(u16, Vec<f64>)>, Control, Lag)>::deserialize(deserializer)?;
-    let mut snapshot = Snapshot { samples: Vec::with_capacity(samples.len()), control, lag };
+    let (samples, control, lag, aground) = <(Vec<(u16, Vec<f64>)>, Control, Lag, bool)>::deserialize(deserializer)?;
+    let mut snapshot = Snapshot { samples: Vec::with_capacity(samples.len()), control, lag, aground };
     for (channel, numbers) in samples {
         if numbers.len() > Reading::default().len() {
             return Err(D::Error::invalid_length(numbers.len(), &"a reading's numbers"));

@@ -1,0 +1,155 @@
+//! The water below, as far as it is known: what the limits of depth and altitude are held by. They never fail open.
+//!
+//! The altitude is an echo. Where none comes, or the same one again and again while the depth changes, nothing is known of what
+//! lies deeper than the vehicle has been: it descends no further than to where the least altitude was last known to hold. Where
+//! none has ever come it rises to the surface, but for what a chart says.
+
+use crate::Event;
+use crate::state::{Limits, Run};
+use albacore_geometry::Point;
+use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program};
+use albacore_vehicle::{TICK_S, Vertical};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// The least depth of the water that a chart has within a distance (m) of a place, m; none where it has no depths.
+pub type Chart = Arc<dyn Fn(Point, f64) -> Option<f64> + Send + Sync>;
+
+/// An altitude this near to the one that is commanded is held, m: then the depth may change and it does not.
+const HELD_M: f64 = 0.5;
+/// A chart is asked for so many standard deviations of the position around it, and for so much more, m.
+const CHART_SIGMAS: f64 = 3.0;
+const CHART_MARGIN_M: f64 = 10.0;
+
+/// What is known of the water below.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Bottom {
+    /// The altitude that was told last.
+    altitude: Option<f64>,
+    heard: Option<Heard>,
+    /// The tick from which limits are held: an echo may be on its way.
+    begun: Option<u64>,
+    /// It was told that the bottom is lost.
+    lost: bool,
+}
+
+/// What an echo tells: depth and water depth when it came, m. Of echoes that are all the same the least of either: as long as they
+/// are, they may be one that is told again and again.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Heard {
+    tick: u64,
+    depth: f64,
+    water: f64,
+    /// Depth and altitude of the latest, added up.
+    water_now: f64,
+}
+
+impl Run {
+    /// Takes in the altitude that has come in this tick, if one has.
+    pub fn sound(&mut self) {
+        let tick = self.state.tick;
+        let told = |at: Option<u32>, ticks: f64| {
+            let at = at.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
+            (tick as f64 - self.get(at + Input::STAMP) <= ticks).then(|| self.get(at + Input::VALUE))
+        };
+        let depth = told(self.senses.depth, LIMIT_FRESH_S / TICK_S);
+        let (Some(altitude), Some(depth)) = (told(self.senses.altitude, 0.0), depth) else { return };
+        let held = match self.state.command.map(|command| command.vertical) {
+            Some(Vertical::Altitude(goal)) => (altitude - goal).abs() < HELD_M,
+            _ => false,
+        };
+        let water = depth + altitude;
+        let again = self.state.bottom.altitude == Some(altitude) && !held;
+        let before = self.state.bottom.heard.filter(|_| again);
+        self.state.bottom.altitude = Some(altitude);
+        self.state.bottom.heard = Some(Heard {
+            tick,
+            depth: before.map_or(depth, |before| before.depth.min(depth)),
+            water: before.map_or(water, |before| before.water.min(water)),
+            water_now: water,
+        });
+    }
+
+    /// Holds what is asked of the vertical within the limits. Depth and altitude are bound to one another by the water's depth:
+    /// the limits of both hold, whichever is asked for. Of two that cannot both hold, the one that leads up does.
+    pub fn limit_vertical(&mut self, p: &Program, asked: Vertical) -> Vertical {
+        let Limits { altitude, depth, .. } = self.state.limits;
+        self.state.bottom.begun.get_or_insert(self.state.tick);
+        let known = self.heard_lately(p);
+        let bounded = altitude.0 > 0.0 || depth.1 < f64::MAX;
+        let floor = self.floor(p, altitude.0).min(depth.1);
+        self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
+        match (asked, known) {
+            (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
+                let given = self.limit(Channel::Altitude, metres);
+                let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
+                Vertical::Altitude(given.min(highest).max((water - depth.1).max(0.0)))
+            }
+            // An altitude that nobody measures cannot be held within anything.
+            (Vertical::Altitude(metres), None) if bounded => {
+                self.limit(Channel::Altitude, metres);
+                Vertical::Depth(floor)
+            }
+            (Vertical::Altitude(metres), None) => Vertical::Altitude(self.limit(Channel::Altitude, metres)),
+            (Vertical::Depth(metres), _) => {
+                let given = self.limit(Channel::Depth, metres);
+                let shallowest = known.map_or(0.0, |heard| heard.water - altitude.1);
+                Vertical::Depth(given.max(shallowest).min(floor).max(0.0))
+            }
+        }
+    }
+
+    /// What the latest echo told, unless it is too old to count.
+    fn heard_lately(&self, p: &Program) -> Option<Heard> {
+        let required = p.mission.requires.iter().zip(&self.state.requires);
+        let fresh = required
+            .filter(|(require, _)| matches!(&*p.inputs[require.input as usize].name, "altitude" | "water_depth"))
+            .map(|(_, numbers)| numbers.fresh)
+            .fold(f64::MAX, f64::min);
+        let fresh = if fresh == f64::MAX { LIMIT_FRESH_S / TICK_S } else { fresh };
+        let age = |heard: &Heard| (self.state.tick - heard.tick + self.state.lag.round_trip) as f64;
+        self.state.bottom.heard.filter(|heard| age(heard) <= fresh)
+    }
+
+    /// How deep the vehicle may go by a least altitude, m.
+    fn floor(&self, p: &Program, altitude_min: f64) -> f64 {
+        let heard = self.state.bottom.heard;
+        let floor = match (heard, self.heard_lately(p)) {
+            (_, Some(heard)) => heard.water - altitude_min,
+            _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
+            (Some(heard), None) => heard.depth.min(heard.water - altitude_min),
+            (None, None) => self.charted().map_or(self.unheard(), |water| water - altitude_min),
+        };
+        floor.max(0.0)
+    }
+
+    fn asks_for_altitude(&self) -> bool {
+        matches!(self.state.asked.vertical, Vertical::Altitude(_))
+    }
+
+    /// Where no echo has come yet: no deeper than now for as long as one may be on its way, then the surface.
+    fn unheard(&self) -> f64 {
+        if self.has_just_begun() { self.depth() } else { 0.0 }
+    }
+
+    fn has_just_begun(&self) -> bool {
+        let ticks = self.state.bottom.begun.map_or(0, |begun| self.state.tick - begun);
+        ticks as f64 * TICK_S <= LIMIT_FRESH_S
+    }
+
+    fn charted(&self) -> Option<f64> {
+        let chart = self.chart.as_ref()?;
+        let at = self.senses.position.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
+        let sigma = self.get(at + Input::VALUE + 2);
+        chart(self.position(), CHART_SIGMAS * sigma + CHART_MARGIN_M)
+    }
+
+    /// Says once that the bottom is lost, and that it is found again. What has just begun is no loss.
+    fn tell_of_bottom(&mut self, lost: bool, floor: f64) {
+        let lost = lost && !(self.state.bottom.heard.is_none() && self.has_just_begun());
+        if lost != self.state.bottom.lost {
+            self.state.bottom.lost = lost;
+            self.events.push(if lost { Event::BottomLost(floor) } else { Event::BottomFound });
+        }
+    }
+}

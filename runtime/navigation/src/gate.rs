@@ -1,0 +1,177 @@
+//! What a vehicle cannot have done is not believed at once: one wrong sample is no reason to steer, and none to abort a mission.
+//!
+//! A sample that cannot follow the last one that was believed, for its distance, its time and what both say of their own errors,
+//! is withheld and told. It is believed when it persists: when samples that follow one another have said so for a while. What no
+//! sensor can measure is never believed. The limits are those of the watch ([`crate::Vigil`]).
+
+use crate::vigil::Kind;
+use albacore_geometry::math::degrees;
+use albacore_geometry::{Heading, Point};
+use albacore_vehicle::channels::{ALTITUDE, DEPTH, HEADING, POSITION, SPEED};
+use albacore_vehicle::{Reading, TICK_S};
+use std::fmt;
+
+/// What persists for so long, s, and for so many samples, is believed.
+const PERSISTS_S: f64 = 2.0;
+const PERSISTS_SAMPLES: u32 = 3;
+/// A bottom that comes nearer is believed with so many samples: to wait would be the greater risk.
+const NEARER_SAMPLES: u32 = 2;
+/// That a channel was doubted is told again when it was not for so many ticks: 15 s.
+const AGAIN_TICKS: u64 = 150;
+
+/// The channels that are judged. The direction over ground is any at rest, the edge of a plume is sharp, and a mean flow says
+/// nothing of the vehicle.
+const JUDGED: [(u16, Kind); 5] = [
+    (POSITION, Kind::Position),
+    (HEADING, Kind::Heading),
+    (SPEED, Kind::Speed),
+    (DEPTH, Kind::Depth),
+    (ALTITUDE, Kind::Altitude),
+];
+
+/// What is told of a doubt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doubt {
+    kind: Kind,
+    change: Change,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Change {
+    /// It has changed by so much in so many seconds, and is withheld.
+    Rejected(f64, f64),
+    /// It says so for so many seconds now, and is believed.
+    Believed(f64, f64),
+    /// It cannot be.
+    Impossible(f64),
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, kind) = (self.kind.name(), self.kind);
+        let by = |change: f64| match kind {
+            Kind::Position => format!("{change:.0} m away"),
+            Kind::Course | Kind::Heading => format!("{:.0} deg off", degrees(change)),
+            Kind::Speed | Kind::Flow => format!("{change:.1} m/s off"),
+            Kind::Chemical => format!("{change:.2} off"),
+            Kind::Depth | Kind::Altitude => format!("{change:.1} m off"),
+        };
+        match self.change {
+            Change::Rejected(change, time) => write!(f, "rejected: {name}, {} in {time:.1} s", by(change)),
+            Change::Believed(change, time) => write!(f, "believed: {name}, {} for {time:.1} s", by(change)),
+            Change::Impossible(value) => write!(f, "rejected: {name}, {value:.1} cannot be"),
+        }
+    }
+}
+
+/// What persists, or does not.
+#[derive(Clone, Copy, Debug)]
+struct Doubtful {
+    reading: Reading,
+    tick: u64,
+    since: u64,
+    samples: u32,
+}
+
+/// A channel and what is believed of it.
+#[derive(Clone, Copy, Debug)]
+struct Channel {
+    kind: Kind,
+    believed: Option<(Reading, u64)>,
+    doubtful: Option<Doubtful>,
+    /// When it was doubted last.
+    doubted: Option<u64>,
+}
+
+/// The gate of one run.
+#[derive(Clone, Debug)]
+pub struct Gate {
+    channels: [Channel; JUDGED.len()],
+    told: Vec<Doubt>,
+}
+
+impl Default for Gate {
+    fn default() -> Self {
+        let channel = |(_, kind)| Channel { kind, believed: None, doubtful: None, doubted: None };
+        Gate { channels: JUDGED.map(channel), told: Vec::new() }
+    }
+}
+
+impl Gate {
+    /// Whether a sample of a tick is believed.
+    pub fn believes(&mut self, tick: u64, channel: u16, reading: Reading) -> bool {
+        let Some(index) = JUDGED.iter().position(|(judged, _)| *judged == channel) else { return true };
+        self.channels[index].judge(tick, reading, &mut self.told)
+    }
+
+    /// What has been told since this was last asked.
+    pub fn take_told(&mut self) -> Vec<Doubt> {
+        std::mem::take(&mut self.told)
+    }
+}
+
+impl Channel {
+    fn judge(&mut self, tick: u64, reading: Reading, told: &mut Vec<Doubt>) -> bool {
+        // That a number is none is seen by everybody.
+        if reading.iter().any(|x| !x.is_finite()) {
+            return true;
+        }
+        let kind = self.kind;
+        if kind != Kind::Position && !kind.can_be(reading) {
+            self.doubt(tick, Change::Impossible(reading[0]), told);
+            return false;
+        }
+        let Some((before, at)) = self.believed else {
+            self.believed = Some((reading, tick));
+            return true;
+        };
+        let seconds = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
+        if kind.can_follow(reading, before, seconds(at)) {
+            (self.believed, self.doubtful) = (Some((reading, tick)), None);
+            return true;
+        }
+        let change = change(kind, reading, before);
+        let first = Doubtful { reading, tick, since: tick, samples: 1 };
+        let doubtful = match self.doubtful {
+            Some(d) if kind.can_follow(reading, d.reading, seconds(d.tick)) => {
+                Doubtful { since: d.since, samples: d.samples + 1, ..first }
+            }
+            _ => first,
+        };
+        let lasts = seconds(doubtful.since);
+        let nearer = kind == Kind::Altitude && reading[0] < before[0];
+        let persists = if nearer {
+            doubtful.samples >= NEARER_SAMPLES
+        } else {
+            doubtful.samples >= PERSISTS_SAMPLES && lasts >= PERSISTS_S
+        };
+        if persists {
+            told.push(Doubt { kind, change: Change::Believed(change, lasts) });
+            (self.believed, self.doubtful) = (Some((reading, tick)), None);
+            return true;
+        }
+        self.doubtful = Some(doubtful);
+        self.doubt(tick, Change::Rejected(change, seconds(at)), told);
+        false
+    }
+
+    fn doubt(&mut self, tick: u64, change: Change, told: &mut Vec<Doubt>) {
+        let again = self.doubted.is_some_and(|last| tick < last + AGAIN_TICKS);
+        if !again {
+            told.push(Doubt { kind: self.kind, change });
+        }
+        self.doubted = Some(tick);
+    }
+}
+
+/// By how much a reading differs from another, in SI units.
+fn change(kind: Kind, now: Reading, before: Reading) -> f64 {
+    match kind {
+        Kind::Position | Kind::Flow => Point::new(now[0], now[1]).distance(Point::new(before[0], before[1])),
+        Kind::Course | Kind::Heading => (Heading::from_radians(now[0]) - Heading::from_radians(before[0])).abs(),
+        _ => (now[0] - before[0]).abs(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,68 @@
+use super::*;
+
+/// Feeds one channel with readings, one a tick, and gives which ticks were withheld and what was told.
+fn judged(channel: u16, readings: impl IntoIterator<Item = (u64, [f64; 3])>) -> (Vec<u64>, Vec<(u64, String)>) {
+    let mut gate = Gate::default();
+    let (mut withheld, mut told) = (Vec::new(), Vec::new());
+    for (tick, [a, b, c]) in readings {
+        if !gate.believes(tick, channel, [a, b, c, 0.0]) {
+            withheld.push(tick);
+        }
+        told.extend(gate.take_told().iter().map(|doubt| (tick, doubt.to_string())));
+    }
+    (withheld, told)
+}
+
+fn told(lines: &[(u64, &str)]) -> Vec<(u64, String)> {
+    lines.iter().map(|(tick, line)| (*tick, (*line).to_string())).collect()
+}
+
+#[test]
+fn one_wrong_sample_is_withheld_and_told() {
+    let positions = (0..100).map(|tick| (tick, [if tick == 50 { 5000.0 } else { 0.2 * tick as f64 }, 0.0, 1.0]));
+    let (withheld, said) = judged(POSITION, positions);
+    assert_eq!(withheld, [50]);
+    assert_eq!(said, told(&[(50, "rejected: position, 4990 m away in 0.1 s")]));
+}
+
+#[test]
+fn what_persists_is_believed_after_two_seconds() {
+    let positions = (0..100).map(|tick| (tick, [if tick < 50 { 0.0 } else { 60.0 }, 0.0, 1.0]));
+    let (withheld, said) = judged(POSITION, positions);
+    assert_eq!(withheld, (50..70).collect::<Vec<_>>());
+    let lines = [(50, "rejected: position, 60 m away in 0.1 s"), (70, "believed: position, 60 m away for 2.0 s")];
+    assert_eq!(said, told(&lines));
+}
+
+/// Dead reckoning whose own error lets expect it is corrected at once.
+#[test]
+fn a_fix_within_the_errors_of_both_is_believed_at_once() {
+    let positions = (0..100).map(|tick| (tick, if tick < 50 { [0.0, 0.0, 20.0] } else { [80.0, 0.0, 2.0] }));
+    assert_eq!(judged(POSITION, positions), (vec![], vec![]));
+}
+
+#[test]
+fn noise_all_over_the_place_is_never_believed_and_told_once() {
+    let places = (0..300u64).map(|tick| {
+        let far = (tick * 7_919 % 1009) as f64 * 90.0 - 45_000.0;
+        (tick, if tick < 50 { [0.0, 0.0, 1.0] } else { [far, -far, 1.0] })
+    });
+    let (withheld, said) = judged(POSITION, places);
+    assert!(withheld.len() >= 248, "{}", withheld.len());
+    assert_eq!(said.len(), 1, "{said:?}");
+}
+
+#[test]
+fn a_bottom_that_comes_nearer_is_believed_with_the_second_sample() {
+    let altitudes = |after: f64| (0..100).map(move |tick| (tick, [if tick < 50 { 20.0 } else { after }, 0.0, 0.0]));
+    assert_eq!(judged(ALTITUDE, altitudes(4.0)).0, [50]);
+    assert_eq!(judged(ALTITUDE, altitudes(40.0)).0, (50..70).collect::<Vec<_>>());
+    assert_eq!(judged(ALTITUDE, altitudes(-40.0)).0, (50..100).collect::<Vec<_>>());
+}
+
+/// After a silence more can have happened.
+#[test]
+fn time_without_samples_counts() {
+    let depths = [(0, 3.0), (1, 3.0), (300, 40.0), (301, 80.0)].map(|(tick, depth)| (tick, [depth, 0.0, 0.0]));
+    assert_eq!(judged(DEPTH, depths).0, [301]);
+}
