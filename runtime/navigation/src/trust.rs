@@ -1,7 +1,8 @@
 //! What of a snapshot is believed, in one place between vehicle and mission: simulated or at the end of a link.
 //!
 //! The watch looks at all that came and steers nothing, with one exception: an altitude that it knows to be stuck is withheld, so
-//! that the limits of the mission take the bottom for lost. The gate withholds what cannot have happened, until it persists.
+//! that the limits of the mission take the bottom for lost. The gate withholds what cannot have happened, until it persists. What is
+//! withheld stays in the snapshot, marked, so that a journal holds all that came and all that was believed.
 
 use crate::gate::Gate;
 use crate::vigil::{Kind, Sight, Vigil};
@@ -13,38 +14,29 @@ use albacore_vehicle::{Command, Snapshot};
 pub struct Trust {
     vigil: Vigil,
     gate: Gate,
-    believed: Snapshot,
 }
 
 impl Trust {
-    /// Looks at what came in a tick, `command` being the last that was sent; gives what a person should hear of it.
-    pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<String> {
+    /// Looks at what came in a tick, `command` being the last that was sent, and withholds what is not believed of it; gives what a
+    /// person should hear.
+    pub fn look(&mut self, tick: u64, snapshot: &mut Snapshot, command: Option<&Command>) -> Vec<String> {
         let mut told: Vec<String> = Vec::new();
         told.extend(self.vigil.look(tick, snapshot, command).iter().map(ToString::to_string));
         let altitude_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Altitude));
-        let Trust { gate, believed, .. } = self;
-        believed.samples.clear();
-        (believed.control, believed.aground) = (snapshot.control, snapshot.aground);
         // The depth of the water is the sum of the two.
         let mut water_is_doubtful = altitude_is_stuck;
-        for sample in &snapshot.samples {
-            let passes = match sample.channel {
+        for sample in &mut snapshot.samples {
+            let believed = match sample.channel {
                 WATER_DEPTH => !water_is_doubtful,
                 ALTITUDE if altitude_is_stuck => false,
-                channel => gate.believes(tick, channel, sample.reading),
+                channel => self.gate.believes(tick, channel, sample.reading),
             };
-            if passes {
-                believed.samples.push(*sample);
-            } else {
+            if !believed {
                 water_is_doubtful |= matches!(sample.channel, DEPTH | ALTITUDE);
+                sample.withhold();
             }
         }
         told.extend(self.gate.take_told().iter().map(ToString::to_string));
         told
-    }
-
-    /// What of it the mission may go by.
-    pub fn believed(&self) -> &Snapshot {
-        &self.believed
     }
 }

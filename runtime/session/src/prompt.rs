@@ -182,7 +182,7 @@ impl Prompt {
             return Err(format!("`{name}` has not been sensed yet; let time go by with `run 30 s`"));
         }
         // It is the prompt that asks, whoever drives.
-        machine.step(&Snapshot { control: Control::InControl, ..self.now.believed().clone() });
+        machine.step(&Snapshot { control: Control::InControl, ..self.now.snapshot.clone() });
         if let Some(why) = aborted(machine.events()) {
             return Err(why);
         }

@@ -10,7 +10,7 @@ const MISSION: &str = "mission north in w within 10 min {
     requires { position, course, heading fresh 5 s, else abort }
     recovery within 1 min { wait for 1 s }
     with depth 4 m, speed 2 m/s
-    steer 0 deg for 2 min
+    steer 0 deg for 25 s
     with depth 1 m
     steer 0 deg for 10 s
 }

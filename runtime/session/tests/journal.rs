@@ -3,8 +3,9 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_machine::{Machine, Outcome};
-use albacore_session::{Plan, Run, Running, load};
-use albacore_trace::journal::{Closing, Ending, Journal};
+use albacore_session::{Faults, Plan, Run, Running, load, load_faults};
+use albacore_trace::journal::{Closing, Ending, Journal, Record};
+use albacore_vehicle::Sample;
 use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
@@ -83,6 +84,26 @@ fn a_machine_fed_with_the_journal_does_the_same_again() {
     let per_tick = sink.bytes.lock().unwrap().len() / journal.records.len();
     println!("{per_tick} bytes a tick");
     assert!(per_tick < BYTES_A_TICK, "{per_tick} bytes a tick");
+}
+
+/// What was not believed is in the journal, and marked.
+#[test]
+fn a_machine_fed_with_a_wrong_sample_withholds_it_again() {
+    let faults = load_faults(&["position, jump(by: 5 km, toward: north), from: 60 s, to: 60.1 s".into()]);
+    let plan = plan("box").with_faults(&Faults::of(&faults).unwrap()).unwrap();
+    let sink = Sink::default();
+    let mut run = Run::new(&plan, 1).unwrap();
+    run.with_journal(Box::new(sink.clone()), &[]);
+    assert_eq!(run.to_end(), Outcome::Completed);
+    let journal = read(&sink);
+    let withheld = |record: &Record| record.snapshot.samples.iter().any(Sample::is_withheld);
+    let ticks: Vec<u64> = journal.records.iter().filter(|r| withheld(r)).map(|r| r.tick).collect();
+    assert_eq!(ticks, [600]);
+    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.channels).unwrap();
+    for record in &journal.records {
+        assert_eq!(machine.step(&record.snapshot), record.command, "tick {}", record.tick);
+        assert_eq!(machine.events(), record.events, "tick {}", record.tick);
+    }
 }
 
 #[test]

@@ -31,7 +31,7 @@ pub struct Channel {
 /// One measurement, taken since the last tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
-    /// Index into [`Vehicle::channels`].
+    /// Index into [`Vehicle::channels`]; of a sample that is withheld beyond its end.
     pub channel: u16,
     /// Its numbers; unused ones are zero.
     pub reading: Reading,
@@ -68,6 +68,19 @@ pub struct Lag {
     pub round_trip: u64,
     /// What has passed since tick 0 by the host's clock; none where there is no time but the vehicle's.
     pub host: Option<u64>,
+/// Marks the channel of a sample that is not believed: it is kept for whoever reads the journal, and no input takes it.
+const WITHHELD: u16 = 0x8000;
+
+impl Sample {
+    /// The same, not to be believed.
+    pub fn withhold(&mut self) {
+        self.channel |= WITHHELD;
+    }
+
+    /// Whether it is not to be believed.
+    pub fn is_withheld(&self) -> bool {
+        self.channel & WITHHELD != 0
+    }
 }
 
 /// All that came from the vehicle in one tick.

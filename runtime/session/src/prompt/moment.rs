@@ -107,7 +107,7 @@ impl Moment {
     }
 
     fn sense(&mut self) -> Result<(), VehicleError> {
-        self.recent.push_back((self.tick, self.trust.believed().samples.clone()));
+        self.recent.push_back((self.tick, self.snapshot.samples.clone()));
         if self.recent.len() > RECENT_TICKS {
             self.recent.pop_front();
         }
@@ -119,14 +119,9 @@ impl Moment {
 
     /// Notes what this tick gives notice of, as a run does.
     fn note(&mut self) {
-        let doubts = self.trust.look(self.tick, &self.snapshot, self.command.as_ref());
+        let doubts = self.trust.look(self.tick, &mut self.snapshot, self.command.as_ref());
         let notices = self.vehicle.notices().into_iter().chain(doubts);
         self.notices.extend(notices.map(|notice| (self.tick, notice)));
-    }
-
-    /// What of this tick's snapshot can be believed.
-    pub fn believed(&self) -> &Snapshot {
-        self.trust.believed()
     }
 
     /// What was sensed lately, this tick left out.
@@ -141,7 +136,7 @@ impl Moment {
         }
         let mut command = None;
         if let Some(task) = &mut self.task {
-            command = task.machine.step(self.trust.believed());
+            command = task.machine.step(&self.snapshot);
             task.tell(self.tick, say);
             if let Some(end) = task.end() {
                 self.task = None;
@@ -168,7 +163,7 @@ impl Moment {
     pub fn place(&self) -> String {
         let sensed = |name: &str| {
             let channel = self.vehicle.channels().iter().position(|c| c.name == name)?;
-            self.believed().samples.iter().rev().find(|s| s.channel as usize == channel).map(|s| s.reading)
+            self.snapshot.samples.iter().rev().find(|s| s.channel as usize == channel).map(|s| s.reading)
         };
         let [north, east, ..] = sensed("position").unwrap_or([f64::NAN; 4]);
         let heading = number::heading(sensed("heading").map_or(f64::NAN, |r| r[0]));

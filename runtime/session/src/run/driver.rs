@@ -137,8 +137,8 @@ impl Driver {
         }
         self.vehicle.port().sense(&mut record.snapshot)?;
         self.follow_wish()?;
-        let doubts = self.trust.look(record.tick, &record.snapshot, self.machine.state().command.as_ref());
-        record.command = self.machine.step(self.trust.believed());
+        let doubts = self.trust.look(record.tick, &mut record.snapshot, self.machine.state().command.as_ref());
+        record.command = self.machine.step(&record.snapshot);
         let sent = record.command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
         let sent = sent.and_then(|()| self.follow_wish());
         record.step = Step::Tick;
