@@ -24,7 +24,7 @@ use albacore_vehicle::{Channel, Command, Snapshot};
 use serde::{Deserialize, Serialize};
 
 /// The version of this form.
-pub const JOURNAL_VERSION: u32 = 3;
+pub const JOURNAL_VERSION: u32 = 2;
 
 /// How every journal begins.
 const MAGIC: [u8; 4] = *b"ALBJ";

@@ -68,6 +68,8 @@ pub struct Lag {
     pub round_trip: u64,
     /// What has passed since tick 0 by the host's clock; none where there is no time but the vehicle's.
     pub host: Option<u64>,
+}
+
 /// Marks the channel of a sample that is not believed: it is kept for whoever reads the journal, and no input takes it.
 const WITHHELD: u16 = 0x8000;
 
