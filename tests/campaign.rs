@@ -14,6 +14,7 @@ const BOX: &str = "missions/box.alb";
 const REPORTING: &str = r#"
 mission reporting(leg: Duration = 10 s) in choppy within 5 min {
     area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 200 m, width: 200 m)
+    limits { altitude >= 2 m, speed <= 2.5 m/s }
     requires { position, course, heading fresh 5 s, else abort }
     recovery within 1 min { goto op.center }
     with depth 3 m, speed 1 m/s
@@ -39,6 +40,7 @@ scenario choppy {
 const ABORTING: &str = "
 mission aborting in still within 5 min {
     area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 200 m, width: 200 m)
+    limits { altitude >= 2 m, speed <= 2.5 m/s }
     requires { position fresh 5 s, else abort }
     with depth 3 m, speed 1 m/s
     wait for 1 s

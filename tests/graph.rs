@@ -34,6 +34,7 @@ const FIG_2: [(&str, &str, &str, &str); 7] = [
 const EDGES: &str = r#"
 mission edges within 5 min {
     area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 200 m)
+    limits { altitude >= 2 m, speed <= 2.5 m/s }
     requires { position, course, heading fresh 5 s, else abort }
     recovery within 5 min { goto op.center }
     with depth 3 m, speed 1 m/s

@@ -94,7 +94,9 @@ codes! {
     missions {
         MissionsArea = "area",
         MissionsDefault = "default",
+        MissionsEndless = "endless",
         MissionsLimit = "limit",
+        MissionsLimits = "limits",
         MissionsOrigin = "origin",
         MissionsRecovery = "recovery",
         MissionsRequires = "requires",

@@ -20,7 +20,7 @@ const NAMES: [Code; 9] = [
 ];
 
 /// Findings that a declaration lacks something: what could not be read of it may be just that.
-const PARTS: [Code; 15] = [
+const PARTS: [Code; 16] = [
     Code::TypesResult,
     Code::TypesIfValue,
     Code::TypesMatch,
@@ -32,6 +32,7 @@ const PARTS: [Code; 15] = [
     Code::ChannelsAmend,
     Code::ChannelsEnds,
     Code::MissionsArea,
+    Code::MissionsLimits,
     Code::MissionsRecovery,
     Code::MissionsWithin,
     Code::TestsRun,

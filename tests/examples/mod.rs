@@ -8,6 +8,7 @@ const BEFORE: &str = "\
 use maneuver, search
 mission example in calm within 1 h {
     area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 800 m, width: 400 m)
+    limits { turn_rate <= 10 deg/s }
     requires {
         position, course, heading, speed, depth, altitude, water_depth, battery, chemical fresh 1 min, else abort
         flow fresh 1 min, at first 10 cm/s toward east, else abort

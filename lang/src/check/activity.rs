@@ -5,6 +5,7 @@ use super::{Checker, Driving, Scope, Setting, Temporal, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, VarKind};
+use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
 use crate::types::Type;
 use albacore_program::Channel;
@@ -217,6 +218,14 @@ impl<'t> Checker<'t> {
                     self.report(finding.help("keep one of them"));
                 }
                 let within = within.as_ref().map(|e| self.duration(e, "the time of the recovery"));
+                if within.is_none() {
+                    let word = Span { end: span.start + "recovery".len() as u32, ..span };
+                    self.report(
+                        Diagnostic::error(Code::MissionsEndless, word, "this recovery may go on for ever")
+                            .here("no `within` bounds it")
+                            .help("write `recovery within 10 min { … }`: the mission's own time does not bound it"),
+                    );
+                }
                 let finish = self.scope.finish.take();
                 self.scope.driving = Some(Driving::Recovery);
                 let block = self.in_block(|c| c.block(block));

@@ -6,7 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Expr, ExprKind, Interval, Mission, Require};
 use crate::source::Spanned;
-use crate::syntax::tree::{self, ActivityKind};
+use crate::syntax::tree::{self, ActivityKind, ClauseKind};
 use crate::types::Type;
 use albacore_program::{Channel, LIMIT_FRESH_S, LIMIT_PATIENCE_S};
 
@@ -189,6 +189,12 @@ impl Checker<'_> {
                 Code::MissionsRecovery,
                 "a recovery",
                 "write `recovery within 10 min { goto … }`: what the vehicle does after an abort",
+            ),
+            (
+                !a.body.clauses.iter().any(|clause| matches!(clause.kind, ClauseKind::Limits(_))),
+                Code::MissionsLimits,
+                "limits",
+                "write `limits { altitude >= 2 m, depth <= 30 m, speed <= 2 m/s }`, as the water and the vehicle allow",
             ),
         ];
         for (is_missing, code, what, help) in missing {

@@ -1,9 +1,11 @@
-//! Inputs that are read and not required: nobody has said how old they may be.
+//! Inputs that a mission reads without requiring them: before their first sample they have no value, and nobody has said how old
+//! they may be. And what is computed before any sample has come.
 
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{
-    Action, Activity, Block, Body, Decl, Expr, ExprKind, Hir, StmtKind, With, activity_children, children,
+    Action, Activity, Block, Body, Decl, Expr, ExprKind, Hir, InputPart, Mission, StmtKind, VarKind, With,
+    activity_children, children,
 };
 use crate::source::Span;
 use crate::suggest;
@@ -26,23 +28,44 @@ struct Walk<'a> {
     hir: &'a Hir,
     seen: BTreeSet<usize>,
     /// For each input that is read the first place where it is.
-    read: BTreeMap<usize, Span>,
+    read: BTreeMap<usize, Read>,
     /// Whether it holds anywhere.
     holds: bool,
+}
+
+/// Where an input is read.
+#[derive(Clone, Copy, Default)]
+struct Read {
+    /// The first where its value is: age and count are known before the first sample, its value is not.
+    value: Option<Span>,
+    /// The first where a field beside its value is.
+    field: Option<Span>,
 }
 
 /// Finds the inputs that a mission reads, with all that it calls, and does not require.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
     let Some(parts) = &activity.mission else { return Vec::new() };
-    let mut findings = Vec::new();
+    let mut findings = computed_first(activity, parts);
     let Walk { read, holds, .. } = walk(hir, mission);
-    let unrequired = |(input, _): &(&usize, &Span)| {
-        let name = hir.inputs[**input].name.as_str();
-        !parts.requires.iter().any(|r| r.input == **input) && !OF_THE_LINK.contains(&name)
-    };
-    let unrequired: Vec<(&str, Span)> =
-        read.iter().filter(unrequired).map(|(&input, &span)| (hir.inputs[input].name.as_str(), span)).collect();
+    let known = |input: &usize| OF_THE_LINK.contains(&hir.inputs[*input].name.as_str());
+    let mut unrequired = Vec::new();
+    for (&input, read) in read.iter().filter(|(input, _)| !known(input)) {
+        let name = hir.inputs[input].name.as_str();
+        match (parts.requires.iter().find(|r| r.input == input), read.value, read.field) {
+            (None, Some(span), _) => unrequired.push((name, span)),
+            (Some(require), _, Some(span)) if require.at_first.is_some() => findings.push(
+                Diagnostic::error(
+                    Code::MissionsUnrequired,
+                    require.span,
+                    format!("`{name}` has a value at first, and what else it tells has none"),
+                )
+                .label(span, "read here")
+                .help("leave `at first` out: the mission then waits for the first sample"),
+            ),
+            _ => {}
+        }
+    }
     findings.extend(missing(activity, &unrequired, !parts.requires.is_empty()));
     for require in parts.requires.iter().filter(|require| !read.contains_key(&require.input)) {
         let name = &hir.inputs[require.input].name;
@@ -65,14 +88,14 @@ fn missing(activity: &Activity, unrequired: &[(&str, Span)], requires_others: bo
         return None;
     }
     let names: Vec<&str> = unrequired.iter().map(|(name, _)| *name).collect();
-    let (reads, old) = (suggest::listed(&names), if names.len() == 1 { "it" } else { "they" });
-    let message = format!("the mission `{}` reads {reads} and does not say how old {old} may be", activity.name);
+    let (reads, them) = (suggest::listed(&names), if names.len() == 1 { "it" } else { "them" });
+    let message = format!("the mission `{}` reads {reads} and does not require {them}", activity.name);
     let entry = format!("{} fresh 5 s, else abort", names.join(", "));
     let help = match requires_others {
         true => format!("add to its `requires {{ … }}`, on a line of its own: `{entry}`"),
         false => format!("say it in the mission: `requires {{ {entry} }}`"),
     };
-    let finding = Diagnostic::warning(Code::MissionsUnrequired, activity.span, message).help(help);
+    let finding = Diagnostic::error(Code::MissionsUnrequired, activity.span, message).help(help);
     // The places in the mission's own file: those that its calls lead to would fill pages.
     let own = unrequired.iter().filter(|(_, span)| span.file == activity.span.file);
     let shown = if own.clone().count() == 0 { &unrequired[..1] } else { &[] };
@@ -80,9 +103,9 @@ fn missing(activity: &Activity, unrequired: &[(&str, Span)], requires_others: bo
     Some(labels.fold(finding, |finding, (name, span)| finding.label(*span, format!("`{name}` is read here"))))
 }
 
-/// The inputs that a mission reads, with all that it calls, and for each the first place where it does.
+/// The inputs whose values a mission reads, with all that it calls, and for each the first place where it does.
 pub fn read(hir: &Hir, mission: usize) -> BTreeMap<usize, Span> {
-    walk(hir, mission).read
+    walk(hir, mission).read.into_iter().filter_map(|(input, read)| Some((input, read.value?))).collect()
 }
 
 fn walk(hir: &Hir, mission: usize) -> Walk<'_> {
@@ -91,10 +114,47 @@ fn walk(hir: &Hir, mission: usize) -> Walk<'_> {
     walk
 }
 
+/// What is computed while the first samples are awaited: it can be made of constants and of parameters alone.
+fn computed_first(activity: &Activity, parts: &Mission) -> Vec<Diagnostic> {
+    fn find(activity: &Activity, e: &Expr, found: &mut Vec<Span>) {
+        match e.kind {
+            ExprKind::Input(..) => found.push(e.span),
+            ExprKind::Var(id) if activity.vars.get(id).is_some_and(|v| v.kind != VarKind::Param) => found.push(e.span),
+            _ => children(e, &mut |child| find(activity, child, found)),
+        }
+    }
+    let mut found = Vec::new();
+    let requires = parts.requires.iter();
+    let numbers = requires.flat_map(|r| [Some(&r.fresh), r.at_first.as_ref(), r.hold_for.as_ref()]).flatten();
+    numbers.chain(&parts.within).for_each(|e| find(activity, e, &mut found));
+    // An entry for several inputs is written once.
+    found.sort();
+    found.dedup();
+    let told = found.into_iter().map(|span| {
+        Diagnostic::error(Code::MissionsRequires, span, "this is computed before the mission has sensed anything")
+            .here("it has no value yet")
+            .help("use constants and parameters of the mission here")
+    });
+    told.collect()
+}
+
 impl Walk<'_> {
+    /// What guidance reads by itself.
     fn note(&mut self, name: &str, span: Span) {
         if let Some(id) = self.hir.inputs.iter().position(|i| i.name == name) {
-            self.read.entry(id).or_insert(span);
+            self.reads(id, &InputPart::Value, span);
+        }
+    }
+
+    fn reads(&mut self, input: usize, part: &InputPart, span: Span) {
+        let read = self.read.entry(input).or_default();
+        match part {
+            InputPart::Value | InputPart::Peak => _ = read.value.get_or_insert(span),
+            InputPart::Field(_) => {
+                read.value.get_or_insert(span);
+                read.field.get_or_insert(span);
+            }
+            InputPart::Age | InputPart::Hits(..) => {}
         }
     }
 
@@ -128,8 +188,8 @@ impl Walk<'_> {
     }
 
     fn expr(&mut self, e: &Expr) {
-        if let ExprKind::Input(id, _) = &e.kind {
-            self.read.entry(*id).or_insert(e.span);
+        if let ExprKind::Input(id, part) = &e.kind {
+            self.reads(*id, part, e.span);
         }
         // Functions read no inputs, and signals of a module are written out where they are used.
         children(e, &mut |child| self.expr(child));
