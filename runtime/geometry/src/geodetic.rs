@@ -1,13 +1,10 @@
 //! Positions on the globe, and the local tangent plane in which a mission works.
 
-use crate::math::{cos, degrees, radians, sin};
+use crate::heading::wrap_angle;
+use crate::math::{degrees, radians};
+use crate::mercator;
 use crate::plane::Point;
 use serde::{Deserialize, Serialize};
-
-/// WGS 84 equatorial radius, in metres.
-const SEMI_MAJOR_M: f64 = 6_378_137.0;
-/// WGS 84 first eccentricity squared.
-const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_32e-3;
 
 /// A position on the globe (WGS 84), in radians; north and east are positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -51,9 +48,17 @@ impl std::fmt::Display for Geodetic {
     }
 }
 
-/// The plane that touches the ellipsoid at `origin`: north and east scale with the two radii of curvature there.
+/// The plane in which a mission works: the transverse Mercator projection of the WGS 84 ellipsoid whose central meridian is that
+/// of `origin`, with unit scale on it.
 ///
-/// Over the few kilometres of an operating area the error against the geodesic is below a millimetre a kilometre.
+/// Angles are true, and so is the scale on the meridian of the origin. Off it lengths are too long by `east^2 / 2 R^2`: 0.01 mm a
+/// kilometre at 1 km east or west of it, 1.0 mm at 9 km, 31 mm at 50 km, 123 mm at 100 km. From the origin itself the error of a
+/// distance is a third of that at most. North in the plane is true north on that meridian; `east` metres off it the two differ by
+/// the convergence of the meridians, `east tan(latitude) / R`: 0.0065 degrees a kilometre at 36 degrees of latitude, 0.0156 at 60
+/// and 0.051 at 80. Headings are those of the plane.
+///
+/// Both directions agree within nanometres up to 3000 km from the meridian. Positions more than 84 degrees off it are held there.
+/// Held against geodesics and PROJ in `tests/geodesics.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TangentFrame {
     /// Where the plane touches: north 0, east 0.
@@ -61,31 +66,22 @@ pub struct TangentFrame {
 }
 
 impl TangentFrame {
-    /// The metres that one radian of latitude and one of longitude span at the origin.
-    fn metres_per_radian(self) -> (f64, f64) {
-        let s = sin(self.origin.latitude_rad);
-        let w = 1.0 - ECCENTRICITY_SQUARED * s * s;
-        let meridian = SEMI_MAJOR_M * (1.0 - ECCENTRICITY_SQUARED) / (w * w.sqrt());
-        let prime_vertical = SEMI_MAJOR_M / w.sqrt();
-        (meridian, prime_vertical * cos(self.origin.latitude_rad))
+    /// Metres from the equator to the origin.
+    fn northing(self) -> f64 {
+        mercator::forward(self.origin.latitude_rad, 0.0).0
     }
 
     /// The point of the plane for a position.
     pub fn to_point(self, position: Geodetic) -> Point {
-        let (north, east) = self.metres_per_radian();
-        Point::new(
-            (position.latitude_rad - self.origin.latitude_rad) * north,
-            (position.longitude_rad - self.origin.longitude_rad) * east,
-        )
+        let longitude = wrap_angle(position.longitude_rad - self.origin.longitude_rad);
+        let (north, east) = mercator::forward(position.latitude_rad, longitude);
+        Point::new(north - self.northing(), east)
     }
 
     /// The position of a point of the plane.
     pub fn to_geodetic(self, point: Point) -> Geodetic {
-        let (north, east) = self.metres_per_radian();
-        Geodetic {
-            latitude_rad: self.origin.latitude_rad + point.north / north,
-            longitude_rad: self.origin.longitude_rad + point.east / east,
-        }
+        let (latitude_rad, longitude) = mercator::inverse(point.north + self.northing(), point.east);
+        Geodetic { latitude_rad, longitude_rad: wrap_angle(self.origin.longitude_rad + longitude) }
     }
 }
 

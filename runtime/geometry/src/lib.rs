@@ -4,13 +4,16 @@
 //! Metres, seconds, radians. Headings are clockwise from north, depth is positive down, and there is no other convention.
 
 mod area;
+mod ellipsoid;
 mod geodetic;
 mod heading;
 pub mod math;
+mod mercator;
 mod plane;
 mod rows;
 
 pub use area::{AREA_CORNERS_MAX, Area, AreaError, Edge};
+pub use ellipsoid::metres_per_radian;
 pub use geodetic::{Geodetic, TangentFrame};
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};

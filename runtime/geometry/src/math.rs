@@ -34,6 +34,11 @@ pub fn acos(x: f64) -> f64 {
     libm::acos(x.clamp(-1.0, 1.0))
 }
 
+/// Arc tangent in radians, in [-pi/2, pi/2].
+pub fn atan(x: f64) -> f64 {
+    libm::atan(x)
+}
+
 /// Four-quadrant arc tangent of `y / x` in radians, in [-pi, pi]; 0 for the null vector.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
@@ -42,6 +47,31 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 /// Hyperbolic tangent.
 pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
+}
+
+/// Hyperbolic sine.
+pub fn sinh(x: f64) -> f64 {
+    libm::sinh(x)
+}
+
+/// Hyperbolic cosine.
+pub fn cosh(x: f64) -> f64 {
+    libm::cosh(x)
+}
+
+/// Inverse hyperbolic sine.
+pub fn asinh(x: f64) -> f64 {
+    libm::asinh(x)
+}
+
+/// Inverse hyperbolic tangent; the argument lies within -1..1.
+pub fn atanh(x: f64) -> f64 {
+    libm::atanh(x)
+}
+
+/// The square root of the sum of two squares.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
 }
 
 /// e to the power `x`.

@@ -11,9 +11,9 @@ use std::path::Path;
 /// compiler or the machine: whoever changes it says why.
 const PINNED: [(&str, &str); 4] = [
     ("missions/box.alb", "ba30ab233cc6bff6"),
-    ("missions/deepest_point.alb", "8355947c729ba7db"),
-    ("missions/duck_single.alb", "1be011f17a7da316"),
-    ("missions/duck_single_2005.alb", "be2d33be4e1570c9"),
+    ("missions/deepest_point.alb", "cf419791917e27cc"),
+    ("missions/duck_single.alb", "f9ce27abc2cb3d9d"),
+    ("missions/duck_single_2005.alb", "c390134f4a71fd87"),
 ];
 
 fn plan(path: &str) -> Plan {
