@@ -175,6 +175,25 @@ fn a_vehicle_that_falls_silent_while_a_guest_looks_on_is_lost() {
 }
 
 #[test]
+fn a_vehicle_that_falls_silent_before_it_lets_us_drive_or_after_it_refused_is_lost() {
+    let silent = Handover { silent: true, ..Handover::default() };
+    for (ticks, then) in [(20, Control::Requesting), (400, Control::Refused)] {
+        let (mut vehicle, wire) = answering(silent.clone());
+        let mut snapshot = Snapshot::default();
+        vehicle.sense(&mut snapshot).unwrap();
+        vehicle.take_over().unwrap();
+        (0..ticks).for_each(|_| vehicle.sense(&mut snapshot).unwrap());
+        assert_eq!(snapshot.control, then);
+        vehicle.notices();
+        wire.silent.set(true);
+        vehicle.sense(&mut snapshot).unwrap();
+        assert_eq!(snapshot.control, Control::TimedOut);
+        let told = vehicle.notices().join("; ");
+        assert!(told.contains("no state (`#S`) with a running clock came from") && told.contains("for 5 s"), "{told}");
+    }
+}
+
+#[test]
 fn a_vehicle_that_falls_silent_while_we_drive_is_lost_after_five_seconds() {
     let (mut vehicle, wire, mut snapshot) = driven();
     let since = wire.now.get();

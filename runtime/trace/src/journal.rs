@@ -23,7 +23,8 @@ use albacore_machine::{Event, Outcome, State};
 use albacore_vehicle::{Channel, Command, Snapshot};
 use serde::{Deserialize, Serialize};
 
-/// The version of this form.
+/// The version of this form: one more whenever a record, or what a record holds (such as [`Snapshot`], [`Event`] or [`State`]),
+/// is laid out otherwise. Postcard's form names no fields, and would read the older as something else.
 pub const JOURNAL_VERSION: u32 = 2;
 
 /// How every journal begins.
@@ -186,7 +187,11 @@ impl std::fmt::Display for Unreadable {
             Unreadable::CutShort(flaw) => write!(f, "the journal is cut short {flaw}"),
             Unreadable::Damaged(flaw) => write!(f, "this is no journal, or a damaged one: {flaw}"),
             Unreadable::Version(version) => {
-                write!(f, "the journal has the form of version {version}, and only {JOURNAL_VERSION} can be read")
+                write!(
+                    f,
+                    "the journal has the form of version {version}, and this albacore reads version {JOURNAL_VERSION} alone: \
+                     read it with the albacore that wrote it"
+                )
             }
         }
     }

@@ -183,18 +183,17 @@ impl Vehicle for ReconVehicle {
         if now.saturating_sub(self.ticked) < self.silence {
             return Ok(false);
         }
-        match self.controller.control() {
-            Control::InControl | Control::Suspended | Control::Monitoring | Control::Offered => {
-                self.controller.lose(format!(
-                    "no state (`#S`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us \
-                     leaves override by itself",
-                    self.url,
-                    self.silence.as_secs_f64()
-                ));
-                Ok(true)
-            }
-            _ => Err(self.diagnosis()),
+        // Nothing was ever heard of it: what to look at is told. One that was heard is lost, whoever drives.
+        if self.controller.control() == Control::Disconnected {
+            return Err(self.diagnosis());
         }
+        self.controller.lose(format!(
+            "no state (`#S`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us leaves override \
+             by itself",
+            self.url,
+            self.silence.as_secs_f64()
+        ));
+        Ok(true)
     }
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
