@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::flow::takes_time;
-use super::{Checker, Temporal};
+use super::{Checker, Def, Setting, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -96,9 +96,7 @@ impl<'t> Checker<'t> {
             return None;
         }
         let area = self.expr_as(base, &Type::Area, "what is walked in rows");
-        let params = &[("step", Type::Quantity(Dimension::LENGTH))];
-        let given = self.simple_args("rows", params, args, written.span).and_then(|mut given| given.pop());
-        let step = given.unwrap_or_else(|| self.unknown(written.span));
+        let (step, near) = self.step_and_near(args, written.span);
         if step.range.low <= 0.0 && step.ty != Type::Unknown {
             self.report(
                 Diagnostic::error(Code::RangesStep, step.span, "rows must lie farther apart than nothing")
@@ -107,7 +105,36 @@ impl<'t> Checker<'t> {
         }
         self.enter_loop();
         let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, Type::Line), c.block(block)));
-        Some(StmtKind::ForRows { var, area, step, body })
+        Some(StmtKind::ForRows { var, area, step, near, body })
+    }
+
+    /// How far rows lie apart, and the point that they begin nearest to: where nothing else is said, the input `position`.
+    fn step_and_near(&mut self, args: &[tree::Arg], span: Span) -> (Expr, Expr) {
+        let params = [("step", Type::Quantity(Dimension::LENGTH)), ("near", Type::Point)];
+        let says_near = args.len() > 1 || args.iter().any(|arg| arg.label.as_ref().is_some_and(|l| l.node == "near"));
+        let params = if says_near { &params[..] } else { &params[..1] };
+        let mut given = self.simple_args("rows", params, args, span).unwrap_or_default().into_iter();
+        let step = given.next().unwrap_or_else(|| self.unknown(span));
+        let near = if says_near { given.next() } else { Some(self.position_for_rows(span)) };
+        (step, near.unwrap_or_else(|| self.unknown(span)))
+    }
+
+    fn position_for_rows(&mut self, span: Span) -> Expr {
+        if self.scope.setting == Setting::Function {
+            self.report(
+                Diagnostic::error(
+                    Code::NamesInput,
+                    span,
+                    "`rows` begins at the end nearest to `position`, and a function cannot read an input",
+                )
+                .help("give the function a point as a parameter, and say it: `area.rows(step, near: point)`"),
+            );
+            return self.unknown(span);
+        }
+        match self.hir.inputs.iter().position(|input| input.name == "position") {
+            Some(id) => self.def_value(&Def::Input(id), "position", span),
+            None => self.unknown(span),
+        }
     }
 
     /// A range that runs backwards: a loop over it would never go round.

@@ -227,8 +227,8 @@ impl<'a> Work<'a> {
             StmtKind::ForEdges { area, body, .. } => {
                 sum([self.expr(area), self.rounds(stmt.span, CORNERS, body, vars)])
             }
-            StmtKind::ForRows { area, step, body, .. } => {
-                sum([self.exprs([area, step]), self.rounds(stmt.span, u64::from(ROWS_MAX), body, vars)])
+            StmtKind::ForRows { area, step, near, body, .. } => {
+                sum([self.exprs([area, step, near]), self.rounds(stmt.span, u64::from(ROWS_MAX), body, vars)])
             }
             // Each round takes time: in a tick one ends and the next begins.
             StmtKind::While { condition, body, .. } => {

@@ -293,7 +293,7 @@ pub enum StmtKind {
     ForRange { var: VarId, first: Expr, last: Expr, inclusive: bool, body: Block },
     ForList { var: VarId, list: Expr, body: Block },
     ForEdges { var: VarId, area: Expr, body: Block },
-    ForRows { var: VarId, area: Expr, step: Expr, body: Block },
+    ForRows { var: VarId, area: Expr, step: Expr, near: Expr, body: Block },
     While { condition: Expr, bind: Option<VarId>, body: Block },
     Loop(Block),
     With(Vec<With>, Block),

@@ -235,9 +235,10 @@ pub fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
                 f(e);
                 block_children(body, f);
             }
-            StmtKind::ForRows { area, step, body, .. } => {
+            StmtKind::ForRows { area, step, near, body, .. } => {
                 f(area);
                 f(step);
+                f(near);
                 block_children(body, f);
             }
             StmtKind::While { condition, body, .. } => {

@@ -67,16 +67,19 @@ impl<'a> Lowering<'a> {
     }
 
     /// Each row is computed when its turn comes: there are none left when there is none of the next index.
-    pub(super) fn for_rows(&mut self, var: usize, area: &Expr, step: &Expr, body: &Block) {
+    pub(super) fn for_rows(&mut self, var: usize, area: &Expr, (step, near): (&Expr, &Expr), body: &Block) {
         let area = self.walked_area(area);
-        let (apart, counter) = (self.lasting(1), self.lasting(1));
-        self.scratch(|l| l.expr_into(step, apart));
+        let (apart, beginning, counter) = (self.lasting(1), self.lasting(2), self.lasting(1));
+        self.scratch(|l| {
+            l.expr_into(step, apart);
+            l.expr_into(near, beginning);
+        });
         self.emit(Op::Const { to: counter, value: 0.0 });
         let top = self.here();
         let to = self.frame.vars[var];
         let done = self.scratch(|l| {
             let there = l.temp(1);
-            l.emit(Op::RowAt { to, there, area, step: apart, index: counter });
+            l.emit(Op::RowAt { to, there, area, step: apart, near: beginning, index: counter });
             l.emit(Op::JumpUnless { unless: there, to: 0 })
         });
         self.body(body);

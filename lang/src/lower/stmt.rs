@@ -75,7 +75,7 @@ impl<'a> Lowering<'a> {
             }
             StmtKind::ForList { var, list, body } => self.for_list(*var, list, body),
             StmtKind::ForEdges { var, area, body } => self.for_edges(*var, area, body),
-            StmtKind::ForRows { var, area, step, body } => self.for_rows(*var, area, step, body),
+            StmtKind::ForRows { var, area, step, near, body } => self.for_rows(*var, area, (step, near), body),
             StmtKind::While { condition, bind, body } => {
                 let top = self.here();
                 let unless = self.scratch(|l| {

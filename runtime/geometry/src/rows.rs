@@ -9,33 +9,82 @@ pub const ROWS_MAX: u32 = 1000;
 /// An edge is longer than another by more than this, in metres: of a square's four the first is the longest.
 const LONGER_M: f64 = 1e-3;
 
+/// An end of a row is nearer than another by more than this, in metres: from an area's middle all four are equally far.
+const NEARER_M: f64 = 1e-3;
+
 /// A width that is a hair more than a whole number of steps is rounding, and no reason for one more row.
 const ROUNDING: f64 = 1e-9;
 
 /// The row of an index across a convex area that is given by its edges, clockwise; none beyond the last.
 ///
 /// Rows lie along the area's longest edge, of several the first, at most `step` metres apart and the outermost half as far
-/// from the area's sides. The first is beside that edge and driven as it goes, clockwise round the area; each next one the
-/// other way. So the rows are a function of the area alone.
-pub fn row(edges: impl Iterator<Item = Edge> + Clone, step: f64, index: u32) -> Option<Line> {
-    let mut edges_left = edges.clone();
-    let mut longest = edges_left.next()?;
-    for edge in edges_left {
-        if edge.line.length() > longest.line.length() + LONGER_M {
-            longest = edge;
+/// from the area's sides. They begin at the end of an outermost row that is nearest to `near`, of several the first of these:
+/// start and end of the row beside that edge, driven as the edge goes, clockwise round the area; start and end of the row
+/// opposite, driven the same way. Each next one is driven the other way. So the rows are a function of area, step and `near`.
+pub fn row(edges: impl Iterator<Item = Edge> + Clone, step: f64, near: Point, index: u32) -> Option<Line> {
+    let rows = Rows::across(edges, step)?;
+    let first = rows.first_to(near);
+    let beside = if first.is_opposite { rows.count.checked_sub(index + 1)? } else { index };
+    let line = rows.along(beside)?;
+    Some(if first.is_backward == index.is_multiple_of(2) { Line { start: line.end, end: line.start } } else { line })
+}
+
+/// The rows across an area, from the one beside its longest edge to the one opposite.
+struct Rows<E> {
+    edges: E,
+    longest: Edge,
+    /// Metres from one to the next.
+    apart: f64,
+    count: u32,
+}
+
+/// Where the first row lies, and which way it is driven.
+#[derive(Clone, Copy)]
+struct First {
+    is_opposite: bool,
+    is_backward: bool,
+}
+
+impl<E: Iterator<Item = Edge> + Clone> Rows<E> {
+    fn across(edges: E, step: f64) -> Option<Self> {
+        let mut edges_left = edges.clone();
+        let mut longest = edges_left.next()?;
+        for edge in edges_left {
+            if edge.line.length() > longest.line.length() + LONGER_M {
+                longest = edge;
+            }
         }
+        let width = edges.clone().map(|edge| longest.gap(edge.line.start)).fold(0.0, f64::max);
+        // Written so that a step that is no number, or not above 0, gives as many as may be.
+        let wanted = (width / step - ROUNDING).ceil();
+        let most = f64::from(ROWS_MAX);
+        let count = if step > 0.0 && wanted <= most { wanted.max(1.0) } else { most };
+        Some(Rows { edges, longest, apart: width / count, count: count as u32 })
     }
-    let width = edges.clone().map(|edge| longest.gap(edge.line.start)).fold(0.0, f64::max);
-    // Written so that a step that is no number, or not above 0, gives as many as may be.
-    let wanted = (width / step - ROUNDING).ceil();
-    let count = if step > 0.0 && wanted <= f64::from(ROWS_MAX) { wanted.max(1.0) } else { f64::from(ROWS_MAX) };
-    if f64::from(index) >= count {
-        return None;
+
+    /// The row of an index, driven as the longest edge goes.
+    fn along(&self, index: u32) -> Option<Line> {
+        if index >= self.count {
+            return None;
+        }
+        let inward = (f64::from(index) + 0.5) * self.apart;
+        chord(self.edges.clone(), self.longest, self.longest.line.start - inward * self.longest.normal)
     }
-    let inward = (f64::from(index) + 0.5) * (width / count);
-    let through = longest.line.start - inward * longest.normal;
-    let row = chord(edges, longest, through)?;
-    Some(if index.is_multiple_of(2) { row } else { Line { start: row.end, end: row.start } })
+
+    fn first_to(&self, near: Point) -> First {
+        let mut first = First { is_opposite: false, is_backward: false };
+        let mut nearest = f64::INFINITY;
+        for is_opposite in [false, true] {
+            let Some(line) = self.along(if is_opposite { self.count - 1 } else { 0 }) else { continue };
+            for (is_backward, end) in [(false, line.start), (true, line.end)] {
+                let away = near.distance(end);
+                if away < nearest - NEARER_M {
+                    (nearest, first) = (away, First { is_opposite, is_backward });
+                }
+            }
+        }
+        first
+    }
 }
 
 /// What of the line through a point, along an edge, lies inside.
@@ -58,22 +107,64 @@ mod tests {
     use super::*;
     use crate::{Area, Heading};
 
-    fn rows(area: &Area, step: f64) -> Vec<Line> {
+    fn rows_near(area: &Area, step: f64, near: Point) -> Vec<Line> {
         let edges: Vec<Edge> = area.edges().collect();
-        (0..).map_while(|i| row(edges.iter().copied(), step, i)).collect()
+        (0..).map_while(|i| row(edges.iter().copied(), step, near, i)).collect()
+    }
+
+    fn rows(area: &Area, step: f64) -> Vec<Line> {
+        rows_near(area, step, area.center())
+    }
+
+    /// Whether they lead over these places north and east, one after the other.
+    fn lead(rows: &[Line], places: &[(f64, f64)]) -> bool {
+        let ends: Vec<Point> = rows.iter().flat_map(|row| [row.start, row.end]).collect();
+        let is_at = |(end, place): (&Point, &(f64, f64))| end.distance(Point::new(place.0, place.1)) < 1e-3;
+        ends.len() == places.len() && ends.iter().zip(places).all(is_at)
     }
 
     #[test]
     fn rows_lie_along_the_long_side_and_alternate() {
         let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0).unwrap();
-        let rows = rows(&area, 40.0);
         // Three rows 33.3 m apart. The first long edge, clockwise from the north-west corner, is the eastern one.
-        assert_eq!(rows.len(), 3);
-        for (row, (from, to, east)) in
-            rows.iter().zip([(100.0, -100.0, 33.333), (-100.0, 100.0, 0.0), (100.0, -100.0, -33.333)])
-        {
-            assert!(row.start.distance(Point::new(from, east)) < 1e-3, "{row:?}");
-            assert!(row.end.distance(Point::new(to, east)) < 1e-3, "{row:?}");
+        let (n, e) = (100.0, 33.333);
+        assert!(lead(&rows(&area, 40.0), &[(n, e), (-n, e), (-n, 0.0), (n, 0.0), (n, -e), (-n, -e)]));
+    }
+
+    #[test]
+    fn rows_begin_at_the_nearest_of_four_ends() {
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0).unwrap();
+        // Of an odd number the last ends across the area from where the first begins, of an even number beside it.
+        for (north, east) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
+            for (far_north, far_east) in [(300.0, 200.0), (100.0, 33.0), (5.0, 2.0)] {
+                let near = Point::new(north * far_north, east * far_east);
+                let (n, e) = (north * 100.0, east * 33.333);
+                let three = [(n, e), (-n, e), (-n, 0.0), (n, 0.0), (n, -e), (-n, -e)];
+                assert!(lead(&rows_near(&area, 40.0, near), &three), "{near:?}");
+                let two = [(n, east * 25.0), (-n, east * 25.0), (-n, east * -25.0), (n, east * -25.0)];
+                assert!(lead(&rows_near(&area, 50.0, near), &two), "{near:?}");
+                let one = [(n, 0.0), (-n, 0.0)];
+                assert!(lead(&rows_near(&area, 100.0, near), &one), "{near:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn of_ends_equally_near_the_first_is_taken() {
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0).unwrap();
+        let first = |north: f64, east: f64| rows_near(&area, 50.0, Point::new(north, east))[0].start;
+        // Clockwise along the eastern edge: its row's start is in the north.
+        for (near, expected) in [
+            ((0.0, 0.0), (100.0, 25.0)),
+            ((0.0, 40.0), (100.0, 25.0)),
+            ((50.0, 0.0), (100.0, 25.0)),
+            ((-50.0, 0.0), (-100.0, 25.0)),
+            ((0.0, -40.0), (100.0, -25.0)),
+            ((0.0004, -0.0004), (100.0, 25.0)),
+            ((f64::NAN, 0.0), (100.0, 25.0)),
+        ] {
+            let start = first(near.0, near.1);
+            assert!(start.distance(Point::new(expected.0, expected.1)) < 1e-3, "{near:?}: {start:?}");
         }
     }
 
@@ -103,6 +194,6 @@ mod tests {
         let rounded = Area::rectangle(Point::ORIGIN, Heading::from_degrees(17.0), 300.0, 200.0).unwrap();
         assert_eq!(rows(&rounded, 40.0).len(), 5);
         assert_eq!(rows(&area, f64::INFINITY).len(), 1);
-        assert_eq!(row(std::iter::empty(), 10.0, 0), None);
+        assert_eq!(row(std::iter::empty(), 10.0, Point::ORIGIN, 0), None);
     }
 }

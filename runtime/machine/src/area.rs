@@ -62,8 +62,8 @@ impl Run {
         Edge { line, normal: self.vector(area + 1 + AREA_CORNER_WORDS * i + 2) }
     }
 
-    pub fn row_of(&self, area: Slot, step: f64, index: u32) -> Option<Line> {
-        row((0..self.corners(area)).map(|i| self.edge_of(area, i)), step, index)
+    pub fn row_of(&self, area: Slot, step: f64, near: Point, index: u32) -> Option<Line> {
+        row((0..self.corners(area)).map(|i| self.edge_of(area, i)), step, near, index)
     }
 
     pub fn edge(&self, at: Slot) -> Edge {

@@ -244,12 +244,13 @@ pub enum Op {
         area: Slot,
         index: Slot,
     },
-    /// The row of an index of those that lie `step` metres apart; `there` tells whether there is one.
+    /// The row of an index of those that lie `step` metres apart and begin at the end nearest to `near`; `there` tells whether there is one.
     RowAt {
         to: Slot,
         there: Slot,
         area: Slot,
         step: Slot,
+        near: Slot,
         index: Slot,
     },
     NearestEdge {

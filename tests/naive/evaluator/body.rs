@@ -116,9 +116,9 @@ fn rounds<'b>(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &'b Stmt) -> Option<(us
         StmtKind::ForEdges { var, area, body } => {
             (*var, value(w, s, area).edges().iter().map(|edge| Value::of_edge(*edge)).collect(), body)
         }
-        StmtKind::ForRows { var, area, step, body } => {
-            let (area, step) = (value(w, s, area), number(w, s, step));
-            let rows = (0..).map_while(|i| row(area.edges().iter().copied(), step, i));
+        StmtKind::ForRows { var, area, step, near, body } => {
+            let (area, step, near) = (value(w, s, area), number(w, s, step), value(w, s, near).point());
+            let rows = (0..).map_while(|i| row(area.edges().iter().copied(), step, near, i));
             (*var, rows.map(Value::of_line).collect(), body)
         }
         _ => return None,
