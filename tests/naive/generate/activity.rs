@@ -470,13 +470,10 @@ impl Generator {
                 "chemical fresh 500 ms, at first 2 %, else hold for 2 s then abort",
                 "depth fresh 1 s, else abort",
                 "battery fresh 1 s, at first 70 %, else hold for 500 ms then abort",
+                "speed fresh 1 s, else hold for 300 ms then abort",
                 "water_depth fresh 600 ms, else hold for 600 ms then abort",
             ];
-            for entry in more {
-                if g.random.percent(50) {
-                    entries.push(entry);
-                }
-            }
+            entries.extend(more);
             for entry in entries {
                 g.line(entry);
             }
