@@ -103,8 +103,8 @@ pub fn wrap_angle(angle_rad: f64) -> f64 {
 /// What an angle is beyond whole turns, in [0, 2 pi), where so many turns round that a product of them would miss it.
 fn remainder(angle_rad: f64) -> f64 {
     let rest = angle_rad.rem_euclid(TAU);
-    // An angle a hair below a full turn rounds up to it.
-    if rest < TAU { rest + 0.0 } else { 0.0 }
+    // An angle a hair below a full turn rounds up to it; what is no number stays none.
+    if rest >= TAU { 0.0 } else { rest + 0.0 }
 }
 
 #[cfg(test)]
