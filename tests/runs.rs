@@ -15,6 +15,7 @@ const LONG: &str = "
 mission long in still within 200 h {
     area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 200 m, width: 200 m)
     limits { altitude >= 2 m, speed <= 2.5 m/s }
+    requires { position, course, heading fresh 5 s, else abort }
     recovery within 5 min { goto op.center }
     with depth 3 m, speed 1 m/s
     wait for 199 h

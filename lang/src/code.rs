@@ -227,6 +227,7 @@ codes! {
         TypesSign = "sign",
         TypesStatement = "statement",
         TypesSum = "sum",
+        TypesText = "text",
         TypesToward = "toward",
         TypesUnknown = "unknown",
         TypesWalked = "walked",

@@ -199,7 +199,7 @@ impl<'t> Checker<'t> {
             }
             ClauseKind::Abort { why, on: Some(on) } => {
                 let condition = self.instant(Temporal::Yes, |c| c.condition(on));
-                let why = self.literal_text(why);
+                let why = self.told(why);
                 parts.aborts.push((why, condition));
             }
             ClauseKind::Limits(limits) => {

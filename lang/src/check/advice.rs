@@ -96,7 +96,7 @@ impl Checker<'_> {
             Type::Bool => "a condition is asked for, such as `x > 3 m`, or `true`",
             Type::Int => "a whole number is asked for, such as `3`; `round(x)` makes one of another number",
             Type::Sign => "write `+1` or `-1`",
-            Type::Text => "a text stands between quotes, with values in `{` and `}`",
+            Type::Text => "a text stands between quotes",
             Type::Heading => "a direction is asked for, such as `90 deg`, `north` or `flow.toward`",
             Type::Depth => "a depth is asked for, such as `3 m` or `depth + 1 m`",
             Type::Altitude => "an altitude is asked for, such as `3 m` or `altitude + 1 m`",

@@ -4,7 +4,7 @@ use super::expr::article;
 use super::{Checker, Driving, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Block, Expr, Stmt, StmtKind, VarKind};
+use crate::hir::{Block, Expr, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Action, Clause, ClauseKind};
 use crate::types::Type;
@@ -175,7 +175,7 @@ impl<'t> Checker<'t> {
             ClauseKind::Finish(value) => return self.finish(value.as_ref(), span),
             ClauseKind::Abort { why, on: None } => {
                 self.body_only(span, "`abort`");
-                StmtKind::Abort(self.literal_text(why))
+                StmtKind::Abort(self.told(why))
             }
             ClauseKind::Report { name, value, fields } => {
                 let mut checked = vec![(String::new(), self.expr(value, None))];
@@ -193,7 +193,7 @@ impl<'t> Checker<'t> {
             }
             ClauseKind::Log(text) => {
                 self.effects_allowed(span, "`log`");
-                StmtKind::Log(self.literal_text(text))
+                StmtKind::Log(self.told(text))
             }
             ClauseKind::Memory { name, .. } | ClauseKind::Signal { name, .. } => {
                 self.misplaced(
@@ -290,16 +290,6 @@ impl<'t> Checker<'t> {
                 plain
             }
             _ => String::new(),
-        }
-    }
-
-    pub(super) fn literal_text(&mut self, text: &tree::Expr) -> Vec<hir::TextPart> {
-        match &text.kind {
-            tree::ExprKind::Text(parts) => self.text(parts),
-            _ => {
-                let value = self.expr(text, None);
-                vec![hir::TextPart::Hole(value)]
-            }
         }
     }
 

@@ -69,10 +69,7 @@ impl<'t> Checker<'t> {
                 let kind = ExprKind::Geodetic { latitude_deg: *latitude_deg, longitude_deg: *longitude_deg };
                 self.make(kind, Type::Point, span)
             }
-            K::Text(parts) => {
-                let parts = self.text(parts);
-                self.make(ExprKind::Text(parts), Type::Text, span)
-            }
+            K::Text(parts) => self.text_value(parts, span),
             K::Bool(b) => {
                 let number = ExprKind::Number(f64::from(u8::from(*b)));
                 Expr { kind: number, ty: Type::Bool, span, range: Interval::ANY }
@@ -116,7 +113,34 @@ impl<'t> Checker<'t> {
         }
     }
 
-    pub(super) fn text(&mut self, parts: &[tree::TextPart]) -> Vec<TextPart> {
+    /// A text as a value: the same for good. What holds values is computed where it is told, and nowhere else.
+    fn text_value(&mut self, parts: &[tree::TextPart], span: Span) -> Expr {
+        let parts = self.text(parts);
+        if parts.iter().any(|part| matches!(part, TextPart::Hole(_))) {
+            self.report(
+                Diagnostic::error(
+                    Code::TypesText,
+                    span,
+                    "a text with values in `{ }` stands only in `log` and `abort`",
+                )
+                .here("it is made where it is told")
+                .help("write it there, and pass on what stands between `{` and `}`; a `report` gives values as labels"),
+            );
+            return self.unknown(span);
+        }
+        self.make(ExprKind::Text(parts), Type::Text, span)
+    }
+
+    /// What is told: a text with the values in it, or a value.
+    pub(super) fn told(&mut self, e: &tree::Expr) -> Vec<TextPart> {
+        match &e.kind {
+            tree::ExprKind::Text(parts) => self.text(parts),
+            tree::ExprKind::Paren(inner) => self.told(inner),
+            _ => vec![TextPart::Hole(self.expr(e, None))],
+        }
+    }
+
+    fn text(&mut self, parts: &[tree::TextPart]) -> Vec<TextPart> {
         let mut out = Vec::new();
         for part in parts {
             match part {

@@ -162,7 +162,7 @@ impl<'t> Checker<'t> {
                 let target = match &rule.target {
                     tree::Target::Behavior(_) => to.flatten().map(Target::Behavior),
                     tree::Target::Finish(value, span) => c.rule_result(value.as_ref(), *span, result),
-                    tree::Target::Abort(why, _) => Some(Target::Abort(c.literal_text(why))),
+                    tree::Target::Abort(why, _) => Some(Target::Abort(c.told(why))),
                 };
                 let effect = rule.effect.as_ref().map(|b| c.in_block(|c| c.block(b)));
                 (target, effect)

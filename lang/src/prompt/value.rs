@@ -85,6 +85,10 @@ impl Script {
         for id in (0..found.params).chain(declared) {
             let at = slot_of(&self.types, vars, id) as usize;
             let shape = self.types.shape(&vars[id].ty);
+            // A text is of the mission's program, and means nothing in that of another line.
+            if shape.has_text() {
+                continue;
+            }
             if let Some(words) = words.get(at..at + shape.words() as usize) {
                 names.push(Named {
                     name: vars[id].name.clone(),

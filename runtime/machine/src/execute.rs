@@ -237,7 +237,7 @@ impl Run {
                 TextPart::Literal(literal) => out.push_str(literal),
                 TextPart::Hole(valued) => {
                     let words = self.slice(valued.slot + base, valued.shape.words());
-                    out.push_str(&number::value_with(&p.texts, &valued.shape, words));
+                    out.push_str(&number::within_text(&p.texts, &valued.shape, words));
                 }
             }
         }

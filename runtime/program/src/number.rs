@@ -94,6 +94,15 @@ pub fn value_with(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
     Printer { texts, number: fixed, is_brief: false }.value(shape, words)
 }
 
+/// As [`value_with`], for a place within a text: a text as it stands, without quotes.
+pub fn within_text(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
+    match shape {
+        Shape::Text => plain(texts, words.first().copied().unwrap_or(f64::NAN)),
+        Shape::Optional(inner) if words.first() == Some(&1.0) => within_text(texts, inner, tail(words, 1)),
+        _ => value_with(texts, shape, words),
+    }
+}
+
 /// As [`value_with`], for a person who asks for one value: as many digits as it takes, and no more: `20 m`, `0.3333 m`.
 pub fn brief(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
     Printer { texts, number: |x, _| shortest(x), is_brief: true }.value(shape, words)
@@ -149,7 +158,10 @@ impl Printer<'_> {
                 }
                 _ => UNKNOWN.to_string(),
             },
-            Shape::Text => text(self.texts, first),
+            Shape::Text if index(first).is_some_and(|i| i < self.texts.len()) => {
+                format!("\"{}\"", plain(self.texts, first))
+            }
+            Shape::Text => plain(self.texts, first),
             Shape::Enum(variants) => {
                 index(first).and_then(|i| variants.get(i)).map_or_else(|| UNKNOWN.to_string(), String::clone)
             }
@@ -191,15 +203,15 @@ impl Printer<'_> {
     }
 }
 
-/// A text by its index, in quotes; its holes, whose values are elsewhere, as `{}`.
-fn text(texts: &[Text], word: f64) -> String {
+/// A text by its index. It has no holes: such a text is no value.
+fn plain(texts: &[Text], word: f64) -> String {
     let Some(i) = index(word) else { return UNKNOWN.to_string() };
     let Some(text) = texts.get(i) else { return format!("text {i}") };
-    let parts = text.parts.iter().map(|part| match part {
-        TextPart::Literal(literal) => literal.as_str(),
-        TextPart::Hole(_) => "{}",
-    });
-    format!("\"{}\"", parts.collect::<String>())
+    let literal = |part: &TextPart| match part {
+        TextPart::Literal(literal) => Some(literal.clone()),
+        TextPart::Hole(_) => None,
+    };
+    text.parts.iter().filter_map(literal).collect()
 }
 
 /// A word that counts or points, unless it is none.

@@ -83,7 +83,10 @@ fn computed(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
             let position = albacore_geometry::Geodetic::from_degrees(*latitude_deg, *longitude_deg);
             Value::of_point(w.frame.map_or(Point::ORIGIN, |frame| frame.to_point(position)))
         }
-        ExprKind::Text(parts) => Value::Text(format!("\"{}\"", text(w, s, parts))),
+        ExprKind::Text(parts) => {
+            let text = text(w, s, parts);
+            Value::Text(w.met(text))
+        }
         ExprKind::None => Value::nothing(&w.shape(&e.ty)),
         ExprKind::Done => Value::truth(s.done),
         ExprKind::Var(id) => s.frame.get(*id),
@@ -157,13 +160,11 @@ pub fn block(w: &mut World<'_>, s: Scope<'_, '_>, block: &Block) -> Value {
 pub fn text(w: &mut World<'_>, s: Scope<'_, '_>, parts: &[TextPart]) -> String {
     let part = |part: &TextPart| match part {
         TextPart::Literal(literal) => literal.clone(),
-        TextPart::Hole(e) => match value(w, s, e) {
-            Value::Text(text) => text,
-            value => {
-                let shape = w.shape(&e.ty);
-                number::value(&shape, &value.words(&shape))
-            }
-        },
+        TextPart::Hole(e) => {
+            let shape = w.shape(&e.ty);
+            let words = value(w, s, e).words(&shape);
+            number::within_text(&w.texts, &shape, &words)
+        }
     };
     parts.iter().map(part).collect()
 }

@@ -7,7 +7,8 @@ use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Shape};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     Number(f64),
-    Text(String),
+    /// A text, by its place among those that were met.
+    Text(usize),
     /// The parts of a point, vector, line, edge or record.
     Parts(Vec<Value>),
     Maybe(Option<Box<Value>>),
@@ -102,7 +103,7 @@ impl Value {
     pub fn words(&self, shape: &Shape) -> Vec<f64> {
         let mut words = match (self, shape) {
             (Number(x), _) => vec![*x],
-            (Value::Text(_), _) => vec![0.0],
+            (Value::Text(i), _) => vec![*i as f64],
             (Parts(fields), Shape::Record(_, shapes)) => {
                 fields.iter().zip(shapes).flat_map(|(field, (_, shape))| field.words(shape)).collect()
             }

@@ -8,7 +8,7 @@ use albacore_lang::hir::{Expr, Hir, InputPart, Stmt};
 use albacore_lang::source::Sources;
 use albacore_lang::types::{Type, TypeTable};
 use albacore_machine::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
-use albacore_program::Shape;
+use albacore_program::{Shape, Text, TextPart};
 use albacore_vehicle::{Channel, Sample, TICK_S, Vertical};
 
 /// What a statement asks for.
@@ -50,6 +50,8 @@ pub struct World<'p> {
     pub is_recovering: bool,
     /// What was computed and done in this tick, as `check --cost` counts it.
     pub steps: u64,
+    /// The texts that values stand for.
+    pub texts: Vec<Text>,
     /// What happened in this tick, one line each.
     pub events: Vec<String>,
     /// Lines that may still be written, what was not written since there were none, and which statements have reported.
@@ -85,11 +87,21 @@ impl<'p> World<'p> {
             kept: Setpoints::default(),
             is_recovering: false,
             steps: 0,
+            texts: Vec::new(),
             events: Vec::new(),
             lines: LINES_AT_ONCE_MAX,
             unwritten: 0,
             reported: Vec::new(),
         }
+    }
+
+    /// The place of a text, which is the same whenever it is met.
+    pub fn met(&mut self, text: String) -> usize {
+        let text = Text { parts: vec![TextPart::Literal(text)] };
+        self.texts.iter().position(|known| *known == text).unwrap_or_else(|| {
+            self.texts.push(text);
+            self.texts.len() - 1
+        })
     }
 
     pub fn say(&mut self, line: String) {
