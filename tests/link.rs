@@ -278,3 +278,16 @@ fn a_vehicle_that_is_driven_over_udp_hears_nobody_else() {
     let (_, said) = vehicle.stop();
     assert!(!said.contains("timed out"), "{said}");
 }
+
+/// A vehicle without an echo sounder tells altitude 0, which is no altitude: a least altitude then allows no descent.
+#[test]
+fn a_vehicle_that_always_tells_altitude_0_is_taken_no_deeper() {
+    let folder = empty("no-echo");
+    let vehicle = Vehicle::serve_world(&format!("{EXCURSION}#no_echo"), "pty:?dialect=recon", &folder);
+    let out = folder.join("run");
+    let output = vehicle.mission(&["--mission", "deep", "--out"]).arg(&out).output().unwrap();
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}\n{trace}", stderr(&output));
+    assert!(trace.contains("altitude unknown: no deeper than 0.0 m"), "{trace}");
+    assert!(!trace.contains("aground") && !vehicle.said().contains("aground"), "{trace}");
+}

@@ -3,7 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, TangentFrame};
-use albacore_link::recon::{Controller, Mode, State, seal};
+use albacore_link::recon::{Adcp, Controller, FromVehicle, Mode, State, seal};
+use albacore_vehicle::channels::COURSE;
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 
 struct Vehicle {
@@ -13,6 +14,7 @@ struct Vehicle {
     /// What it says that it holds.
     heading_goal: Heading,
     depth_goal: f64,
+    speed: f64,
 }
 
 impl Vehicle {
@@ -24,6 +26,7 @@ impl Vehicle {
             time_ms: 0,
             heading_goal: Heading::NORTH,
             depth_goal: 3.0,
+            speed: 0.0,
         }
     }
 
@@ -47,7 +50,7 @@ impl Vehicle {
             roll: 0.0,
             rpm: 0.0,
             rpm_goal: 0.0,
-            speed: 0.0,
+            speed: self.speed,
             heading: Heading::NORTH,
             heading_rate: 0.0,
             heading_goal: self.heading_goal,
@@ -56,6 +59,19 @@ impl Vehicle {
         };
         self.controller.hear(seal(&state.to_string()).as_bytes());
         self.controller.is_due()
+    }
+
+    /// A message of the profiler, which belongs to the next state.
+    fn profiles(&mut self, ahead: f64, starboard: f64) {
+        let heading = Heading::NORTH;
+        let adcp = Adcp { ahead, starboard, vertical: 0.0, altitude: None, heading, current: None, look: 'U' };
+        self.controller.hear(seal(&FromVehicle::Adcp(adcp).to_string()).as_bytes());
+    }
+
+    /// The course of the last tick, in degrees.
+    fn course(&self) -> Option<f64> {
+        let sample = self.snapshot.samples.iter().find(|sample| sample.channel == COURSE)?;
+        Some((sample.reading[0].to_degrees() * 10.0).round() / 10.0)
     }
 
     fn driven() -> Self {
@@ -267,4 +283,29 @@ fn a_vehicle_that_is_heard_again_after_it_was_lost_did_not_set_its_clock() {
     vehicle.time_ms += 250_000;
     (0..5).for_each(|_| drop(vehicle.says(0x0D)));
     assert_eq!(vehicle.controller.take_notices(), ["silence"]);
+}
+
+/// A hold stops the vehicle: that must not be what makes an input of it missing. A profiler that tells 0 of a vehicle that goes is
+/// out of order, and so is one that tells nothing.
+#[test]
+fn a_vehicle_at_rest_has_a_course_and_one_whose_profiler_fails_has_none() {
+    let has_course = |speed: f64, profiler: Option<(f64, f64)>| {
+        let mut vehicle = Vehicle::driven();
+        vehicle.profiles(1.0, 1.0);
+        vehicle.says(0x0D);
+        vehicle.speed = speed;
+        (0..100).for_each(|_| {
+            profiler.inspect(|(ahead, starboard)| vehicle.profiles(*ahead, *starboard));
+            vehicle.says(0x0D);
+        });
+        vehicle.course()
+    };
+    assert_eq!(has_course(0.0, Some((0.0, 0.0))), Some(45.0), "the last one goes on");
+    assert_eq!(has_course(0.0, Some((0.0, 0.1))), Some(90.0), "it drifts");
+    assert_eq!(has_course(1.5, Some((0.0, 0.0))), None);
+    assert_eq!(has_course(0.0, None), None);
+    let mut never = Vehicle::driven();
+    never.profiles(0.0, 0.0);
+    never.says(0x0D);
+    assert_eq!(never.course(), Some(0.0), "the heading, where none has come before");
 }

@@ -7,7 +7,7 @@
 use crate::Event;
 use crate::state::{Limits, Run};
 use albacore_geometry::Point;
-use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program};
+use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program, Slot};
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -139,7 +139,10 @@ impl Run {
 
     fn charted(&self) -> Option<f64> {
         let chart = self.chart.as_ref()?;
-        let at = self.senses.position.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
+        // Where the vehicle was is no place where it is.
+        let age = |at: Slot| self.state.tick as f64 - self.get(at + Input::STAMP) + self.state.lag.round_trip as f64;
+        let told = |at: &Slot| self.get(at + Input::STAMP) >= 0.0 && age(*at) <= LIMIT_FRESH_S / TICK_S;
+        let at = self.senses.position.filter(told)?;
         let sigma = self.get(at + Input::VALUE + 2);
         chart(self.position(), CHART_SIGMAS * sigma + CHART_MARGIN_M)
     }

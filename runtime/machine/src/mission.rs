@@ -209,13 +209,11 @@ impl Run {
             | Control::Refused
             | Control::Suspended
                 if guest => {}
-            // The vehicle does not listen for a while: the mission stands still.
-            Control::Suspended => return None,
             Control::Refused => return self.over(p, Outcome::Refused),
             Control::Released if began => return self.over(p, Outcome::ReleasedByVehicle),
             Control::TimedOut => return self.over(p, Outcome::LinkLost),
             Control::Disconnected if began => return self.over(p, Outcome::LinkLost),
-            _ => return None,
+            _ => return self.stand_by(p),
         }
         match self.state.phase {
             Phase::Over(_) => None,
@@ -245,6 +243,24 @@ impl Run {
                 self.after_step(p, status)
             }
             Phase::Recovering(outcome, _) => self.step_recovery(p, outcome),
+        }
+    }
+
+    /// The vehicle does not listen, for a while: the mission stands still. Its time limit does not, for that bounds the run. A
+    /// vehicle that is not ours cannot be recovered.
+    fn stand_by(&mut self, p: &Program) -> Option<Command> {
+        if !self.time_is_up() {
+            return None;
+        }
+        match (self.state.phase, p.mission.recovery) {
+            (Phase::Waiting | Phase::Over(_), _) => None,
+            (Phase::Recovering(outcome, _), Some(recovery)) => {
+                self.end_recovery(p, recovery.activity, outcome, Cause::TimedOut)
+            }
+            _ => {
+                self.tell_time_is_up();
+                self.over(p, Outcome::TimedOut)
+            }
         }
     }
 

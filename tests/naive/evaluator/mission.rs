@@ -150,8 +150,7 @@ impl<'p> Evaluator<'p> {
             Control::Released if began => return self.over("released_by_vehicle", Cause::Aborted),
             Control::TimedOut => return self.over("link_lost", Cause::Aborted),
             Control::Disconnected if began => return self.over("link_lost", Cause::Aborted),
-            // Rule 18: while the vehicle does not listen the mission stands still.
-            _ => return None,
+            _ => return self.stand_by(),
         }
         if self.phase == Phase::Waiting {
             self.phase = Phase::Awaiting;
@@ -163,6 +162,25 @@ impl<'p> Evaluator<'p> {
             Phase::Running => self.run(),
             Phase::Recovering(since, outcome) => self.recover(since, outcome),
         }
+    }
+
+    /// Rule 18: while the vehicle does not listen the mission stands still, but for its time limit; what is not ours is not
+    /// recovered.
+    fn stand_by(&mut self) -> Option<Command> {
+        match self.phase {
+            Phase::Awaiting | Phase::Running if self.time_is_up() => {
+                self.w.say("timeout".into());
+                self.over("timed_out", Cause::TimedOut)
+            }
+            Phase::Recovering(since, outcome) if self.recovery_is_late(since) => {
+                self.end_recovery(outcome, Cause::TimedOut)
+            }
+            _ => None,
+        }
+    }
+
+    fn recovery_is_late(&self, since: u64) -> bool {
+        self.recovery_within.is_some_and(|within| self.w.tick - since >= within)
     }
 
     fn number(&mut self, e: &Expr) -> f64 {
@@ -331,7 +349,7 @@ impl<'p> Evaluator<'p> {
     fn recover(&mut self, since: u64, outcome: &'static str) -> Option<Command> {
         self.mission.refresh(&mut self.w);
         let _ = self.mission.step_overlays(&mut self.w);
-        let time_is_up = self.recovery_within.is_some_and(|within| self.w.tick - since >= within);
+        let time_is_up = self.recovery_is_late(since);
         match self.recovery.step(&mut self.w) {
             // There is nothing left to abort but the recovery itself.
             Err(_) => self.end_recovery(outcome, Cause::Aborted),

@@ -30,6 +30,9 @@ const POSITION_SIGMA: f64 = 3.0;
 pub(super) const FULL_SCALE_VOLTS: f64 = 5.0;
 /// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
 const DRIFT_TICKS: u64 = 50;
+/// A vehicle that goes no faster than this by its own word is at rest, m/s: a profiler that tells 0 then is in order, and one
+/// that tells 0 of a vehicle under way is not.
+const AT_REST: f64 = 0.05;
 /// A vehicle that answers, but does not let us drive for this many ticks, refuses.
 const REQUEST_TICKS: u64 = 300;
 /// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
@@ -87,6 +90,8 @@ pub struct Controller {
     gathered: Vec<Sample>,
     /// How far the course is clockwise of the heading, rad, and the tick that it is of.
     drift: Option<(f64, u64)>,
+    /// By the last state, m/s.
+    speed: f64,
     latest_tick: Option<u64>,
     next_tick: u64,
     mode: Mode,
@@ -124,6 +129,7 @@ impl Controller {
             heard: VecDeque::new(),
             gathered: Vec::new(),
             drift: None,
+            speed: 0.0,
             latest_tick: None,
             next_tick: 0,
             mode: Mode::default(),
@@ -256,6 +262,7 @@ impl Controller {
         };
         self.latest_tick = Some(tick);
         self.round_trip.shown(state.heading_goal, state.depth_goal, self.moment());
+        self.speed = state.speed;
         let position = self.frame.to_point(state.position);
         self.gather(POSITION, &[position.north, position.east, POSITION_SIGMA]);
         if let Some((angle, _)) = self.drift.filter(|(_, of)| tick.saturating_sub(*of) <= DRIFT_TICKS) {
@@ -296,9 +303,12 @@ impl Controller {
     }
 
     fn take_in_adcp(&mut self, adcp: &Adcp) {
-        // A vehicle that stands still over ground has no course.
+        let tick = self.latest_tick.unwrap_or(0);
         if adcp.ahead != 0.0 || adcp.starboard != 0.0 {
-            self.drift = Some((atan2(adcp.starboard, adcp.ahead), self.latest_tick.unwrap_or(0)));
+            self.drift = Some((atan2(adcp.starboard, adcp.ahead), tick));
+        } else if self.speed < AT_REST {
+            // At rest any direction is that of the course: no instrument is missing. The last one goes on.
+            self.drift = Some((self.drift.map_or(0.0, |(angle, _)| angle), tick));
         }
         if let Some((ahead, starboard)) = adcp.current {
             let unit = adcp.heading.unit();
