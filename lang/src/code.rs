@@ -140,6 +140,7 @@ codes! {
         RulesDone = "done",
         RulesEnding = "ending",
         RulesForever = "forever",
+        RulesLivelock = "livelock",
         RulesOverlap = "overlap",
         RulesParams = "params",
         RulesResult = "result",

@@ -150,6 +150,10 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(&checked.hir, *id)) {
         findings.extend(rules::check(&checked.hir, *id));
     }
+    let tables = (0..checked.hir.activities.len()).filter(|id| checked.hir.activities[*id].span.file == ENTRY);
+    for id in tables.filter(|id| !broken.reaches(&checked.hir, *id)) {
+        findings.extend(rules::livelocks(&checked.hir, id));
+    }
     let own = checked.hir.tests.iter().filter(|test| test.span.file == ENTRY);
     for test in own.filter(|test| !broken.reaches(&checked.hir, test.mission)) {
         findings.extend(rules::tests_reports(&checked.hir, test));

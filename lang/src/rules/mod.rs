@@ -5,6 +5,7 @@ mod channels;
 mod control;
 mod inputs;
 mod limits;
+mod livelock;
 mod overlaps;
 mod places;
 mod reports;
@@ -12,6 +13,7 @@ mod told;
 mod unreached;
 
 pub use control::first_watch;
+pub use livelock::check as livelocks;
 pub use overlaps::check as overlaps;
 pub use places::operating_area;
 pub use reports::check as tests_reports;
