@@ -119,3 +119,26 @@ fn the_recovery_has_a_time_of_its_own_by_both_clocks() {
     assert_eq!(mission.end(0, 50.0), (Outcome::TimedOut, 17 + 15), "71 s of the host's, not 10 s of the vehicle's");
     assert_eq!(mission.when(|event| *event == Event::HostTimeUp(85.0, 1.7)), [17]);
 }
+
+/// Over a link no sample is younger than the round trip.
+#[test]
+fn the_thermocline_is_found_over_a_link_too() {
+    let path = Path::new("missions/thermocline.alb");
+    let script = load(path, None, &[]).unwrap();
+    let plan = Plan::new(&script, &path.display().to_string(), Some("thermocline"), Some("summer_shelf")).unwrap();
+    let names = ["position", "course", "heading", "depth", "water_depth", "temperature", "altitude", "salinity"];
+    let channels = names.map(|name| Channel { name: name.into(), width: if name == "position" { 3 } else { 1 } });
+    let mut machine = Machine::new(plan.program, &channels).unwrap();
+    let lag = Lag { round_trip: 4, host: None };
+    let mut reported = false;
+    for tick in 0..900 {
+        let depth = 2.0 + 0.04 * f64::from(tick);
+        let temperature = if depth < 18.0 { 20.0 } else { 10.0 };
+        let samples = [0.0, 1.5, 1.5, depth, 40.0, temperature, 40.0 - depth, 32.0];
+        let mut snapshot = Snapshot { control: Control::InControl, lag, ..Snapshot::default() };
+        (0..).zip(samples).for_each(|(channel, sample)| snapshot.push(channel, &[sample, 0.0, 1.0]));
+        machine.step(&snapshot);
+        reported |= machine.events().iter().any(|event| format!("{event:?}").starts_with("Reported"));
+    }
+    assert!(reported && machine.outcome().is_none(), "{:?}", machine.outcome());
+}

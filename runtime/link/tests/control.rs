@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
+use albacore_geometry::math::degrees;
 use albacore_geometry::{Geodetic, Heading, TangentFrame};
 use albacore_link::recon::{Adcp, Controller, FromVehicle, Mode, State, seal};
 use albacore_vehicle::channels::COURSE;
@@ -71,7 +72,7 @@ impl Vehicle {
     /// The course of the last tick, in degrees.
     fn course(&self) -> Option<f64> {
         let sample = self.snapshot.samples.iter().find(|sample| sample.channel == COURSE)?;
-        Some((sample.reading[0].to_degrees() * 10.0).round() / 10.0)
+        Some((degrees(sample.reading[0]) * 10.0).round() / 10.0)
     }
 
     fn driven() -> Self {
