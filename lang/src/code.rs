@@ -66,6 +66,7 @@ codes! {
         FlowResult = "result",
         FlowUnreachable = "unreachable",
         FlowUnused = "unused",
+        FlowValue = "value",
     }
     functions {
         FunctionsPure = "pure",

@@ -75,7 +75,10 @@ impl<'t> Checker<'t> {
         let before: Vec<&Clause> = before.iter().collect();
         let mut stmts = self.stmts(&before);
         let value = match last.map(|timed| &timed.action) {
-            Some(Action::Expr(e)) => Some(Box::new(self.expr(e, expected))),
+            Some(Action::Expr(e)) => {
+                self.scope.tail = Some(e.span);
+                Some(Box::new(self.expr(e, expected)))
+            }
             Some(_) => {
                 stmts.extend(block.clauses.last().into_iter().flat_map(|c| self.stmt(c)));
                 None
@@ -253,6 +256,9 @@ impl<'t> Checker<'t> {
     }
 
     fn effects_allowed(&mut self, span: Span, what: &str) {
+        if self.is_done_in_value(span) {
+            return;
+        }
         if self.scope.setting == Setting::Function {
             self.report(
                 Diagnostic::error(Code::FunctionsPure, span, format!("a function is pure: {what} cannot stand in it"))
@@ -262,6 +268,9 @@ impl<'t> Checker<'t> {
     }
 
     fn body_only(&mut self, span: Span, what: &str) {
+        if self.is_done_in_value(span) {
+            return;
+        }
         if self.scope.setting != Setting::Body {
             self.report(
                 Diagnostic::error(Code::TimeBody, span, format!("{what} stands in the body of a behavior or mission"))

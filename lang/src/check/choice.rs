@@ -96,6 +96,7 @@ impl<'t> Checker<'t> {
         expected: Option<&Type>,
         span: Span,
     ) -> Expr {
+        let is_tail = self.scope.tail == Some(span);
         let Some(otherwise) = otherwise else {
             self.report(
                 Diagnostic::error(Code::TypesIfValue, span, "this `if` has no value when its condition does not hold")
@@ -111,8 +112,10 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         };
         let condition = self.with_temporal(Temporal::No, |c| c.condition(condition));
-        let mut then_block = self.block_knowing(self.shown(&condition, true), then, expected);
-        let mut else_block = self.block_knowing(self.shown(&condition, false), otherwise, expected);
+        let (mut then_block, mut else_block) = self.as_value(is_tail, |c| {
+            let then = c.block_knowing(c.shown(&condition, true), then, expected);
+            (then, c.block_knowing(c.shown(&condition, false), otherwise, expected))
+        });
         let ty = self.join(&mut then_block, &mut else_block, span);
         self.make(ExprKind::If(Box::new(condition), then_block, else_block), ty, span)
     }
@@ -147,7 +150,8 @@ impl<'t> Checker<'t> {
         expected: Option<&Type>,
         span: Span,
     ) -> Expr {
-        let (on, mut arms, mut otherwise) = self.match_arms(on, arms, expected, true, span);
+        let is_tail = self.scope.tail == Some(span);
+        let (on, mut arms, mut otherwise) = self.as_value(is_tail, |c| c.match_arms(on, arms, expected, true, span));
         let ty = common_type(arms.iter().map(|(_, b)| b).chain(&otherwise).filter_map(|b| b.value.as_deref()));
         for block in arms.iter_mut().map(|(_, b)| b).chain(otherwise.iter_mut()) {
             match block.value.take() {

@@ -70,7 +70,7 @@ impl Facts {
     /// Time goes by: only what cannot change is known still.
     pub fn forget_changeable(&mut self, vars: &[Var]) {
         self.known.retain(|f| match f.place() {
-            Place::Var(v) => matches!(vars[v].kind, VarKind::Param | VarKind::Let | VarKind::Loop | VarKind::Area),
+            Place::Var(v) => vars[v].kind.is_fixed(),
             Place::Input(_) => false,
         });
         if !matches!(self.changes.last(), Some(Change::Time)) {

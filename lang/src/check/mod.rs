@@ -30,6 +30,7 @@ mod test;
 mod timed;
 mod truth;
 mod unused;
+mod value;
 mod vehicle;
 mod visible;
 mod written;
@@ -197,6 +198,10 @@ struct Scope {
     finish: Option<Option<Type>>,
     /// The block in which the vehicle is ours already: neither `watch` nor `override` can stand there.
     driving: Option<Driving>,
+    /// In a block that is a value: the first variable that is its own.
+    value_from: Option<usize>,
+    /// The last expression of a block, whose value is the block's.
+    tail: Option<Span>,
 }
 
 impl Scope {
@@ -211,6 +216,8 @@ impl Scope {
             standing: Facts::default(),
             finish: None,
             driving: None,
+            value_from: None,
+            tail: None,
         }
     }
 }

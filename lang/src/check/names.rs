@@ -302,11 +302,12 @@ impl<'t> Checker<'t> {
             }
             return None;
         };
-        let var = &self.scope.vars[id];
+        let var = self.scope.vars[id].clone();
         let (what, help) = match var.kind {
             VarKind::Memory if self.scope.setting == Setting::Function => {
                 ("a memory, and functions are pure", "return the new value")
             }
+            VarKind::Memory | VarKind::Var if self.is_assigned_in_value(id, name.span) => return None,
             VarKind::Memory | VarKind::Var => return Some(id),
             VarKind::Let => ("fixed where it stands", "declare it with `memory`, or with `var` in instantaneous code"),
             VarKind::Param => ("a parameter", "declare a `memory` that begins with its value"),

@@ -63,7 +63,7 @@ impl<'t> Checker<'t> {
             }
             return self.expr_stmt(e, span);
         }
-        if self.scope.setting != Setting::Body {
+        if self.scope.setting != Setting::Body && !self.is_done_in_value(timed.span) {
             let finding = Diagnostic::error(
                 Code::TimeInstant,
                 timed.span,

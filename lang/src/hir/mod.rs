@@ -52,6 +52,13 @@ pub enum VarKind {
     Area,
 }
 
+impl VarKind {
+    /// Whether it stays as it is from where it stands to the end of its block.
+    pub fn is_fixed(self) -> bool {
+        matches!(self, VarKind::Param | VarKind::Let | VarKind::Loop | VarKind::Area)
+    }
+}
+
 /// A variable of a function or an activity. A nested behavior's variables belong to its strategy.
 #[derive(Clone, Debug)]
 pub struct Var {

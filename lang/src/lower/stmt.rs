@@ -136,7 +136,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The variables of what is being lowered: a function's or a unit's.
-    fn frame_vars(&self) -> &'a [hir::Var] {
+    pub(super) fn frame_vars(&self) -> &'a [hir::Var] {
         let hir = self.hir;
         let Some(name) = self.path.last() else { return &[] };
         match hir.fns.iter().find(|f| f.name == *name && f.vars.len() == self.frame.vars.len()) {
