@@ -90,6 +90,7 @@ codes! {
         LimitsRange = "range",
         LimitsRecord = "record",
         LimitsSetpoint = "setpoint",
+        LimitsSignal = "signal",
         LimitsSteps = "steps",
     }
     missions {

@@ -8,6 +8,8 @@ use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
 use crate::types::{EnumInfo, RecordInfo, Type};
 use std::collections::BTreeSet;
 
+/// Operands and operators of a file's signal at most, with those of the signals that it reads.
+const SIGNAL_PARTS_MAX: usize = 256;
 /// A constant waits for so many others at most that are declared after it.
 const WAITING_MAX: usize = 16;
 
@@ -349,11 +351,29 @@ impl<'t> Checker<'t> {
                     None => c.expr(value, None),
                 });
                 self.waiting -= 1;
+                let checked = if is_const { checked } else { self.short_signal(name, checked) };
                 let table = if is_const { &mut self.consts } else { &mut self.signals };
                 table[id] = Lazy::Done(checked.clone());
                 checked
             }
         }
+    }
+
+    /// The expression of a file's signal, which stands wherever it is read: of signals that read others twice, each would
+    /// otherwise be twice as long.
+    fn short_signal(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
+        if value.is_within(SIGNAL_PARTS_MAX) {
+            return value;
+        }
+        let message = format!(
+            "`{}` is made of more than {SIGNAL_PARTS_MAX} parts, with those of the signals that it reads",
+            name.node
+        );
+        let finding = Diagnostic::error(Code::LimitsSignal, name.span, message);
+        self.report(finding.help(
+            "declare such signals in the behavior or mission that reads them: there each is computed once a tick",
+        ));
+        self.unknown(name.span)
     }
 
     fn check_item(&mut self, m: usize, item: &'t Item) {

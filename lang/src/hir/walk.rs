@@ -169,6 +169,24 @@ impl Block {
     }
 }
 
+impl Expr {
+    /// Whether it has no more parts than so many: it is one, and so is each in it.
+    pub fn is_within(&self, most: usize) -> bool {
+        fn count(e: &Expr, left: &mut usize) {
+            if let Some(less) = left.checked_sub(1) {
+                *left = less;
+                children(e, &mut |child| count(child, left));
+            } else {
+                *left = 0;
+            }
+        }
+        // One more than there may be: then none is left exactly where there are too many.
+        let mut left = most.saturating_add(1);
+        count(self, &mut left);
+        left > 0
+    }
+}
+
 /// Calls `f` on the expressions directly inside one.
 pub fn children<'e>(e: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
     match &e.kind {
