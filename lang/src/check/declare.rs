@@ -359,8 +359,8 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// The expression of a file's signal, which stands wherever it is read: of signals that read others twice, each would
-    /// otherwise be twice as long.
+    /// The expression of a file's signal, which stands wherever it is read: of signals that read others twice, each
+    /// would otherwise be twice as long.
     fn short_signal(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
         if value.is_within(SIGNAL_PARTS_MAX) {
             return value;
