@@ -4,7 +4,8 @@ mod cost;
 
 use crate::exit::Exit;
 use crate::message;
-use albacore_session::Script;
+use crate::plan::refused;
+use albacore_session::{Diagnostic, Script, Wanted};
 use std::path::{Path, PathBuf};
 
 /// Check scripts: every error and warning of all files.
@@ -13,6 +14,10 @@ pub struct Check {
     /// Scripts.
     #[arg(required = true, value_name = "SCRIPT.alb")]
     scripts: Vec<PathBuf>,
+    /// Hold the missions against this scenario, by its name or as `FILE.alb#NAME`, as `run --in` does; else against the one that
+    /// each names.
+    #[arg(long = "in", value_name = "SCENARIO")]
+    scenario: Option<String>,
     /// Change a parameter first: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -31,10 +36,14 @@ impl Check {
         let mut exit = Exit::Well;
         let mut wrong = Vec::new();
         for path in &self.scripts {
-            match albacore_session::load(path, None, &self.set) {
+            match albacore_session::load_for(path, &self.wanted()) {
                 Ok(script) => {
                     let mut findings = script.findings.clone();
-                    findings.extend(albacore_session::findings(&script));
+                    let held = self.held(&script);
+                    match &held {
+                        Ok(found) => findings.extend(found.iter().cloned()),
+                        Err(refused) => exit = *refused,
+                    }
                     if self.notes {
                         findings.extend(script.notes());
                     } else {
@@ -42,7 +51,7 @@ impl Check {
                     }
                     albacore_session::settle(&mut findings);
                     message::findings(&findings, &script.sources);
-                    if findings.is_empty() && !self.cost {
+                    if findings.is_empty() && !self.cost && held.is_ok() {
                         message::write(&format!("{}\n", nothing_wrong(path, &script)));
                     }
                     if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
@@ -64,6 +73,20 @@ impl Check {
         }
         message::more(&wrong);
         exit
+    }
+}
+
+impl Check {
+    fn wanted(&self) -> Wanted<'_> {
+        Wanted { mission: None, scenario: self.scenario.as_deref(), set: &self.set }
+    }
+
+    /// What is wrong beyond the script itself; a scenario that cannot be had is told of.
+    fn held(&self, script: &Script) -> Result<Vec<Diagnostic>, Exit> {
+        match &self.scenario {
+            None => Ok(albacore_session::findings(script)),
+            Some(_) => albacore_session::findings_in(script, &self.wanted()).map_err(|error| refused(&error)),
+        }
     }
 }
 

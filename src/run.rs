@@ -262,6 +262,9 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
         if let (Some(north), Some(east)) = (report.north_m, report.east_m) {
             text.push_str(&format!(" at ({north:.1}, {east:.1}) m"));
         }
+        if let Some(position) = report.position() {
+            text.push_str(&format!(", {position}"));
+        }
         if let (Some(error), Some(from)) = (report.error_m, report.error_from) {
             text.push_str(&format!(", {error:.1} m from {from}"));
         }

@@ -95,3 +95,81 @@ fn a_run_keeps_the_digests_of_the_files_that_it_was_made_from() {
     assert_ne!(digest(&before, "bay.geojson"), digest(&after, "bay.geojson"));
     assert_eq!(digest(&before, "wreck.kml"), digest(&after, "wreck.kml"));
 }
+
+/// What every verb says before the first tick, and that it says the same.
+#[test]
+fn a_scenario_elsewhere_is_told_before_the_first_tick() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mission = "missions/duck_single.alb";
+    let told = |args: &[&str]| {
+        let (status, told) = albacore(root, args);
+        assert_eq!(status, Some(3), "{args:?}: {told}");
+        told
+    };
+    let check = told(&["check", mission, "--in", "sci_2002"]);
+    assert!(check.contains("`sci_2002` lies 3946 km from the area of the mission `duck_single`"), "{check}");
+    assert!(check.contains("`--in duck_2003`"), "{check}");
+    assert_eq!(told(&["run", mission, "--in", "sci_2002", "--no-out"]), check);
+    let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("areas-elsewhere.csv");
+    assert_eq!(
+        told(&["campaign", mission, "--in", "sci_2002", "--seeds", "1..2", "--out", table.to_str().unwrap()]),
+        check
+    );
+    assert!(!table.exists());
+    let (status, well) = albacore(root, &["check", mission, "--in", "duck_2003_flat"]);
+    assert_eq!(status, Some(0), "{well}");
+    let (status, misspelt) = albacore(root, &["check", mission, "--in", "sci_202"]);
+    assert!(status == Some(2) && misspelt.contains("did you mean `sci_2002`?"), "{misspelt}");
+}
+
+/// A file that has the latitude first lies somewhere else on the globe: what the scenario says of places shows it.
+#[test]
+fn a_file_with_the_latitude_first_is_told() {
+    let folder = project("swapped");
+    let bay = std::fs::read_to_string(folder.join("bay.geojson")).unwrap();
+    let swapped = bay.replace("-75.742, 36.178", "36.178, -75.742").replace("-75.738, 36.178", "36.178, -75.738");
+    let swapped = swapped.replace("-75.738, 36.182", "36.182, -75.738").replace("-75.742, 36.182", "36.182, -75.742");
+    std::fs::write(folder.join("bay.geojson"), swapped).unwrap();
+    for args in [&["check", FILES[0]][..], &["run", FILES[0], "--no-out"]] {
+        let (status, told) = albacore(&folder, args);
+        assert!(status == Some(3) && told.contains("areas::swapped"), "{told}");
+        assert!(told.contains("latitude and longitude seem to be swapped"), "{told}");
+    }
+}
+
+/// The origin of a mission across the 180th meridian lies in its middle, and what it reports has longitudes as people write them.
+#[test]
+fn a_mission_runs_across_the_180th_meridian() {
+    let folder = project("antimeridian");
+    let bay = "{\"type\": \"Polygon\", \"coordinates\": \
+               [[[179.998, -17.002], [-179.998, -17.002], [-179.998, -16.998], [179.998, -16.998]]]}";
+    std::fs::write(folder.join("taveuni.geojson"), bay).unwrap();
+    let mission = "mission taveuni in strait within 30 min {\n\
+        area op = area_file(\"taveuni.geojson\")\n\
+        limits { altitude >= 2 m, speed <= 2.5 m/s }\n\
+        requires { position, course, heading fresh 5 s, else abort }\n\
+        recovery within 5 min { goto op.center }\n\
+        with depth 3 m, speed 1.5 m/s\n\
+        goto 17°0.0'S 179°59.95'W\n\
+        report \"east\": position\n\
+        goto 17°0.0'S 179°59.95'E\n\
+        report \"west\": position\n\
+    }\n\
+    scenario strait { vehicle(kinematic, start: 17°0.0'S 179°59.95'E, depth: 3 m) }\n";
+    std::fs::write(folder.join("taveuni.alb"), mission).unwrap();
+    let (status, told) = albacore(&folder, &["check", "taveuni.alb"]);
+    assert!(status == Some(0) && told.contains("no errors"), "{told}");
+    let (status, told) = albacore(&folder, &["run", "taveuni.alb", "--out", "run", "--replace"]);
+    assert!(status == Some(0) && told.contains("completed"), "{told}");
+    let trace = std::fs::read_to_string(folder.join("run/trace")).unwrap();
+    let picture = std::fs::read_to_string(folder.join("run/run.svg")).unwrap();
+    for text in [&told, &trace, &picture] {
+        assert!(text.contains("17°0.000'S 179°59.9") && text.contains("'W") && text.contains("'E"), "{text}");
+    }
+    assert!(picture.contains("origin (0, 0) at 17°0.000'S 180°0.000'"), "{picture}");
+    let (_, json) = albacore(&folder, &["run", "taveuni.alb", "--no-out", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let longitude = |i: usize| json["reports"][i]["longitude_deg"].as_f64().unwrap();
+    assert!(longitude(0) < -179.99 && longitude(1) > 179.99, "{json}");
+    assert!(json["reports"][0]["latitude_deg"].as_f64().unwrap() < -16.99);
+}

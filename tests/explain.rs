@@ -16,8 +16,9 @@ const PAGE_LINES_MAX: usize = 40;
 const PAGE_COLUMNS_MAX: usize = 80;
 
 /// What no single script can show: several files, the command line, the prompt, or a script longer than a page.
-const IN_WORDS: [&str; 13] = [
+const IN_WORDS: [&str; 14] = [
     "areas::file",
+    "areas::swapped",
     "imports::cycle",
     "imports::many",
     "imports::twice",

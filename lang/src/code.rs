@@ -44,6 +44,9 @@ codes! {
     }
     areas {
         AreasFile = "file",
+        AreasGoal = "goal",
+        AreasLarge = "large",
+        AreasSwapped = "swapped",
     }
     args {
         ArgsLabel = "label",

@@ -26,6 +26,7 @@ pub mod syntax;
 pub mod types;
 
 pub use lower::{ExpectProgram, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots};
+pub use rules::FAR_M;
 pub use suggest::{help as suggestion, nearest};
 
 use crate::code::Code;
@@ -213,6 +214,12 @@ impl Script {
     pub fn operating_area(&self, mission: &str) -> Option<(albacore_geometry::Area, source::Span)> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
         rules::operating_area(&self.hir, *id)
+    }
+
+    /// The finding for a mission whose area is of a file that has the latitude first, as far as a place of its scenario shows it.
+    pub fn swapped_area(&self, mission: &str, place: Geodetic) -> Option<Diagnostic> {
+        let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
+        rules::swapped(&self.hir, *id, &[place])
     }
 
     /// The inputs that a mission requires, each with the place where it says so.

@@ -2,10 +2,10 @@
 
 use super::{Position, fault};
 use crate::FileFault;
-use albacore_geometry::{AREA_CORNERS_MAX, Area, Geodetic, Point, TangentFrame, Vector};
-
-/// Corners of an area that spans more degrees of longitude than this lie on both sides of the 180th meridian.
-const LONGITUDES_MAX_DEG: f64 = 180.0;
+use crate::diagnostic::distance;
+use albacore_geometry::{
+    AREA_CORNERS_MAX, AREA_REACH_MAX_M, Area, Geodetic, Point, TangentFrame, Vector, longitude_beside,
+};
 
 /// What is thinner than this, in metres, is no area but a point or a line.
 const THICKNESS_M: f64 = 1e-3;
@@ -26,7 +26,7 @@ pub(super) fn sound(corners: &[Position], what: &str) -> Result<(), Vec<FileFaul
     }
     faults.extend(beyond(corners, what));
     if faults.is_empty() {
-        faults.extend(misshapen(corners, what));
+        faults.extend(misshapen(&together(corners, corners), what));
     }
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
@@ -38,22 +38,20 @@ fn beyond(corners: &[Position], what: &str) -> Option<FileFault> {
         let Position { latitude_deg, longitude_deg } = corners[i];
         let exchanged = Position { latitude_deg: longitude_deg, longitude_deg: latitude_deg };
         let help = if on_globe(&exchanged) {
-            "in such files the longitude comes first, then the latitude: exchange them"
+            crate::rules::SWAPPED
         } else {
             "positions are degrees on WGS 84, the longitude first: export the area in these"
         };
         let message = format!("corner {} of {what} has latitude {latitude_deg} and longitude {longitude_deg}", i + 1);
         return Some(fault(message, help));
     }
-    let longitudes = corners.iter().map(|c| c.longitude_deg);
-    let (least, most) =
-        longitudes.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)));
-    (most - least > LONGITUDES_MAX_DEG).then(|| {
-        fault(
-            format!("{what} reaches over {:.1}° of longitude", most - least),
-            "an area cannot lie across the 180th meridian: cut it there",
-        )
-    })
+    None
+}
+
+/// Corners with their longitudes by the turn that is nearest to the first of others: beside 179.9 stands 180.1 for -179.9.
+fn together(corners: &[Position], others: &[Position]) -> Vec<Position> {
+    let first = others.first().map_or(0.0, |first| first.longitude_deg);
+    corners.iter().map(|c| Position { longitude_deg: longitude_beside(c.longitude_deg, first), ..*c }).collect()
 }
 
 /// What keeps corners on the globe from making an area.
@@ -82,7 +80,19 @@ fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
     if surface.abs() < THICKNESS_M * longest {
         return Some(fault(format!("the corners of {what} lie on one line"), "draw it as a polygon"));
     }
-    let error = Area::polygon(&points).err()?;
+    let error = match Area::polygon(&points) {
+        Ok(area) if area.reach() > AREA_REACH_MAX_M => {
+            let (far, most) = (distance(area.reach()), distance(AREA_REACH_MAX_M));
+            let message =
+                format!("a corner of {what} lies {far} from its middle, and no plane reaches farther than {most}");
+            return Some(fault(
+                message,
+                "look for a sign or a digit that is wrong in its corners, or cut it into smaller areas",
+            ));
+        }
+        Ok(_) => return None,
+        Err(error) => error,
+    };
     let message = match (0..n).find(|&i| turn(i) * surface < 0.0) {
         Some(i) => format!("{what} is not convex: it has a dent at corner {}", i + 1),
         None => format!("{what} is no area: {error}"),
@@ -92,6 +102,7 @@ fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
 
 /// The first corner of a hole that is neither within an outline nor on it. Between corners a side is straight in degrees.
 pub(super) fn outside(hole: &[Position], outline: &[Position]) -> Option<usize> {
+    let (hole, outline) = (together(hole, outline), together(outline, outline));
     let place = |c: &Position| Point::new(c.latitude_deg, c.longitude_deg);
     let sides = || (0..outline.len()).map(|i| (place(&outline[i]), place(&outline[(i + 1) % outline.len()])));
     let is_on = |p: Point, (from, to): (Point, Point)| {

@@ -149,12 +149,23 @@ fn corners_that_make_no_area_are_told_one_by_one() {
     misshapen(&round, "POLYGON has 17 corners, and an area has at most 16", "simplify its outline");
     let exchanged = SQUARE.map(|(x, y)| (y, x - 20.0));
     let beyond = "corner 1 of POLYGON has latitude -95.75 and longitude 36.18";
-    misshapen(&exchanged, beyond, "exchange them");
+    misshapen(&exchanged, beyond, "the longitude first");
     let metres = SQUARE.map(|(x, y)| (x * 1e4, y * 1e4));
     let beyond = "corner 1 of POLYGON has latitude 361800 and longitude -757500";
     misshapen(&metres, beyond, "degrees on WGS 84");
-    let across = [(179.9, 0.0), (-179.9, 0.0), (-179.9, 0.1), (179.9, 0.1)];
-    misshapen(&across, "POLYGON reaches over 359.8° of longitude", "180th meridian");
+    let wide = [(0.0, 0.0), (8.0, 0.0), (8.0, 0.1), (0.0, 0.1)];
+    misshapen(
+        &wide,
+        "a corner of POLYGON lies 445 km from its middle, and no plane reaches farther than 100 km",
+        "smaller areas",
+    );
+    // Round half the globe, whichever way is nearer.
+    let round = [(-100.0, 0.0), (0.0, 0.0), (100.0, 0.0), (0.0, 0.1)];
+    misshapen(
+        &round,
+        "a corner of POLYGON lies more than 1000 km from its middle, and no plane reaches farther than 100 km",
+        "smaller areas",
+    );
     let bow = [SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]];
     misshapen(&bow, "the outline of POLYGON crosses itself, after corners 1 and 3", "in their order");
     let twice = [SQUARE[0], SQUARE[1], SQUARE[1], SQUARE[2]];
@@ -166,6 +177,20 @@ fn corners_that_make_no_area_are_told_one_by_one() {
     misshapen(&dented, "POLYGON is not convex: it has a dent at corner 2", "cut it into convex polygons");
     let flat = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)];
     misshapen(&flat, "the corners of POLYGON lie on one line", "draw it as a polygon");
+}
+
+#[test]
+fn an_area_may_lie_across_the_180th_meridian() {
+    let across = [(179.9, 0.0), (-179.9, 0.0), (-179.9, 0.1), (179.9, 0.1)];
+    let corners = read("a.geojson", &geojson(&[("{}", &outline(&across))]), None).unwrap();
+    assert_eq!(corners[1], Position { latitude_deg: 0.0, longitude_deg: -179.9 }, "as the file has it");
+    let bow = [across[0], across[2], across[1], across[3]];
+    misshapen(&bow, "the outline of POLYGON crosses itself, after corners 1 and 3", "in their order");
+    let place = |&(longitude_deg, latitude_deg): &(f64, f64)| Position { latitude_deg, longitude_deg };
+    let outline: Vec<Position> = across.iter().map(place).collect();
+    let hole = |east: f64| [(179.95, 0.02), (-180.0 + east, 0.02), (-180.0 + east, 0.04)].iter().map(place).collect();
+    let (within, out): (Vec<Position>, Vec<Position>) = (hole(0.05), hole(0.15));
+    assert_eq!((corners::outside(&within, &outline), corners::outside(&out, &outline)), (None, Some(1)));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::{Lowering, SortedBy, Sorter, slot};
 use crate::hir::{self, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::rules;
 use crate::types::Type;
-use albacore_geometry::Geodetic;
+use albacore_geometry::{Geodetic, longitude_beside, longitude_within};
 use albacore_program::{
     Abort, Activity, ActivityKind, Body, Channel, Code, Limits, Op, Recovery, Require, Slot, Valued, header,
 };
@@ -352,9 +352,10 @@ impl<'a> Lowering<'a> {
     }
 }
 
-/// The middle of some positions.
+/// The middle of some positions, each by the turn of longitude that is nearest to the first.
 pub(super) fn middle(positions: &[(f64, f64)]) -> Option<Geodetic> {
+    let (_, first) = *positions.first()?;
     let n = positions.len() as f64;
-    let sum = positions.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + lon));
-    (!positions.is_empty()).then(|| Geodetic::from_degrees(sum.0 / n, sum.1 / n))
+    let sum = positions.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + longitude_beside(*lon, first)));
+    Some(Geodetic::from_degrees(sum.0 / n, longitude_within(sum.1 / n)))
 }

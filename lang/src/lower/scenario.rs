@@ -20,6 +20,8 @@ pub struct ScenarioProgram {
     pub span: Span,
     /// Where the local frame touches the globe.
     pub origin: Option<Geodetic>,
+    /// The middle of its own positions on the globe, if it has any: where it lies, whatever frame it is computed in.
+    pub middle: Option<Geodetic>,
     /// The code, and nothing else.
     pub program: Program,
     /// What it says, in order.
@@ -78,7 +80,8 @@ pub fn scenario(
     let mut lowering = Lowering::new(hir, types, sources);
     let mut positions = Vec::new();
     scenario_positions(&scenario.clauses, &mut positions);
-    lowering.origin = origin.or_else(|| middle(&positions));
+    let middle = middle(&positions);
+    lowering.origin = origin.or(middle);
     for clause in &scenario.clauses {
         lowering.prepare_clause(clause);
     }
@@ -106,6 +109,7 @@ pub fn scenario(
         name: scenario.name.clone(),
         span: scenario.span,
         origin: lowering.origin,
+        middle,
         program,
         clauses: clauses.into_inner(),
     })

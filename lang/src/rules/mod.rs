@@ -9,14 +9,16 @@ mod livelock;
 mod overlaps;
 mod places;
 mod reports;
+mod swapped;
 mod told;
 mod unreached;
 
 pub use control::first_watch;
 pub use livelock::check as livelocks;
 pub use overlaps::check as overlaps;
-pub use places::operating_area;
+pub use places::{FAR_M, operating_area};
 pub use reports::check as tests_reports;
+pub use swapped::{HELP as SWAPPED, of_mission as swapped};
 pub use unreached::check as unreached;
 
 pub use inputs::read as inputs_read;
@@ -30,5 +32,10 @@ pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     findings.extend(control::check(hir, mission));
     findings.extend(inputs::check(hir, mission));
     findings.extend(places::check(hir, mission));
+    findings.extend(places::large(hir, mission));
+    match swapped::check(hir, mission) {
+        Some(swapped) => findings.push(swapped),
+        None => findings.extend(places::goals(hir, mission)),
+    }
     findings
 }

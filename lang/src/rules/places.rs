@@ -1,14 +1,20 @@
 //! Where things are: a scenario that begins outside the area of its mission, or has a source there, or a no-go zone far from it,
-//! is seldom meant.
+//! is seldom meant. Nor is a goal outside the area.
 
+use super::swapped;
 use crate::code::Code;
-use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir};
+use crate::diagnostic::{Diagnostic, distance};
+use crate::hir::{Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
 use crate::source::Span;
-use albacore_geometry::{Area, Edge, Geodetic, Heading, Point, TangentFrame};
+use albacore_geometry::{AREA_REACH_MAX_M, Area, Geodetic, Heading, Point, TangentFrame};
+use albacore_program::Guide;
 
-/// A no-go zone or a region may well lie beside the area; one that is farther from it than this, m, is nothing to the mission.
-const FAR_M: f64 = 10_000.0;
+/// What is farther from the area than this, m, is nothing to the mission: a no-go zone may well lie beside it, and a vehicle start
+/// there.
+pub const FAR_M: f64 = 10_000.0;
+
+/// Goals no farther outside than this, m, are meant to be on the edge: a thousandth of a minute is 1.9 m.
+const GOAL_MARGIN_M: f64 = 2.0;
 
 /// The findings for the scenario that a mission names, as far as its places and the area are constants.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
@@ -21,13 +27,16 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let far = |clause: &ClauseUse| {
         let what = match clause.name.as_str() {
             "no_go" => "this no-go zone is",
-            "region" => "this region is",
             _ => return None,
         };
         let (_, value) = clause.args.iter().find(|(name, _)| name == "area")?;
         let ClauseArg::Value(e) = value else { return None };
-        let out = beyond(&area, &self::area(e, frame)?);
-        (out > FAR_M).then(|| finding(&activity.name, written, e.span, what, out))
+        let out = area.beyond(&self::area(e, frame)?);
+        let mut far = (out > FAR_M).then(|| finding(&activity.name, written, e.span, what, out))?;
+        if frame.is_some_and(|frame| swapped::would_be_near(e, &[frame.origin])) {
+            far.help = Some(swapped::HELP.into());
+        }
+        Some(far)
     };
     let outside = |clause: &ClauseUse| {
         let (what, param) = match clause.name.as_str() {
@@ -35,37 +44,83 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
             "source" => ("this source is", "at"),
             _ => return None,
         };
+        // A start far away is an error in every world: the session tells it.
+        let most = if param == "start" { FAR_M } else { f64::INFINITY };
         let place = clause.args.iter().find(|(name, _)| name == param)?;
         let ClauseArg::Value(e) = &place.1 else { return None };
         let out = -area.gap(point(e, frame)?);
-        (out > 0.0).then(|| finding(&activity.name, written, e.span, what, out))
+        (out > 0.0 && out <= most).then(|| finding(&activity.name, written, e.span, what, out))
     };
     scenario.clauses.iter().filter_map(|clause| outside(clause).or_else(|| far(clause))).collect()
 }
 
-/// How far an area lies wholly beyond an edge of another, m; less than nothing where they meet.
-fn beyond(area: &Area, other: &Area) -> f64 {
-    let of_edge = |edge: Edge| other.corners().iter().map(|corner| -edge.gap(*corner)).fold(f64::INFINITY, f64::min);
-    area.edges().map(of_edge).fold(f64::NEG_INFINITY, f64::max)
+/// An area of constants that reaches farther than a plane can be taken for the sea.
+pub(super) fn large(hir: &Hir, mission: usize) -> Option<Diagnostic> {
+    let (area, written, _) = of_mission(hir, mission)?;
+    let reach = area.reach();
+    (reach > AREA_REACH_MAX_M).then(|| {
+        let (far, most) = (distance(reach), distance(AREA_REACH_MAX_M));
+        let message =
+            format!("a corner of this area lies {far} from its middle, and no plane reaches farther than {most}");
+        Diagnostic::error(Code::AreasLarge, written, message)
+            .help("look for a sign or a digit that is wrong in its corners")
+    })
 }
 
-/// The area of a mission and where it is written, if it is made of constants.
+/// Constant goals of the mission's own statements that lie outside its area.
+pub(super) fn goals(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
+    let activity = &hir.activities[mission];
+    let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
+    let mut findings = Vec::new();
+    for block in activity.blocks() {
+        block.each(&mut |stmt| {
+            let StmtKind::Timed(timed) = &stmt.kind else { return };
+            let Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, args) = &timed.action else {
+                return;
+            };
+            let places = args.first().map(ends).unwrap_or_default();
+            let outside = places.into_iter().filter_map(|e| Some((e.span, -area.gap(point(e, frame)?))));
+            findings.extend(outside.filter(|(_, out)| *out > GOAL_MARGIN_M).map(|(span, out)| {
+                let message = format!("this goal is {} outside the area of the mission `{}`", distance(out), activity.name);
+                Diagnostic::warning(Code::AreasGoal, span, message)
+                    .label(written, "the area")
+                    .help("if the vehicle shall not go there, look for minutes exchanged, and for north and east; else widen the area")
+            }));
+        });
+    }
+    findings
+}
+
+/// The places that guidance is given: a point, or both ends of a line.
+fn ends(goal: &Expr) -> Vec<&Expr> {
+    match &goal.kind {
+        ExprKind::Do(Builtin::Line, ends) => ends.iter().collect(),
+        _ => vec![goal],
+    }
+}
+
+/// The area of a mission and where that is written, if it is made of constants.
 pub fn operating_area(hir: &Hir, mission: usize) -> Option<(Area, Span)> {
     of_mission(hir, mission).map(|(area, written, _)| (area, written))
 }
 
-/// The same, and the frame that it lies in.
-fn of_mission(hir: &Hir, mission: usize) -> Option<(Area, Span, Option<TangentFrame>)> {
-    let written = hir.activities[mission].decls.iter().find_map(|decl| match decl {
+/// The area of a mission as it is written.
+pub(super) fn written_area(hir: &Hir, mission: usize) -> Option<&Expr> {
+    hir.activities[mission].decls.iter().find_map(|decl| match decl {
         crate::hir::Decl::Area(_, e) => Some(e),
         _ => None,
-    })?;
+    })
+}
+
+/// The same, and the frame that it lies in.
+fn of_mission(hir: &Hir, mission: usize) -> Option<(Area, Span, Option<TangentFrame>)> {
+    let written = written_area(hir, mission)?;
     let frame = crate::lower::origin_of(written).map(|origin| TangentFrame { origin });
     Some((area(written, frame)?, written.span, frame))
 }
 
 fn finding(mission: &str, area: Span, place: Span, what: &str, out_m: f64) -> Diagnostic {
-    let out = if out_m < 10_000.0 { format!("{out_m:.0} m") } else { format!("{:.0} km", out_m / 1000.0) };
+    let out = distance(out_m);
     let message = format!("{what} {out} outside the area of the mission `{mission}`, which runs in this scenario");
     Diagnostic::warning(Code::ScenariosOutside, place, message)
         .label(area, "the area")

@@ -8,6 +8,10 @@ use serde::{Deserialize, Serialize};
 /// An area has at most this many corners.
 pub const AREA_CORNERS_MAX: usize = 16;
 
+/// No corner of an operating area is farther from its middle than this, m. A flat plane cannot do better: at this distance the scale
+/// of the local frame is wrong by 123 mm in a kilometre.
+pub const AREA_REACH_MAX_M: f64 = 100_000.0;
+
 /// Corners closer together than this, in metres, are one corner.
 const CORNER_SEPARATION_M: f64 = 1e-3;
 
@@ -129,6 +133,18 @@ impl Area {
     /// Metres to the nearest edge, positive inside and negative outside.
     pub fn gap(&self, p: Point) -> f64 {
         self.edges().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The distance from the middle to the farthest corner, m.
+    pub fn reach(&self) -> f64 {
+        let center = self.center();
+        self.corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max)
+    }
+
+    /// How far another area lies wholly beyond an edge of this one, m; negative where none of its edges parts them.
+    pub fn beyond(&self, other: &Area) -> f64 {
+        let of_edge = |edge: Edge| other.corners.iter().map(|&c| -edge.gap(c)).fold(f64::INFINITY, f64::min);
+        self.edges().map(of_edge).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Whether two areas have more than edges in common. Of convex polygons that have not, one lies wholly beyond an edge of the

@@ -6,15 +6,17 @@
 mod area;
 mod ellipsoid;
 mod geodetic;
+mod globe;
 mod heading;
 pub mod math;
 mod mercator;
 mod plane;
 mod rows;
 
-pub use area::{AREA_CORNERS_MAX, Area, AreaError, Edge};
+pub use area::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, Area, AreaError, Edge};
 pub use ellipsoid::metres_per_radian;
 pub use geodetic::{Geodetic, TangentFrame};
+pub use globe::{longitude_beside, longitude_within};
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};
 pub use rows::{ROWS_MAX, row};

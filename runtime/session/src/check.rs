@@ -1,17 +1,57 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
-use crate::plan::PlanError;
-use crate::{suit, world};
-use albacore_lang::Script;
+use crate::plan::{Plan, PlanError};
+use crate::wanted::Wanted;
+use crate::world;
 use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::{MissionInfo, Script};
 
-/// All that is wrong with a script's sound missions and with its own sound scenarios, and notes of what is worth knowing.
+/// All that is wrong with a script's sound missions, in the scenarios that they name, and with its own sound scenarios, and notes
+/// of what is worth knowing.
 pub fn findings(script: &Script) -> Vec<Diagnostic> {
-    let missions = script.missions().filter(|m| script.mission_is_sound(&m.name));
-    let missions = missions.filter_map(|m| script.mission(&m.name)?.err()).flatten();
-    let scenarios =
-        script.own_scenarios().filter(|name| script.scenario_is_sound(name) && runs_are_sound(script, name));
-    missions.chain(scenarios.flat_map(|name| scenario(script, name))).collect()
+    let mut findings = of_missions(script);
+    findings.extend(of_scenarios(script));
+    for mission in sound_missions(script) {
+        let Some(named) = &mission.scenario else { continue };
+        // A scenario that is wrong in itself has been told of, where it stands.
+        let is_sound = script.scenario_is_sound(named.rsplit('.').next().unwrap_or(named));
+        if is_sound && let Ok(found) = misfits(script, mission, &Wanted::default()) {
+            findings.extend(found);
+        }
+    }
+    findings
+}
+
+/// The same in a scenario that `run` would be given: by its name, or as `file.alb#name`.
+pub fn findings_in(script: &Script, wanted: &Wanted) -> Result<Vec<Diagnostic>, PlanError> {
+    let mut findings = of_missions(script);
+    findings.extend(of_scenarios(script));
+    for mission in sound_missions(script).filter(|m| wanted.mission.is_none_or(|wanted| wanted == m.name)) {
+        // A mission that cannot be has been told of.
+        if script.mission(&mission.name).is_some_and(|mission| mission.is_ok()) {
+            findings.extend(misfits(script, mission, wanted)?);
+        }
+    }
+    Ok(findings)
+}
+
+fn sound_missions(script: &Script) -> impl Iterator<Item = &MissionInfo> {
+    script.missions().filter(|m| script.mission_is_sound(&m.name))
+}
+
+fn of_missions(script: &Script) -> Vec<Diagnostic> {
+    sound_missions(script).filter_map(|m| script.mission(&m.name)?.err()).flatten().collect()
+}
+
+fn of_scenarios(script: &Script) -> Vec<Diagnostic> {
+    let own = script.own_scenarios().filter(|name| script.scenario_is_sound(name) && runs_are_sound(script, name));
+    own.flat_map(|name| scenario(script, name)).collect()
+}
+
+/// What a mission misses in a world.
+fn misfits(script: &Script, mission: &MissionInfo, wanted: &Wanted) -> Result<Vec<Diagnostic>, PlanError> {
+    let wanted = Wanted { mission: Some(&mission.name), ..*wanted };
+    Ok(Plan::unsuited(script, "", &wanted)?.misfits(script))
 }
 
 /// Whether the mission in whose frame a scenario lies is sound, if there is one.
@@ -31,10 +71,6 @@ fn scenario(script: &Script, name: &str) -> Vec<Diagnostic> {
     };
     match world::sound(&lowered, script) {
         Err(PlanError::Script(findings, _)) => findings,
-        Err(PlanError::Asked(..)) => Vec::new(),
-        Ok(understood) => {
-            let missions = script.missions().filter(|mission| mission.scenario.as_deref() == Some(name));
-            missions.flat_map(|mission| suit::findings(script, &mission.name, name, &understood.world)).collect()
-        }
+        Err(PlanError::Asked(..)) | Ok(_) => Vec::new(),
     }
 }

@@ -34,7 +34,7 @@ pub use albacore_link::{Dialect, Faulty, LinkError, LinkFault, Transport, Url, W
 pub use albacore_machine::Outcome;
 pub use albacore_program::seen;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
-pub use check::findings;
+pub use check::{findings, findings_in};
 pub use faults::{Faults, load_faults};
 pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read,

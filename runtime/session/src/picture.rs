@@ -1,7 +1,7 @@
 //! What the picture of a run is made of: what is known of its world, and what is gathered while it goes.
 
 use crate::summary::{Report, Summary};
-use albacore_geometry::{Point, Vector};
+use albacore_geometry::{Geodetic, Point, Vector};
 use albacore_program::number;
 use albacore_sim::Scenario;
 use albacore_trace::Picture;
@@ -47,8 +47,8 @@ impl Sketch {
         self.detections.push(at);
     }
 
-    /// The picture of all that was gathered, in the world that is known.
-    pub fn svg(&self, summary: &Summary, world: Picture) -> String {
+    /// The picture of all that was gathered, in the world that is known, about an origin on the globe if there is one.
+    pub fn svg(&self, summary: &Summary, world: Picture, origin: Option<Geodetic>) -> String {
         let mut subtitle = vec![format!(
             "scenario {}, seed {}: {} after {}",
             summary.scenario,
@@ -56,10 +56,13 @@ impl Sketch {
             summary.outcome.replace('_', " "),
             number::seconds(summary.ticks).trim()
         )];
+        subtitle.extend(origin.map(|origin| format!("origin (0, 0) at {origin}")));
         for report in summary.reports.iter().take(TOLD_MAX) {
             let error = report.error_m.zip(report.error_from);
             let error = error.map(|(e, from)| format!(", {} from {from}", number::metres(e))).unwrap_or_default();
-            subtitle.push(format!("reported \"{}\" at {} s{error}", report.name, number::fixed(report.t_s, 1)));
+            let position = report.position().map(|position| format!(", {position}")).unwrap_or_default();
+            let at = number::fixed(report.t_s, 1);
+            subtitle.push(format!("reported \"{}\" at {at} s{position}{error}", report.name));
         }
         match summary.reports_beyond(TOLD_MAX) {
             0 => {}

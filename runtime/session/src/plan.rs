@@ -1,9 +1,10 @@
 //! What is to be run: a mission, chosen from a script, and the world that it runs in.
 
 use crate::faults::Faults;
+use crate::suit::{self, Held};
 use crate::wanted::Wanted;
-use crate::{suit, world};
-use albacore_geometry::TangentFrame;
+use crate::world;
+use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::diagnostic::{Diagnostic, Severity};
 use albacore_lang::source::{Source, Sources};
 use albacore_lang::{Script, suggestion};
@@ -29,6 +30,8 @@ pub struct Plan {
     pub sources: Vec<SourceDigest>,
     /// What the one may miss in the other, with places in the mission's script.
     pub warnings: Vec<Diagnostic>,
+    /// The middle of the scenario's own positions on the globe.
+    middle: Option<Geodetic>,
     /// The survey of the bottom that the mission's scenario names: what is known of the water's depth beforehand.
     survey: Option<Arc<Bottom>>,
 }
@@ -58,6 +61,11 @@ impl Plan {
 
     /// The same, with the parameters of a scenario of another script changed.
     pub fn wanted(script: &Script, file: &str, wanted: &Wanted) -> Result<Self, PlanError> {
+        Plan::unsuited(script, file, wanted)?.suiting(script)
+    }
+
+    /// The same, whether or not the world has what the mission needs.
+    pub(crate) fn unsuited(script: &Script, file: &str, wanted: &Wanted) -> Result<Self, PlanError> {
         let (name, program) = chosen(script, file, wanted.mission)?;
         let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
         let known: Vec<&str> = script.scenarios().collect();
@@ -68,20 +76,19 @@ impl Plan {
             return Err(PlanError::Asked(message, Some(help)));
         };
         let program = Arc::new(program);
-        let plan = match scenario.split_once('#') {
-            None => Plan::with(script, program, &scenario)?,
+        match scenario.split_once('#') {
+            None => Plan::with(script, program, &scenario),
             Some((file, scenario)) => {
                 let other = other_script(file, scenario, wanted)?;
                 let plan = Plan::with(&other, program, scenario)?;
-                Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan }
+                Ok(Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan })
             }
-        };
-        plan.suiting(script)
+        }
     }
 
     /// The same, if its world has what its mission needs.
     pub(crate) fn suiting(self, script: &Script) -> Result<Self, PlanError> {
-        let findings = suit::findings(script, &self.program.mission.name, &self.scenario_name, &self.scenario);
+        let findings = self.misfits(script);
         let of = |severity| findings.iter().filter(move |finding| finding.severity == severity).cloned().collect();
         let errors: Vec<_> = of(Severity::Error);
         if errors.is_empty() {
@@ -89,6 +96,13 @@ impl Plan {
         } else {
             Err(PlanError::script(errors, script))
         }
+    }
+
+    /// All that the mission misses in its world.
+    pub(crate) fn misfits(&self, script: &Script) -> Vec<Diagnostic> {
+        let mission = &self.program.mission;
+        let (name, world) = (self.scenario_name.as_str(), &*self.scenario);
+        suit::findings(script, &mission.name, &Held { name, world, middle: self.middle, origin: mission.origin })
     }
 
     /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.
@@ -107,7 +121,7 @@ impl Plan {
         };
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
         let (scenario_name, sources) = (link.to_string(), sources(script));
-        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), survey })
+        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), middle: None, survey })
     }
 
     /// What is known of the water's depth beforehand, where it was surveyed. What a scenario makes up is no knowledge of a place.
@@ -145,7 +159,8 @@ impl Plan {
         let survey = survey(&understood.world);
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();
-        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), survey })
+        let (middle, warnings) = (lowered.middle, Vec::new());
+        Ok(Plan { program, scenario, scenario_name, sources, warnings, middle, survey })
     }
 }
 

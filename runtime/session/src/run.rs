@@ -223,6 +223,6 @@ impl Run {
             start: self.recorder.start,
             ..picture::of_world(scenario, scenario.flow.mean)
         };
-        self.recorder.sketch.svg(&summary, world)
+        self.recorder.sketch.svg(&summary, world, self.recorder.plan.program.mission.origin)
     }
 }

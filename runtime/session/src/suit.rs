@@ -1,19 +1,72 @@
-//! Whether a world has what a mission needs that runs in it: sensors for what it requires, and anything known of its area.
+//! Whether a world has what a mission needs that runs in it: a place near its area, sensors for what it requires, and anything
+//! known of its area.
 
-use albacore_geometry::{Area, Point};
-use albacore_lang::Script;
+use albacore_geometry::{Area, Geodetic, Point};
 use albacore_lang::code::Code;
-use albacore_lang::diagnostic::Diagnostic;
+use albacore_lang::diagnostic::{Diagnostic, distance};
 use albacore_lang::source::Span;
+use albacore_lang::{FAR_M, Script};
 use albacore_sim::{Ground, Scenario};
 use albacore_vehicle::channels;
 
+/// A world in which a mission is to run.
+pub(crate) struct Held<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The world, in the frame of the mission.
+    pub world: &'a Scenario,
+    /// The middle of its own positions on the globe.
+    pub middle: Option<Geodetic>,
+    /// Where the frame of the mission touches the globe.
+    pub origin: Option<Geodetic>,
+}
+
 /// What a mission misses in a world; a note is of what may well be meant.
-pub(crate) fn findings(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
-    let mut findings = unsensed(script, mission, scenario, world);
-    findings.extend(unmeasured(script, mission, scenario, world));
-    findings.extend(uncovered(script, mission, scenario, world));
+pub(crate) fn findings(script: &Script, mission: &str, held: &Held) -> Vec<Diagnostic> {
+    let (name, world) = (held.name, held.world);
+    let mut findings = unsensed(script, mission, name, world);
+    findings.extend(unmeasured(script, mission, name, world));
+    match elsewhere(script, mission, held) {
+        Some(finding) => findings.push(finding),
+        None => findings.extend(uncovered(script, mission, name, world)),
+    }
     findings
+}
+
+/// A world whose region does not meet the area of the mission, or whose vehicle starts far from it: an error.
+fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> {
+    let (area, written) = script.operating_area(mission)?;
+    let (name, world) = (held.name, held.world);
+    // Far apart on the globe both are as far apart as it says: no plane reaches from the one to the other.
+    let apart = held.middle.zip(held.origin).map(|(there, here)| there.great_circle(here));
+    let apart = apart.filter(|apart| *apart > PLANE_M);
+    let start = -area.gap(world.vehicle.start);
+    let message = match (apart, &world.region) {
+        (Some(apart), _) => {
+            format!("`{name}` lies {:.0} km from the area of the mission `{mission}`", apart / 1000.0)
+        }
+        (None, Some(region)) if !region.overlaps(&area) => {
+            let away = distance(area.beyond(region).max(region.beyond(&area)).max(0.0));
+            format!("the region of `{name}` does not meet the area of the mission `{mission}`: it lies {away} away")
+        }
+        _ if start > FAR_M => {
+            format!("the vehicle of `{name}` starts {} from the area of the mission `{mission}`", distance(start))
+        }
+        _ => return None,
+    };
+    if let Some(swapped) = held.middle.and_then(|middle| script.swapped_area(mission, middle)) {
+        return Some(swapped);
+    }
+    let places = match held.middle.zip(held.origin) {
+        Some((there, here)) => format!("the area lies about {here}, `{name}` about {there}"),
+        None => "both are in metres from one origin".to_string(),
+    };
+    let own = script.missions().find(|info| info.name == mission).and_then(|info| info.scenario.as_deref());
+    let mend = match own {
+        Some(own) if own != name => format!("run it in a scenario that lies there, such as its own, `--in {own}`"),
+        _ => format!("move the one to the other, or write `mission {mission} in SCENARIO` with one that lies there"),
+    };
+    Some(Diagnostic::error(Code::ScenariosOutside, written, message).help(format!("{places}: {mend}")))
 }
 
 /// What the mission requires and the vehicle has no sensor for.
@@ -44,6 +97,9 @@ fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) 
     let help = format!("let `{scenario}` have a profiler for such a flow: `adcp(fastest: {:.1} m/s)`", 2.0 * speed);
     (speed >= fastest).then(|| Diagnostic::warning(Code::ScenariosWorld, span, message).help(help))
 }
+
+/// Places on the globe farther apart than this, m, are told apart on the globe, nearer ones in the plane.
+const PLANE_M: f64 = 50_000.0;
 
 /// Areas that reach no further beyond what is known than this, m, are meant to be its own.
 const MARGIN: f64 = 0.5;

@@ -1,5 +1,6 @@
 //! The result of a run, as `run --json` prints it.
 
+use albacore_geometry::Geodetic;
 use serde::Serialize;
 
 /// The result of a run. Names and units are fixed (DESIGN of the command line): scripts rely on them.
@@ -43,6 +44,13 @@ impl Summary {
 
 fn is_zero(count: &u64) -> bool {
     *count == 0
+}
+
+impl Report {
+    /// Where on the globe, as scripts write it.
+    pub fn position(&self) -> Option<String> {
+        Some(Geodetic::from_degrees(self.latitude_deg?, self.longitude_deg?).to_string())
+    }
 }
 
 /// Something that was reported.

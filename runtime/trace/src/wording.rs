@@ -3,11 +3,11 @@
 use crate::active::Active;
 use crate::names::Names;
 use crate::words::{INDENT, cause_name, channel_name, control_name, indented};
-use albacore_geometry::Point;
+use albacore_geometry::{Point, TangentFrame};
 use albacore_machine::{Event, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::number;
 use albacore_program::seen::one_line;
-use albacore_program::{ActivityId, Cause, Channel, Program, Rule, Shape};
+use albacore_program::{ActivityId, Cause, Channel, Program, ReportSite, Rule, Shape};
 use albacore_vehicle::TICK_S;
 
 /// The widest that the column of what happened gets by itself.
@@ -81,7 +81,7 @@ impl Wording {
                 let labels = site.fields.iter().map(|(label, field)| {
                     (if label.is_empty() { site.name.as_str() } else { label.as_str() }, &field.shape)
                 });
-                ("report", self.values(labels, words))
+                ("report", format!("{}{}", self.values(labels, words), self.on_globe(site, words)))
             }
             Event::Logged(text) => ("log", one_line(text)),
             Event::Amending(id, asked, given) => {
@@ -163,6 +163,17 @@ impl Wording {
             format!("{name} = {value}")
         });
         values.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Where on the globe the place of a report is, if it has one and the mission's frame lies there.
+    fn on_globe(&self, site: &ReportSite, words: &[f64]) -> String {
+        let place = || {
+            let at = site.fields.first()?.1.shape.first_point()?;
+            let point = Point::new(*words.get(at)?, *words.get(at + 1)?);
+            let origin = self.names.program.mission.origin?;
+            Some(format!(", {}", TangentFrame { origin }.to_geodetic(point)))
+        };
+        place().unwrap_or_default()
     }
 
     fn value(&self, shape: &Shape, words: &[f64]) -> String {

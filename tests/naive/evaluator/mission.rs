@@ -495,7 +495,23 @@ fn origin(mission: &Activity) -> Option<TangentFrame> {
         }
     }
     let n = found.len() as f64;
-    let (latitude, longitude) = found.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + lon));
+    // By the turn of longitude that is nearest to the first: some may lie beyond the 180th meridian.
+    let (_, first) = *found.first()?;
+    let beside = |lon: f64| {
+        if lon - first > 180.0 {
+            lon - 360.0
+        } else if lon - first < -180.0 {
+            lon + 360.0
+        } else {
+            lon
+        }
+    };
+    let (latitude, mut longitude) = found.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + beside(*lon)));
+    if longitude / n > 180.0 {
+        longitude -= 360.0 * n;
+    } else if longitude / n <= -180.0 {
+        longitude += 360.0 * n;
+    }
     let origin = albacore_geometry::Geodetic::from_degrees(latitude / n, longitude / n);
-    (!found.is_empty()).then_some(TangentFrame { origin })
+    Some(TangentFrame { origin })
 }

@@ -1,0 +1,63 @@
+//! Areas of files whose positions have the latitude first: they lie somewhere on the globe, and nothing shows it but what else
+//! the script says of places.
+
+use super::places::written_area;
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Builtin, Expr, ExprKind, Hir, activity_children, children};
+use crate::lower::origin_of;
+use albacore_geometry::Geodetic;
+
+/// What is within this, m, of the places of a script is meant to lie there.
+const NEAR_M: f64 = 100_000.0;
+
+/// What is said of such a file.
+pub const HELP: &str = "latitude and longitude seem to be swapped: GeoJSON and KML want the longitude first";
+
+/// The finding for a mission whose area would lie near the places that its statements name if its file had the longitude first.
+pub(super) fn check(hir: &Hir, mission: usize) -> Option<Diagnostic> {
+    let mut places = Vec::new();
+    activity_children(&hir.activities[mission], &mut |e| written(e, &mut places));
+    of_mission(hir, mission, &places)
+}
+
+/// The same for places that are known from elsewhere.
+pub fn of_mission(hir: &Hir, mission: usize, places: &[Geodetic]) -> Option<Diagnostic> {
+    let area = written_area(hir, mission)?;
+    would_be_near(area, places).then(|| {
+        let message = format!("no place of the mission `{}` is near its area", hir.activities[mission].name);
+        Diagnostic::error(Code::AreasSwapped, area.span, message).help(HELP)
+    })
+}
+
+/// Whether an area of a file is far from all places, and would be near one if its positions were exchanged.
+pub(super) fn would_be_near(area: &Expr, places: &[Geodetic]) -> bool {
+    let Some(middle) = of_file(area).then(|| origin_of(area)).flatten() else { return false };
+    let exchanged = Geodetic { latitude_rad: middle.longitude_rad, longitude_rad: middle.latitude_rad };
+    let is_near = |at: Geodetic| places.iter().any(|place| place.great_circle(at) < NEAR_M);
+    exchanged.latitude_deg().abs() <= 90.0 && !is_near(middle) && is_near(exchanged)
+}
+
+/// The positions on the globe that somebody has written in an expression, not those of files.
+fn written(e: &Expr, places: &mut Vec<Geodetic>) {
+    if let ExprKind::Geodetic { latitude_deg, longitude_deg } = e.kind {
+        places.push(Geodetic::from_degrees(latitude_deg, longitude_deg));
+    }
+    if !of_file(e) {
+        children(e, &mut |child| written(child, places));
+    }
+}
+
+/// Whether an area is one of a file: all its corners stand where it stands itself.
+fn of_file(area: &Expr) -> bool {
+    match &area.kind {
+        ExprKind::Unwrap(inner) => of_file(inner),
+        ExprKind::Do(Builtin::Polygon, operands) => match operands.as_slice() {
+            [Expr { kind: ExprKind::List(corners), .. }] => {
+                corners.first().is_some_and(|corner| corner.span == area.span)
+            }
+            _ => false,
+        },
+        _ => false,
+    }
+}
