@@ -25,7 +25,9 @@ mod suggest;
 pub mod syntax;
 pub mod types;
 
-pub use lower::{ExpectProgram, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots};
+pub use lower::{
+    ExpectProgram, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots,
+};
 pub use rules::FAR_M;
 pub use suggest::{help as suggestion, nearest};
 
@@ -216,10 +218,10 @@ impl Script {
         rules::operating_area(&self.hir, *id)
     }
 
-    /// The finding for a mission whose area is of a file that has the latitude first, as far as a place of its scenario shows it.
-    pub fn swapped_area(&self, mission: &str, place: Geodetic) -> Option<Diagnostic> {
+    /// The finding for a mission whose area is of a file that has the latitude first, as far as places of its scenario show it.
+    pub fn swapped_area(&self, mission: &str, places: &[Geodetic]) -> Option<Diagnostic> {
         let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
-        rules::swapped(&self.hir, *id, &[place])
+        rules::swapped(&self.hir, *id, places)
     }
 
     /// The inputs that a mission requires, each with the place where it says so.

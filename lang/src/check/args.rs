@@ -277,7 +277,9 @@ impl<'t> Checker<'t> {
                             .help("use a positive constant, or a parameter with a range such as `in 1 m..10 km`"),
                         );
                     } else if side.range.high > albacore_geometry::AREA_REACH_MAX_M {
-                        let message = "a rectangle's side may be longer than 100 km, and no plane is so large";
+                        let may_be = if side.range.low > albacore_geometry::AREA_REACH_MAX_M { "is" } else { "may be" };
+                        let message =
+                            format!("a rectangle's side {may_be} longer than 100 km, and no plane is so large");
                         self.report(
                             Diagnostic::error(Code::AreasLarge, side.span, message)
                                 .help("look at its unit; of a parameter give a range that ends at 100 km or less"),

@@ -19,7 +19,7 @@ mod watch;
 
 pub use test::{ExpectProgram, TestProgram, TestSlots, test};
 
-pub use scenario::{ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
+pub use scenario::{SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 
 use crate::code::Code;
 use crate::cost::limits::{self, INSTRUCTIONS_MAX, WORDS_MAX};

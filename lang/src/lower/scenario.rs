@@ -11,6 +11,9 @@ use crate::types::{Type, TypeTable};
 use albacore_geometry::Geodetic;
 use albacore_program::{Op, Program, Shape, Slot};
 
+/// A scenario no place of which is within this of a mission's origin, m, lies elsewhere: they share no plane.
+pub const SAME_PLANE_M: f64 = 50_000.0;
+
 /// A scenario, ready to be computed: run the program's code from 0, then read the slots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScenarioProgram {
@@ -20,8 +23,8 @@ pub struct ScenarioProgram {
     pub span: Span,
     /// Where the local frame touches the globe.
     pub origin: Option<Geodetic>,
-    /// The middle of its own positions on the globe, if it has any: where it lies, whatever frame it is computed in.
-    pub middle: Option<Geodetic>,
+    /// Its own positions on the globe, if it has any: where it lies, whatever frame it is computed in.
+    pub places: Vec<Geodetic>,
     /// The code, and nothing else.
     pub program: Program,
     /// What it says, in order.
@@ -80,8 +83,11 @@ pub fn scenario(
     let mut lowering = Lowering::new(hir, types, sources);
     let mut positions = Vec::new();
     scenario_positions(&scenario.clauses, &mut positions);
-    let middle = middle(&positions);
-    lowering.origin = origin.or(middle);
+    let places: Vec<_> = positions.iter().map(|(lat, lon)| Geodetic::from_degrees(*lat, *lon)).collect();
+    // About an origin far away nothing would keep its shape: it is computed where it lies, and told to lie elsewhere.
+    let is_near =
+        |origin: &Geodetic| places.is_empty() || places.iter().any(|place| place.great_circle(*origin) <= SAME_PLANE_M);
+    lowering.origin = origin.filter(is_near).or_else(|| middle(&positions));
     for clause in &scenario.clauses {
         lowering.prepare_clause(clause);
     }
@@ -109,7 +115,7 @@ pub fn scenario(
         name: scenario.name.clone(),
         span: scenario.span,
         origin: lowering.origin,
-        middle,
+        places,
         program,
         clauses: clauses.into_inner(),
     })

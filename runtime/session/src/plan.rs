@@ -30,8 +30,8 @@ pub struct Plan {
     pub sources: Vec<SourceDigest>,
     /// What the one may miss in the other, with places in the mission's script.
     pub warnings: Vec<Diagnostic>,
-    /// The middle of the scenario's own positions on the globe.
-    middle: Option<Geodetic>,
+    /// The scenario's own positions on the globe.
+    places: Vec<Geodetic>,
     /// The survey of the bottom that the mission's scenario names: what is known of the water's depth beforehand.
     survey: Option<Arc<Bottom>>,
 }
@@ -102,7 +102,7 @@ impl Plan {
     pub(crate) fn misfits(&self, script: &Script) -> Vec<Diagnostic> {
         let mission = &self.program.mission;
         let (name, world) = (self.scenario_name.as_str(), &*self.scenario);
-        suit::findings(script, &mission.name, &Held { name, world, middle: self.middle, origin: mission.origin })
+        suit::findings(script, &mission.name, &Held { name, world, places: &self.places, origin: mission.origin })
     }
 
     /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.
@@ -121,7 +121,7 @@ impl Plan {
         };
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
         let (scenario_name, sources) = (link.to_string(), sources(script));
-        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), middle: None, survey })
+        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), places: Vec::new(), survey })
     }
 
     /// What is known of the water's depth beforehand, where it was surveyed. What a scenario makes up is no knowledge of a place.
@@ -159,8 +159,8 @@ impl Plan {
         let survey = survey(&understood.world);
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();
-        let (middle, warnings) = (lowered.middle, Vec::new());
-        Ok(Plan { program, scenario, scenario_name, sources, warnings, middle, survey })
+        let (places, warnings) = (lowered.places, Vec::new());
+        Ok(Plan { program, scenario, scenario_name, sources, warnings, places, survey })
     }
 }
 

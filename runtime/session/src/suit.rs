@@ -5,7 +5,7 @@ use albacore_geometry::{Area, Geodetic, Point};
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::{Diagnostic, distance};
 use albacore_lang::source::Span;
-use albacore_lang::{FAR_M, Script};
+use albacore_lang::{FAR_M, SAME_PLANE_M, Script};
 use albacore_sim::{Ground, Scenario};
 use albacore_vehicle::channels;
 
@@ -15,8 +15,8 @@ pub(crate) struct Held<'a> {
     pub name: &'a str,
     /// The world, in the frame of the mission.
     pub world: &'a Scenario,
-    /// The middle of its own positions on the globe.
-    pub middle: Option<Geodetic>,
+    /// Its own positions on the globe.
+    pub places: &'a [Geodetic],
     /// Where the frame of the mission touches the globe.
     pub origin: Option<Geodetic>,
 }
@@ -38,8 +38,10 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
     let (area, written) = script.operating_area(mission)?;
     let (name, world) = (held.name, held.world);
     // Far apart on the globe both are as far apart as it says: no plane reaches from the one to the other.
-    let apart = held.middle.zip(held.origin).map(|(there, here)| there.great_circle(here));
-    let apart = apart.filter(|apart| *apart > PLANE_M);
+    let nearest = held.origin.and_then(|here| {
+        held.places.iter().map(|there| (there.great_circle(here), *there, here)).min_by(|a, b| a.0.total_cmp(&b.0))
+    });
+    let apart = nearest.map(|(apart, ..)| apart).filter(|apart| *apart > SAME_PLANE_M);
     let start = -area.gap(world.vehicle.start);
     let message = match (apart, &world.region) {
         (Some(apart), _) => {
@@ -54,11 +56,11 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
         }
         _ => return None,
     };
-    if let Some(swapped) = held.middle.and_then(|middle| script.swapped_area(mission, middle)) {
+    if let Some(swapped) = script.swapped_area(mission, held.places) {
         return Some(swapped);
     }
-    let places = match held.middle.zip(held.origin) {
-        Some((there, here)) => format!("the area lies about {here}, `{name}` about {there}"),
+    let places = match nearest {
+        Some((_, there, here)) => format!("the area lies about {here}, `{name}` about {there}"),
         None => "both are in metres from one origin".to_string(),
     };
     let own = script.missions().find(|info| info.name == mission).and_then(|info| info.scenario.as_deref());
@@ -97,9 +99,6 @@ fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) 
     let help = format!("let `{scenario}` have a profiler for such a flow: `adcp(fastest: {:.1} m/s)`", 2.0 * speed);
     (speed >= fastest).then(|| Diagnostic::warning(Code::ScenariosWorld, span, message).help(help))
 }
-
-/// Places on the globe farther apart than this, m, are told apart on the globe, nearer ones in the plane.
-const PLANE_M: f64 = 50_000.0;
 
 /// Areas that reach no further beyond what is known than this, m, are meant to be its own.
 const MARGIN: f64 = 0.5;
