@@ -47,7 +47,7 @@ mission edges within 5 min {
     start go
     go       -> go    on done and                 // once more
                          tries * 2 < 4            do { tries = tries + 1 }
-    go       -> look  on after 5 s then back
+    go       -> look  on becomes after 5 s then back
     go       -> end   on done
     go       -> end   on after 1 min
     end      -> abort "\"far\" & <deep> #1" on tries > 3
