@@ -43,7 +43,9 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
     });
     let apart = nearest.map(|(apart, ..)| apart).filter(|apart| *apart > SAME_PLANE_M);
     let start = -area.gap(world.vehicle.start);
-    let message = match (apart, &world.region) {
+    // A record is its own region, and `uncovered` says more of it.
+    let region = world.region.as_ref().filter(|_| world.recording.is_none());
+    let message = match (apart, region) {
         (Some(apart), _) => {
             format!("`{name}` lies {:.0} km from the area of the mission `{mission}`", apart / 1000.0)
         }
