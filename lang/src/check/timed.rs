@@ -11,7 +11,7 @@ use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree::{self, WithItem};
 use crate::types::Type;
-use albacore_program::{Channel, Guide};
+use albacore_program::{Channel, Guide, RADIUS_MIN_M};
 
 /// The enum of an override's ends, in the library's inputs.
 const OVERRIDE_END: &str = "OverrideEnd";
@@ -231,7 +231,7 @@ impl<'t> Checker<'t> {
                 span: verb.span,
             };
         let yes = |b: bool| Some((ExprKind::Number(f64::from(u8::from(b))), Type::Bool, Interval::ANY));
-        let positive = Some(Interval::at_least(0.1));
+        let positive = Some(Interval::at_least(RADIUS_MIN_M));
         // A turning radius of 0 stands for the one that the speed and the command filter allow.
         let turning = || param("radius", LENGTH, length(0.0), positive);
         let (guide, params, ends) = match verb.node.as_str() {

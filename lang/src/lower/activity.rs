@@ -20,6 +20,7 @@ impl<'a> Lowering<'a> {
         self.find_origin(activity);
         self.inputs();
         self.keep_samples();
+        self.claim_inputs();
         self.constants_at = Some(slot(self.input_words()));
         let unit = self.unit(id);
         let base = self.input_words().saturating_add(self.program.constants.len() as u64);

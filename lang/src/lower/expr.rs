@@ -199,6 +199,7 @@ impl<'a> Lowering<'a> {
             at = at.saturating_add(words);
         }
         self.emit(Op::Call { code: code.entry, base });
+        self.typed(base + code.result, &self.hir.fns[id].result);
         self.copy(to, base + code.result, words);
     }
 
@@ -322,6 +323,9 @@ impl<'a> Lowering<'a> {
             B::Spread => Op::Spread { to, list: a, heading: b },
         };
         self.emit(op);
+        if let (Op::At { .. }, Type::List(inner, _)) = (op, &operands[0].ty) {
+            self.typed(to.saturating_add(1), inner);
+        }
     }
 
     fn center_of(&mut self, area: Slot) -> Slot {

@@ -45,6 +45,7 @@ impl<'a> Lowering<'a> {
         self.emit(Op::Const { to: counter, value: 0.0 });
         let top = self.here();
         self.emit(Op::At { to: found, list: copy, index: counter, words: element });
+        self.typed(found.saturating_add(1), inner);
         let done = self.emit(Op::JumpUnless { unless: found, to: 0 });
         let to = self.frame.vars[var];
         self.copy(to, found + 1, element);

@@ -5,6 +5,7 @@
 //! so that the place of every frame inside its caller's is known.
 
 mod activity;
+mod claims;
 mod condition;
 mod control;
 mod expr;
@@ -28,7 +29,7 @@ use crate::hir::{self, Hir};
 use crate::source::{Sources, Span};
 use crate::types::TypeTable;
 use albacore_geometry::{Geodetic, Point, TangentFrame};
-use albacore_program::{ABSOLUTE, Addr, Input, Op, Program, Shape, Slot};
+use albacore_program::{ABSOLUTE, Addr, Claims, Input, Op, Program, Shape, Slot};
 use std::collections::BTreeMap;
 
 /// Where the frame about an area touches the globe: in the middle of the positions that it is made of.
@@ -77,6 +78,8 @@ struct UnitCode {
 pub struct Lowered {
     /// The mission.
     pub program: Program,
+    /// What the checker takes its variables to be.
+    pub claims: Claims,
     /// All its words, of which the program says no more than it can hold.
     pub words: u64,
     /// All its instructions, of which the program has no more than it can hold.
@@ -93,6 +96,7 @@ struct Lowering<'a> {
     types: &'a TypeTable,
     sources: &'a Sources,
     program: Program,
+    claims: Claims,
     origin: Option<Geodetic>,
     fns: BTreeMap<usize, FnCode>,
     units: BTreeMap<usize, UnitCode>,
@@ -187,6 +191,7 @@ fn within_limits(lowering: Lowering<'_>, mission: usize) -> Result<Program, Vec<
     }
     // What the checker has let through is looked through again, in every test.
     debug_assert_eq!(lowered.program.verify(), Ok(()));
+    debug_assert_eq!(lowered.program.verify_ranges(&lowered.claims), Ok(()));
     Ok(lowered.program)
 }
 
@@ -197,6 +202,7 @@ impl<'a> Lowering<'a> {
             types,
             sources,
             program: Program::default(),
+            claims: Claims::default(),
             origin: None,
             fns: BTreeMap::new(),
             units: BTreeMap::new(),
@@ -217,6 +223,7 @@ impl<'a> Lowering<'a> {
         }
         Ok(Lowered {
             program: self.program,
+            claims: self.claims,
             words,
             instructions: self.emitted,
             units: self.units.into_iter().map(|(id, unit)| (id, (unit.words, unit.ops))).collect(),
@@ -291,6 +298,7 @@ impl<'a> Lowering<'a> {
         let outer = std::mem::take(&mut self.frame);
         // Callees must be complete before the first pass, so that both passes emit the same: the first pass lowers them.
         let mut temp_base = 0;
+        let begin = self.here();
         for pass in 0..2 {
             let mark = self.mark();
             self.frame = Frame { temp_base, ..Frame::default() };
@@ -305,7 +313,8 @@ impl<'a> Lowering<'a> {
             }
         }
         let words = self.frame.lasting.saturating_add(self.frame.temp_most);
-        self.frame = outer;
+        let slots = std::mem::replace(&mut self.frame, outer).vars;
+        self.claim_unit(begin, words, vars, &slots);
         words
     }
 
@@ -323,6 +332,7 @@ impl<'a> Lowering<'a> {
             texts: p.texts.len(),
             memories: p.memories.len(),
             findings: self.findings.len(),
+            typed: self.claims.typed.len(),
             emitted: self.emitted,
         }
     }
@@ -338,6 +348,7 @@ impl<'a> Lowering<'a> {
         p.texts.truncate(mark.texts);
         p.memories.truncate(mark.memories);
         self.findings.truncate(mark.findings);
+        self.claims.typed.truncate(mark.typed);
         self.emitted = mark.emitted;
     }
 
@@ -421,6 +432,7 @@ struct Mark {
     texts: usize,
     memories: usize,
     findings: usize,
+    typed: usize,
     emitted: u64,
 }
 

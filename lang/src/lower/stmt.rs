@@ -4,11 +4,8 @@ use super::Lowering;
 use crate::hir::{self, Action, Block, Expr, Stmt, StmtKind, Timed, With};
 use crate::types::Type;
 use albacore_program::{
-    CallSite, Cause, Channel, Guide, Op, OverlaySite, OverrideEnd, ReportSite, Slot, header, setpoints,
+    CallSite, Cause, Channel, GUIDANCE_WORDS, Guide, Op, OverlaySite, OverrideEnd, ReportSite, Slot, header, setpoints,
 };
-
-/// The words that a guidance law keeps while its statement lasts: the most that any of them needs.
-pub const GUIDANCE_WORDS: u32 = 32;
 
 impl<'a> Lowering<'a> {
     pub(super) fn stmts(&mut self, stmts: &[Stmt]) {
@@ -320,8 +317,10 @@ impl<'a> Lowering<'a> {
                 if cut && !ty.is_optional() {
                     self.emit(Op::Const { to, value: 1.0 });
                     self.copy(to + 1, *result, words);
+                    self.typed(to + 1, ty);
                 } else {
                     self.copy(to, *result, words);
+                    self.typed(to, ty);
                 }
             }
             _ => _ = self.emit(Op::Const { to, value: 1.0 }),

@@ -112,6 +112,14 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     };
     let mut program = lowering.program;
     program.words = slot(words);
+    let mut claims = lowering.claims;
+    for expect in &expects {
+        let depths = expect.depths.iter().map(|(point, _)| point);
+        let watched = expect.watched.iter().map(|(_, code, _)| code);
+        claims.pieces.extend(depths.chain(watched).chain([&expect.holds]).map(|code| code.entry));
+    }
+    debug_assert_eq!(program.verify(), Ok(()));
+    debug_assert_eq!(program.verify_ranges(&claims), Ok(()));
     Ok(TestProgram {
         name: test.name.clone(),
         file_name: test_file_name(&test.name),

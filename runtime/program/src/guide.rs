@@ -25,6 +25,23 @@ pub enum Guide {
     Loiter,
 }
 
+/// The words that a guidance law keeps while its statement lasts: the most that any of them needs.
+pub const GUIDANCE_WORDS: u32 = 32;
+/// The least radius, of arrival, of a turn or of a circle, m. A turning radius of 0 stands for the one that the speed allows.
+pub const RADIUS_MIN_M: f64 = 0.1;
+
+impl Guide {
+    /// The argument that is a radius, and whether it may be 0.
+    pub fn radius(self) -> Option<(u32, bool)> {
+        match self {
+            Guide::Goto | Guide::Loiter => Some((2, false)),
+            Guide::Follow => Some((4, true)),
+            Guide::Dubins => Some((3, true)),
+            Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait => None,
+        }
+    }
+}
+
 /// A channel of the command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "each variant is the channel of its name")]

@@ -20,7 +20,7 @@ pub use guide::*;
 pub use op::*;
 pub use shape::*;
 pub use slot::*;
-pub use verify::Unsound;
+pub use verify::{Claim, Claims, Unit, Unsound};
 
 use albacore_arithmetic::Interval;
 use albacore_geometry::Geodetic;

@@ -2,11 +2,21 @@
 //! is written among inputs and constants, and every tick ends. A way through code that leads back to where it was gives the
 //! tick away, or counts its rounds towards an end that stands.
 //!
-//! It takes no word for anything from what the checker has shown of a script. How often a counted loop goes round is not looked
-//! at here; the bill of a mission tells that.
+//! [`Program::verify`] takes no word for anything from what the checker has shown of a script. How often a counted loop goes round
+//! is not looked at here; the bill of a mission tells that. [`Program::verify_ranges`] computes the ranges of numbers anew, from
+//! nothing but what the checker takes a unit's variables to be, which it holds to it.
 
-use crate::{ABSOLUTE, AREA_WORDS, Addr, EDGE_WORDS, Op, Program, Slot};
+mod claims;
+mod known;
+mod pieces;
+mod ranges;
+mod written;
+
+pub use claims::{Claim, Claims, Unit};
+
+use crate::{ABSOLUTE, Addr, Op, Program, Slot};
 use std::collections::{BTreeMap, BTreeSet};
+use written::{goes_on, jump, written};
 
 /// Code that must not be run, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +35,7 @@ impl Program {
             if jump(op).is_some_and(|to| to as usize >= self.ops.len()) {
                 return Err(unsound("it leads to where there is no code"));
             }
-            if let Some((to, words)) = written(op) {
+            for (to, words) in written(op) {
                 if to & ABSOLUTE != 0 {
                     return Err(unsound("it writes among inputs and constants"));
                 }
@@ -54,7 +64,7 @@ impl Program {
     /// Where code may go on in the same tick.
     fn next(&self, at: Addr) -> [Option<Addr>; 2] {
         let op = &self.ops[at as usize];
-        let goes_on = !matches!(op, Op::Jump { .. } | Op::Return | Op::Yield | Op::End | Op::Finish | Op::Abort { .. });
+        let goes_on = goes_on(op) && !matches!(op, Op::Yield);
         [jump(op), (goes_on && (at as usize + 1) < self.ops.len()).then_some(at + 1)]
     }
 
@@ -80,9 +90,9 @@ impl Program {
     fn counts(&self, at: Addr, ring: &BTreeSet<Addr>) -> bool {
         let Op::AddInt { to, a, b } = self.ops[at as usize] else { return false };
         let stands = |slot: Slot, except: Option<Addr>| {
-            ring.iter().filter(|&&other| Some(other) != except).all(|&other| {
-                !written(&self.ops[other as usize]).is_some_and(|(to, words)| slot >= to && slot - to < words)
-            })
+            ring.iter()
+                .filter(|&&other| Some(other) != except)
+                .all(|&other| !written(&self.ops[other as usize]).any(|(to, words)| slot >= to && slot - to < words))
         };
         if to != a || !self.is_one(b, at) || !stands(to, Some(at)) {
             return false;
@@ -166,83 +176,4 @@ fn lower(index: &mut BTreeMap<Addr, (usize, usize)>, at: Addr, to: Addr) {
     if let Some((_, low)) = index.get_mut(&at) {
         *low = (*low).min(reached);
     }
-}
-
-/// Where an instruction may jump to.
-fn jump(op: &Op) -> Option<Addr> {
-    match *op {
-        Op::Jump { to }
-        | Op::JumpIf { to, .. }
-        | Op::JumpUnless { to, .. }
-        | Op::JumpIfLess { to, .. }
-        | Op::JumpUnlessLess { to, .. }
-        | Op::JumpIfAtMost { to, .. }
-        | Op::JumpUnlessAtMost { to, .. } => Some(to),
-        _ => None,
-    }
-}
-
-/// The words that an instruction itself writes. Functions and activities that it calls have frames of their own.
-fn written(op: &Op) -> Option<(Slot, u32)> {
-    Some(match *op {
-        Op::CopyMany { to, words, .. } | Op::Clear { to, words } => (to, words),
-        Op::Quotient { to, .. } => (to, 2),
-        Op::AddVector { to, .. } | Op::SubVector { to, .. } | Op::Scale { to, .. } | Op::Toward { to, .. } => (to, 2),
-        Op::Center { to, .. } | Op::Corner { to, .. } | Op::Exit { to, .. } => (to, 2),
-        Op::Rectangle { to, .. } | Op::Polygon { to, .. } => (to, AREA_WORDS),
-        Op::EdgeAt { to, .. } | Op::NearestEdge { to, .. } => (to, EDGE_WORDS),
-        Op::RowAt { to, .. } => (to, 4),
-        Op::Push { list, words, capacity, .. } | Op::PushSorted { list, words, capacity, .. } => {
-            (list, 1 + words * capacity)
-        }
-        Op::Remove { list, words, .. } | Op::Sort { list, words, .. } => (list, 1 + words),
-        Op::At { to, words, .. } | Op::Top { to, words, .. } => (to, 1 + words),
-        Op::Guide { ended, .. } | Op::Step { ended, .. } => (ended, 1),
-        Op::Answer { ours, .. } => (ours, 1),
-        Op::Driven { suspended, .. } => (suspended, 1),
-        Op::Const { to, .. }
-        | Op::Copy { to, .. }
-        | Op::Add { to, .. }
-        | Op::Sub { to, .. }
-        | Op::Mul { to, .. }
-        | Op::Div { to, .. }
-        | Op::AddInt { to, .. }
-        | Op::SubInt { to, .. }
-        | Op::MulInt { to, .. }
-        | Op::Min { to, .. }
-        | Op::Max { to, .. }
-        | Op::Pow { to, .. }
-        | Op::Neg { to, .. }
-        | Op::Abs { to, .. }
-        | Op::Sqrt { to, .. }
-        | Op::Floor { to, .. }
-        | Op::Ceil { to, .. }
-        | Op::Round { to, .. }
-        | Op::Sin { to, .. }
-        | Op::Cos { to, .. }
-        | Op::WrapHeading { to, .. }
-        | Op::WrapAngle { to, .. }
-        | Op::Ticks { to, .. }
-        | Op::Lt { to, .. }
-        | Op::Le { to, .. }
-        | Op::Eq { to, .. }
-        | Op::Not { to, .. }
-        | Op::And { to, .. }
-        | Op::Or { to, .. }
-        | Op::Direction { to, .. }
-        | Op::Length { to, .. }
-        | Op::Dot { to, .. }
-        | Op::Along { to, .. }
-        | Op::Gap { to, .. }
-        | Op::EdgeGap { to, .. }
-        | Op::EdgeTangent { to, .. }
-        | Op::Spread { to, .. }
-        | Op::Age { to, .. }
-        | Op::Hits { to, .. }
-        | Op::HeldFor { to, .. }
-        | Op::Becomes { to, .. }
-        | Op::Elapsed { to, .. }
-        | Op::Now { to, .. } => (to, 1),
-        _ => return None,
-    })
 }

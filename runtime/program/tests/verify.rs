@@ -2,7 +2,8 @@
 
 #![allow(missing_docs, reason = "each test says what it shows")]
 
-use albacore_program::{ABSOLUTE, Op, Program};
+use albacore_arithmetic::Interval;
+use albacore_program::{ABSOLUTE, Claim, Claims, Guide, Op, Program, Unit};
 
 fn of(ops: Vec<Op>) -> Program {
     Program { ops, constants: vec![1.0], words: 8, ..Program::default() }
@@ -58,4 +59,128 @@ fn places_are_there() {
     assert_eq!(why(vec![Op::Copy { to: ABSOLUTE, from: 0 }]), Some("it writes among inputs and constants"));
     assert_eq!(why(vec![Op::Clear { to: 5, words: 4 }]), Some("it writes beyond the words of a run"));
     assert_eq!(why(vec![Op::Log { text: 0 }]), Some("it names what is not there"));
+}
+
+/// A unit of all the code, of which words 0 and 1 are claimed to lie in 0..10, and word 2 to be a whole number from 1 to 5.
+fn claims(ops: &[Op]) -> Claims {
+    let claim = |slot, range, is_whole| Claim { slot, range, is_whole, present: None, is_param: false };
+    let ten = Interval::new(0.0, 10.0);
+    let claims = vec![claim(0, ten, false), claim(1, ten, false), claim(2, Interval::new(1.0, 5.0), true)];
+    let unit = Unit { code: 0..ops.len() as u32, words: 8, claims, ..Unit::default() };
+    Claims { units: vec![unit], pieces: vec![0], ..Claims::default() }
+}
+
+fn why_by_range(ops: Vec<Op>) -> Option<&'static str> {
+    let claims = claims(&ops);
+    of(ops).verify_ranges(&claims).err().map(|unsound| unsound.why)
+}
+
+const BY_ZERO: Option<&str> = Some("it may divide by zero");
+const CLAIMED: Option<&str> = Some("a variable may be outside the range that is claimed of it");
+
+#[test]
+fn what_has_no_value_is_found() {
+    assert_eq!(why_by_range(vec![Op::Div { to: 4, a: 0, b: 1 }, Op::Return]), BY_ZERO);
+    assert_eq!(why_by_range(vec![Op::Div { to: 4, a: 0, b: 2 }, Op::Return]), None);
+    assert_eq!(why_by_range(vec![Op::Div { to: 4, a: 0, b: 5 }, Op::Return]), BY_ZERO, "of which nothing is known");
+    let difference = |then| vec![Op::Sub { to: 4, a: 0, b: 1 }, then, Op::Return];
+    let root = Some("it may take the root of a negative number");
+    assert_eq!(why_by_range(difference(Op::Sqrt { to: 4, a: 4 })), root);
+    assert_eq!(why_by_range(difference(Op::Sqrt { to: 4, a: 0 })), None);
+    assert_eq!(why_by_range(difference(Op::Ticks { to: 4, a: 4 })), Some("a time may be negative"));
+    assert_eq!(why_by_range(difference(Op::Ticks { to: 4, a: 1 })), None);
+    let circle = |radius| {
+        let args =
+            [Op::Copy { to: 6, from: radius }, Op::Begin { guide: Guide::Loiter, args: 4, state: 8, setpoints: 7 }];
+        [args.as_slice(), &[Op::Return]].concat()
+    };
+    assert_eq!(why_by_range(circle(0)), Some("a radius may be too small"));
+    assert_eq!(why_by_range(circle(2)), None);
+}
+
+#[test]
+fn what_a_jump_shows_is_known_behind_it_and_nowhere_else() {
+    let guarded = |between: Vec<Op>, at| {
+        let mut ops = vec![Op::JumpUnlessLess { a: ABSOLUTE | 1, b: 0, to: 0 }];
+        ops.extend(between);
+        ops.extend([Op::Div { to: 4, a: 1, b: at }, Op::Return]);
+        let end = ops.len() as u32 - 1;
+        ops[0] = Op::JumpUnlessLess { a: ABSOLUTE | 1, b: 0, to: end };
+        let claims = claims(&ops);
+        let program = Program { ops, constants: vec![1.0, 0.0], words: 48, ..Program::default() };
+        program.verify_ranges(&claims).err().map(|unsound| unsound.why)
+    };
+    assert_eq!(guarded(vec![], 0), None);
+    assert_eq!(guarded(vec![], 1), BY_ZERO, "another word");
+    assert_eq!(guarded(vec![Op::Copy { to: 0, from: 1 }], 0), BY_ZERO, "it is written behind the jump");
+    assert_eq!(guarded(vec![Op::Copy { to: 5, from: 0 }], 5), None, "a copy of it");
+    // The other side of a test that is kept in a word.
+    let kept = |negated: bool| {
+        let ops = vec![
+            Op::Lt { to: 5, a: ABSOLUTE | 1, b: 0 },
+            if negated { Op::Not { to: 5, a: 5 } } else { Op::Copy { to: 6, from: 5 } },
+            Op::JumpUnless { unless: if negated { 5 } else { 6 }, to: 4 },
+            Op::Div { to: 4, a: 1, b: 0 },
+            Op::Return,
+        ];
+        let claims = claims(&ops);
+        let program = Program { ops, constants: vec![1.0, 0.0], words: 48, ..Program::default() };
+        program.verify_ranges(&claims).err().map(|unsound| unsound.why)
+    };
+    assert_eq!(kept(false), None);
+    assert_eq!(kept(true), BY_ZERO);
+}
+
+#[test]
+fn claims_are_kept_wherever_others_could_read() {
+    let times = |end| vec![Op::Add { to: 0, a: 0, b: 1 }, Op::Min { to: 0, a: 0, b: 2 }, end];
+    assert_eq!(why_by_range(times(Op::Return)), None, "it is mended before anybody reads it");
+    assert_eq!(why_by_range(vec![Op::Add { to: 0, a: 0, b: 1 }, Op::Return]), CLAIMED);
+    assert_eq!(
+        why_by_range(vec![Op::Add { to: 0, a: 0, b: 1 }, Op::Yield, Op::Const { to: 0, value: 1.0 }, Op::Return]),
+        CLAIMED
+    );
+    assert_eq!(why_by_range(vec![Op::Const { to: 2, value: 0.0 }, Op::Return]), CLAIMED);
+}
+
+#[test]
+fn what_grows_from_round_to_round_is_known_to() {
+    // A counter of so many rounds as word 2 says: it stays below its end, and 10 stays above it.
+    let rounds = |bound: f64, end: Op| {
+        let ops = vec![
+            Op::Const { to: 5, value: 0.0 },
+            Op::Const { to: 6, value: bound },
+            Op::SubInt { to: 7, a: 6, b: 5 },
+            Op::Div { to: 4, a: 1, b: 7 },
+            Op::AddInt { to: 5, a: 5, b: ONE },
+            end,
+            Op::Return,
+        ];
+        why_by_range(ops)
+    };
+    let counted = Op::JumpIfLess { a: 5, b: 2, to: 2 };
+    assert_eq!(rounds(5.0, counted), None);
+    assert_eq!(rounds(4.0, counted), BY_ZERO, "in the fifth round");
+    assert_eq!(rounds(5.0, Op::JumpIf { if_: 3, to: 2 }), BY_ZERO, "of rounds without an end");
+}
+
+#[test]
+fn who_calls_keeps_to_what_a_parameter_claims() {
+    let call = |given: f64| {
+        let ops = vec![
+            Op::Const { to: 4, value: given },
+            Op::Call { code: 3, base: 4 },
+            Op::Return,
+            Op::Div { to: 1, a: 1, b: 0 },
+            Op::Return,
+        ];
+        let range = Interval::new(1.0, 2.0);
+        let claim = Claim { slot: 0, range, is_whole: false, present: None, is_param: true };
+        let caller = Unit { code: 0..3, words: 8, ..Unit::default() };
+        let called = Unit { code: 3..5, words: 2, claims: vec![claim], ..Unit::default() };
+        let claims = Claims { units: vec![caller, called], pieces: vec![0], ..Claims::default() };
+        of(ops).verify_ranges(&claims).err().map(|unsound| unsound.why)
+    };
+    assert_eq!(call(1.5), None);
+    assert_eq!(call(0.0), Some("an argument may be outside the range of its parameter"));
 }

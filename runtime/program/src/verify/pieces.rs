@@ -1,0 +1,66 @@
+//! Where the machine begins to execute.
+
+use crate::{Activity, Addr, Body, Code, Op, Program, Target};
+use std::collections::BTreeSet;
+
+impl Program {
+    /// Every piece of code that is executed on its own but the effects of rules, which follow on their guards.
+    pub(super) fn pieces(&self) -> BTreeSet<Addr> {
+        let mission = &self.mission;
+        let limits = &mission.limits;
+        let mut codes: Vec<Option<Code>> = vec![
+            mission.within,
+            limits.altitude_min,
+            limits.altitude_max,
+            limits.depth_min,
+            limits.depth_max,
+            limits.speed_min,
+            limits.speed_max,
+            limits.turn_rate_max,
+            limits.latency_max,
+            mission.recovery.and_then(|recovery| recovery.within),
+        ];
+        for require in &mission.requires {
+            codes.extend([Some(require.fresh), require.at_first, require.hold_for]);
+        }
+        let mut pieces: BTreeSet<Addr> = codes.into_iter().flatten().map(|code| code.entry).collect();
+        pieces.insert(mission.params);
+        self.activities.iter().for_each(|activity| pieces_of(activity, &mut pieces));
+        for op in &self.ops {
+            match *op {
+                Op::Call { code, .. } => _ = pieces.insert(code),
+                Op::Sort { key, .. } => _ = pieces.insert(key),
+                Op::PushSorted { sort, .. } => _ = pieces.insert(sort),
+                _ => {}
+            }
+        }
+        pieces
+    }
+
+    /// What follows on the guard of a rule: its effect, and what the strategy finishes with.
+    pub(super) fn follow(&self, rule: u32) -> impl Iterator<Item = Addr> {
+        let rule = self.rules.get(rule as usize);
+        let finish = rule.and_then(|rule| match rule.target {
+            Target::Finish(code) => code,
+            _ => None,
+        });
+        rule.and_then(|rule| rule.effect).into_iter().chain(finish)
+    }
+}
+
+fn pieces_of(activity: &Activity, pieces: &mut BTreeSet<Addr>) {
+    pieces.extend([activity.entry, activity.refresh, activity.reactions]);
+    pieces.extend(activity.aborts.iter().map(|abort| abort.condition.entry));
+    match &activity.body {
+        Body::Sequence(at) => _ = pieces.insert(*at),
+        Body::Amend { amended, .. } => _ = pieces.insert(amended.entry),
+        Body::Table(table) => {
+            for behavior in &table.behaviors {
+                pieces.extend([behavior.arm, behavior.watch]);
+                for exit in &behavior.exits {
+                    pieces.extend(exit.watched.iter().map(|watched| watched.code.entry));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,612 @@
+//! The ranges of numbers, computed from the code itself by the rules that stand beside what the machine executes.
+//!
+//! Each piece of code begins with what its unit claims of its variables, follows every way through jumps, learns from those that
+//! compare, and is held to the claims wherever others could read what it has written. Nothing is taken from the checker but the
+//! claims; a division by what may be zero, the root of what may be negative, a negative time, or a claim that is not kept, is
+//! unsound code.
+
+use super::Unsound;
+use super::claims::{Claims, Unit};
+use super::known::{Ground, Known, Tells, Word, widened};
+use super::written::{goes_on, jump, written};
+use crate::{ABSOLUTE, Activity, Addr, Body, GUIDANCE_WORDS, Guide, Op, Program, RADIUS_MIN_M, Slot};
+use albacore_arithmetic::{Div, Interval, Operation, Operator, Pow, Sqrt, Ticks, counted};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// So often a result is taken as it is; then what still grows is widened.
+const PATIENCE: u32 = 3;
+
+impl Program {
+    /// Computes all ranges anew, and holds the code to what is claimed.
+    pub fn verify_ranges(&self, claims: &Claims) -> Result<(), Unsound> {
+        let pieces: BTreeSet<Addr> = self.pieces().into_iter().chain(claims.pieces.iter().copied()).collect();
+        for unit in &claims.units {
+            let mut own: Vec<Addr> = pieces.iter().copied().filter(|at| unit.code.contains(at)).collect();
+            let guards = self.guards(unit);
+            own.extend(guards.iter().map(|(guard, _)| *guard));
+            own.extend(guards.iter().flat_map(|(_, rule)| self.follow(*rule)));
+            own.sort_unstable();
+            own.dedup();
+            let mut ranges = Ranges::new(self, claims, unit, &own);
+            // Twice: what a timer shows is known when all code has been seen once.
+            for holds_to_it in [false, true] {
+                ranges.holds_to_it = holds_to_it;
+                ranges.unit_code(&own, &guards)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The guards of a unit's rules, and whose they are.
+    fn guards(&self, unit: &Unit) -> Vec<(Addr, u32)> {
+        let tables = self.activities.iter().filter_map(|activity| match &activity.body {
+            Body::Table(table) if unit.code.contains(&activity.entry) => Some(table),
+            _ => None,
+        });
+        let exits = tables.flat_map(|table| &table.behaviors).flat_map(|behavior| &behavior.exits);
+        exits
+            .flat_map(|exit| {
+                [Some(exit.guard), exit.guard_done].into_iter().flatten().map(|code| (code.entry, exit.rule))
+            })
+            .collect()
+    }
+
+    /// Where the value of a guard is.
+    fn guard_value(&self, guard: Addr) -> Option<Slot> {
+        let tables = self.activities.iter().filter_map(|activity| match &activity.body {
+            Body::Table(table) => Some(table),
+            _ => None,
+        });
+        let exits = tables.flat_map(|table| &table.behaviors).flat_map(|behavior| &behavior.exits);
+        let mut codes = exits.flat_map(|exit| [Some(exit.guard), exit.guard_done].into_iter().flatten());
+        codes.find(|code| code.entry == guard).map(|code| code.value)
+    }
+}
+
+/// The ranges of one unit.
+struct Ranges<'p> {
+    program: &'p Program,
+    claims: &'p Claims,
+    unit: &'p Unit,
+    ground: Ground<'p>,
+    typed: BTreeMap<Addr, Vec<(Slot, Word)>>,
+    /// Where ways meet.
+    meets: BTreeSet<Addr>,
+    /// For each piece the words that others of its unit write.
+    foreign: BTreeMap<Addr, Vec<(Slot, u32)>>,
+    /// What timers show, as far as it is known.
+    timers: BTreeMap<Slot, Option<Vec<(Slot, Interval)>>>,
+    /// The results of instructions in the piece at hand, and how often they were computed.
+    results: BTreeMap<Addr, (Interval, u32)>,
+    holds_to_it: bool,
+}
+
+impl<'p> Ranges<'p> {
+    fn new(program: &'p Program, claims: &'p Claims, unit: &'p Unit, own: &[Addr]) -> Self {
+        let code = unit.code.start as usize..(unit.code.end as usize).min(program.ops.len());
+        let meets = program.ops[code].iter().filter_map(jump).collect();
+        let mut typed: BTreeMap<Addr, Vec<(Slot, Word)>> = BTreeMap::new();
+        for (at, claim) in &claims.typed {
+            let word = Word { range: claim.range, is_whole: claim.is_whole };
+            typed.entry(*at).or_default().push((claim.slot, word));
+        }
+        let ground = Ground::new(program, claims, unit);
+        let mut ranges = Ranges {
+            program,
+            claims,
+            unit,
+            ground,
+            typed,
+            meets,
+            foreign: BTreeMap::new(),
+            timers: BTreeMap::new(),
+            results: BTreeMap::new(),
+            holds_to_it: false,
+        };
+        let writes: Vec<(Addr, Vec<(Slot, u32)>)> = own.iter().map(|&piece| (piece, ranges.writes(piece))).collect();
+        for &(piece, _) in &writes {
+            let others = writes.iter().filter(|(other, _)| *other != piece).flat_map(|(_, writes)| writes);
+            ranges.foreign.insert(piece, merged(others.copied().collect()));
+        }
+        ranges
+    }
+
+    /// All words that a piece of code writes, with the subroutines of its own frame.
+    fn writes(&self, piece: Addr) -> Vec<(Slot, u32)> {
+        let mut seen = BTreeSet::new();
+        let mut open = vec![piece];
+        let mut writes = Vec::new();
+        while let Some(at) = open.pop() {
+            let Some(op) = self.program.ops.get(at as usize).filter(|_| seen.insert(at)) else { continue };
+            match *op {
+                // As many elements as before, in another order.
+                Op::Sort { list, words, it, key, .. } => {
+                    open.push(key);
+                    let (list, length) = self.list(list);
+                    writes.extend([(it, words), (list.saturating_add(1), length.saturating_sub(1))]);
+                }
+                Op::Remove { list, .. } => writes.push(self.list(list)),
+                _ => writes.extend(written(op)),
+            }
+            match *op {
+                Op::PushSorted { sort, .. } => open.push(sort),
+                Op::Call { code, base: 0 } if self.unit.code.contains(&code) => open.push(code),
+                _ => {}
+            }
+            open.extend(jump(op));
+            if goes_on(op) {
+                open.push(at + 1);
+            }
+        }
+        merged(writes)
+    }
+
+    /// The words of a list: of a variable its own, of any other as many as there may be.
+    fn list(&self, list: Slot) -> (Slot, u32) {
+        self.unit.lists.iter().copied().find(|(slot, _)| *slot == list).unwrap_or((list, ABSOLUTE - list))
+    }
+
+    fn unit_code(&mut self, own: &[Addr], guards: &[(Addr, u32)]) -> Result<(), Unsound> {
+        let mut after: BTreeMap<u32, Known> = BTreeMap::new();
+        let is_guard = |at: &Addr| guards.iter().any(|(guard, _)| guard == at);
+        for &guard in own.iter().filter(|at| is_guard(at)) {
+            let Some(mut known) = self.piece(guard, Known::default())? else { continue };
+            let fires = self.program.guard_value(guard).is_none_or(|value| known.assume(&self.ground, value, true));
+            if !fires {
+                continue;
+            }
+            for rule in guards.iter().filter(|(of, _)| *of == guard).map(|(_, rule)| *rule) {
+                let known = match after.get(&rule) {
+                    Some(other) => other.join(&known, &self.ground),
+                    None => known.clone(),
+                };
+                after.insert(rule, known);
+            }
+        }
+        let following: BTreeSet<Addr> = guards.iter().flat_map(|(_, rule)| self.program.follow(*rule)).collect();
+        for &piece in own.iter().filter(|at| !is_guard(at) && !following.contains(at)) {
+            self.piece(piece, Known::default())?;
+        }
+        for (rule, known) in after {
+            let pieces: Vec<Addr> = self.program.follow(rule).collect();
+            for piece in pieces {
+                self.piece(piece, known.clone())?;
+            }
+        }
+        for (timer, shows) in std::mem::take(&mut self.timers) {
+            self.ground.timer(timer, shows.unwrap_or_default());
+        }
+        Ok(())
+    }
+
+    /// Follows a piece of code along every way; gives what is known where it returns.
+    fn piece(&mut self, entry: Addr, start: Known) -> Result<Option<Known>, Unsound> {
+        let mut met: BTreeMap<Addr, (Known, u32)> = BTreeMap::new();
+        let mut open: BTreeMap<Addr, Known> = BTreeMap::from([(entry, start)]);
+        let mut returned: Option<Known> = None;
+        self.results.clear();
+        while let Some((begin, known)) = open.pop_first() {
+            let (mut at, mut known) = (begin, known);
+            loop {
+                if self.meets.contains(&at) || at == entry {
+                    let joined = match met.get(&at) {
+                        None => known,
+                        Some((before, times)) => {
+                            let mut joined = before.join(&known, &self.ground);
+                            if *times >= PATIENCE {
+                                joined.settle(before);
+                            }
+                            if joined == *before {
+                                break;
+                            }
+                            joined
+                        }
+                    };
+                    let times = met.get(&at).map_or(0, |(_, times)| times + 1);
+                    met.insert(at, (joined.clone(), times));
+                    known = joined;
+                }
+                let Some(op) = self.program.ops.get(at as usize) else { break };
+                if let Some(to) = jump(op) {
+                    let mut jumped = known.clone();
+                    if self.jumps(op, &mut jumped, true) {
+                        let jumped = match open.get(&to) {
+                            Some(other) => other.join(&jumped, &self.ground),
+                            None => jumped,
+                        };
+                        open.insert(to, jumped);
+                    }
+                    if matches!(op, Op::Jump { .. }) || !self.jumps(op, &mut known, false) {
+                        break;
+                    }
+                } else {
+                    self.execute(entry, at, op, &mut known)?;
+                    for (slot, word) in self.typed.get(&at).into_iter().flatten() {
+                        let word = Word { is_whole: word.is_whole, ..known.word(&self.ground, *slot) }
+                            .and(word.range)
+                            .unwrap_or(*word);
+                        let tells = known.tells(&self.ground, *slot);
+                        known.set(&self.ground, *slot, word, tells);
+                    }
+                    if matches!(op, Op::Return | Op::End | Op::Finish | Op::Abort { .. }) {
+                        self.keeps_claims(at, &known)?;
+                        returned = Some(match returned {
+                            Some(other) => other.join(&known, &self.ground),
+                            None => known,
+                        });
+                        break;
+                    }
+                }
+                at += 1;
+            }
+        }
+        Ok(returned)
+    }
+
+    /// What a jump tells when it is taken, or not; false where it cannot be.
+    fn jumps(&self, op: &Op, known: &mut Known, taken: bool) -> bool {
+        match *op {
+            Op::JumpIf { if_, .. } => known.assume(&self.ground, if_, taken),
+            Op::JumpUnless { unless, .. } => known.assume(&self.ground, unless, !taken),
+            Op::JumpIfLess { a, b, .. } => self.compared(known, a, b, true, taken),
+            Op::JumpUnlessLess { a, b, .. } => self.compared(known, a, b, true, !taken),
+            Op::JumpIfAtMost { a, b, .. } => self.compared(known, a, b, false, taken),
+            Op::JumpUnlessAtMost { a, b, .. } => self.compared(known, a, b, false, !taken),
+            _ => taken,
+        }
+    }
+
+    fn compared(&self, known: &mut Known, a: Slot, b: Slot, strict: bool, holds: bool) -> bool {
+        self.comparison(known, a, b, strict, holds).into_iter().all(|(of, range)| known.learn(&self.ground, of, range))
+    }
+
+    /// What is known when `a < b`, or `a <= b`, holds, or does not.
+    fn comparison(&self, known: &Known, a: Slot, b: Slot, strict: bool, holds: bool) -> [(Slot, Interval); 2] {
+        let (low, high) = if holds { (a, b) } else { (b, a) };
+        let strict = strict == holds;
+        let (lower, higher) = (known.word(&self.ground, low), known.word(&self.ground, high));
+        let up = match (strict, higher.is_whole) {
+            (true, true) => lower.range.low.floor() + 1.0,
+            (true, false) => lower.range.low.next_up(),
+            (false, _) => lower.range.low,
+        };
+        let down = match (strict, lower.is_whole) {
+            (true, true) => higher.range.high.ceil() - 1.0,
+            (true, false) => higher.range.high.next_down(),
+            (false, _) => higher.range.high,
+        };
+        [(high, Interval::at_least(up)), (low, Interval::at_most(down))]
+    }
+
+    /// Everything that others could read is as it is claimed.
+    fn keeps_claims(&self, at: Addr, known: &Known) -> Result<(), Unsound> {
+        if !self.holds_to_it {
+            return Ok(());
+        }
+        for claim in &self.unit.claims {
+            let is_written = known.is_tracked(claim.slot) || claim.present.is_some_and(|flag| known.is_tracked(flag));
+            if is_written && !self.keeps(known, claim.slot, claim.present, claim.range) {
+                return Err(Unsound { at, why: "a variable may be outside the range that is claimed of it" });
+            }
+        }
+        Ok(())
+    }
+
+    fn keeps(&self, known: &Known, slot: Slot, present: Option<Slot>, claimed: Interval) -> bool {
+        let mut known = known.clone();
+        if present.is_some_and(|flag| !known.assume(&self.ground, flag, true)) {
+            return true;
+        }
+        claimed.covers(known.range(&self.ground, slot))
+    }
+
+    /// What is called has its arguments as it claims them.
+    fn arguments(&self, at: Addr, known: &Known, code: Addr, base: Slot) -> Result<Option<&'p Unit>, Unsound> {
+        let called = self.claims.units.iter().find(|unit| unit.code.contains(&code));
+        let Some(called) = called.filter(|called| called.code != self.unit.code) else { return Ok(None) };
+        for claim in called.claims.iter().filter(|claim| claim.is_param && self.holds_to_it) {
+            let present = claim.present.map(|flag| base.saturating_add(flag));
+            if !self.keeps(known, base.saturating_add(claim.slot), present, claim.range) {
+                return Err(Unsound { at, why: "an argument may be outside the range of its parameter" });
+            }
+        }
+        Ok(Some(called))
+    }
+
+    fn called(&self, call: u32) -> Option<(&Activity, Slot)> {
+        let site = self.program.calls.get(call as usize)?;
+        Some((self.program.activities.get(site.activity as usize)?, site.base))
+    }
+
+    /// What is called runs: its frame is its own, and what others of this unit write may be written.
+    fn runs(&self, entry: Addr, at: Addr, known: &mut Known, code: Addr, base: Slot) -> Result<(), Unsound> {
+        self.keeps_claims(at, known)?;
+        match self.claims.units.iter().find(|unit| unit.code.contains(&code)) {
+            Some(called) if called.code != self.unit.code => {
+                let frame = base..base.saturating_add(called.words);
+                known.grounded(|slot| frame.contains(&slot));
+            }
+            _ => self.time_passes(entry, known),
+        }
+        Ok(())
+    }
+
+    /// Other code may run: what it writes is as claimed, and samples may come.
+    fn time_passes(&self, entry: Addr, known: &mut Known) {
+        let foreign = self.foreign.get(&entry).map_or(&[][..], Vec::as_slice);
+        let last = |slot: Slot| foreign.partition_point(|(from, _)| *from <= slot).checked_sub(1);
+        known.grounded(|slot| slot & ABSOLUTE != 0 || last(slot).is_some_and(|i| slot - foreign[i].0 < foreign[i].1));
+    }
+
+    /// One instruction that does not jump.
+    fn execute(&mut self, entry: Addr, at: Addr, op: &Op, known: &mut Known) -> Result<(), Unsound> {
+        let unsound = |why| Unsound { at, why };
+        let must = |holds: bool, why| if holds || !self.holds_to_it { Ok(()) } else { Err(unsound(why)) };
+        let range = |known: &Known, slot: Slot| known.range(&self.ground, slot);
+        let no_tells = Tells::default;
+        match *op {
+            Op::Div { b, .. } => must(Div::is_defined([Interval::ANY, range(known, b)]), "it may divide by zero")?,
+            Op::Sqrt { a, .. } => {
+                must(Sqrt::is_defined([range(known, a)]), "it may take the root of a negative number")?
+            }
+            Op::Pow { a, b, .. } => {
+                must(Pow::is_defined([range(known, a), range(known, b)]), "a power may have no value")?;
+            }
+            Op::Ticks { a, .. } => must(Ticks::is_defined([range(known, a)]), "a time may be negative")?,
+            Op::Rectangle { length, width, .. } => {
+                let has_size = range(known, length).low > 0.0 && range(known, width).low > 0.0;
+                must(has_size, "a rectangle may have no size")?;
+            }
+            Op::RowAt { step, .. } => must(range(known, step).low > 0.0, "rows may lie no distance apart")?,
+            Op::Begin { guide, args, .. } => {
+                if let Some((offset, may_be_zero)) = guide.radius() {
+                    let radius = range(known, args + offset);
+                    let is_right = radius.low >= RADIUS_MIN_M || may_be_zero && radius.constant() == Some(0.0);
+                    must(is_right, "a radius may be too small")?;
+                }
+            }
+            _ => {}
+        }
+        match *op {
+            Op::Const { to, value } => known.set(&self.ground, to, Word::exactly(value), no_tells()),
+            Op::Copy { to, from } => known.copy(&self.ground, from, to, 1),
+            Op::CopyMany { to, from, words } => known.copy(&self.ground, from, to, words),
+            Op::Clear { to, words } => {
+                known.forget(&self.ground, to, words);
+                known.set(&self.ground, to, Word::exactly(0.0), no_tells());
+            }
+            Op::Quotient { to, a, b } => {
+                let (a, b) = (range(known, a), range(known, b));
+                known.forget(&self.ground, to, 2);
+                if Div::is_defined([a, b]) {
+                    known.set(&self.ground, to, Word::exactly(1.0), no_tells());
+                    known.set(&self.ground, to + 1, Word::of(Div::rule([a, b])), no_tells());
+                } else {
+                    let quotient = Div::rule([a, b.and(Interval::NOT_ZERO)]);
+                    known.set(&self.ground, to + 1, Word::of(quotient.or(Interval::exactly(0.0))), no_tells());
+                    let tells = Tells { when: vec![(to + 1, quotient)], unless: Vec::new() };
+                    known.set(&self.ground, to, Word::TRUTH, tells);
+                }
+            }
+            Op::Lt { to, a, b } | Op::Le { to, a, b } => {
+                let strict = matches!(op, Op::Lt { .. });
+                let told = |holds| self.comparison(known, a, b, strict, holds).to_vec();
+                let tells = Tells { when: told(true), unless: told(false) };
+                known.set(&self.ground, to, Word::TRUTH, without(tells, to));
+            }
+            Op::Eq { to, a, b, words: 1 } => {
+                let (left, right) = (range(known, a), range(known, b));
+                let not_zero =
+                    |of, other: Interval| (other.constant() == Some(0.0)).then_some((of, Interval::NOT_ZERO));
+                let unless = [not_zero(a, right), not_zero(b, left)].into_iter().flatten().collect();
+                let tells = Tells { when: vec![(a, right), (b, left)], unless };
+                known.set(&self.ground, to, Word::TRUTH, without(tells, to));
+            }
+            Op::Not { to, a } => {
+                let Tells { when, unless } = known.tells(&self.ground, a);
+                known.set(&self.ground, to, Word::TRUTH, without(Tells { when: unless, unless: when }, to));
+            }
+            Op::And { to, a, b } | Op::Or { to, a, b } => {
+                let (mut left, right) = (known.tells(&self.ground, a), known.tells(&self.ground, b));
+                left.when.extend(right.when);
+                left.unless.extend(right.unless);
+                match op {
+                    Op::And { .. } => left.unless.clear(),
+                    _ => left.when.clear(),
+                }
+                known.set(&self.ground, to, Word::TRUTH, without(left, to));
+            }
+            Op::Age { to, .. } => {
+                known.set(&self.ground, to, Word::of(Operator::Age.rule(&[])), no_tells());
+            }
+            Op::Hits { to, of, .. } => {
+                known.set(&self.ground, to, Word { range: counted(of), is_whole: true }, no_tells());
+            }
+            Op::HeldFor { to, x, since, .. } => {
+                self.shown(to, known.tells(&self.ground, x).when);
+                known.forget(&self.ground, since, 1);
+                self.timer(known, to);
+            }
+            Op::Becomes { to, x, before } => {
+                self.shown(to, known.tells(&self.ground, x).when);
+                known.set(&self.ground, before, Word::TRUTH, no_tells());
+                self.timer(known, to);
+            }
+            Op::Elapsed { to, .. } => known.set(&self.ground, to, Word::TRUTH, no_tells()),
+            Op::At { to, words, .. } => {
+                known.forget(&self.ground, to, words.saturating_add(1));
+                known.set(&self.ground, to, Word::TRUTH, no_tells());
+            }
+            Op::Sort { .. } | Op::PushSorted { .. } | Op::Remove { .. } | Op::Push { .. } | Op::Top { .. } => {
+                self.list_changes(op, known);
+            }
+            Op::Call { code, base } => match self.arguments(at, known, code, base)? {
+                Some(_) => self.runs(entry, at, known, code, base)?,
+                None => self.writes(code).into_iter().for_each(|(slot, words)| self.forget(known, slot, words)),
+            },
+            Op::Enter { call } => {
+                if let Some((activity, base)) = self.called(call) {
+                    self.arguments(at, known, activity.entry, base)?;
+                    self.runs(entry, at, known, activity.entry, base)?;
+                }
+            }
+            Op::Step { call, ended } => {
+                if let Some((activity, base)) = self.called(call) {
+                    self.runs(entry, at, known, activity.entry, base)?;
+                }
+                known.set(&self.ground, ended, Word::TRUTH, no_tells());
+            }
+            Op::Cut { call, .. } => {
+                if let Some((activity, base)) = self.called(call) {
+                    self.runs(entry, at, known, activity.entry, base)?;
+                }
+            }
+            Op::PutOn { overlay } => {
+                if let Some(site) = self.program.overlays.get(overlay as usize)
+                    && let Some(activity) = self.program.activities.get(site.activity as usize)
+                {
+                    self.arguments(at, known, activity.entry, site.base)?;
+                    self.runs(entry, at, known, activity.entry, site.base)?;
+                }
+            }
+            Op::Yield => {
+                self.keeps_claims(at, known)?;
+                self.time_passes(entry, known);
+            }
+            Op::Begin { state, .. } => known.forget(&self.ground, state, GUIDANCE_WORDS),
+            Op::Guide { guide, state, ended, .. } => {
+                let words = if guide == Guide::Keep { 1 } else { GUIDANCE_WORDS };
+                known.forget(&self.ground, state, words);
+                known.set(&self.ground, ended, Word::TRUTH, no_tells());
+            }
+            _ => self.computed(at, op, known),
+        }
+        Ok(())
+    }
+
+    fn timer(&self, known: &mut Known, to: Slot) {
+        known.forget(&self.ground, to, 1);
+        // What it shows is known of the ground, where it has been seen.
+        known.grounded(|slot| slot == to);
+    }
+
+    /// What a timer shows when it is true: as much as whatever updates it.
+    fn shown(&mut self, timer: Slot, mut shows: Vec<(Slot, Interval)>) {
+        let stands = |slot: Slot| self.unit.standing.iter().any(|(at, words)| slot >= *at && slot - at < *words);
+        shows.retain(|(of, _)| of & ABSOLUTE != 0 || stands(*of));
+        let known = self.timers.entry(timer).or_insert_with(|| Some(shows.clone()));
+        if let Some(known) = known {
+            known.retain_mut(|(of, range)| match shows.iter().find(|(other, _)| other == of) {
+                Some((_, other)) => {
+                    *range = range.or(*other);
+                    true
+                }
+                None => false,
+            });
+        }
+    }
+
+    fn forget(&self, known: &mut Known, slot: Slot, words: u32) {
+        if slot.saturating_add(words) >= ABSOLUTE {
+            known.forget_from(&self.ground, slot);
+        } else {
+            known.forget(&self.ground, slot, words);
+        }
+    }
+
+    fn list_changes(&self, op: &Op, known: &mut Known) {
+        let count = |known: &Known, list| known.range(&self.ground, list).high.clamp(0.0, f64::from(u32::MAX));
+        let (of, most) = match *op {
+            Op::Push { list, capacity, .. } | Op::PushSorted { list, capacity, .. } => (list, f64::from(capacity)),
+            Op::Sort { list, .. } | Op::Remove { list, .. } => (list, count(known, list)),
+            Op::Top { to, list, .. } => (to, count(known, list)),
+            _ => return,
+        };
+        for (slot, words) in written(op) {
+            known.forget(&self.ground, slot, words);
+        }
+        match *op {
+            Op::Sort { list, key, .. } => {
+                let (list, words) = self.list(list);
+                self.forget(known, list, words);
+                self.writes(key).into_iter().for_each(|(slot, words)| self.forget(known, slot, words));
+            }
+            Op::Remove { list, .. } => {
+                let (list, words) = self.list(list);
+                self.forget(known, list, words);
+            }
+            Op::PushSorted { sort, .. } => {
+                self.writes(sort).into_iter().for_each(|(slot, words)| self.forget(known, slot, words));
+            }
+            _ => {}
+        }
+        known.set(&self.ground, of, Word { range: Interval::new(0.0, most), is_whole: true }, Tells::default());
+    }
+
+    /// An operation of the arithmetic, by its rule; of anything else that writes nothing is known.
+    fn computed(&mut self, at: Addr, op: &Op, known: &mut Known) {
+        let word = |slot: Slot| known.word(&self.ground, slot);
+        let two = |operator: Operator, a, b| operator.rule(&[word(a).range, word(b).range]);
+        let one = |operator: Operator, a| operator.rule(&[word(a).range]);
+        let whole = |a, b| word(a).is_whole && word(b).is_whole;
+        let (to, range, is_whole) = match *op {
+            Op::Add { to, a, b } => (to, two(Operator::Add, a, b), false),
+            Op::Sub { to, a, b } => (to, two(Operator::Sub, a, b), false),
+            Op::Mul { to, a, b } => (to, two(Operator::Mul, a, b), false),
+            Op::Div { to, a, b } => (to, two(Operator::Div, a, b), false),
+            Op::Pow { to, a, b } => (to, two(Operator::Pow, a, b), false),
+            Op::AddInt { to, a, b } => (to, two(Operator::AddInt, a, b), true),
+            Op::SubInt { to, a, b } => (to, two(Operator::SubInt, a, b), true),
+            Op::MulInt { to, a, b } => (to, two(Operator::MulInt, a, b), true),
+            Op::Min { to, a, b } => (to, two(Operator::Min, a, b), whole(a, b)),
+            Op::Max { to, a, b } => (to, two(Operator::Max, a, b), whole(a, b)),
+            Op::Neg { to, a } => (to, one(Operator::Neg, a), whole(a, a)),
+            Op::Abs { to, a } => (to, one(Operator::Abs, a), whole(a, a)),
+            Op::Sqrt { to, a } => (to, one(Operator::Sqrt, a), false),
+            Op::Floor { to, a } => (to, one(Operator::Floor, a), true),
+            Op::Ceil { to, a } => (to, one(Operator::Ceil, a), true),
+            Op::Round { to, a } => (to, one(Operator::Round, a), true),
+            Op::Sin { to, a } => (to, one(Operator::Sin, a), false),
+            Op::Cos { to, a } => (to, one(Operator::Cos, a), false),
+            Op::WrapHeading { to, a } => (to, one(Operator::WrapHeading, a), false),
+            Op::WrapAngle { to, a } => (to, one(Operator::WrapAngle, a), false),
+            Op::Ticks { to, a } => (to, one(Operator::Ticks, a), true),
+            Op::Length { to, vector } => (to, two(Operator::Length, vector, vector + 1), false),
+            Op::Spread { to, .. } => (to, Operator::Spread.rule(&[]), false),
+            Op::Now { to, .. } => (to, Interval::NOT_NEGATIVE, true),
+            Op::Eq { to, .. } => (to, Word::TRUTH.range, true),
+            _ => {
+                for (slot, words) in written(op) {
+                    known.forget(&self.ground, slot, words);
+                }
+                return;
+            }
+        };
+        let (was, times) = self.results.get(&at).copied().unwrap_or((range, 0));
+        let range = if times < PATIENCE { range } else { widened(range, was) };
+        self.results.insert(at, (range, times + 1));
+        known.set(&self.ground, to, Word { range, is_whole }, Tells::default());
+    }
+}
+
+/// What is told without what is told of the word that is being written.
+fn without(mut tells: Tells, slot: Slot) -> Tells {
+    tells.when.retain(|(of, _)| *of != slot);
+    tells.unless.retain(|(of, _)| *of != slot);
+    tells
+}
+
+/// Rows of words in their order, those that touch made one.
+fn merged(mut rows: Vec<(Slot, u32)>) -> Vec<(Slot, u32)> {
+    rows.sort_unstable();
+    let mut merged: Vec<(Slot, u32)> = Vec::new();
+    for (from, words) in rows {
+        match merged.last_mut() {
+            Some((begin, length)) if from <= begin.saturating_add(*length) => {
+                *length = (*length).max(from.saturating_add(words) - *begin);
+            }
+            _ => merged.push((from, words)),
+        }
+    }
+    merged
+}
