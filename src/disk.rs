@@ -3,7 +3,7 @@
 
 use std::error::Error;
 use std::fs::{self, File, Metadata, OpenOptions, Permissions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, TempDir};
 
@@ -38,6 +38,61 @@ pub fn new_file(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// A new file that is written anew in its place: it has kept the room for that, so that a disk that is full by then takes it, and
+/// is the same file wherever its folder has gone.
+pub struct Reserved {
+    file: File,
+    room: usize,
+}
+
+impl Reserved {
+    /// A file that is not there yet, with room for more than its first text. Where there is none for both, there is no file.
+    pub fn new(path: &Path, text: &str, more: usize) -> io::Result<Self> {
+        let file = OpenOptions::new().write(true).create_new(true).open(path)?;
+        let mut reserved = Reserved { file, room: text.len() + more };
+        if let Err(error) = reserved.write(text) {
+            let _ = remove(path);
+            return Err(error);
+        }
+        sync_folder(folder_of(path));
+        Ok(reserved)
+    }
+
+    /// So many bytes a text may have.
+    pub fn room(&self) -> usize {
+        self.room
+    }
+
+    /// Writes the last text, and gives back the room that it does not need.
+    pub fn finish(&mut self, text: &str) -> io::Result<()> {
+        self.write(text)?;
+        self.file.set_len(text.len() as u64)?;
+        self.file.sync_all()
+    }
+
+    /// A text over the one that was there, with blanks as far as the room goes: the file grows only once.
+    fn write(&mut self, text: &str) -> io::Result<()> {
+        let blanks = self.room.checked_sub(text.len()).ok_or(ErrorKind::FileTooLarge)?;
+        self.file.rewind()?;
+        self.file.write_all((text.to_string() + &" ".repeat(blanks)).as_bytes())?;
+        self.file.sync_all()
+    }
+}
+
+/// Whether a path leads to this very file: what has its name may be another by now.
+#[cfg(unix)]
+pub fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let (ours, there) = (file.metadata()?, fs::symlink_metadata(path)?);
+    Ok((ours.dev(), ours.ino()) == (there.dev(), there.ino()))
+}
+
+/// Files have no numbers here, and one that is open keeps its name.
+#[cfg(not(unix))]
+pub fn is_at(_: &File, path: &Path) -> io::Result<bool> {
+    fs::symlink_metadata(path).map(|there| there.is_file())
+}
+
 /// Makes an empty folder that was not there: of this name and the first number that is free.
 pub fn new_folder(parent: &Path, name: &str) -> io::Result<PathBuf> {
     fs::create_dir_all(parent)?;
@@ -62,6 +117,11 @@ pub fn remove(path: &Path) -> io::Result<()> {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }
+}
+
+/// Removes a folder that is empty.
+pub fn remove_empty(folder: &Path) -> io::Result<()> {
+    fs::remove_dir(folder)
 }
 
 /// A folder in the making, beside the one that it becomes. It is gone when it does not become one.
@@ -153,4 +213,25 @@ fn sync_folder(folder: &Path) {
 fn plain(error: io::Error) -> io::Error {
     let inner = error.get_ref().and_then(Error::source).and_then(|inner| inner.downcast_ref::<io::Error>());
     inner.and_then(io::Error::raw_os_error).map_or(error, io::Error::from_raw_os_error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is written at the end takes no more of the disk than what was written at the start.
+    #[test]
+    fn a_file_with_room_grows_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("record");
+        let mut file = Reserved::new(&path, "begun", 10).unwrap();
+        assert_eq!((file.room(), fs::read_to_string(&path).unwrap().as_str()), (15, "begun          "));
+        assert!(file.finish("it is longer than it").is_err());
+        assert_eq!(fs::read_to_string(&path).unwrap().trim_end(), "begun");
+        file.finish("ended at length").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "ended at length");
+        file.finish("ended").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "ended");
+        assert!(Reserved::new(&path, "another", 0).is_err());
+    }
 }

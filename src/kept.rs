@@ -5,24 +5,31 @@ mod record;
 
 use crate::clock::Utc;
 use crate::disk::whole;
+use crate::exit::Exit;
 use crate::message;
 use albacore_session::{Run, Summary};
 pub use folder::Place;
-use folder::{Folder, JOURNAL, PICTURE, RECORD, Refusal, TRACE};
+use folder::{Folder, JOURNAL, PICTURE, Refusal, TRACE};
 pub use record::{Asked, Record};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A folder of files, as far as it can be written.
+/// The files of a run.
 pub struct Kept {
-    /// `None` if nothing is wanted, or nothing can be written.
+    /// `None` if nothing is wanted.
     files: Option<(Folder, Record)>,
     failed: bool,
 }
 
-/// A folder that is another run's: what is wrong, and a fix.
-pub struct Taken(pub String, pub &'static str);
+/// What a run has left, as far as it has.
+#[derive(Default)]
+pub struct Left {
+    /// Its folder.
+    pub folder: Option<PathBuf>,
+    /// Its picture.
+    pub picture: Option<PathBuf>,
+}
 
 impl Kept {
     /// No files.
@@ -30,23 +37,18 @@ impl Kept {
         Kept { files: None, failed: false }
     }
 
-    /// Makes the folder, or takes one that holds no run. Where nothing can be written the run is left as it is, which is said
-    /// at once: who reads it can still stop the mission.
-    pub fn begin(place: &Place, started: Utc, record: Record) -> Result<Self, Taken> {
-        match Folder::claim(place, started) {
-            Ok(folder) => {
-                let mut kept = Kept { files: Some((folder, record)), failed: false };
-                let written = kept.write_record();
-                kept.tell(written);
-                Ok(kept)
-            }
-            Err(Refusal::Taken(what, help)) => Err(Taken(what, help)),
-            Err(Refusal::Disk(path, error)) => {
-                let help = "the mission goes on without; choose another folder with `--out`, or `--no-out`";
-                message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
-                Ok(Kept { files: None, failed: true })
-            }
-        }
+    /// Makes the folder, or takes one that holds no run. Where that cannot be it is said, and nothing is begun: no vehicle has been
+    /// told anything yet.
+    pub fn begin(place: &Place, started: Utc, mut record: Record) -> Result<Self, Exit> {
+        let refused = |Refusal(what, help, exit)| {
+            message::error(&what, Some(help));
+            exit
+        };
+        // The first text of a record is as long as it is.
+        let text = record.json(usize::MAX).map_err(io::Error::from);
+        let text = text.map_err(|error| refused(folder::unwritable(Path::new(folder::RECORD), &error)))?;
+        let folder = Folder::claim(place, started, &text).map_err(refused)?;
+        Ok(Kept { files: Some((folder, record)), failed: false })
     }
 
     /// The journal's file, empty. It is not buffered: what the program has written survives the program.
@@ -86,16 +88,26 @@ impl Kept {
         }
     }
 
-    /// Writes trace and picture, and how it ended; gives the picture's path.
-    pub fn finish(&mut self, run: &Run, summary: &Summary) -> Option<PathBuf> {
-        let (folder, record) = self.files.as_mut()?;
+    /// Writes how it ended, trace and picture. The record is the first, and has room on a disk that is full: how a mission ended is
+    /// told, whatever becomes of the others.
+    pub fn finish(&mut self, run: &Run, summary: &Summary) -> Left {
+        let Some((folder, record)) = self.files.as_mut() else { return Left::default() };
         record.ends(summary);
-        let picture = folder.path.join(PICTURE);
-        let trace = whole(&folder.path.join(TRACE), &run.trace().to_string());
-        let written = trace.and_then(|()| whole(&picture, &run.svg()));
-        // How it ended is told, whatever became of the others.
-        let recorded = self.write_record();
-        self.tell(written.and(recorded)).then_some(picture)
+        let room = folder.record.room();
+        let recorded = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.finish(&text));
+        let (path, is_there) = (folder.path.clone(), folder.is_there());
+        let is_recorded = self.tell(recorded);
+        if !is_there {
+            let message = format!("`{}` is not this run's folder any more: it was moved or removed", path.display());
+            let help = "trace and picture were not written; `run.json` and the journal are where the folder is now, if anywhere";
+            message::error(&message, Some(help));
+            self.failed = true;
+            return Left::default();
+        }
+        let picture = path.join(PICTURE);
+        let written = whole(&path.join(TRACE), &run.trace().to_string()).and_then(|()| whole(&picture, &run.svg()));
+        let is_written = self.tell(written) && is_recorded;
+        Left { folder: Some(path), picture: is_written.then_some(picture) }
     }
 
     /// The run's folder, if it has one.
@@ -106,11 +118,6 @@ impl Kept {
     /// Whether something that was wanted could not be written.
     pub fn has_failed(&self) -> bool {
         self.failed
-    }
-
-    fn write_record(&self) -> io::Result<()> {
-        let Some((folder, record)) = &self.files else { return Ok(()) };
-        whole(&folder.path.join(RECORD), &(serde_json::to_string_pretty(record)? + "\n"))
     }
 
     /// Says what could not be written; whether all was.

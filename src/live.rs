@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use crate::interruption;
-use crate::kept::Kept;
+use crate::kept::{Kept, Left};
 use crate::message;
 use crate::run::{self, Telling};
 use crate::speaker::{Speaker, no_thread, within};
@@ -72,19 +72,17 @@ impl Live {
         let result = summary.clone();
         let files = within(FILES, move || (kept.finish(&run, &result), kept.has_failed()));
         let told = within(RESULT, move || {
-            let picture = match &files {
-                Some((picture, _)) => picture.as_deref(),
-                None => {
-                    let seconds = FILES.as_secs();
-                    message::error(
-                        &format!("trace and picture are not on the disk after {seconds} s: it is stalled"),
-                        None,
-                    );
-                    None
-                }
-            };
-            telling.tell(&run::Told { summary: &summary, folder: folder.as_deref() }, outcome, picture);
-            files.is_none_or(|(_, failed)| failed)
+            let (left, failed) = files.unwrap_or_else(|| {
+                let seconds = FILES.as_secs();
+                message::error(
+                    &format!("trace and picture are not on the disk after {seconds} s: it is stalled"),
+                    None,
+                );
+                (Left { folder, picture: None }, true)
+            });
+            let told = run::Told { summary: &summary, folder: left.folder.as_deref() };
+            telling.tell(&told, outcome, left.picture.as_deref());
+            failed
         });
         // A result that nobody could be told is a failure too.
         Telling::exit(outcome, release_failed || !all_said || told.unwrap_or(true))

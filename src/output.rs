@@ -28,13 +28,18 @@ pub fn print_raw(text: &str) {
 
 /// Prints a result as one JSON object.
 pub fn print_json(result: &impl Serialize) {
-    match serde_json::to_string_pretty(result) {
-        Ok(text) => print_raw(&(seen_json(&text) + "\n")),
+    match json(result) {
+        Ok(text) => print_raw(&text),
         Err(error) => {
             FAILED.store(true, Ordering::Relaxed);
             message::error(&format!("the result cannot be written as JSON: {error}"), None);
         }
     }
+}
+
+/// A value as JSON, for the output or a file: what cannot be seen in its texts is written as escapes.
+pub fn json(value: &impl Serialize) -> serde_json::Result<String> {
+    serde_json::to_string_pretty(value).map(|text| seen_json(&text) + "\n")
 }
 
 /// Whether a result was lost.

@@ -2,7 +2,7 @@
 
 use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
-use crate::kept::{Asked, Kept, Place, Record, Taken};
+use crate::kept::{Asked, Kept, Place, Record};
 use crate::live::Live;
 use crate::plan::{Choice, Faults, refused};
 use crate::synced::Synced;
@@ -83,8 +83,8 @@ impl Run {
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(telling.wall_s());
-        let picture = kept.finish(&run, &summary);
-        telling.tell(&Told { summary: &summary, folder: kept.path() }, outcome, picture.as_deref());
+        let left = kept.finish(&run, &summary);
+        telling.tell(&Told { summary: &summary, folder: left.folder.as_deref() }, outcome, left.picture.as_deref());
         Telling::exit(outcome, kept.has_failed() || run.release_failed())
     }
 
@@ -136,10 +136,7 @@ impl Run {
             set: &self.choice.set,
             fault: &self.faults.texts,
         };
-        Kept::begin(&place, started, Record::new(plan, &asked, started)).map_err(|Taken(what, help)| {
-            message::error(&what, Some(help));
-            Exit::Usage
-        })
+        Kept::begin(&place, started, Record::new(plan, &asked, started))
     }
 
     /// Ticks in a simulated world until the mission ends or the person interrupts it.

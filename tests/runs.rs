@@ -81,12 +81,21 @@ fn is_whole(folder: &Path) -> bool {
 fn long_run(project: &Path, out: &str) -> Child {
     let child = run(project, &format!("long.alb --out {out}")).spawn().unwrap();
     for _ in 0..20_000 {
-        if std::fs::metadata(project.join(out).join("journal")).is_ok_and(|m| m.len() > 5_000) {
+        let folder = project.join(out.split(' ').next().unwrap());
+        if std::fs::metadata(folder.join("journal")).is_ok_and(|m| m.len() > 5_000) {
             break;
         }
         std::thread::sleep(Duration::from_millis(1));
     }
     child
+}
+
+/// Asks a run to end, and gives its exit code, standard output and standard error.
+fn ended(child: Child) -> (Option<i32>, String, String) {
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
 }
 
 fn end(mut child: Child) {
@@ -178,7 +187,7 @@ fn a_run_under_way_is_not_replaced() {
 #[test]
 fn of_many_runs_in_one_folder_one_has_it() {
     let project = project("many");
-    for more in ["", " --replace"] {
+    for more in std::iter::once("").chain([" --replace"; 20]) {
         let words = |seed| format!("box.alb --out out{more} --seed {seed}");
         let children: Vec<Child> = (1..=12).map(|seed| run(&project, &words(seed)).spawn().unwrap()).collect();
         let outputs: Vec<_> = children.into_iter().map(|child| child.wait_with_output().unwrap()).collect();
@@ -191,7 +200,51 @@ fn of_many_runs_in_one_folder_one_has_it() {
         let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
         assert_eq!(record(&out)["seed"], journal.header.seed);
         assert_eq!(record(&out)["outcome"], "completed");
+        let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+        assert!(trace.contains(&format!("seed {}  tick", journal.header.seed)), "{trace}");
     }
+}
+
+/// Its folder was removed, and another run has one of the same name.
+#[test]
+fn a_run_writes_into_no_folder_but_its_own() {
+    let project = project("gone");
+    let (out, child) = (project.join("out"), long_run(&project, "out"));
+    std::fs::remove_dir_all(&out).unwrap();
+    assert_eq!(ran(&project, "box.alb --seed 2 --out out").0, Some(0));
+    let before = bytes(&out);
+    let (code, _, said) = ended(child);
+    assert!(code == Some(4) && said.contains("`out` is not this run's folder any more"), "{code:?} {said}");
+    assert_eq!(bytes(&out), before);
+}
+
+#[test]
+fn a_run_whose_folder_is_moved_says_there_how_it_ended() {
+    let project = project("moved");
+    let child = long_run(&project, "out --json");
+    std::fs::rename(project.join("out"), project.join("elsewhere")).unwrap();
+    let (code, told, said) = ended(child);
+    assert!(code == Some(4) && said.contains("it was moved or removed"), "{code:?} {said}");
+    assert!(!told.contains("\"folder\""), "{told}");
+    assert!(!project.join("out").exists());
+    let moved = project.join("elsewhere");
+    assert_eq!(names(&moved), ["journal", "run.json"]);
+    assert!(is_whole(&moved) && record(&moved)["outcome"] == "interrupted");
+}
+
+/// What would stand in the way is said before anything of the run that was there is gone.
+#[test]
+fn a_run_that_cannot_be_replaced_is_left_as_it_is() {
+    let project = project("irreplaceable");
+    let out = project.join("out");
+    assert_eq!(ran(&project, "box.alb --out out").0, Some(0));
+    std::fs::remove_file(out.join("run.json")).unwrap();
+    let before = bytes(&out);
+    std::fs::create_dir(out.join("run.json")).unwrap();
+    let (code, _, said) = ran(&project, "box.alb --out out --replace");
+    assert!(code == Some(2) && said.contains("`out/run.json` is a folder"), "{code:?} {said}");
+    std::fs::remove_dir(out.join("run.json")).unwrap();
+    assert_eq!(bytes(&out), before);
 }
 
 #[test]

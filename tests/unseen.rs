@@ -80,7 +80,10 @@ fn a_message_shows_what_it_is_about_and_obeys_nothing() {
 fn what_is_kept_of_a_run_holds_nothing_unseen() {
     let folder = folder("kept");
     std::fs::write(folder.join("north.alb"), SCRIPT).unwrap();
-    said(&folder, &["run", "north.alb", "--out", EVIL]);
+    // What it was of stands in its record.
+    let evil = format!("{EVIL}.alb");
+    std::fs::write(folder.join(&evil), SCRIPT).unwrap();
+    said(&folder, &["run", &evil, "--mission", "north", "--out", EVIL]);
     let trace = std::fs::read_to_string(folder.join(EVIL).join("trace.txt")).unwrap_or_default();
     let files: Vec<PathBuf> = std::fs::read_dir(folder.join(EVIL)).unwrap().map(|f| f.unwrap().path()).collect();
     let mut read = 0;
@@ -100,5 +103,11 @@ fn a_table_holds_no_formula() {
     said(&folder, &["campaign", "north.alb", "--seeds", "1..2", "--out", "table.csv"]);
     let table = std::fs::read_to_string(folder.join("table.csv")).unwrap();
     assert!(table.contains(",aborted,'=1+1 @SUM(A1),"), "{table}");
+    let evil = format!("{EVIL}.alb");
+    std::fs::write(folder.join(&evil), SCRIPT).unwrap();
+    said(&folder, &["campaign", &evil, "--seeds", "1..2", "--out", "evil.csv"]);
+    let origin = std::fs::read_to_string(folder.join("evil.csv.origin")).unwrap();
+    assert_eq!(unseen(&origin), None, "{}", origin.escape_debug());
+    said(&folder, &["campaign", &evil, "--seeds", "1..3", "--out", "evil.csv", "--resume"]);
     assert!(!table.contains(",=") && !table.contains(",@") && !table.contains(",+"), "{table}");
 }

@@ -1,7 +1,7 @@
 //! What a table was made from, in a small file beside it: a campaign that is taken up again must be the same one.
 
-use crate::disk;
 use crate::plan::{ScriptDigest, scripts};
+use crate::{disk, output};
 use albacore_session::Plan;
 use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
@@ -42,8 +42,7 @@ impl Origin {
 
     /// Writes it beside a table, whole or not at all.
     pub fn write(&self, table: &Path) -> io::Result<()> {
-        let text = serde_json::to_string_pretty(self)?;
-        disk::whole(&beside(table, ".origin"), &(text + "\n"))
+        disk::whole(&beside(table, ".origin"), &output::json(self)?)
     }
 
     /// What of this is otherwise now, if anything is.

@@ -1,7 +1,8 @@
 //! The folder of one run: whoever creates the journal in it has it, and has it alone.
 
 use crate::clock::Utc;
-use crate::disk;
+use crate::disk::{self, Reserved};
+use crate::exit::Exit;
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -20,6 +21,9 @@ const FILES: [&str; 4] = [JOURNAL, RECORD, TRACE, PICTURE];
 /// Where runs go of which nobody says where.
 const RUNS: &str = "albacore-runs";
 
+/// So many bytes are kept for what the record does not say before the end.
+const RECORD_MORE: usize = 4096;
+
 /// Where a run's files go.
 pub enum Place {
     /// A new folder below `albacore-runs`, for a mission.
@@ -33,62 +37,80 @@ pub enum Place {
     },
 }
 
-/// A folder that is ours, with an empty journal.
+/// A folder that is ours, with an empty journal and the record of a run that begins.
 pub struct Folder {
     /// Where it is.
     pub path: PathBuf,
     /// The journal; closed with the last of its handles, and until then nobody can replace this run.
     pub journal: File,
-    /// The journal of the run that was replaced: who waits to replace that one too finds it locked.
-    _replaced: Option<File>,
+    /// The record.
+    pub record: Reserved,
 }
 
-/// Why a folder is not ours.
-pub enum Refusal {
-    /// What was asked for cannot be: what is wrong, and a fix.
-    Taken(String, &'static str),
-    /// The disk will not have it.
-    Disk(PathBuf, io::Error),
-}
+/// Why a folder is not ours: what is wrong, a fix, and how the program ends.
+pub struct Refusal(pub String, pub &'static str, pub Exit);
 
 impl Folder {
     /// Makes the folder, or takes it, for a run that started at a time.
-    pub fn claim(place: &Place, started: Utc) -> Result<Self, Refusal> {
-        match place {
+    pub fn claim(place: &Place, started: Utc, record: &str) -> Result<Self, Refusal> {
+        let (path, is_new) = match place {
             Place::New(mission) => {
                 let runs = Path::new(RUNS).join(mission);
-                let path = disk::new_folder(&runs, &started.file_name()).map_err(|e| Refusal::Disk(runs, e))?;
-                let journal = begun(&path)?;
-                Ok(Folder { path, journal, _replaced: None })
+                (disk::new_folder(&runs, &started.file_name()).map_err(|error| unwritable(&runs, &error))?, true)
             }
-            Place::Named { folder, replace } => named(folder, *replace),
+            Place::Named { folder, replace } => {
+                let is_new = !folder.exists();
+                std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
+                make_room(folder, *replace)?;
+                (folder.clone(), is_new)
+            }
+        };
+        let claimed = begun(&path).and_then(|journal| match recorded(&path, record) {
+            Ok(record) => Ok(Folder { path: path.clone(), journal, record }),
+            Err(error) => {
+                let _ = disk::remove(&path.join(JOURNAL));
+                Err(unwritable(&path, &error))
+            }
+        });
+        if claimed.is_err() && is_new {
+            let _ = disk::remove_empty(&path);
         }
+        claimed
+    }
+
+    /// Whether its path leads to it still: whoever moved or removed it may have put another there.
+    pub fn is_there(&self) -> bool {
+        disk::is_at(&self.journal, &self.path.join(JOURNAL)).unwrap_or(false)
     }
 }
 
-fn named(folder: &Path, replace: bool) -> Result<Folder, Refusal> {
-    let failed = |error| Refusal::Disk(folder.to_path_buf(), error);
-    std::fs::create_dir_all(folder).map_err(failed)?;
-    let holds_a_run = FILES.iter().any(|name| folder.join(name).symlink_metadata().is_ok());
-    if holds_a_run && !replace {
+/// Sees to it that a folder holds no journal: with `replace` an earlier run's is removed.
+fn make_room(folder: &Path, replace: bool) -> Result<(), Refusal> {
+    let there =
+        FILES.map(|name| folder.join(name)).into_iter().filter_map(|path| Some((path.symlink_metadata().ok()?, path)));
+    let there: Vec<_> = there.collect();
+    if there.is_empty() {
+        return Ok(());
+    }
+    if !replace {
         return Err(taken(folder));
     }
-    let replaced = if holds_a_run { removed(folder)? } else { None };
-    let journal = begun(folder)?;
-    // From here on the folder is ours.
-    [RECORD, TRACE, PICTURE].iter().try_for_each(|name| disk::remove(&folder.join(name))).map_err(failed)?;
-    Ok(Folder { path: folder.to_path_buf(), journal, _replaced: replaced })
-}
-
-/// Removes the journal of an earlier run, and gives it, locked; a run that still writes it is not to be replaced.
-fn removed(folder: &Path) -> Result<Option<File>, Refusal> {
-    let path = folder.join(JOURNAL);
-    let failed = |error| Refusal::Disk(path.clone(), error);
-    let Ok(there) = path.symlink_metadata() else { return Ok(None) };
-    let journal = if there.is_file() { Some(disk::old_file(&path).map_err(failed)?) } else { None };
-    journal.as_ref().map_or(Ok(()), |journal| lock(journal, folder))?;
-    disk::remove(&path).map_err(failed)?;
-    Ok(journal)
+    // What cannot be removed is said before anything is.
+    if let Some((_, path)) = there.iter().find(|(found, _)| found.is_dir()) {
+        let message = format!("`{}` is a folder, and no file of a run", path.display());
+        return Err(Refusal(message, "choose another folder with `--out`", Exit::Usage));
+    }
+    match there.first() {
+        Some((found, path)) if path.ends_with(JOURNAL) => {
+            let removed = |error| unwritable(path, &error);
+            if found.is_file() {
+                let journal = disk::old_file(path).map_err(removed)?;
+                own(&journal, folder)?;
+            }
+            disk::remove(path).map_err(removed)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Creates the journal: of several runs that do so at once, one succeeds.
@@ -97,24 +119,37 @@ fn begun(folder: &Path) -> Result<File, Refusal> {
     let journal = match disk::new_file(&path) {
         Ok(journal) => journal,
         Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(taken(folder)),
-        Err(error) => return Err(Refusal::Disk(path, error)),
+        Err(error) => return Err(unwritable(&path, &error)),
     };
-    lock(&journal, folder)?;
+    own(&journal, folder)?;
     Ok(journal)
 }
 
-/// A lock ends with its process, however that ends. Where a disk knows no locks, nothing is said.
-fn lock(journal: &File, folder: &Path) -> Result<(), Refusal> {
-    match journal.try_lock() {
-        Err(TryLockError::WouldBlock) => {
-            let message = format!("another run is writing into `{}`", folder.display());
-            Err(Refusal::Taken(message, "choose another folder with `--out`, or wait for its end"))
-        }
-        _ => Ok(()),
+/// Removes what is left of an earlier run, and begins the record.
+fn recorded(folder: &Path, record: &str) -> io::Result<Reserved> {
+    [RECORD, TRACE, PICTURE].iter().try_for_each(|name| disk::remove(&folder.join(name)))?;
+    Reserved::new(&folder.join(RECORD), record, RECORD_MORE)
+}
+
+/// Locks a journal: who has the lock on what is the folder's journal by then has the folder. It ends with its process, however
+/// that ends. Where a disk knows no locks, nothing is said.
+fn own(journal: &File, folder: &Path) -> Result<(), Refusal> {
+    let is_locked = !matches!(journal.try_lock(), Err(TryLockError::WouldBlock));
+    // Between its opening and its locking another run may have replaced it, and be over.
+    if is_locked && disk::is_at(journal, &folder.join(JOURNAL)).unwrap_or(false) {
+        return Ok(());
     }
+    let message = format!("another run is writing into `{}`", folder.display());
+    Err(Refusal(message, "choose another folder with `--out`, or wait for its end", Exit::Usage))
 }
 
 fn taken(folder: &Path) -> Refusal {
     let message = format!("`{}` holds a run already", folder.display());
-    Refusal::Taken(message, "choose another folder with `--out`, or give `--replace` to remove that run's files")
+    Refusal(message, "choose another folder with `--out`, or give `--replace` to remove that run's files", Exit::Usage)
+}
+
+/// The disk will not have it.
+pub fn unwritable(path: &Path, error: &io::Error) -> Refusal {
+    let message = format!("`{}` cannot be written: {error}", path.display());
+    Refusal(message, "choose another folder with `--out`, or run without files with `--no-out`", Exit::Failed)
 }

@@ -2,6 +2,7 @@
 //! the same bytes; all that differs from run to run is here.
 
 use crate::clock::Utc;
+use crate::output;
 use crate::plan::{ScriptDigest, scripts};
 use albacore_session::{Plan, Summary};
 use serde::Serialize;
@@ -73,6 +74,18 @@ impl Record {
         self.first_tick.get_or_insert_with(Utc::now);
     }
 
+    /// As JSON of so many bytes at most: of a reason that is too long only the beginning is kept. The trace has all of it.
+    pub fn json(&mut self, room: usize) -> serde_json::Result<String> {
+        loop {
+            let text = output::json(self)?;
+            let (kept, length) = (self.reason.chars().count() / 2, text.len());
+            if length <= room || kept == 0 {
+                return Ok(text);
+            }
+            self.reason = self.reason.chars().take(kept).chain(['…']).collect();
+        }
+    }
+
     /// The run has ended.
     pub fn ends(&mut self, summary: &Summary) {
         self.ended = Some(Utc::now());
@@ -80,5 +93,36 @@ impl Record {
         self.reason.clone_from(&summary.reason);
         self.ticks = Some(summary.ticks);
         self.digest = Some(summary.digest.clone());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Record;
+    use crate::clock::Utc;
+
+    /// A record that is larger than its room would not fit on a full disk.
+    #[test]
+    fn a_record_fits_into_its_room() {
+        let mut record = Record {
+            albacore: "",
+            mission: String::new(),
+            scenario: String::new(),
+            seed: 1,
+            link: None,
+            rate: None,
+            set: Vec::new(),
+            fault: Vec::new(),
+            scripts: Vec::new(),
+            started: Utc::now(),
+            first_tick: None,
+            ended: None,
+            outcome: "aborted",
+            reason: "\u{202e}why".repeat(10_000),
+            ticks: None,
+            digest: None,
+        };
+        let text = record.json(4096).unwrap();
+        assert!(text.len() <= 4096 && text.contains("\\u202ewhy") && text.contains('…'), "{text}");
     }
 }
