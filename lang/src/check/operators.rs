@@ -14,6 +14,10 @@ use albacore_arithmetic::{Div, Operation, Pow};
 
 const ANGLE: Type = Type::Quantity(Dimension::ANGLE);
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
+/// Why nothing that holds a text is compared, and what is compared in its place.
+pub(super) const TEXTS_DIFFER: &str = "texts are not compared: two that read the same may be made of different parts";
+pub(super) const TEXTS_HELP: &str =
+    "keep what decides beside the text: an `enum` of what there is, a number, or whether there is one (`… != none`)";
 const VECTOR: Type = Type::Vector(Dimension::LENGTH);
 
 impl<'t> Checker<'t> {
@@ -281,8 +285,6 @@ impl<'t> Checker<'t> {
             (x, y) if x == y => match x {
                 Quantity(_) | Int | Depth | Altitude => true,
                 Heading => equality,
-                // Texts are for people: two that read the same may be made of different parts.
-                Text => false,
                 _ => equality,
             },
             (Depth | Altitude, t) if *t == LENGTH => b.range.constant().is_some(),
@@ -305,6 +307,18 @@ impl<'t> Checker<'t> {
         }
         if !comparable {
             return self.no_such(op, &a, &b, span);
+        }
+        // Texts are for people: two that read the same may be made of different parts.
+        let of_texts = |e: &Expr| !matches!(e.ty, None) && self.types.shape(&e.ty).has_text();
+        let is_presence = matches!((&a.ty, &b.ty), (Optional(_), None) | (None, Optional(_)));
+        if !is_presence && (of_texts(&a) || of_texts(&b)) {
+            let finding = Diagnostic::error(Code::TypesComparison, op.span, TEXTS_DIFFER)
+                .here(format!("`{}`", op.node.symbol()))
+                .label(a.span, format!("`{}`", self.type_name(&a.ty)))
+                .label(b.span, format!("`{}`", self.type_name(&b.ty)))
+                .help(TEXTS_HELP);
+            self.report(finding);
+            return self.unknown(span);
         }
         // `p != none` is `p` as a condition, and narrows as that does.
         if let Some(optional) = match (&a.ty, &b.ty) {

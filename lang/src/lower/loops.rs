@@ -4,6 +4,7 @@ use super::Lowering;
 use crate::check::goes_round;
 use crate::hir::{self, Block, Expr};
 use crate::types::Type;
+use albacore_arithmetic::INT_MAX;
 use albacore_program::{Op, Slot};
 
 impl<'a> Lowering<'a> {
@@ -23,9 +24,17 @@ impl<'a> Lowering<'a> {
         let to = self.frame.vars[var];
         self.copy(to, counter, 1);
         self.body(body);
-        self.count_up(counter);
-        self.emit(goes_on(top).1);
-        self.land_all(none.into_iter().collect());
+        let mut leaves: Vec<_> = none.into_iter().collect();
+        if inclusive && last.range.high >= INT_MAX {
+            // Where counting may come to its own end, nothing lies beyond the last: it is looked for before one is added.
+            leaves.push(self.emit(Op::JumpUnlessLess { a: counter, b: end, to: 0 }));
+            self.count_up(counter);
+            self.emit(Op::Jump { to: top });
+        } else {
+            self.count_up(counter);
+            self.emit(goes_on(top).1);
+        }
+        self.land_all(leaves);
     }
 
     fn count_up(&mut self, counter: Slot) {

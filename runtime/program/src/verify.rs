@@ -102,6 +102,9 @@ impl Program {
             Op::JumpIfLess { a, b, .. } | Op::JumpIfAtMost { a, b, .. } => {
                 a == to && stands(b, None) && leaves(other + 1)
             }
+            Op::JumpUnlessLess { a, b, to: end } | Op::JumpUnlessAtMost { a, b, to: end } => {
+                a == to && stands(b, None) && leaves(end)
+            }
             Op::At { list: of, index, .. } | Op::RowAt { area: of, index, .. } => {
                 let next = self.ops.get(other as usize + 1);
                 let is_left = matches!(next, Some(Op::JumpUnless { to, .. }) if leaves(*to));
