@@ -4,6 +4,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use albacore_program::seen::is_unseen;
+use std::borrow::Cow;
 
 /// Cyrillic and Greek letters, and signs, beside those that they look like.
 const LOOK_ALIKES: [(&str, &str); 3] = [
@@ -16,6 +17,23 @@ const LOOK_ALIKES: [(&str, &str); 3] = [
 /// marks without width, letters without a shape, control codes.
 pub(super) fn deceives(c: char) -> bool {
     is_unseen(c) && !matches!(c, '\n' | '\r' | '\t')
+}
+
+/// A source whose lines all end in a line feed, each byte where it was, and the first place that had to be changed: a
+/// carriage return without a line feed after it. Many editors show it as the end of a line, and no comment would end there.
+pub(super) fn with_line_feeds(source: &str) -> (Cow<'_, str>, Option<usize>) {
+    let bytes = source.as_bytes();
+    let is_lone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+    let Some(first) = (0..bytes.len()).find(|&at| is_lone(at)) else { return (Cow::Borrowed(source), None) };
+    let parted = source.char_indices().map(|(at, c)| if is_lone(at) { '\n' } else { c }).collect();
+    (Cow::Owned(parted), Some(first))
+}
+
+pub(super) fn lone_return(span: Span) -> Diagnostic {
+    let message = "a carriage return without a line feed stands here";
+    Diagnostic::error(Code::SyntaxDeceptive, span, message).help(
+        "save the file with line ends LF or CR LF: some editors end the line here, and others show what follows on the same line",
+    )
 }
 
 /// What a character in code was meant to be, when it looks like another: a blank, a digit, a letter, a sign.

@@ -60,6 +60,8 @@ pub struct Scanned {
 
 /// Prepares a source for the grammar.
 pub fn scan(file: FileId, source: &str) -> Scanned {
+    let (source, lone_return) = deceptive::with_line_feeds(source);
+    let source = source.as_ref();
     let mut scanner = Scanner {
         file,
         source,
@@ -76,6 +78,9 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         next_at: 0,
         no_comment_ends: false,
     };
+    if let Some(at) = lone_return {
+        scanner.findings.push(deceptive::lone_return(scanner.span(at, at + 1)));
+    }
     scanner.run();
     let goes_on = !scanner.open.is_empty() || scanner.last == Last::Goes;
     scanner.all_unclosed(0);
@@ -86,6 +91,7 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
 /// The same for a source whose brackets may not fit: those that the margins show to be missing are put in.
 pub(super) fn scan_mended(file: FileId, source: &str) -> Scanned {
     let scanned = scan(file, source);
+    let (source, _) = deceptive::with_line_feeds(source);
     let found = |code: Code| scanned.findings.iter().any(|f| f.code == code);
     if !found(Code::SyntaxBracket) || found(Code::SyntaxNesting) {
         return scanned;
@@ -425,6 +431,20 @@ mod tests {
         check("a // b\nc", "a     \nc");
         check("goto p // é\n", "goto p      \n");
         check("log \"a // b\"", "log \"a // b\"");
+    }
+
+    #[test]
+    fn a_lone_carriage_return_ends_a_line_and_is_told_once() {
+        let returns = |source| {
+            let findings = scan(FileId(0), source).findings;
+            findings.iter().map(|f| (f.code, f.span().start)).collect::<Vec<_>>()
+        };
+        check("a // b\rc", "a     \nc");
+        check("a // b\r\nc", "a      \nc");
+        assert_eq!(returns("a // b\rc\rd"), [(Code::SyntaxDeceptive, 6)]);
+        assert_eq!(returns("log \"a\"\r"), [(Code::SyntaxDeceptive, 7)]);
+        assert_eq!(returns("a\r\r\nb"), [(Code::SyntaxDeceptive, 1)]);
+        assert_eq!(returns("a\r\nb // c\r\n"), []);
     }
 
     #[test]
