@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_session::{Files, Script, Source};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// One token of so many.
@@ -121,6 +122,22 @@ fn chains_without_end_are_refused() {
         let script = check_text(text);
         assert!(script.findings.iter().any(|f| f.code.name() == code), "{code}: {:?}", script.findings.first());
     }
+}
+
+/// A constant that holds another many times is refused before memory is full, and so is one that is read by many.
+#[test]
+fn constants_that_grow_with_each_level_are_refused() {
+    let doubled = |i: usize| format!("const A{} = [A{i}, A{i}]\n", i + 1);
+    let nested = "const A0 = [1, 2]\n".to_string() + &(0..20).map(doubled).collect::<String>();
+    let list = |of: &str, count: usize| format!("[{}]", vec![of; count].join(", "));
+    let wide = format!("const A = {}\nconst B = {}\n", list("1", 4_000), list("A", 10_000));
+    for text in [nested, wide] {
+        let script = check_text(&text);
+        let codes: BTreeSet<&str> = script.findings.iter().map(|f| f.code.name()).collect();
+        assert_eq!(codes, BTreeSet::from(["limits::constants"]), "{:?}", script.findings.first());
+    }
+    let long = check_text(&format!("const A = {}\nconst B = A\n", list("1.5 m", 1_000)));
+    assert!(long.is_sound(), "{:?}", long.findings);
 }
 
 /// What is as deep as allowed is checked on the small stack of a test's thread.

@@ -13,6 +13,11 @@ const SIGNAL_PARTS_MAX: usize = 256;
 /// A constant waits for so many others at most that are declared after it.
 const WAITING_MAX: usize = 16;
 
+/// Parts of a constant at most, but for those that its own text spells out.
+const CONSTANT_PARTS_MAX: usize = 4096;
+/// Parts of constants that are read, each counted wherever it is: a constant stands for its value there.
+const PARTS_READ_MAX: usize = 1 << 20;
+
 /// Fields of a record at most, with those of the records that it holds.
 const PARTS_MAX: usize = 256;
 
@@ -314,7 +319,21 @@ impl<'t> Checker<'t> {
 
     /// The value of a constant, checked when first needed.
     pub(super) fn constant(&mut self, id: usize) -> hir::Expr {
-        self.lazy(id, true)
+        let value = self.lazy(id, true);
+        if matches!(value.kind, hir::ExprKind::Number(_)) {
+            return value;
+        }
+        let is_told = self.parts_read > PARTS_READ_MAX;
+        self.parts_read = self.parts_read.saturating_add(value.parts());
+        if self.parts_read <= PARTS_READ_MAX {
+            return value;
+        }
+        if !is_told {
+            let message = format!("with this constant more than {PARTS_READ_MAX} parts of constants are read");
+            let finding = Diagnostic::error(Code::LimitsConstants, value.span, message);
+            self.report(finding.help("name it once with `let` where it is read, or make lists of constants shorter"));
+        }
+        self.unknown(value.span)
     }
 
     /// The expression of a module's signal.
@@ -351,7 +370,8 @@ impl<'t> Checker<'t> {
                     None => c.expr(value, None),
                 });
                 self.waiting -= 1;
-                let checked = if is_const { checked } else { self.short_signal(name, checked) };
+                let checked =
+                    if is_const { self.small_constant(name, checked) } else { self.short_signal(name, checked) };
                 let table = if is_const { &mut self.consts } else { &mut self.signals };
                 table[id] = Lazy::Done(checked.clone());
                 checked
@@ -373,6 +393,21 @@ impl<'t> Checker<'t> {
         self.report(finding.help(
             "declare such signals in the behavior or mission that reads them: there each is computed once a tick",
         ));
+        self.unknown(name.span)
+    }
+
+    /// The value of a constant, which stands wherever it is read: of lists that hold others twice, each would otherwise be
+    /// twice as long.
+    fn small_constant(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
+        // No part is written with less than a byte.
+        let written = (value.span.end - value.span.start) as usize;
+        if value.is_within(CONSTANT_PARTS_MAX.max(written)) {
+            return value;
+        }
+        let message =
+            format!("`{}` has more than {CONSTANT_PARTS_MAX} parts, with those of the constants in it", name.node);
+        let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
+        self.report(finding.help("hold fewer constants in one another: lists of lists grow with each level"));
         self.unknown(name.span)
     }
 

@@ -234,6 +234,8 @@ pub struct Checker<'t> {
     signals: Vec<Lazy<'t>>,
     /// How many constants and signals wait for others.
     waiting: usize,
+    /// Parts of constants that have been read.
+    parts_read: usize,
     clauses: Vec<ClauseInfo<'t>>,
     vehicles: Vec<vehicle::VehicleInfo>,
     /// What vehicles bring into the scenario that is being checked.
@@ -280,6 +282,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         consts: Vec::new(),
         signals: Vec::new(),
         waiting: 0,
+        parts_read: 0,
         clauses: Vec::new(),
         vehicles: Vec::new(),
         fitted: Vec::new(),

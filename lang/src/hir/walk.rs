@@ -170,6 +170,13 @@ impl Block {
 }
 
 impl Expr {
+    /// How many parts it has: itself, and those of each in it.
+    pub fn parts(&self) -> usize {
+        let mut parts = 1;
+        children(self, &mut |child| parts += child.parts());
+        parts
+    }
+
     /// Whether it has no more parts than so many: it is one, and so is each in it.
     pub fn is_within(&self, most: usize) -> bool {
         fn count(e: &Expr, left: &mut usize) {

@@ -134,9 +134,11 @@ impl<'a> Lowering<'a> {
         let hides = matches!(&e.kind, ExprKind::Part(inner, _) if !matches!(inner.kind, ExprKind::Var(_)));
         if shown && !hides {
             let name = self.sources.text(e.span).to_string();
-            if !out.iter().any(|(n, _)| *n == name) {
-                out.push((name, e.clone()));
+            // Its own readings are there already: signals of signals would be gone through once for each way to them.
+            if out.iter().any(|(n, _)| *n == name) {
+                return;
             }
+            out.push((name, e.clone()));
             if let ExprKind::Input(_, InputPart::Hits(limit, _)) = &e.kind {
                 self.leaves(id, limit, out);
             }
