@@ -92,9 +92,9 @@ impl Campaign {
         };
         if !table.changed().is_empty() {
             let (path, lines) = (self.out.display(), listed(table.changed()));
-            let told = format!("warning: `{path}` or its `.sums` was changed since it was written: {lines}\n");
+            let told = format!("warning: `{path}` or its `.sums` was changed since it was written: {lines}");
             message::write(
-                &(told
+                &(message::line(&told)
                     + "  help: nothing to be done: their seeds are run again, which gives the rows that were there\n"),
             );
         }
@@ -136,7 +136,7 @@ impl Campaign {
         if self.json {
             output::print_json(&told);
         } else {
-            output::print(&told.human());
+            told.human().print();
         }
         let (crowded, most) = tally.crowded();
         if crowded > 0 {

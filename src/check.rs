@@ -52,7 +52,7 @@ impl Check {
                     albacore_session::settle(&mut findings);
                     message::findings(&findings, &script.sources);
                     if findings.is_empty() && !self.cost && held.is_ok() {
-                        message::write(&format!("{}\n", nothing_wrong(path, &script)));
+                        message::write(&message::line(&nothing_wrong(path, &script)));
                     }
                     if findings.iter().any(|f| f.severity == albacore_session::Severity::Error) {
                         exit = Exit::Script;

@@ -159,7 +159,7 @@ fn module(path: &Path) -> Result<Module, Exit> {
 fn stray(page: &Page, sources: &Sources) {
     for span in &page.stray {
         let place = sources.place(*span);
-        message::write(&format!("{place}: this comment is on no page: it stands right above nothing\n"));
+        message::write(&message::line(&format!("{place}: this comment is on no page: it stands right above nothing")));
     }
 }
 

@@ -104,7 +104,7 @@ fn check(source: &Source, formatted: &str) -> Exit {
     if *formatted == *source.text {
         return Exit::Well;
     }
-    let mut text = format!("{} is not formatted\n", source.name);
+    let mut text = message::line(&format!("{} is not formatted", source.name));
     text.push_str(&difference(&source.text, formatted));
     output::print(&text);
     Exit::NotWell

@@ -49,7 +49,7 @@ impl Live {
                 speaker.say(CTRL_Z);
             }
             match told {
-                Told::Notice(notice) => speaker.say(&format!("link: {notice}\n")),
+                Told::Notice(notice) => speaker.say(&message::line(&format!("link: {notice}"))),
                 Told::Progress(tick, active) => {
                     kept.ticks();
                     speaker.progress(tick / 10, || active.join(" > "));

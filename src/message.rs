@@ -46,7 +46,7 @@ impl<'a> Shown<'a> {
                 source: NamedSource::new(one_line(&source.name), masked(&source.text)),
                 labels: labels.map(|(i, label)| drawn(i == 0, label)).collect(),
                 related: Vec::new(),
-                message: shown(message),
+                message: one_line(message),
                 is_part: frame.is_some(),
             }
         };
@@ -58,7 +58,7 @@ impl<'a> Shown<'a> {
 
 /// The frame is headed by the line and column of the mistake, not of the first label in the file.
 fn drawn(is_mistake: bool, (span, text): &(Span, String)) -> LabeledSpan {
-    let text = if text.is_empty() { None } else { Some(shown(text)) };
+    let text = if text.is_empty() { None } else { Some(one_line(text)) };
     let place = (span.start as usize, (span.end - span.start) as usize);
     if is_mistake { LabeledSpan::new_primary_with_span(text, place) } else { LabeledSpan::new_with_span(text, place) }
 }
@@ -93,7 +93,7 @@ impl miette::Diagnostic for Shown<'_> {
 
     fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
         let help = self.finding.help.as_ref().filter(|_| !self.is_part)?;
-        Some(Box::new(shown(help)))
+        Some(Box::new(one_line(help)))
     }
 
     fn source_code(&self) -> Option<&dyn miette::SourceCode> {
@@ -116,9 +116,10 @@ impl miette::Diagnostic for Shown<'_> {
 fn plain(finding: &Diagnostic, sources: &Sources) -> String {
     let place = finding.span();
     let (line, column) = sources.line_column(place);
-    let help = finding.help.as_ref().map(|h| format!("\n  help: {h}")).unwrap_or_default();
+    let help = finding.help.as_ref().map(|help| self::line(&format!("  help: {help}"))).unwrap_or_default();
     let name = &sources.get(place.file).name;
-    format!("{}\n\n  × {}\n    [{name}:{line}:{column}]{help}\n\n", finding.code, finding.message)
+    let (message, place) = (self::line(&finding.message), self::line(&format!("[{name}:{line}:{column}]")));
+    format!("{}\n\n  × {message}    {place}{help}\n", finding.code)
 }
 
 /// Prints findings, in order, and how many there are.
@@ -136,7 +137,7 @@ pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     }
     for &finding in &drawn {
         if finding.labels.iter().any(|(span, _)| sources.line_length(*span) > LINE_MAX) {
-            text.push_str(&shown(&plain(finding, sources)));
+            text.push_str(&plain(finding, sources));
             continue;
         }
         let drawable = Shown::new(finding, sources);
@@ -175,13 +176,18 @@ pub fn error(message: &str, help: Option<&str>) {
     write(&error_text(message, help));
 }
 
-/// The same, for who prints it.
+/// The same, for who prints it: two lines at most, whatever texts of others are on them.
 pub fn error_text(message: &str, help: Option<&str>) -> String {
-    let mut text = format!("error: {message}\n");
+    let mut text = line(&format!("error: {message}"));
     if let Some(help) = help {
-        text.push_str(&format!("  help: {help}\n"));
+        text.push_str(&line(&format!("  help: {help}")));
     }
     text
+}
+
+/// A line of a message, which stays one.
+pub fn line(text: &str) -> String {
+    one_line(text) + "\n"
 }
 
 /// Writes for a person: what cannot be seen is written out, for texts of scripts, vehicles and files are in it.

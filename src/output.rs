@@ -1,13 +1,30 @@
 //! Standard output: results, for a person or a program.
 
 use crate::message;
-use albacore_session::seen::{is_unseen, shown};
+use albacore_session::seen::{is_unseen, one_line, shown};
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether a result could not be written. There is one standard output, and so one of these.
 static FAILED: AtomicBool = AtomicBool::new(false);
+
+/// Lines of a result, each of which stays one, whatever others wrote that is put on it.
+#[derive(Default)]
+pub struct Lines(String);
+
+impl Lines {
+    /// Adds a line.
+    pub fn add(&mut self, line: &str) {
+        self.0.push_str(&one_line(line));
+        self.0.push('\n');
+    }
+
+    /// Prints them.
+    pub fn print(&self) {
+        print_raw(&self.0);
+    }
+}
 
 /// Prints a result for a person: what cannot be seen is written out, for texts of scripts, vehicles and files are in it.
 pub fn print(text: &str) {

@@ -4,6 +4,7 @@ use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
 use crate::kept::{Asked, Kept, Place, Record};
 use crate::live::Live;
+use crate::output::Lines;
 use crate::plan::{Choice, Faults, refused};
 use crate::synced::Synced;
 use crate::vehicle::told;
@@ -109,7 +110,7 @@ impl Run {
         let vehicle = albacore_session::call(&url, &plan, self.rate.unwrap_or(1.0), host_clock())
             .map_err(|error| told(&error, Exit::Failed))?;
         let run = MissionRun::on_link(&plan, self.seed, vehicle).map_err(refused)?;
-        message::write(&format!("link open to {url}\n"));
+        message::write(&message::line(&format!("link open to {url}")));
         Ok((plan, run))
     }
 
@@ -156,7 +157,7 @@ impl Run {
                 bar.suspend(|| message::write(&kept.journal_failed(&error)));
             }
             for notice in run.take_notices() {
-                bar.suspend(|| message::write(&format!("vehicle: {notice}\n")));
+                bar.suspend(|| message::write(&message::line(&format!("vehicle: {notice}"))));
             }
             if let Running::Over(outcome) = running {
                 bar.finish_and_clear();
@@ -208,7 +209,7 @@ impl Telling {
             output::print_json(told);
         } else if !link_failed || summary.ticks > 0 {
             // Of a vehicle that was never heard there is no more to tell.
-            output::print(&human(summary, picture));
+            human(summary, picture).print();
         }
     }
 
@@ -235,9 +236,10 @@ pub struct Told<'a> {
 }
 
 /// The result as a person reads it.
-fn human(summary: &Summary, picture: Option<&Path>) -> String {
+fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
+    let mut lines = Lines::default();
     let minutes = |seconds: f64| format!("{} min {:02} s", (seconds / 60.0).floor(), (seconds % 60.0).floor());
-    let mut text = format!(
+    let mut head = format!(
         "{} in {}, seed {}: {}",
         summary.mission,
         summary.scenario,
@@ -245,17 +247,18 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
         summary.outcome.replace('_', " ")
     );
     if !summary.reason.is_empty() && summary.outcome != "completed" && summary.outcome != summary.reason {
-        text.push_str(&format!(" ({})", summary.reason));
+        head.push_str(&format!(" ({})", summary.reason));
     }
-    text.push_str(&format!(
-        "\n  {} of the vehicle's time in {:.2} s, {:.0} m over ground, {} switches\n",
+    lines.add(&head);
+    lines.add(&format!(
+        "  {} of the vehicle's time in {:.2} s, {:.0} m over ground, {} switches",
         minutes(summary.sim_time_s),
         summary.wall_s,
         summary.path_length_m,
         summary.switches
     ));
     for report in summary.reports.iter().take(REPORTS_TOLD_MAX) {
-        text.push_str(&format!("  reported {} after {}", report.name, minutes(report.t_s)));
+        let mut text = format!("  reported {} after {}", report.name, minutes(report.t_s));
         if let (Some(north), Some(east)) = (report.north_m, report.east_m) {
             text.push_str(&format!(" at ({north:.1}, {east:.1}) m"));
         }
@@ -265,17 +268,17 @@ fn human(summary: &Summary, picture: Option<&Path>) -> String {
         if let (Some(error), Some(from)) = (report.error_m, report.error_from) {
             text.push_str(&format!(", {error:.1} m from {from}"));
         }
-        text.push('\n');
+        lines.add(&text);
     }
     match summary.reports_beyond(REPORTS_TOLD_MAX) {
         0 => {}
-        more => text.push_str(&format!("  and {more} more reports, in the trace\n")),
+        more => lines.add(&format!("  and {more} more reports, in the trace")),
     }
-    text.push_str(&format!("  digest {}\n", summary.digest));
+    lines.add(&format!("  digest {}", summary.digest));
     if let Some(picture) = picture {
-        text.push_str(&format!("  picture {}\n", picture.display()));
+        lines.add(&format!("  picture {}", picture.display()));
     }
-    text
+    lines
 }
 
 /// The time since the run began, by the wall clock.

@@ -1,8 +1,9 @@
 //! `albacore scenario show`: a scenario laid open.
 
 use crate::exit::Exit;
+use crate::output::Lines;
 use crate::plan::{refused, scenario_script};
-use crate::{disk, interruption, message, output};
+use crate::{disk, interruption, message};
 use albacore_session::{Shown, Whence};
 use std::path::{Path, PathBuf};
 
@@ -60,7 +61,7 @@ impl Show {
             Ok(shown) => shown,
             Err(exit) => return exit,
         };
-        output::print(&listing(&shown));
+        listing(&shown).print();
         if self.no_out { Exit::Well } else { self.write(&shown) }
     }
 
@@ -74,7 +75,9 @@ impl Show {
         let made = folder.map_or(Ok(()), std::fs::create_dir_all);
         match made.and_then(|()| disk::whole(&path, &shown.svg)) {
             Ok(()) => {
-                output::print(&format!("picture {}\n", path.display()));
+                let mut lines = Lines::default();
+                lines.add(&format!("picture {}", path.display()));
+                lines.print();
                 Exit::Well
             }
             Err(error) => {
@@ -87,15 +90,17 @@ impl Show {
 }
 
 /// All numbers, clause by clause.
-fn listing(shown: &Shown) -> String {
-    let mut text = format!("scenario {}\n", shown.name);
+fn listing(shown: &Shown) -> Lines {
+    let mut lines = Lines::default();
+    lines.add(&format!("scenario {}", shown.name));
     for clause in &shown.clauses {
         let unsaid = match clause.whence {
             Whence::Said => "",
             Whence::Default => "  (not said)",
             Whence::Record => "  (of the record)",
         };
-        text.push_str(&format!("\n{}{unsaid}\n", clause.name));
+        lines.add("");
+        lines.add(&format!("{}{unsaid}", clause.name));
         for (name, value, whence) in &clause.values {
             let mark = match whence {
                 Whence::Said => "",
@@ -104,14 +109,14 @@ fn listing(shown: &Shown) -> String {
             };
             for (i, line) in value.lines().enumerate() {
                 let name = if i == 0 { name } else { "" };
-                text.push_str(format!("  {name:NAME$}{line:VALUE$}{mark}").trim_end());
-                text.push('\n');
+                lines.add(format!("  {name:NAME$}{line:VALUE$}{mark}").trim_end());
             }
         }
     }
-    text.push_str(&format!("\nnone of: {}\n", shown.absent.join(", ")));
+    lines.add("");
+    lines.add(&format!("none of: {}", shown.absent.join(", ")));
     if let Some(filaments) = shown.filaments {
-        text.push_str(&format!("{filaments} filaments when the run begins\n"));
+        lines.add(&format!("{filaments} filaments when the run begins"));
     }
-    text
+    lines
 }

@@ -3,7 +3,7 @@
 use crate::disk::whole;
 use crate::exit::Exit;
 use crate::message;
-use crate::output::print;
+use crate::output::Lines;
 use crate::plan::Faults;
 use albacore_session::{Failure, PlanError, Script, TestResult, first_difference, run_test, same_behavior};
 use std::path::{Path, PathBuf};
@@ -78,7 +78,7 @@ impl Test {
             message::error(&what, Some("`albacore test PATH` runs the `test` blocks of the scripts in PATH"));
             return Exit::Usage;
         }
-        print(&format!("{} passed, {} failed\n", count.passed, count.failed));
+        say(&format!("{} passed, {} failed", count.passed, count.failed));
         match exit {
             Exit::Well if count.failed > 0 => Exit::NotWell,
             exit => exit,
@@ -118,27 +118,25 @@ impl Test {
             let seeds = format!("seeds {}..{}", result.seeds.0, result.seeds.1);
             if problems.is_empty() {
                 count.passed += 1;
-                print(&format!("ok      {}  \"{}\"  {seeds}\n", result.place, result.name));
+                say(&format!("ok      {}  \"{}\"  {seeds}", result.place, result.name));
             } else {
                 count.failed += 1;
-                print(&format!("FAILED  {}  \"{}\"  {seeds}\n", result.place, result.name));
-                for problem in problems {
-                    print(&problem);
-                }
+                say(&format!("FAILED  {}  \"{}\"  {seeds}", result.place, result.name));
+                problems.iter().for_each(|problem| say(problem));
             }
         }
         Ok(())
     }
 
-    /// What is wrong with what became of a test.
+    /// What is wrong with what became of a test, in lines.
     fn problems(&self, path: &Path, result: &TestResult, faults: &albacore_session::Faults) -> Vec<String> {
-        let mut problems: Vec<String> = result.failures.iter().map(told).collect();
+        let mut problems: Vec<String> = result.failures.iter().flat_map(told).collect();
         // A snapshot is of a run in which only the scenario's own faults were.
         let traces: &[(u64, String)] = if faults.is_empty() { &result.traces } else { &[] };
         if self.accept && !problems.is_empty() {
             // What is not as it was expected to be is never what is right.
             if !traces.is_empty() {
-                problems.push("        its snapshots are left as they were: what fails is not accepted\n".to_string());
+                problems.push("        its snapshots are left as they were: what fails is not accepted".to_string());
             }
             return problems;
         }
@@ -148,39 +146,39 @@ impl Test {
         problems
     }
 
-    /// Compares a trace with its snapshot; gives what is wrong.
-    fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str) -> Option<String> {
+    /// Compares a trace with its snapshot; gives what is wrong, in lines.
+    fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str) -> Vec<String> {
         let file = snapshot_file(script, result, seed);
         let stored = std::fs::read_to_string(&file).ok();
         if stored.as_deref() == Some(trace) {
-            return None;
+            return Vec::new();
         }
         if self.accept {
             let written = file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
             return match written {
                 Ok(()) => {
-                    print(&format!("        wrote {}\n", file.display()));
-                    None
+                    say(&format!("        wrote {}", file.display()));
+                    Vec::new()
                 }
-                Err(error) => Some(format!("        `{}` cannot be written: {error}\n", file.display())),
+                Err(error) => vec![format!("        `{}` cannot be written: {error}", file.display())],
             };
         }
         let Some(stored) = stored else {
-            return Some(format!(
-                "        seed {seed}: there is no snapshot `{}`\n        look at the run, then `albacore test --accept`\n",
-                file.display()
-            ));
+            return vec![
+                format!("        seed {seed}: there is no snapshot `{}`", file.display()),
+                "        look at the run, then `albacore test --accept`".to_string(),
+            ];
         };
         let verdict =
             if same_behavior(&stored, trace) { "numerically different, same behavior" } else { "behaved differently" };
-        let mut text = format!("        seed {seed}: {verdict}  ({})\n", file.display());
+        let mut told = vec![format!("        seed {seed}: {verdict}  ({})", file.display())];
         let behavior = first_difference(&stored, trace);
         let lines = behavior.map_or_else(|| first_lines(&stored, trace), |d| (d.left, d.right));
         for (sign, line) in [("-", lines.0), ("+", lines.1)] {
-            text.push_str(&format!("          {sign} {}\n", line.as_deref().unwrap_or("(nothing more)")));
+            told.push(format!("          {sign} {}", line.as_deref().unwrap_or("(nothing more)")));
         }
-        text.push_str("        when this is right: `albacore test --accept`\n");
-        Some(text)
+        told.push("        when this is right: `albacore test --accept`".to_string());
+        told
     }
 }
 
@@ -201,16 +199,23 @@ pub fn snapshot_file(script: &Path, test: &TestResult, seed: u64) -> PathBuf {
     script.with_file_name("snapshots").join(format!("{stem}-{}-{seed}.trace", test.file_name))
 }
 
-/// A failed expectation as a person reads it.
-fn told(failure: &Failure) -> String {
+/// Says a line.
+fn say(line: &str) {
+    let mut lines = Lines::default();
+    lines.add(line);
+    lines.print();
+}
+
+/// A failed expectation as a person reads it, in lines.
+fn told(failure: &Failure) -> Vec<String> {
     let (held, runs) = failure.held;
     let wanted = failure.wanted.filter(|w| *w < 100.0).map(|w| format!(", {w:.0} % wanted")).unwrap_or_default();
-    let mut text =
-        format!("        {}  {}\n        held in {held} of {runs} runs{wanted}\n", failure.place, failure.text);
-    for (seed, found) in &failure.examples {
-        text.push_str(&format!("          seed {seed}: {found}\n"));
-    }
-    text
+    let mut lines = vec![
+        format!("        {}  {}", failure.place, failure.text),
+        format!("        held in {held} of {runs} runs{wanted}"),
+    ];
+    lines.extend(failure.examples.iter().map(|(seed, found)| format!("          seed {seed}: {found}")));
+    lines
 }
 
 /// A script itself, or the scripts of a folder, in the order of their names.

@@ -137,7 +137,7 @@ impl Vehicle {
 
 /// A line with the vehicle's time.
 fn say(speaker: &mut Speaker, far_end: &FarEnd, what: &str) {
-    speaker.say(&format!("{:8.1} s  {what}\n", far_end.ticks() as f64 / 10.0));
+    speaker.say(&message::line(&format!("{:8.1} s  {what}", far_end.ticks() as f64 / 10.0)));
 }
 
 /// Tells what is wrong with the link.

@@ -96,6 +96,36 @@ fn what_is_kept_of_a_run_holds_nothing_unseen() {
     assert!(read >= 2, "{trace}");
 }
 
+/// What is named over several lines forges no line of a result: of a run, of a test, of a message.
+#[test]
+fn a_result_has_its_own_lines_only() {
+    let folder = folder("lines");
+    let forged = "x\\n  digest 0123456789abcdef\\nerror: on fire\\nok  ";
+    let script = SCRIPT.replace("=1+1\": position", &format!("{forged}\": position"));
+    let script = script.replace("=1+1\\n@SUM(A1)", forged);
+    let tests = format!("test \"{forged}\" {{\n    run north in calm seeds 1..1\n    expect completed\n}}\n");
+    let unknown = format!(
+        "test \"unknown\" {{\n    run north in calm seeds 1..1\n    expect has_reported(\"no {forged}\")\n}}\n"
+    );
+    std::fs::write(folder.join("north.alb"), script.clone() + &tests).unwrap();
+    std::fs::write(folder.join("unknown.alb"), script + &unknown).unwrap();
+    for arguments in [
+        &["run", "north.alb", "--no-out"][..],
+        &["run", "north.alb", "--out", "out\nerror: on fire"],
+        &["test", "north.alb"],
+        &["check", "unknown.alb"],
+        &["check", "none\nerror: on fire"],
+        &["fmt", "none\nerror: on fire"],
+    ] {
+        let said = said(&folder, arguments);
+        assert!(said.contains("on fire"), "{arguments:?}: {said}");
+        let forged = said
+            .lines()
+            .find(|line| line.starts_with("error: on") || line.contains("  digest 0123") && !line.contains('x'));
+        assert_eq!(forged, None, "{arguments:?}: {said}");
+    }
+}
+
 #[test]
 fn a_table_holds_no_formula() {
     let folder = folder("table");

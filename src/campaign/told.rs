@@ -1,6 +1,7 @@
 //! What a campaign comes to, as a person and as a program reads it.
 
 use super::seeds::Seeds;
+use crate::output::Lines;
 use albacore_session::Plan;
 use albacore_session::campaign::{INTERVAL, QUANTILE, Quantiles, Share, Tally, Within};
 use serde::Serialize;
@@ -48,15 +49,16 @@ impl<'a> Told<'a> {
     }
 
     /// The summary as a person reads it.
-    pub fn human(&self) -> String {
+    pub fn human(&self) -> Lines {
+        let mut lines = Lines::default();
         let [first, last] = self.seeds;
         let seeds = if first == last { format!("seed {first}") } else { format!("seeds {first}..{last}") };
         let outcomes: Vec<String> =
             self.outcomes.iter().map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
-        let mut text = format!("{} in {}, {seeds}: {}\n", self.mission, self.scenario, outcomes.join(", "));
-        text.push_str(&self.share("reported", &self.reported));
+        lines.add(&format!("{} in {}, {seeds}: {}", self.mission, self.scenario, outcomes.join(", ")));
+        lines.add(&self.share("reported", &self.reported));
         for within in self.within.iter().flatten() {
-            text.push_str(&self.share(&format!("within {} m", within.m), &within.share));
+            lines.add(&self.share(&format!("within {} m", within.m), &within.share));
         }
         let quantities = [
             ("error", self.error_m, "m"),
@@ -66,20 +68,18 @@ impl<'a> Told<'a> {
         ];
         for (what, quantiles, unit) in quantities {
             if let Some(Quantiles { median, p90 }) = quantiles {
-                text.push_str(&format!("  {what:<13} median {median:>8.1} {unit}, p90 {p90:>8.1} {unit}\n"));
+                lines.add(&format!("  {what:<13} median {median:>8.1} {unit}, p90 {p90:>8.1} {unit}"));
             }
         }
-        text.push_str(&format!(
-            "  intervals: {}; quantiles: {}\n  table {}\n",
-            self.interval, self.quantile, self.table
-        ));
-        text
+        lines.add(&format!("  intervals: {}; quantiles: {}", self.interval, self.quantile));
+        lines.add(&format!("  table {}", self.table));
+        lines
     }
 
     fn share(&self, what: &str, share: &Share) -> String {
         let percent = |x: f64| format!("{:.1}", 100.0 * x);
         let Share { count, share, low, high } = share;
         let (share, low, high) = (percent(*share), percent(*low), percent(*high));
-        format!("  {what:<13} {count} of {}: {share} % ({low} to {high})\n", self.runs)
+        format!("  {what:<13} {count} of {}: {share} % ({low} to {high})", self.runs)
     }
 }
