@@ -191,7 +191,7 @@ impl Checker<'_> {
                 "write `recovery within 10 min { goto … }`: what the vehicle does after an abort",
             ),
             (
-                !a.body.clauses.iter().any(|clause| matches!(&clause.kind, ClauseKind::Limits(limits) if !limits.is_empty())),
+                !a.body.clauses.iter().any(|clause| limits_something(&clause.kind)),
                 Code::MissionsLimits,
                 "limits",
                 "write `limits { altitude >= 2 m, depth <= 30 m, speed <= 2 m/s }`, as the water and the vehicle allow",
@@ -208,4 +208,8 @@ impl Checker<'_> {
             }
         }
     }
+}
+
+fn limits_something(clause: &ClauseKind) -> bool {
+    matches!(clause, ClauseKind::Limits(limits) if !limits.is_empty())
 }

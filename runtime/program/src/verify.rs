@@ -7,6 +7,7 @@
 //! nothing but what the checker takes a unit's variables to be, which it holds to it.
 
 mod claims;
+mod effects;
 mod known;
 mod pieces;
 mod ranges;
