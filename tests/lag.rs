@@ -82,6 +82,21 @@ fn a_link_that_lags_for_ten_seconds_ends_the_mission_and_says_why() {
     assert_eq!(mission.aborted(), "the link's round trip takes 10.2 s, more than 2.0 s");
 }
 
+/// It held and went on for the whole mission.
+#[test]
+fn a_link_that_lags_by_turns_ends_the_mission_too() {
+    let flaps = |lags: u64, period: u64| {
+        let mut mission = Mission::new("unhurried");
+        while mission.machine.outcome().is_none() && mission.tick < 3000 {
+            let round_trip = if mission.tick % period < lags { 45 } else { 3 };
+            mission.tick(round_trip, 1.0);
+        }
+        (mission.machine.outcome(), mission.tick - 1)
+    };
+    assert_eq!(flaps(25, 45), (Some(Outcome::Aborted), 290), "10 s beyond, less half of those within");
+    assert_eq!(flaps(10, 45).0, None, "a burst now and then is borne");
+}
+
 #[test]
 fn the_round_trip_counts_into_the_age_of_an_input() {
     let mut mission = Mission::new("fresh_for_a_second");

@@ -17,6 +17,8 @@ const RPM_AT_1_MPS: f64 = 1500.0 / 2.6;
 const ROUNDED: f64 = 0.011;
 /// Dived at its limit, the vehicle overshoots a little, m.
 const OVERSHOOT: f64 = 1.0;
+/// A heading bears a mark that measures the round trip, degrees: a tenth, beside what rounding makes.
+const MARK: f64 = 0.1 + 0.06;
 /// So many ticks old may a goal be that is sent: it waits for its turn among three.
 const AGE_TICKS: u64 = 3;
 /// So many goals may be sent in one tick of the vehicle's.
@@ -123,7 +125,7 @@ impl Goal {
         match (self, command.vertical) {
             (Goal::Heading(degrees), _) => {
                 let off = (degrees - command.heading.degrees()).rem_euclid(360.0);
-                off.min(360.0 - off) < 0.06
+                off.min(360.0 - off) < MARK
             }
             (Goal::Speed(speed), _) => (speed - command.speed).abs() < ROUNDED,
             (Goal::Depth(asked), Vertical::Depth(depth)) => (asked - depth).abs() < ROUNDED,

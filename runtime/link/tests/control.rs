@@ -151,6 +151,7 @@ fn commanded(vehicle: &mut Vehicle, command: &Command) -> String {
 }
 
 const HEADING: &str = "#C,Heading,Goal,270.0,*6A\n";
+const MARKED: &str = "#C,Heading,Goal,270.1,*6B\n";
 const SPEED: &str = "#C,Speed,1.50 meters/sec,*E3\n";
 const ALTITUDE: &str = "#C,Depth,Altitude,4.00,*33\n";
 
@@ -168,8 +169,8 @@ fn goals_are_sent_one_a_tick_when_they_change_are_not_taken_up_and_twice_a_secon
         vehicle.controller.hear(seal(body).as_bytes());
     }
     let answered = [0; 11].map(|_| commanded(&mut vehicle, &west()));
-    let twice = "twice a second: it leaves who is silent; once a second the round trip is asked for";
-    assert_eq!(answered[2..], [HEADING, "", SPEED, ALTITUDE, "", HEADING, "", SPEED, ALTITUDE], "{twice}");
+    let twice = "twice a second: it leaves who is silent; once a second with another mark";
+    assert_eq!(answered[2..], [HEADING, SPEED, ALTITUDE, MARKED, "", "", SPEED, ALTITUDE, MARKED], "{twice}");
     let turned = Command { heading: Heading::from_degrees(271.04), ..west() };
     assert_eq!(commanded(&mut vehicle, &turned), seal("C,Heading,Goal,271.0"));
 }

@@ -53,6 +53,9 @@ impl Run {
         let Requirement { fresh, stale, .. } = self.state.link;
         let lags = round_trip > fresh;
         let (takes, may_take) = (seconds(round_trip), seconds(fresh));
+        // A link that is slow and quick by turns is no better than a slow one.
+        let lagged = self.state.lagged;
+        self.state.lagged = if lags && stale { lagged + 2 } else { lagged.saturating_sub(1) };
         if lags != stale {
             self.state.link.stale = lags;
             self.state.link.since = self.state.tick;
@@ -63,8 +66,7 @@ impl Run {
 
     /// The cause of an abort, when the link has lagged for too long.
     pub fn lost_link(&self, lagging: Option<&str>) -> Option<String> {
-        let Requirement { patience, since, .. } = self.state.link;
-        let lost = (self.state.tick - since) as f64 >= patience.unwrap_or(0.0);
+        let lost = self.state.lagged as f64 >= 2.0 * self.state.link.patience.unwrap_or(0.0);
         lagging.filter(|_| lost).map(str::to_string)
     }
 }

@@ -48,6 +48,7 @@ impl Run {
             limited: [false; 3],
             requires: Vec::new(),
             link: Requirement::LINK,
+            lagged: 0,
             lag: Lag::default(),
             within: None,
             began: 0,

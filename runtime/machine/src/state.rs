@@ -41,6 +41,8 @@ pub struct State {
     pub(crate) requires: Vec<Requirement>,
     /// The same of the vehicle's link: the longest round trip for freshness.
     pub(crate) link: Requirement,
+    /// For how long it has taken longer, half ticks: a tick within it makes up for half a tick beyond.
+    pub(crate) lagged: u64,
     /// How far behind the vehicle this tick is.
     pub(crate) lag: Lag,
     /// What the mission's own declarations have put in force: that stays for the recovery.

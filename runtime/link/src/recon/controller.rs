@@ -11,7 +11,7 @@ use super::goal::Goal;
 use super::grounding::Grounding;
 use super::message::{Adcp, FromVehicle, State, ToVehicle};
 use super::mode::{Mode, Phase};
-use super::round_trip::{Moment, RoundTrip};
+use super::round_trip::{Moment, RoundTrip, Told};
 use super::vehicle_time::{Stamp, VehicleTime};
 use albacore_geometry::math::atan2;
 use albacore_geometry::{Heading, TangentFrame, Vector};
@@ -109,9 +109,8 @@ pub struct Controller {
     round_trip: RoundTrip,
     /// The host's time, as it was told last.
     host: Duration,
-    /// The tick in which something was said last, and that in which the round trip was asked for.
+    /// The tick in which something was said last.
     spoke: u64,
-    asked: u64,
     out: Vec<u8>,
     count: Count,
     notices: Vec<String>,
@@ -144,7 +143,6 @@ impl Controller {
             host: Duration::ZERO,
             grounding: Grounding::default(),
             spoke: 0,
-            asked: 0,
             out: Vec::new(),
             count: Count::default(),
             notices: Vec::new(),
@@ -243,8 +241,7 @@ impl Controller {
                 self.gather(TEMPERATURE, &[ctd.temperature]);
                 self.gather(SALINITY, &[ctd.salinity]);
             }
-            FromVehicle::Version(_) => self.round_trip.answered(self.moment()),
-            FromVehicle::Other(_) => {}
+            FromVehicle::Version(_) | FromVehicle::Other(_) => {}
         }
     }
 
@@ -261,7 +258,7 @@ impl Controller {
             }
         };
         self.latest_tick = Some(tick);
-        self.round_trip.shown(state.heading_goal, state.depth_goal, self.moment());
+        self.round_trip.told(state.heading_goal, Told::State, self.moment());
         self.speed = state.speed;
         let position = self.frame.to_point(state.position);
         self.gather(POSITION, &[position.north, position.east, POSITION_SIGMA]);
@@ -284,11 +281,13 @@ impl Controller {
         self.heard.push_back(Heard { tick, mode, heading_goal, depth_goal, samples });
     }
 
-    /// An echo is no acceptance: what `#S` tells of the goals, it tells better. Of speed and altitude it tells nothing.
+    /// An echo is no acceptance, but it was heard: what `#S` tells of the goals, it tells better. Of speed and altitude it tells
+    /// nothing.
     fn take_in_echo(&mut self, text: &str) {
         match ToVehicle::parse(&format!("C,{text}")) {
             Ok(speed @ ToVehicle::Speed(_)) => self.goals[SPEED_GOAL].held = Some(speed),
             Ok(altitude @ ToVehicle::Altitude(_)) => self.goals[VERTICAL_GOAL].held = Some(altitude),
+            Ok(ToVehicle::Heading(heading)) => self.round_trip.told(heading, Told::Echo, self.moment()),
             _ => {}
         }
     }
@@ -344,7 +343,8 @@ impl Controller {
             // The first commands of the first override are accepted after a question only.
             self.say(&ToVehicle::Query("Depth".into()));
             self.goals = Default::default();
-            self.round_trip.begin(self.moment());
+        } else if self.control != Control::InControl {
+            self.round_trip.pause();
         }
         snapshot.control = self.control;
         let round_trip = if self.drives() { self.round_trip.ticks(self.moment()) } else { 0 };
@@ -360,7 +360,7 @@ impl Controller {
             (Want::GiveBack, _) => self.say(&ToVehicle::Override(false)),
             // After late ticks a command comes first.
             (Want::Drive { .. }, Control::InControl | Control::Suspended) if self.spoke < tick && !was_late => {
-                self.ask(tick);
+                self.keep_alive(tick);
             }
             _ => {}
         }

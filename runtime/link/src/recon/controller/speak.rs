@@ -6,22 +6,16 @@ use crate::recon::message::{SpeedGoal, ToVehicle};
 use crate::recon::mode::Mode;
 use albacore_vehicle::{Command, Control, TICK_S, Vertical};
 
-/// Who commands nothing says at least this often that it is there; the question that measures the round trip may not count.
+/// Who commands nothing says this often that it is there.
 const KEEP_ALIVE_TICKS: u64 = 10;
 /// So many late ticks one after the other are told.
 const LATE_TICKS: u64 = 10;
 
 impl Controller {
-    /// Asks what tells the round trip, when it is time; says at least that we are here, where the mission stands still, or has
-    /// not begun, and commands nothing.
-    pub(super) fn ask(&mut self, tick: u64) {
-        let now = self.moment();
+    /// Says now and then that we are here, where the mission stands still, or has not begun, and commands nothing.
+    pub(super) fn keep_alive(&mut self, tick: u64) {
         if tick - self.spoke >= KEEP_ALIVE_TICKS {
             self.hello();
-        } else if self.round_trip.is_due(now) {
-            self.round_trip.ask(now);
-            self.asked = tick;
-            self.utter(&ToVehicle::VersionRequest);
         }
     }
 
@@ -29,6 +23,7 @@ impl Controller {
     pub fn take_over(&mut self) {
         if matches!(self.want, Want::Listen | Want::GiveBack) {
             self.want = Want::Drive { since: self.next_tick };
+            self.round_trip.begin();
             self.say(&ToVehicle::Override(true));
         }
     }
@@ -66,22 +61,23 @@ impl Controller {
             Vertical::Altitude(altitude) => ToVehicle::Altitude(altitude),
         };
         let speed = ToVehicle::Speed(SpeedGoal::MetresPerSecond(command.speed));
-        let now = self.next_tick;
-        for (i, message) in [ToVehicle::Heading(command.heading), speed, vertical].into_iter().enumerate() {
+        let (now, moment) = (self.next_tick, self.moment());
+        let heading = self.round_trip.marked(command.heading, moment);
+        for (i, message) in [ToVehicle::Heading(heading), speed, vertical].into_iter().enumerate() {
             if let Some(ignored) = self.goals[i].ask(message, now) {
                 self.notice(ignored);
             }
         }
         // Something else was said in this tick.
-        if self.spoke + 1 == now || self.asked + 1 == now {
+        if self.spoke + 1 == now {
             return;
         }
         let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now)?, goal)));
         let Some((text, goal)) = due.min_by_key(|(_, goal)| goal.sent.as_ref().map(|(_, tick)| *tick)) else { return };
         goal.sent = Some((text.clone(), now));
-        let sent = goal.asked.clone();
-        let moment = self.moment();
-        sent.iter().for_each(|goal| self.round_trip.sent(goal, moment));
+        if let Some(ToVehicle::Heading(heading)) = goal.asked {
+            self.round_trip.sent(heading, moment);
+        }
         self.say(&text);
     }
 
@@ -111,10 +107,6 @@ impl Controller {
 
     pub(super) fn say(&mut self, message: &impl ToString) {
         self.spoke = self.next_tick.saturating_sub(1);
-        self.utter(message);
-    }
-
-    fn utter(&mut self, message: &impl ToString) {
         self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
     }
 }

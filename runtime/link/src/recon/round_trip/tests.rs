@@ -1,0 +1,215 @@
+//! A link in numbers: what is under way on it, and the round trip as it is beside the round trip as it is measured.
+
+use super::*;
+
+fn at(tick: u64) -> Moment {
+    Moment { tick, host: Duration::ZERO }
+}
+
+/// A generator for tests (SplitMix64).
+struct Chance(u64);
+
+impl Chance {
+    fn draw(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: u64) -> u64 {
+        self.draw() % n
+    }
+
+    fn happens(&mut self, percent: u64) -> bool {
+        self.below(100) < percent
+    }
+}
+
+/// One direction of a link. Nothing overtakes; what is lost never arrives, and what is repeated arrives twice.
+struct Way<T> {
+    under_way: VecDeque<(u64, T)>,
+    last_due: u64,
+    lost: u64,
+    repeated: u64,
+}
+
+impl<T: Clone> Way<T> {
+    fn new(lost: u64, repeated: u64) -> Self {
+        Way { under_way: VecDeque::new(), last_due: 0, lost, repeated }
+    }
+
+    fn send(&mut self, what: T, now: u64, delay: u64, chance: &mut Chance) {
+        self.last_due = self.last_due.max(now + delay);
+        if !chance.happens(self.lost) {
+            self.under_way.push_back((self.last_due, what.clone()));
+        }
+        if chance.happens(self.repeated) {
+            self.under_way.push_back((self.last_due, what));
+        }
+    }
+
+    fn arrived(&mut self, now: u64) -> Vec<T> {
+        let count = self.under_way.iter().take_while(|(due, _)| *due <= now).count();
+        self.under_way.drain(..count).map(|(_, what)| what).collect()
+    }
+}
+
+struct Link {
+    lost: u64,
+    repeated: u64,
+    /// The vehicle echoes what it hears, and shows what it holds.
+    echoes: bool,
+    shows: bool,
+}
+
+const SOUND: Link = Link { lost: 0, repeated: 0, echoes: true, shows: true };
+
+/// What is measured, and what is so, in each tick: the age of the newest moment of ours of which the vehicle tells.
+fn measured(
+    link: &Link,
+    seed: u64,
+    ticks: u64,
+    delay: impl Fn(u64) -> (u64, u64),
+    course: impl Fn(u64) -> f64,
+) -> Vec<(u64, u64)> {
+    let mut chance = Chance(seed);
+    let mut trip = RoundTrip::new(1.0);
+    // Beside the goals a moment goes over the link in each tick, which is never lost: it tells what is so.
+    let (mut there, mut back) = (Way::new(link.lost, link.repeated), Way::new(link.lost, link.repeated));
+    let (mut moments, mut told) = (Way::new(0, 0), Way::new(0, 0));
+    let (mut held, mut newest, mut known, mut spoke) = (mark(200.0), 0, 0, (Heading::NORTH, 0));
+    trip.told(held, Told::State, at(0));
+    (1..=ticks)
+        .map(|now| {
+            let (to, from) = delay(now);
+            for heading in there.arrived(now) {
+                held = heading;
+                if link.echoes {
+                    back.send((heading, Told::Echo), now, from, &mut chance);
+                }
+            }
+            newest = moments.arrived(now).last().copied().unwrap_or(newest);
+            if link.shows {
+                back.send((held, Told::State), now, from, &mut chance);
+            }
+            // A state that comes twice is of no new tick, and told nobody.
+            told.send(newest, now, from, &mut chance);
+            back.last_due = back.last_due.max(told.last_due);
+            told.last_due = back.last_due;
+            back.arrived(now).into_iter().for_each(|(heading, by)| trip.told(heading, by, at(now)));
+            known = told.arrived(now).last().copied().unwrap_or(known);
+            let measured = trip.ticks(at(now));
+            let heading = trip.marked(Heading::from_degrees(course(now)), at(now));
+            // A goal that changes is sent in the tick or the two after it, and twice a second anyway.
+            let changes = Mark::of(heading) != Mark::of(spoke.0) && chance.happens(60);
+            if changes || now - spoke.1 >= 5 {
+                spoke = (heading, now);
+                trip.sent(heading, at(now));
+                there.send(heading, now, to, &mut chance);
+                moments.last_due = moments.last_due.max(there.last_due);
+            }
+            moments.send(now, now, to, &mut chance);
+            there.last_due = moments.last_due;
+            (measured, now - known)
+        })
+        .collect()
+}
+
+/// How a course goes on: straight, turning, weaving, and trembling.
+fn courses() -> [fn(u64) -> f64; 4] {
+    [
+        |_| 90.0,
+        |tick| tick as f64 % 360.0,
+        |tick| if tick / 20 % 2 == 0 { 10.0 } else { 11.0 },
+        |tick| 359.9 + (tick * 7919 % 7) as f64 / 10.0,
+    ]
+}
+
+#[test]
+fn a_constant_delay_is_known_once_it_has_passed_and_never_taken_for_less() {
+    for course in courses() {
+        for (to, from) in [(0, 1), (1, 2), (7, 0), (0, 20), (50, 50), (250, 0)] {
+            let measured = measured(&SOUND, 1, 1500, |_| (to, from), course);
+            let settled = &measured[(to + from + 25) as usize..];
+            for (measured, so) in settled {
+                assert!((*so..=so + 15).contains(measured), "{to} + {from}, {}: {measured}, {so}", course(7));
+            }
+        }
+    }
+}
+
+/// Never shorter: what comes back was heard. Between two marks the link may become slower.
+#[test]
+fn on_no_link_is_the_round_trip_taken_for_shorter_than_it_is_for_longer_than_until_the_next_mark() {
+    for seed in 0..300 {
+        let mut chance = Chance(seed * 77);
+        let (lost, repeated) = ([0, 5, 30][chance.below(3) as usize], [0, 30, 100][chance.below(3) as usize]);
+        let (shows, echoes) = [(true, true), (true, false), (false, true)][chance.below(3) as usize];
+        let link = Link { lost, repeated, echoes, shows };
+        let (most, period, shift) = (1 + chance.below(80), 1 + chance.below(200), chance.below(200));
+        // Grows, falls back, and grows again, in each direction at other times.
+        let delay = |tick: u64| {
+            (tick % period * most / period, (tick + shift) / 50 % 2 * (most / 2) + Chance(tick).below(1 + most / 4))
+        };
+        let course = courses()[chance.below(4) as usize];
+        for (tick, (measured, so)) in measured(&link, seed, 1500, delay, course).into_iter().enumerate() {
+            let until_next = measured.max(MARK_TICKS) + 6;
+            assert!(so <= measured + until_next, "seed {seed}, tick {tick}: {so} is taken for {measured}");
+        }
+    }
+}
+
+#[test]
+fn a_link_without_delay_is_never_taken_for_a_slow_one() {
+    for seed in 0..100 {
+        let link = Link { lost: seed % 5, repeated: seed % 3 * 50, ..SOUND };
+        for course in courses() {
+            let measured = measured(&link, seed, 1500, |_| (0, 1), course);
+            assert!(measured.iter().all(|(ticks, _)| *ticks <= 20), "seed {seed}: {:?}", measured.iter().max());
+        }
+    }
+}
+
+#[test]
+fn nothing_that_comes_back_is_a_round_trip_that_grows() {
+    let deaf = Link { shows: false, echoes: false, ..SOUND };
+    assert!(measured(&deaf, 1, 500, |_| (0, 0), |_| 90.0).last().is_some_and(|(ticks, _)| *ticks > 490));
+}
+
+fn mark(degrees: f64) -> Heading {
+    Heading::from_degrees(degrees)
+}
+
+#[test]
+fn the_longer_of_the_two_clocks_counts() {
+    let mut trip = RoundTrip::new(1.0);
+    trip.sent(mark(5.0), at(100));
+    trip.told(mark(5.0), Told::State, Moment { tick: 103, host: Duration::from_millis(10_200) });
+    assert_eq!(trip.ticks(at(103)), 102, "the vehicle's clock runs slow");
+    trip.sent(mark(6.0), Moment { tick: 110, host: Duration::from_secs(20) });
+    trip.told(mark(6.0), Told::State, Moment { tick: 150, host: Duration::from_secs(21) });
+    assert_eq!(trip.ticks(at(150)), 40);
+    let mut slow = RoundTrip::new(0.1);
+    slow.sent(mark(5.0), at(0));
+    slow.told(mark(5.0), Told::Echo, Moment { tick: 1, host: Duration::from_secs(3) });
+    assert_eq!(slow.ticks(at(1)), 3, "3 s of the host's are 0.3 s of the vehicle's");
+}
+
+#[test]
+fn what_the_vehicle_tells_anyway_proves_nothing() {
+    let mut trip = RoundTrip::new(1.0);
+    trip.told(mark(90.0), Told::State, at(1));
+    assert_eq!(Mark::of(trip.marked(mark(90.0), at(1))), Mark(901), "that can be told from what it holds");
+    trip.sent(mark(90.1), at(1));
+    for (tick, told) in [(2, 90.0), (3, 200.0), (4, 90.0)] {
+        trip.told(mark(told), Told::State, at(tick));
+    }
+    assert_eq!(trip.ticks(at(40)), 39);
+    for (tick, goal) in [(50, 80.0), (60, 90.1)] {
+        trip.sent(mark(goal), at(tick));
+    }
+    trip.told(mark(90.1), Told::State, at(61));
+    assert_eq!(trip.ticks(at(61)), 60, "the first of the two, as far as anybody knows");
+}
