@@ -46,7 +46,8 @@ pub struct Campaign {
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
     /// Go on with a table that was begun by the same campaign, to its end or to more seeds. Every row is held against its
-    /// checksum; the seeds of those that were changed on the disk are run again.
+    /// checksum; the seeds of those that were changed on the disk are run again. This guards against accidents, not against
+    /// forgery: whoever writes a row can write its checksum.
     #[arg(long)]
     resume: bool,
     /// Columns for so many reports of each name: a mission may report in a loop.
@@ -85,6 +86,8 @@ impl Campaign {
     fn carry_out(&self, plan: &Plan) -> Result<Exit, Trouble> {
         let campaign = MissionCampaign::new(plan.clone(), self.reports);
         let (columns, origin) = (campaign.columns(), Origin::new(plan, &self.choice.set, &self.faults.texts));
+        // Who interrupts finds a table that can be gone on with.
+        let interrupted = interruption::flag();
         let mut table = if self.resume {
             Table::resume(&self.out, columns, &origin, self.seeds)?
         } else {
@@ -98,7 +101,6 @@ impl Campaign {
                     + "  help: nothing to be done: their seeds are run again, which gives the rows that were there\n"),
             );
         }
-        let interrupted = interruption::flag();
         let bar = self.bar(table.rows());
         let mut trouble = None;
         let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |row| {

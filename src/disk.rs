@@ -1,9 +1,9 @@
 //! The one place that writes to the disk. A file is written whole or not at all, and what is in the making has a name that
 //! nobody chose: it overwrites nothing, and follows no link. `tests/writers.rs` keeps every other writer out.
 
-use std::error::Error;
+use crate::interruption::{self, Held};
 use std::fs::{self, File, Metadata, OpenOptions, Permissions};
-use std::io::{self, ErrorKind, Seek, Write};
+use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, TempDir};
 
@@ -14,12 +14,37 @@ pub fn whole(path: &Path, text: &str) -> io::Result<()> {
     replace(path, text.as_bytes()).map(drop)
 }
 
+/// The same in the place of what was made so before, and of no file that somebody else wrote: what is in it tells.
+pub fn remake(path: &Path, text: &str, is_ours: impl Fn(&[u8]) -> bool) -> io::Result<()> {
+    spare(path, is_ours)?;
+    whole(path, text)
+}
+
+/// An error if somebody else's file is at a path.
+pub fn spare(path: &Path, is_ours: impl Fn(&[u8]) -> bool) -> io::Result<()> {
+    if fs::symlink_metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0) {
+        let mut bytes = Vec::new();
+        File::open(path)?.take(OURS_BYTES_MAX).read_to_end(&mut bytes)?;
+        if !is_ours(&bytes) {
+            return Err(io::Error::new(ErrorKind::AlreadyExists, "it is there already, and was not made so"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether bytes begin as a text does: with the same word.
+pub fn begins_as(bytes: &[u8], text: &str) -> bool {
+    text.split_whitespace().next().is_some_and(|word| bytes.starts_with(word.as_bytes()))
+}
+
 /// The same, to be gone on with at its end: the file is locked before anybody else can open it.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<File> {
     let there = replaceable(path)?;
     let folder = folder_of(path);
-    let mut part = part(folder)?;
-    part.write_all(bytes)?;
+    // Who interrupts finds whole files and no temporary ones.
+    let _held = interruption::held();
+    let part = part(folder)?;
+    part.as_file().write_all(bytes)?;
     if let Some(there) = there {
         alike(part.as_file(), &there)?;
     }
@@ -125,15 +150,16 @@ pub fn remove_empty(folder: &Path) -> io::Result<()> {
 }
 
 /// A folder in the making, beside the one that it becomes. It is gone when it does not become one.
-pub struct PartFolder(TempDir);
+pub struct PartFolder(TempDir, Held);
 
 impl PartFolder {
     /// An empty one, on the same disk.
     pub fn beside(folder: &Path) -> io::Result<Self> {
+        let held = interruption::held();
         let mut builder = Builder::new();
         builder.prefix(PREFIX).suffix(SUFFIX);
         readable(&mut builder, 0o777);
-        builder.tempdir_in(folder_of(folder)).map(PartFolder).map_err(plain)
+        builder.tempdir_in(folder_of(folder)).map(|part| PartFolder(part, held)).map_err(plain)
     }
 
     /// Where it is.
@@ -149,6 +175,9 @@ impl PartFolder {
         Ok(())
     }
 }
+
+/// Of a file that is there so much is looked at.
+const OURS_BYTES_MAX: u64 = 64 << 20;
 
 const PREFIX: &str = ".albacore-";
 const SUFFIX: &str = ".part";
@@ -211,8 +240,10 @@ fn sync_folder(folder: &Path) {
 
 /// The system's own error, without the name of a temporary file.
 fn plain(error: io::Error) -> io::Error {
-    let inner = error.get_ref().and_then(Error::source).and_then(|inner| inner.downcast_ref::<io::Error>());
-    inner.and_then(io::Error::raw_os_error).map_or(error, io::Error::from_raw_os_error)
+    match error.to_string().split_once(" at path \"") {
+        Some((said, _)) => io::Error::new(error.kind(), said),
+        None => error,
+    }
 }
 
 #[cfg(test)]

@@ -5,12 +5,18 @@ mod markdown;
 mod names;
 
 use crate::exit::Exit;
-use crate::{disk, interruption, message, output, plan};
+use crate::{disk, message, output, plan};
 use albacore_session::diagram::{self, Diagram};
 use albacore_session::doc::{Page, page};
 use albacore_session::{FileId, Script, Sources};
 use names::Names;
 use std::path::{Path, PathBuf};
+
+/// The page that leads to the others.
+const INDEX: &str = "index";
+
+/// The end of every page that is written into a file: it tells that we may write it again.
+const MARK: &str = "\n<!-- Made by `albacore doc`. -->\n";
 
 /// Make reference pages of scripts, from their declarations and comments.
 #[derive(clap::Args)]
@@ -71,18 +77,25 @@ impl Doc {
             output::print(&pages.join("\n"));
             return Ok(Exit::Well);
         };
-        let unwritable = |error: std::io::Error| {
-            message::error(&format!("`{}` cannot be written: {error}", folder.display()), None);
+        if let Some(module) = modules.iter().find(|module| module.name.eq_ignore_ascii_case(INDEX)) {
+            let message = format!("`{}.alb` can have no page: `{INDEX}` is the list of them", module.name);
+            message::error(&message, Some("give the script another name, or leave out `--out`"));
+            return Err(Exit::Usage);
+        }
+        let unwritable = |path: &Path, error: std::io::Error| {
+            let help = "choose another folder with `--out`";
+            message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
             Exit::Failed
         };
-        // Who interrupts now has whole files, and no temporary ones.
-        let _held = interruption::flag();
-        std::fs::create_dir_all(folder).map_err(unwritable)?;
-        let index = ("index", self.dressed("Modules", &markdown::index(&modules), None, &names));
+        std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
+        let index = (INDEX, self.dressed("Modules", &markdown::index(&modules), None, &names));
         let named = modules.iter().map(|module| module.name.as_str()).zip(pages);
-        for (name, text) in named.chain([index]) {
-            disk::whole(&folder.join(format!("{name}.{}", self.format.ending())), &text).map_err(unwritable)?;
-        }
+        let file = |name: &str| folder.join(format!("{name}.{}", self.format.ending()));
+        let files: Vec<_> = named.chain([index]).map(|(name, text)| (file(name), text + MARK)).collect();
+        // A README of somebody's own may be called as a script is.
+        let is_ours = |there: &[u8]| there.ends_with(MARK.as_bytes());
+        files.iter().try_for_each(|(path, _)| disk::spare(path, is_ours).map_err(|error| unwritable(path, error)))?;
+        files.iter().try_for_each(|(path, text)| disk::whole(path, text).map_err(|error| unwritable(path, error)))?;
         Ok(Exit::Well)
     }
 

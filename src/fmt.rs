@@ -1,13 +1,10 @@
 //! `albacore fmt`: scripts in the one style.
 
 use crate::exit::Exit;
-use crate::{disk, interruption, message, output};
+use crate::{disk, message, output};
 use albacore_session::{Source, Sources};
 use similar::{DiffOp, TextDiff};
-use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 /// So many lines of a difference are shown.
 const SHOWN_MAX: usize = 20;
@@ -28,9 +25,6 @@ pub struct Fmt {
 impl Fmt {
     /// Formats each script; the worst of them decides.
     pub fn run(&self) -> Exit {
-        // Who interrupts has every script whole, and no temporary file. Nobody waits for standard input.
-        let waits = self.paths.iter().any(|path| path.as_os_str() == "-");
-        let interrupted = if waits { Arc::default() } else { interruption::flag() };
         let mut exits = Vec::new();
         for path in &self.paths {
             if path.as_os_str() == "-" {
@@ -43,9 +37,6 @@ impl Fmt {
             }
             scripts.sort();
             for script in scripts {
-                if interrupted.load(Ordering::Relaxed) {
-                    return Exit::NotWell;
-                }
                 exits.push(self.file(&script).unwrap_or_else(|exit| exit));
             }
         }
@@ -53,12 +44,10 @@ impl Fmt {
     }
 
     fn standard_input(&self) -> Result<Exit, Exit> {
-        let mut text = String::new();
-        std::io::stdin().lock().read_to_string(&mut text).map_err(|error| {
-            message::error(&format!("standard input cannot be read: {error}"), None);
+        let source = albacore_session::read_input(std::io::stdin().lock()).map_err(|error| {
+            message::error(&error.message, error.help.as_deref());
             Exit::Usage
         })?;
-        let source = Source { name: "<stdin>".into(), text: text.into() };
         let formatted = formatted(&source)?;
         if self.check {
             return Ok(check(&source, &formatted));

@@ -1,9 +1,8 @@
 //! `albacore graph`: the switching diagram of a strategy.
 
 use crate::exit::Exit;
-use crate::{disk, interruption, message, plan};
+use crate::{disk, message, output, plan};
 use albacore_session::diagram::{self, Diagram};
-use std::io::Write;
 use std::path::PathBuf;
 
 /// Draw the switching diagram of a strategy.
@@ -51,16 +50,14 @@ impl Graph {
 
     fn write(&self, text: &str) -> Exit {
         let Some(path) = &self.out else {
-            // A closed pipe is silent.
-            let _ = std::io::stdout().lock().write_all(text.as_bytes());
+            output::print_raw(text);
             return Exit::Well;
         };
-        // Who interrupts now has whole files, and no temporary ones.
-        let _held = interruption::flag();
-        match disk::whole(path, text) {
+        match disk::remake(path, text, |there| disk::begins_as(there, text)) {
             Ok(()) => Exit::Well,
             Err(error) => {
-                message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
+                let help = "choose another file with `--out`";
+                message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
                 Exit::Failed
             }
         }

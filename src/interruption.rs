@@ -3,17 +3,17 @@
 use crate::clock::now;
 use signal_hook::consts as signal;
 use signal_hook::iterator::Signals;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::Builder;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Who asks again sooner than this has not asked twice: a terminal that is closed sends several signals at once.
 const AGAIN: Duration = Duration::from_millis(300);
 
 /// What asks a program to end. Those that tell of a fault of its own cannot be survived, and are left out.
 #[cfg(unix)]
-const REQUESTS: [i32; 13] = [
+const REQUESTS: [i32; 12] = [
     signal::SIGINT,
     signal::SIGTERM,
     signal::SIGQUIT,
@@ -26,21 +26,80 @@ const REQUESTS: [i32; 13] = [
     signal::SIGIO,
     signal::SIGABRT,
     signal::SIGXCPU,
-    signal::SIGXFSZ,
 ];
 #[cfg(not(unix))]
 const REQUESTS: [i32; 2] = [signal::SIGINT, signal::SIGTERM];
 
-/// What the system sends by itself, and again: a limit on time or on a file's size was reached.
+/// What the system sends by itself, and again: a limit on time was reached.
 #[cfg(unix)]
-const LIMITS: [i32; 2] = [signal::SIGXCPU, signal::SIGXFSZ];
+const LIMITS: [i32; 1] = [signal::SIGXCPU];
 #[cfg(not(unix))]
 const LIMITS: [i32; 0] = [];
 
+/// What was asked of the program, and what it is about. There is one program, and so one of these.
+#[derive(Default)]
+struct Heard {
+    /// The first request, and when it came.
+    first: Option<(i32, Instant)>,
+    /// Whether somebody looks at the flag, and ends in good order.
+    is_looked_at: bool,
+    /// So many files are in the making, and would be left behind.
+    in_the_making: usize,
+}
+
+static HEARD: LazyLock<Mutex<Heard>> = LazyLock::new(Mutex::default);
+static RAISED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+
+fn heard() -> MutexGuard<'static, Heard> {
+    HEARD.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Heard {
+    /// The request that nobody else sees to.
+    fn left_alone(&self) -> Option<i32> {
+        let waits = self.is_looked_at || self.in_the_making > 0;
+        self.first.filter(|_| !waits).map(|(request, _)| request)
+    }
+}
+
 /// A flag that any of them raises. The second ends the program at once, whatever it is about.
 pub fn flag() -> Arc<AtomicBool> {
-    raised_by(&REQUESTS)
+    heard().is_looked_at = true;
+    listen();
+    Arc::clone(&RAISED)
 }
+
+/// While it lives, a temporary file is in the making: a request to end waits for it, and then does what it does without us, unless
+/// somebody looks at the flag.
+pub struct Held(());
+
+/// Begins to hold.
+pub fn held() -> Held {
+    heard().in_the_making += 1;
+    listen();
+    Held(())
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        let mut heard = heard();
+        heard.in_the_making -= 1;
+        if let Some(request) = heard.left_alone() {
+            end(request);
+        }
+    }
+}
+
+/// A file that has reached a limit of size is an error of the disk, and no request: the program does not end of it.
+#[cfg(unix)]
+pub fn survive_file_limits() {
+    // Without a handler the limit ends the program at once, as it ends any other.
+    let _ = signal_hook::flag::register(signal::SIGXFSZ, Arc::default());
+}
+
+/// There is no such thing.
+#[cfg(not(unix))]
+pub fn survive_file_limits() {}
 
 /// A flag that Ctrl-C raises alone; whoever raises it lowers it again.
 pub fn ctrl_c() -> Arc<AtomicBool> {
@@ -77,28 +136,36 @@ fn is_heard(request: i32, ignored: u64) -> bool {
     matches!(request, signal::SIGINT | signal::SIGTERM) || ignored >> (request - 1) & 1 == 0
 }
 
-fn raised_by(requests: &[i32]) -> Arc<AtomicBool> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let ignored = ignored();
-    // Without handlers a signal ends the program at once, as it does any other.
-    let Ok(mut signals) = Signals::new(requests.iter().filter(|request| is_heard(**request, ignored))) else {
-        return interrupted;
-    };
-    let flag = Arc::clone(&interrupted);
-    let handle = signals.handle();
-    // This thread waits for signals and for nothing else: it must not write, for a terminal may hold who writes.
-    let heard = Builder::new().name("signals".into()).spawn(move || {
-        let mut first = None;
-        for request in signals.forever() {
-            flag.store(true, Ordering::Relaxed);
-            let begun = *first.get_or_insert_with(now);
-            if now().duration_since(begun) >= AGAIN && !LIMITS.contains(&request) {
-                signal_hook::low_level::exit(128 + request);
+/// Hears requests from now on, in a thread that waits for them and does nothing else: it must not write, for a terminal may hold
+/// who writes.
+fn listen() {
+    static LISTENING: OnceLock<()> = OnceLock::new();
+    LISTENING.get_or_init(|| {
+        let ignored = ignored();
+        // Without handlers a signal ends the program at once, as it does any other.
+        let Ok(mut signals) = Signals::new(REQUESTS.iter().filter(|request| is_heard(**request, ignored))) else {
+            return;
+        };
+        let handle = signals.handle();
+        let listening = Builder::new().name("signals".into()).spawn(move || {
+            for request in signals.forever() {
+                RAISED.store(true, Ordering::Relaxed);
+                let mut heard = heard();
+                let (_, begun) = *heard.first.get_or_insert_with(|| (request, now()));
+                let is_second = now().duration_since(begun) >= AGAIN && !LIMITS.contains(&request);
+                if is_second || heard.left_alone().is_some() {
+                    end(request);
+                }
             }
+        });
+        if listening.is_err() {
+            handle.close();
         }
     });
-    if heard.is_err() {
-        handle.close();
-    }
-    interrupted
+}
+
+/// Ends the program as a signal does that nobody hears.
+fn end(request: i32) {
+    let _ = signal_hook::low_level::emulate_default_handler(request);
+    signal_hook::low_level::exit(128 + request);
 }

@@ -73,6 +73,7 @@ enum Verb {
 }
 
 fn main() -> ExitCode {
+    interruption::survive_file_limits();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -82,9 +83,9 @@ fn main() -> ExitCode {
             if usage {
                 message::write(&error.render().to_string());
             } else {
-                let _ = error.print();
+                output::told(error.print());
             }
-            return ExitCode::from(if usage { Exit::Usage } else { Exit::Well });
+            return ExitCode::from(output::exit(if usage { Exit::Usage } else { Exit::Well }));
         }
     };
     let exit = match arguments.verb {
@@ -102,5 +103,5 @@ fn main() -> ExitCode {
         Verb::Vehicle(vehicle) => vehicle.run(),
         Verb::Completions(completions) => completions.run(Arguments::command()),
     };
-    ExitCode::from(if output::has_failed() { Exit::Failed } else { exit })
+    ExitCode::from(output::exit(exit))
 }

@@ -1,9 +1,10 @@
 //! Standard output: results, for a person or a program.
 
+use crate::exit::Exit;
 use crate::message;
 use albacore_session::seen::{is_unseen, one_line, shown};
 use serde::Serialize;
-use std::io::{ErrorKind, Write};
+use std::io::{self, ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether a result could not be written. There is one standard output, and so one of these.
@@ -31,11 +32,15 @@ pub fn print(text: &str) {
     print_raw(&shown(text));
 }
 
-/// Prints what has been made to be seen, or is data for a program. A closed pipe is silent: nobody wants to know. Any other failure is said, once, and is a failure of the
-/// program.
+/// Prints what has been made to be seen, or is data for a program.
 pub fn print_raw(text: &str) {
-    let mut out = std::io::stdout().lock();
-    if let Err(error) = out.write_all(text.as_bytes()).and_then(|()| out.flush())
+    told(std::io::stdout().lock().write_all(text.as_bytes()));
+}
+
+/// Takes what became of something printed. A closed pipe is silent: nobody wants to know. Any other failure is said, once, and is
+/// a failure of the program.
+pub fn told(printed: io::Result<()>) {
+    if let Err(error) = printed.and_then(|()| std::io::stdout().lock().flush())
         && error.kind() != ErrorKind::BrokenPipe
         && !FAILED.swap(true, Ordering::Relaxed)
     {
@@ -59,9 +64,9 @@ pub fn json(value: &impl Serialize) -> serde_json::Result<String> {
     serde_json::to_string_pretty(value).map(|text| seen_json(&text) + "\n")
 }
 
-/// Whether a result was lost.
-pub fn has_failed() -> bool {
-    FAILED.load(Ordering::Relaxed)
+/// How the program ends: a result that was lost is a failure.
+pub fn exit(exit: Exit) -> Exit {
+    if FAILED.load(Ordering::Relaxed) { Exit::Failed } else { exit }
 }
 
 /// JSON in which texts hold nothing unseen: the same values, more of them written as escapes.

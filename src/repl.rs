@@ -10,12 +10,15 @@ use rustyline::error::ReadlineError;
 use rustyline::history::MemHistory;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{Completer, Editor, Helper, Highlighter, Hinter};
-use std::io::{BufRead, IsTerminal};
+use std::io::{BufRead, IsTerminal, Read};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 /// A line that goes on in so many others is taken as it is: it is no script.
 const LINES_AT_ONCE_MAX: usize = 10_000;
+
+/// A line is no longer than this, in bytes; no more are read before it is taken as it is.
+const LINE_BYTES_MAX: u64 = 1 << 20;
 
 /// What to do about bytes that are no text.
 const NOT_UTF8: &str = "it is left out; type it again, or send it as UTF-8";
@@ -110,7 +113,11 @@ fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
     let mut input = std::io::stdin().lock();
     for number in 1.. {
         let mut line = Vec::new();
-        let over = match input.read_until(b'\n', &mut line) {
+        let over = match input.by_ref().take(LINE_BYTES_MAX + 1).read_until(b'\n', &mut line) {
+            Ok(bytes) if bytes as u64 > LINE_BYTES_MAX => {
+                message::error(&format!("line {number} of standard input is longer than {LINE_BYTES_MAX} bytes"), None);
+                return Exit::Script;
+            }
             Ok(bytes) => bytes == 0,
             Err(error) => {
                 message::error(&format!("standard input cannot be read: {error}"), None);
@@ -124,7 +131,8 @@ fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
                 exit = Exit::Script;
             }
         }
-        if !over && Prompt::goes_on(&text) && text.lines().count() < LINES_AT_ONCE_MAX {
+        let is_short = text.len() as u64 <= LINE_BYTES_MAX && text.lines().count() < LINES_AT_ONCE_MAX;
+        if !over && is_short && Prompt::goes_on(&text) {
             continue;
         }
         match prompt.enter(text.trim_end(), interrupted, &mut hear) {

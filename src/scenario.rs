@@ -3,7 +3,7 @@
 use crate::exit::Exit;
 use crate::output::Lines;
 use crate::plan::{refused, scenario_script};
-use crate::{disk, interruption, message};
+use crate::{disk, message};
 use albacore_session::{Shown, Whence};
 use std::path::{Path, PathBuf};
 
@@ -70,10 +70,8 @@ impl Show {
         let path = self.out.clone().unwrap_or_else(usual);
         // A folder that somebody names is there, or mistyped.
         let folder = if self.out.is_none() { path.parent() } else { None };
-        // Who interrupts now has whole files, and no temporary ones.
-        let _held = interruption::flag();
         let made = folder.map_or(Ok(()), std::fs::create_dir_all);
-        match made.and_then(|()| disk::whole(&path, &shown.svg)) {
+        match made.and_then(|()| disk::remake(&path, &shown.svg, |there| disk::begins_as(there, &shown.svg))) {
             Ok(()) => {
                 let mut lines = Lines::default();
                 lines.add(&format!("picture {}", path.display()));

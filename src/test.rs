@@ -5,7 +5,10 @@ use crate::exit::Exit;
 use crate::message;
 use crate::output::Lines;
 use crate::plan::Faults;
-use albacore_session::{Failure, PlanError, Script, TestResult, first_difference, run_test, same_behavior};
+use albacore_session::{
+    Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, Unread, first_difference, read_file, run_test,
+    same_behavior,
+};
 use std::path::{Path, PathBuf};
 
 /// Run the tests of scripts.
@@ -149,7 +152,13 @@ impl Test {
     /// Compares a trace with its snapshot; gives what is wrong, in lines.
     fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str) -> Vec<String> {
         let file = snapshot_file(script, result, seed);
-        let stored = std::fs::read_to_string(&file).ok();
+        let stored = match stored(&file, trace) {
+            Ok(stored) => stored,
+            Err(error) if !self.accept => {
+                return vec![format!("        `{}` cannot be read: {error}", file.display())];
+            }
+            Err(_) => None,
+        };
         if stored.as_deref() == Some(trace) {
             return Vec::new();
         }
@@ -179,6 +188,15 @@ impl Test {
         }
         told.push("        when this is right: `albacore test --accept`".to_string());
         told
+    }
+}
+
+/// The snapshot that is stored, if there is one. One much larger than the trace is none of it.
+fn stored(file: &Path, trace: &str) -> Result<Option<String>, String> {
+    match read_file(file, SOURCE_BYTES_MAX.max(2 * trace.len()) as u64) {
+        Ok(bytes) => String::from_utf8(bytes).map(Some).map_err(|_| "it is no text in UTF-8".to_string()),
+        Err(Unread::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error.to_string()),
     }
 }
 

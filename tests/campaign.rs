@@ -282,6 +282,51 @@ fn rows_that_were_changed_are_run_again() {
     assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
 }
 
+/// What lies beside a table is read with a bound, and only from ordinary files.
+#[test]
+fn a_neighbour_of_a_table_that_is_no_file_is_said() {
+    let out = empty("neighbours").join("t.csv");
+    table(BOX, "1..2", &out, &[]);
+    for (suffix, bytes) in [(".origin", "csv.origin"), (".sums", "csv.sums")] {
+        let beside = out.with_extension(bytes);
+        let whole = std::fs::read(&beside).unwrap();
+        std::fs::remove_file(&beside).unwrap();
+        assert!(Command::new("mkfifo").arg(&beside).status().unwrap().success());
+        refused(BOX, "1..3", &out, &["--resume"], 2, &format!("t.csv{suffix}`, which tells"));
+        std::fs::remove_file(&beside).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", &beside).unwrap();
+        refused(BOX, "1..3", &out, &["--resume"], 2, "cannot be read: it is no ordinary file");
+        std::fs::remove_file(&beside).unwrap();
+        std::fs::write(&beside, whole).unwrap();
+    }
+    // What is damaged is not taken for another campaign.
+    let sums = std::fs::read(out.with_extension("csv.sums")).unwrap();
+    for damaged in [&b"nothing"[..], &sums[17..]] {
+        std::fs::write(out.with_extension("csv.sums"), damaged).unwrap();
+        let output = command(BOX, "1..2", &out, &["--resume"]).output().unwrap();
+        assert!(!stderr(&output).contains("other columns"), "{}", stderr(&output));
+    }
+}
+
+/// All that may be left of a table is not overwritten by the next.
+#[test]
+fn what_is_left_of_another_table_stays() {
+    let folder = empty("left");
+    let out = folder.join("t.csv");
+    table(BOX, "1..2", &out, &[]);
+    std::fs::remove_file(&out).unwrap();
+    let origin = std::fs::read(out.with_extension("csv.origin")).unwrap();
+    refused(BOX, "1..3", &out, &["--set", "round.patience=9min"], 2, "t.csv.origin` is there already");
+    refused(BOX, "1..2", &out, &[], 2, "belongs to another table");
+    refused(BOX, "1..3", &out, &["--resume", "--set", "round.patience=9min"], 2, "was begun with `no --set`");
+    assert_eq!(std::fs::read(out.with_extension("csv.origin")).unwrap(), origin);
+    let link = folder.join("link.csv");
+    std::os::unix::fs::symlink("nowhere.csv", &link).unwrap();
+    for more in [&[][..], &["--resume"]] {
+        refused(BOX, "1..3", &link, more, 2, "link.csv` is there already: a link that leads nowhere");
+    }
+}
+
 #[test]
 fn two_campaigns_do_not_write_one_table() {
     let out = empty("two").join("box.csv");

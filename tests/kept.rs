@@ -115,19 +115,22 @@ fn who_kills_a_run_has_a_valid_prefix() {
 
 #[test]
 fn a_full_disk_is_said_once_and_the_mission_goes_on() {
-    let out = empty("full");
-    // A file that may grow no further fails as a full disk does; the journal is the only one as long as this.
-    let limited = "trap '' XFSZ; ulimit -f 200; exec \"$0\" \"$@\"";
-    let run = albacore(BOX, &out);
-    let mut shell = Command::new("sh");
-    shell.args(["-c", limited]).arg(run.get_program()).args(run.get_args());
-    let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
-    let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(4), "{said}");
-    assert_eq!(said.matches("error: ").count(), 1, "{said}");
-    assert!(said.contains("full/journal` cannot be written: "), "{said}");
-    assert!(String::from_utf8_lossy(&output.stdout).contains("completed"));
-    assert!(out.join("trace.txt").exists() && out.join("run.svg").exists());
+    // A file that may grow no further fails as a full disk does; the journal is the only one as long as this. The signal that comes
+    // with it ends nothing either.
+    for signal in ["", "trap '' XFSZ;"] {
+        let out = empty("full");
+        let limited = format!("{signal} ulimit -f 200; exec \"$0\" \"$@\"");
+        let run = albacore(BOX, &out);
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &limited]).arg(run.get_program()).args(run.get_args());
+        let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(4), "{said}");
+        assert_eq!(said.matches("error: ").count(), 1, "{said}");
+        assert!(said.contains("full/journal` cannot be written: "), "{said}");
+        assert!(String::from_utf8_lossy(&output.stdout).contains("completed"));
+        assert!(out.join("trace.txt").exists() && out.join("run.svg").exists());
+    }
 }
 
 /// A mission of days is not begun without what was asked to be kept of it.

@@ -1,6 +1,7 @@
 //! `albacore test`: what it says, writes and ends with, for each way a test can go.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+#![cfg(unix)]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -60,6 +61,25 @@ impl Project {
         let said = [output.stdout, output.stderr].concat();
         (output.status.code(), String::from_utf8_lossy(&said).replace(&self.0.display().to_string(), "."))
     }
+}
+
+#[test]
+fn a_snapshot_that_cannot_be_read_is_said() {
+    let project = Project::new("unreadable", "20 s", "30 m");
+    assert_eq!(project.test(&["--accept"]).0, Some(0));
+    let file = project.0.join("snapshots/north-goes_north-2.trace");
+    let no_file = "cannot be read: it is no ordinary file";
+    std::fs::write(&file, b"\xff\xfe").unwrap();
+    let (code, said) = project.test(&[]);
+    assert!(code == Some(1) && said.contains("cannot be read: it is no text in UTF-8"), "{said}");
+    std::fs::remove_file(&file).unwrap();
+    assert!(Command::new("mkfifo").arg(&file).status().unwrap().success());
+    let (code, said) = project.test(&[]);
+    assert!(code == Some(1) && said.contains(no_file), "{said}");
+    std::fs::remove_file(&file).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", &file).unwrap();
+    let (code, said) = project.test(&[]);
+    assert!(code == Some(1) && said.contains(no_file) && !said.contains("there is no snapshot"), "{said}");
 }
 
 #[test]

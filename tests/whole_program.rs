@@ -118,11 +118,27 @@ fn a_scenario_of_another_file_is_named_with_its_file() {
     ends_with(&["run", BOX, "--in", "missions/box.alb#tidal_steam", "--no-out"], 2, "did you mean `tidal_stream`?");
 }
 
+/// A device that never ends.
+#[cfg(target_os = "linux")]
+#[test]
+fn standard_input_has_a_bound() {
+    for (args, code, said) in
+        [(&["fmt", "-"][..], 2, "standard input is larger than"), (&["repl"], 3, "is longer than")]
+    {
+        let zeros = std::fs::File::open("/dev/zero").unwrap();
+        let output = command(args).stdin(zeros).stdout(Stdio::null()).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(said), "{args:?}: {}", stderr(&output));
+    }
+}
+
 /// A device that is always full.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_result_that_cannot_be_written_is_said_and_a_failure() {
-    for args in [&["run", BOX, "--no-out"][..], &["run", BOX, "--no-out", "--json"], &["test", BOX]] {
+    let verbs = [&["run", BOX, "--no-out"][..], &["run", BOX, "--no-out", "--json"], &["test", BOX]];
+    let others = [&["graph", "cpt", "cpt_2005"][..], &["--help"], &["--version"], &["run", "--help"]];
+    for args in verbs.into_iter().chain(others) {
         let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
         let output = command(args).stdout(full).stderr(Stdio::piped()).output().unwrap();
         assert_eq!(output.status.code(), Some(4), "{args:?}: {}", stderr(&output));

@@ -170,16 +170,24 @@ fn permissions_stay_and_what_is_read_only_is_refused() {
 fn a_disk_that_is_full_leaves_nothing_behind() {
     let folder = empty("full");
     sources(&folder);
-    // A file that may not grow fails as a full disk does.
-    let limited = "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"";
-    for words in ["fmt plan.alb", VERBS[1], VERBS[4], VERBS[5], "new reef"] {
-        let verb = command(&folder, words);
-        let mut shell = Command::new("sh");
-        shell.args(["-c", limited]).arg(verb.get_program()).args(verb.get_args()).current_dir(&folder);
-        let (code, said) = said(&shell.stdin(Stdio::null()).output().unwrap());
-        assert!(code == Some(4) && said.contains("cannot be written: "), "{words}: {code:?} {said}");
-        assert_eq!(names(&folder), ["box.alb", "out", "plan.alb"], "{words}");
-        assert!(names(&folder.join("out")).is_empty(), "{words}");
+    // A file that may not grow fails as a full disk does; who does not ignore the signal that tells it has the same.
+    for signal in ["", "trap '' XFSZ;"] {
+        let limited = format!("{signal} ulimit -f 0; exec \"$0\" \"$@\"");
+        let verbs = ["fmt plan.alb", "fmt plan.alb -", "new reef", "test box.alb --accept"];
+        for words in VERBS[1..].iter().chain(&verbs).copied() {
+            let verb = command(&folder, words);
+            let mut shell = Command::new("sh");
+            shell.args(["-c", &limited]).arg(verb.get_program()).args(verb.get_args()).current_dir(&folder);
+            let (code, said) = said(&shell.stdin(Stdio::null()).stdout(Stdio::null()).output().unwrap());
+            if words.starts_with("test") {
+                std::fs::remove_dir(folder.join("snapshots")).unwrap();
+            } else {
+                assert!(code == Some(4) && said.contains("cannot be written: "), "{words}: {code:?} {said}");
+            }
+            assert!(!said.contains(".part"), "{words}: {said}");
+            assert_eq!(names(&folder), ["box.alb", "out", "plan.alb"], "{words}: {said}");
+            assert!(names(&folder.join("out")).is_empty(), "{words}");
+        }
     }
     assert_eq!(std::fs::read_to_string(folder.join("plan.alb")).unwrap(), PLAN);
 }
@@ -195,6 +203,60 @@ fn who_interrupts_finds_a_whole_project_or_none() {
     let code = child.wait().unwrap().code();
     assert!(matches!(code, Some(0 | 1)), "{code:?}");
     assert_eq!(names(&folder), if code == Some(0) { vec!["reef"] } else { Vec::new() });
+}
+
+#[test]
+fn who_interrupts_a_campaign_finds_no_temporary_file() {
+    for round in 0..20 {
+        let folder = empty("stopped");
+        std::fs::copy("missions/box.alb", folder.join("box.alb")).unwrap();
+        let mut campaign = command(&folder, "campaign box.alb --seeds 1..3000 --out t.csv");
+        let mut child = campaign.stderr(Stdio::null()).spawn().unwrap();
+        while names(&folder).len() < 2 + round % 3 && child.try_wait().unwrap().is_none() {
+            std::thread::yield_now();
+        }
+        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+        child.wait().unwrap();
+        let left = names(&folder);
+        assert!(left.iter().all(|name| !name.starts_with('.')), "{left:?}");
+    }
+}
+
+#[test]
+fn what_somebody_else_wrote_is_not_replaced() {
+    let folder = empty("others");
+    sources(&folder);
+    for (name, text) in [("README.alb", "const a = 1 m\n"), ("README.md", "# Mine\n"), ("mine.svg", "mine")] {
+        std::fs::write(folder.join("out").join(name), text).unwrap();
+    }
+    let all = || names(&folder.join("out")).into_iter().map(|n| std::fs::read(folder.join("out").join(n)).unwrap());
+    let before: Vec<_> = all().collect();
+    let box_before = std::fs::read(folder.join("box.alb")).unwrap();
+    for words in [
+        "graph cpt cpt_2005 --out box.alb",
+        "graph cpt cpt_2005 --format dot --out box.alb",
+        "scenario show box.alb --out box.alb",
+        "scenario show box.alb --out out/mine.svg",
+        "doc out --out out",
+    ] {
+        let (code, said) = albacore(&folder, words);
+        assert!(
+            code == Some(4) && said.contains("it is there already, and was not made so"),
+            "{words}: {code:?} {said}"
+        );
+    }
+    assert_eq!(all().collect::<Vec<_>>(), before);
+    assert_eq!(std::fs::read(folder.join("box.alb")).unwrap(), box_before);
+    // What was made so is made again.
+    for words in ["doc out --out pages", "graph cpt cpt_2005 --out g.svg", "scenario show box.alb --out g.svg"] {
+        assert_eq!(albacore(&folder, words).0, Some(0), "{words}");
+        assert_eq!(albacore(&folder, words).0, Some(0), "{words}");
+    }
+    // The list of pages would stand in the place of this one.
+    std::fs::write(folder.join("out/index.alb"), "const a = 1 m\n").unwrap();
+    let (code, said) = albacore(&folder, "doc out --out list");
+    assert!(code == Some(2) && said.contains("`index.alb` can have no page"), "{code:?} {said}");
+    assert!(!folder.join("list").exists());
 }
 
 /// Nothing else in the program opens a file to write it, moves it or removes it.

@@ -2,10 +2,10 @@
 
 use crate::plan::{ScriptDigest, scripts};
 use crate::{disk, output};
-use albacore_session::Plan;
+use albacore_session::{Plan, SOURCE_BYTES_MAX, read_file};
 use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// All that decides a row beside its seed.
@@ -35,9 +35,10 @@ impl Origin {
         }
     }
 
-    /// The origin of a table; `None` if nothing readable lies beside it.
-    pub fn read(table: &Path) -> Option<Self> {
-        serde_json::from_slice(&std::fs::read(beside(table, ".origin")).ok()?).ok()
+    /// The origin of a table.
+    pub fn read(table: &Path) -> Result<Self, Unread> {
+        let bytes = read_beside(table, ".origin", SOURCE_BYTES_MAX as u64)?;
+        serde_json::from_slice(&bytes).map_err(|error| Unread::Wrong(error.to_string()))
     }
 
     /// Writes it beside a table, whole or not at all.
@@ -75,6 +76,23 @@ impl Origin {
 fn options(name: &str, texts: &[String]) -> String {
     let options: Vec<String> = texts.iter().map(|text| format!("{name} {text}")).collect();
     if options.is_empty() { format!("no {name}") } else { options.join(" ") }
+}
+
+/// Why a file beside a table tells nothing.
+#[derive(Debug)]
+pub enum Unread {
+    /// There is none.
+    Missing,
+    /// What is wrong with it.
+    Wrong(String),
+}
+
+/// The bytes of a file beside a table, so many at most.
+pub fn read_beside(table: &Path, suffix: &str, bytes_max: u64) -> Result<Vec<u8>, Unread> {
+    read_file(&beside(table, suffix), bytes_max).map_err(|unread| match unread {
+        albacore_session::Unread::System(error) if error.kind() == ErrorKind::NotFound => Unread::Missing,
+        unread => Unread::Wrong(unread.to_string()),
+    })
 }
 
 /// `duck.csv` and `.origin` is `duck.csv.origin`.

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// A campaign has this many runs at most: what is made of its rows is held in memory.
-const RUNS_MAX: u64 = 1_000_000;
+pub const RUNS_MAX: u64 = 1_000_000;
 
 /// Seeds without a gap, at least one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

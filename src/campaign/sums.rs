@@ -3,12 +3,13 @@
 //! Each line of the table, the first too, has a record of 17 bytes: the digest of its bytes, as 16 hexadecimal digits, and
 //! a line end. It is written after the line, so that a line without one was not finished.
 
-use super::origin::beside;
+use super::origin::{Unread, beside, read_beside};
+use super::seeds::RUNS_MAX;
 use crate::disk;
 use crate::synced::Synced;
 use albacore_trace::Digest;
 use std::collections::BTreeMap;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Bytes of a record.
@@ -39,13 +40,11 @@ pub struct Kept<'a> {
     pub changed: Vec<usize>,
 }
 
-/// Reads the checksums of a table, and holds its text against them. `None` if there are none.
-pub fn kept<'a>(table: &Path, text: &'a [u8]) -> io::Result<Option<Kept<'a>>> {
-    match std::fs::read(path(table)) {
-        Ok(sums) => Ok(Some(held_against(text, &sums))),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error),
-    }
+/// Reads the checksums of a table, and holds its text against them.
+pub fn kept<'a>(table: &Path, text: &'a [u8]) -> Result<Kept<'a>, Unread> {
+    // A record for each run that a campaign can have, and for the first line.
+    let sums = read_beside(table, ".sums", RECORD as u64 * (RUNS_MAX + 2))?;
+    Ok(held_against(text, &sums))
 }
 
 /// A line is found by its digest wherever it stands: a line end that was changed, or a line that was moved, takes no others

@@ -4,7 +4,7 @@
 //! rows that are as they were written, runs the seeds of the others again, and goes on: the bytes are the same as without
 //! the interruption, and whatever the disk did.
 
-use super::origin::Origin;
+use super::origin::{Origin, Unread, beside};
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
 use crate::disk;
@@ -54,6 +54,20 @@ impl From<io::Error> for Trouble {
 impl Table {
     /// Begins a table, where there is none yet.
     pub fn begin(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
+        // What lies beside a table that is gone is of that one, and may be all that is left of it.
+        let left = neighbours(path).into_iter().find(|left| !path.exists() && left.symlink_metadata().is_ok());
+        if let Some(left) = left {
+            let message = format!("`{}` is there already, and belongs to another table", left.display());
+            return Err(Trouble::Asked(message, "move it away, or choose another file with `--out`".to_string()));
+        }
+        Table::create(path, columns, origin)
+    }
+
+    fn create(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
+        if path.is_symlink() && !path.exists() {
+            let message = format!("`{}` is there already: a link that leads nowhere", path.display());
+            return Err(Trouble::Asked(message, "remove it, or choose another file with `--out`".to_string()));
+        }
         let created = disk::new_file(path);
         if created.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::AlreadyExists) {
             let help = "go on with it by `--resume`, or choose another file with `--out`";
@@ -61,7 +75,12 @@ impl Table {
         }
         let file = created?;
         lock(&file, path)?;
-        Ok(Table::headed(path, file, columns, origin)?)
+        let table = Table::headed(path, file, columns, origin);
+        if table.is_err() {
+            // Nothing was there before, and nothing of it is worth keeping.
+            neighbours(path).iter().map(PathBuf::as_path).chain([path]).for_each(|left| drop(disk::remove(left)));
+        }
+        Ok(table?)
     }
 
     /// Writes where it comes from, and then the first line: a table with a line always has its origin beside it.
@@ -78,7 +97,13 @@ impl Table {
     /// Goes on with a table, or begins it if there is none.
     pub fn resume(path: &Path, columns: &Columns, origin: &Origin, seeds: Seeds) -> Result<Self, Trouble> {
         match std::fs::metadata(path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Table::begin(path, columns, origin),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                // A table that is gone is made again, and no other in its place.
+                if beside(path, ".origin").symlink_metadata().is_ok() {
+                    belongs(path, origin, false)?;
+                }
+                return Table::create(path, columns, origin);
+            }
             Err(error) => return Err(error.into()),
             // A device or a pipe would answer with something else, or never.
             Ok(found) if !found.is_file() => {
@@ -99,12 +124,8 @@ impl Table {
             file.set_len(0)?;
             return Ok(Table::headed(path, file, columns, origin)?);
         }
-        let Some(kept) = sums::kept(path, &text)? else {
-            let message =
-                format!("`{}` has no `.sums` beside it, which tells whether its rows are whole", path.display());
-            let help = "put that back, or begin anew with another `--out`";
-            return Err(Trouble::Asked(message, help.to_string()));
-        };
+        let kept = sums::kept(path, &text)
+            .map_err(|unread| silent(path, ".sums", "which tells whether its rows are whole", unread))?;
         let head = line(columns.names());
         let mut lines: Vec<Option<Vec<u8>>> = kept.lines.iter().map(|line| line.map(<[u8]>::to_vec)).collect();
         match lines.first_mut() {
@@ -112,6 +133,15 @@ impl Table {
             Some(first @ None) => *first = Some(head),
             Some(Some(first)) if *first == head => {}
             None if text.starts_with(&head) => lines.push(Some(head)),
+            // Whatever its columns are, the first line that was written is not here, or its sum is not.
+            first if first.is_none() || text.starts_with(&head) => {
+                let message =
+                    format!("`{}` or its `.sums` is damaged: the first line is not as it was written", path.display());
+                return Err(Trouble::Asked(
+                    message,
+                    "put both back as they were, or begin anew with another `--out`".to_string(),
+                ));
+            }
             _ => {
                 let help = "give the `--reports` that it was begun with, or choose another file with `--out`";
                 let message = format!("`{}` has other columns than this campaign", path.display());
@@ -208,6 +238,11 @@ impl Table {
     }
 }
 
+/// The files that lie beside a table.
+fn neighbours(table: &Path) -> [PathBuf; 2] {
+    [".origin", ".sums"].map(|suffix| beside(table, suffix))
+}
+
 /// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
 fn lock(file: &File, path: &Path) -> Result<(), Trouble> {
     match file.try_lock() {
@@ -219,12 +254,21 @@ fn lock(file: &File, path: &Path) -> Result<(), Trouble> {
     }
 }
 
+/// Says that a file beside a table does not tell what it should.
+fn silent(table: &Path, suffix: &str, what: &str, unread: Unread) -> Trouble {
+    let message = match unread {
+        Unread::Missing => format!("`{}` has no `{suffix}` beside it, {what}", table.display()),
+        Unread::Wrong(error) => format!("`{}{suffix}`, {what}, cannot be read: {error}", table.display()),
+    };
+    Trouble::Asked(message, "put that back as it was, or begin anew with another `--out`".to_string())
+}
+
 /// Whether this campaign is the one that the table was begun by. An empty file belongs to every campaign.
 fn belongs(path: &Path, origin: &Origin, is_empty: bool) -> Result<(), Trouble> {
     let problem = match Origin::read(path) {
         _ if is_empty => None,
-        None => Some("has no readable `.origin` beside it, which tells what it was made from".to_string()),
-        Some(then) => then.difference(origin),
+        Err(unread) => return Err(silent(path, ".origin", "which tells what it was made from", unread)),
+        Ok(then) => then.difference(origin),
     };
     let Some(problem) = problem else { return Ok(()) };
     let help = "a table holds one campaign: give what it was begun with, or choose another file with `--out`";
@@ -268,12 +312,16 @@ fn line(cells: &[String]) -> Vec<u8> {
     writer.into_inner().unwrap_or_default()
 }
 
-/// A text that a spreadsheet would compute stands behind a `'`, which makes it a text there. Numbers are numbers.
+/// A text that a spreadsheet would compute stands behind a `'`, which makes it a text there. Numbers are numbers. Where a comma
+/// stands in numbers, a spreadsheet parts cells at semicolons.
 fn no_formula(cell: String) -> String {
-    let is_number = cell.parse::<f64>().is_ok_and(f64::is_finite);
-    let starts_one =
-        cell.trim_start().starts_with(['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}']);
-    if starts_one && !is_number { format!("'{cell}") } else { cell }
+    let part = |part: &str| {
+        let is_number = part.parse::<f64>().is_ok_and(f64::is_finite);
+        let said = part.trim_start_matches(|c: char| c.is_whitespace() || c == '"');
+        let starts_one = said.starts_with(['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}']);
+        if starts_one && !is_number { format!("'{part}") } else { part.to_string() }
+    };
+    cell.split(';').map(part).collect::<Vec<_>>().join(";")
 }
 
 #[cfg(test)]
@@ -286,6 +334,8 @@ mod tests {
         let cells: Vec<String> = cells.iter().map(|cell| cell.to_string()).collect();
         let expected = "'=1+1,+1,-12.5,-1e-3,'@SUM(1),' =cmd(),' -2+3,'-,a=b,\\u{1b}[2J,'+inf\n";
         assert_eq!(String::from_utf8(line(&cells)).unwrap(), expected);
+        let parted = ["a;=1+1".to_string(), "=1; \"@SUM(1)".to_string(), "1;-2".to_string()];
+        assert_eq!(line(&parted), b"a;'=1+1,\"'=1;' \"\"@SUM(1)\",1;-2\n");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Files of numbers that a script names: they lie in the project's folder, as what `use` imports does.
 
+use crate::bounded::{Unread, read_file};
 use crate::files::{FileError, Files, leads_nowhere, nearest_file, plain};
-use std::io::Read;
 use std::path::{Component, Path};
 
 impl Files {
@@ -30,26 +30,14 @@ impl Files {
         if !inside {
             return Err(error("is a link that leads out of the project", "copy the file into the project's folder"));
         }
-        let unreadable =
-            |e: std::io::Error| error(&format!("cannot be read: {}", plain(&e)), "look at its permissions");
-        let metadata = std::fs::metadata(&file).map_err(unreadable)?;
-        // A device or a pipe would answer without end, or never.
-        if !metadata.is_file() {
-            let what = if metadata.is_dir() { "is a folder" } else { "is no ordinary file" };
-            return Err(error(what, "name a file"));
-        }
-        let mut bytes = Vec::new();
-        let open = std::fs::File::open(&file).map_err(unreadable)?;
-        // A file may grow after it was measured.
-        open.take(bytes_max + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-        if bytes.len() as u64 > bytes_max {
-            let (megabytes, most) = (metadata.len() as f64 / 1e6, bytes_max as f64 / 1e6);
-            return Err(error(
-                &format!("has {megabytes:.1} MB: {most} MB are read at most"),
+        read_file(&file, bytes_max).map_err(|unread| match unread {
+            Unread::System(e) => error(&format!("cannot be read: {}", plain(&e)), "look at its permissions"),
+            Unread::NoFile(what) => error(&format!("is {what}"), "name a file"),
+            Unread::Large(most) => error(
+                &format!("is too large: {} MB are read at most", most as f64 / 1e6),
                 "cut out the part that is needed",
-            ));
-        }
-        Ok(bytes)
+            ),
+        })
     }
 
     /// There is no such file; one of its folder may be meant.

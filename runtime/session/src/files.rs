@@ -1,8 +1,10 @@
 //! Where scripts come from: the project's folder, then the standard library inside the binary, nowhere else.
 
+use crate::bounded::{Unread, read_all, read_file};
 use crate::wanted::Wanted;
 use albacore_lang::source::{SOURCE_BYTES_MAX, Source};
 use albacore_lang::{FileFault, Library, Script, nearest};
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 /// The standard library, compiled in: an installed binary needs no checkout.
@@ -107,28 +109,41 @@ pub fn load_library(scenario: &str, set: &[String]) -> Script {
 /// Reads a source file as text.
 pub fn read(path: &Path) -> Result<Source, FileError> {
     let name = path.display().to_string();
-    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
-    // A directory, a device or a pipe would answer with something else, or never.
-    if !metadata.is_file() {
-        let what = if metadata.is_dir() { "a folder" } else { "no ordinary file" };
-        return Err(FileError {
+    match read_file(path, SOURCE_BYTES_MAX as u64) {
+        Ok(bytes) => source(&name, &format!("`{name}`"), bytes),
+        Err(Unread::System(error)) => Err(unreadable(path, &error)),
+        Err(Unread::NoFile(what)) => Err(FileError {
             message: format!("`{name}` is {what}"),
             help: Some("name a script, such as `mission.alb`".into()),
-        });
+        }),
+        Err(Unread::Large(most)) => Err(larger(&format!("`{name}`"), most)),
     }
-    if metadata.len() > SOURCE_BYTES_MAX as u64 {
-        return Err(FileError { message: format!("`{name}` is larger than {SOURCE_BYTES_MAX} bytes"), help: None });
+}
+
+/// Reads a source from standard input as text.
+pub fn read_input(input: impl Read) -> Result<Source, FileError> {
+    const INPUT: &str = "standard input";
+    match read_all(input, SOURCE_BYTES_MAX as u64) {
+        Ok(bytes) => source("<stdin>", INPUT, bytes),
+        Err(Unread::Large(most)) => Err(larger(INPUT, most)),
+        Err(error) => Err(FileError { message: format!("{INPUT} cannot be read: {error}"), help: None }),
     }
-    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+}
+
+fn source(name: &str, shown: &str, bytes: Vec<u8>) -> Result<Source, FileError> {
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Source { name: name.into(), text: text.into() }),
         Err(error) => {
             let valid = error.utf8_error().valid_up_to();
             let line = error.as_bytes()[..valid].iter().filter(|&&b| b == b'\n').count() + 1;
-            let message = format!("`{name}` is no text in UTF-8: line {line}");
+            let message = format!("{shown} is no text in UTF-8: line {line}");
             Err(FileError { message, help: Some("save it as UTF-8".into()) })
         }
     }
+}
+
+fn larger(shown: &str, most: u64) -> FileError {
+    FileError { message: format!("{shown} is larger than {most} bytes"), help: None }
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> FileError {

@@ -1,5 +1,6 @@
 //! Load, check and step a mission: the few types that the command line, the tests and the prompt all use.
 
+mod bounded;
 pub mod campaign;
 mod check;
 mod craft;
@@ -27,17 +28,18 @@ pub use albacore_lang::cost::{Cost, grouped};
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::doc;
 pub use albacore_lang::fmt::format;
-pub use albacore_lang::source::{FileId, Source, Sources, Span};
+pub use albacore_lang::source::{FileId, SOURCE_BYTES_MAX, Source, Sources, Span};
 pub use albacore_lang::{Script, nearest};
 pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{Dialect, Faulty, LinkError, LinkFault, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_program::seen;
 pub use albacore_trace::{Difference, first_difference, same_behavior};
+pub use bounded::{Unread, read_all, read_file};
 pub use check::{findings, findings_in};
 pub use faults::{Faults, load_faults};
 pub use files::{
-    FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read,
+    FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read, read_input,
     standard_modules,
 };
 pub use journal::Sink;
