@@ -4,6 +4,7 @@
 //! other, and from the 2003 paper (Arrieta, Farrell, Li & Pang, OMAE2003-37273), which says what it is for; where these are
 //! silent the choice is ours and said so. `docs/links.md` tells the rest.
 
+mod allowance;
 mod clocks;
 mod controller;
 mod fields;

@@ -7,6 +7,7 @@ use albacore_geometry::{Geodetic, Heading, TangentFrame};
 use albacore_link::recon::{Adcp, Controller, FromVehicle, Mode, State, seal};
 use albacore_vehicle::channels::COURSE;
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
+use std::time::Duration;
 
 struct Vehicle {
     controller: Controller,
@@ -128,6 +129,58 @@ fn a_vehicle_that_takes_control_back_has_released_itself_from_us() {
         assert_eq!(controls, [Control::InControl, Control::InControl, Control::Released], "{mode:02X}");
         assert_eq!(vehicle.says(0x0D).0, Control::Released, "and that is final");
     }
+}
+
+/// One wrong line passes the sum, and those after it are lost: three ticks of one word.
+#[test]
+fn lost_lines_after_a_wrong_one_are_no_word_of_the_vehicles() {
+    let mut vehicle = Vehicle::driven();
+    vehicle.says(0x01);
+    vehicle.time_ms += 400;
+    assert!(vehicle.hear(0x0D));
+    while vehicle.controller.is_due() {
+        vehicle.controller.sense(&mut vehicle.snapshot);
+        assert_eq!(vehicle.snapshot.control, Control::InControl);
+    }
+    assert_eq!(vehicle.controller.take_notices(), [""; 0]);
+}
+
+/// Its own clock makes a tick of 3 s of the host's.
+#[test]
+fn a_vehicle_with_a_slow_clock_that_never_lets_us_drive_refuses_after_half_a_minute_of_the_hosts() {
+    let mut vehicle = Vehicle::new();
+    vehicle.says(0x01);
+    vehicle.controller.take_over();
+    let controls: Vec<Control> = (1..=11)
+        .map(|tick| {
+            vehicle.controller.tell_time(Duration::from_secs(3 * tick));
+            vehicle.says(0x01).0
+        })
+        .collect();
+    assert!(controls[..10].iter().all(|control| *control == Control::Requesting), "{controls:?}");
+    assert_eq!(controls[10], Control::Refused);
+}
+
+#[test]
+fn a_vehicle_that_says_too_much_is_counted_and_not_written() {
+    let mut vehicle = Vehicle::driven();
+    let (mut said, mut told) = (0, Vec::new());
+    for _ in 0..1000 {
+        for _ in 0..60 {
+            said += 1;
+            vehicle.controller.hear(seal(&format!("E,7,{said} {}", "x".repeat(900))).as_bytes());
+        }
+        vehicle.says(0x0D);
+        told.append(&mut vehicle.controller.take_notices());
+    }
+    assert!(told.concat().len() < 100_000 && told.len() > 20, "{} lines", told.len());
+    assert!(told.iter().any(|text| text.starts_with("the vehicle says too much")));
+    vehicle.controller.release();
+    told.append(&mut vehicle.controller.take_notices());
+    let untold = told.iter().filter_map(|text| text.strip_suffix(" more notices of the vehicle were not written"));
+    let untold: usize = untold.map(|count| count.parse::<usize>().unwrap()).sum();
+    let written = told.iter().filter(|text| text.starts_with("the vehicle says: error 7")).count();
+    assert_eq!(written + untold, said, "each is written or counted");
 }
 
 #[test]

@@ -42,6 +42,8 @@ struct Wire {
     silent: Shared<bool>,
     deaf: Shared<bool>,
     cut: Shared<bool>,
+    /// The bytes for which there is room in the system: what comes then is lost. 0: as many as come.
+    room: Shared<usize>,
     sent: Shared<String>,
 }
 
@@ -65,7 +67,8 @@ impl Desk {
             self.ticked += TICK;
             self.far_end.tick(&std::mem::take(&mut self.to_vehicle)).unwrap();
             let said = self.far_end.take_output();
-            if !self.wire.silent.get() {
+            let room = self.wire.room.get();
+            if !self.wire.silent.get() && (room == 0 || self.from_vehicle.len() + said.len() <= room) {
                 self.from_vehicle.extend(said);
             }
         }
@@ -319,17 +322,18 @@ fn a_vehicle_that_offers_takes_control_back_before_it_offers_again() {
 }
 
 /// The commands of the ticks that came while nobody looked, and of the next: each asks for a heading of its own.
-fn after_a_pause(ticks: u32) -> Vec<(Control, String)> {
+fn after_a_pause(ticks: u32, room: usize) -> Vec<(Control, String)> {
     let (mut vehicle, wire, mut snapshot) = driven();
     // The vehicle has taken up what it was asked for: nothing has to be said again.
     (0..20).for_each(|_| {
         vehicle.sense(&mut snapshot).unwrap();
         vehicle.command(&AHEAD).unwrap();
     });
+    wire.room.set(room);
     wire.now.set(wire.now.get() + TICK * ticks);
     wire.sent.take();
     let mut said = Vec::new();
-    for i in 0..ticks + 3 {
+    for i in 0..ticks + 20 {
         vehicle.sense(&mut snapshot).unwrap();
         vehicle.command(&Command { heading: Heading::from_degrees(f64::from(i)), ..AHEAD }).unwrap();
         said.push((snapshot.control, wire.sent.take()));
@@ -342,7 +346,7 @@ fn after_a_pause(ticks: u32) -> Vec<(Control, String)> {
 
 #[test]
 fn after_a_pause_the_newest_command_alone_is_sent() {
-    let said = after_a_pause(40);
+    let said = after_a_pause(40, 0);
     let late = said.iter().take_while(|(_, sent)| sent.is_empty()).count();
     assert!((38..=40).contains(&late), "{late} late ticks in silence: {said:?}");
     let newest = &said[late].1;
@@ -353,9 +357,12 @@ fn after_a_pause_the_newest_command_alone_is_sent() {
 #[test]
 fn after_a_pause_nothing_is_sent_to_a_vehicle_that_has_left_override() {
     // It leaves who is silent for 5 s.
-    let said = after_a_pause(60);
-    assert_eq!(said.last().unwrap().0, Control::Released);
-    assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{said:?}");
+    // ... and of which the system may have kept what it said before that alone.
+    for room in [0, 5000, 2000, 400] {
+        let said = after_a_pause(60, room);
+        assert_eq!(said.last().unwrap().0, Control::Released, "{room}");
+        assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{room}: {said:?}");
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@
 
 mod speak;
 
+use super::allowance::Allowance;
 use super::frame::Deframer;
 use super::goal::Goal;
 use super::grounding::Grounding;
@@ -33,14 +34,15 @@ const DRIFT_TICKS: u64 = 50;
 /// A vehicle that goes no faster than this by its own word is at rest, m/s: a profiler that tells 0 then is in order, and one
 /// that tells 0 of a vehicle under way is not.
 const AT_REST: f64 = 0.05;
-/// A vehicle that answers, but does not let us drive for this many ticks, refuses.
+/// A vehicle that answers, but does not let us drive for this many ticks, by its own clock or the host's, refuses.
 const REQUEST_TICKS: u64 = 300;
-/// A vehicle that says for this many ticks that we do not drive has left: one wrong line in 256 passes a sum of 8 bits.
-const LEFT_TICKS: u64 = 3;
+/// A vehicle that says in so many lines, one after the other, that we do not drive has left: one wrong line in 256 passes a sum of
+/// 8 bits.
+const LEFT_LINES: u64 = 3;
 /// Frames that wait for their tick; the oldest are given up.
 const WAITING_MAX: usize = 4096;
 /// Notices that wait to be read.
-const NOTICES_MAX: usize = 64;
+const NOTICES_MAX: usize = 128;
 
 /// The places of the goals.
 const HEADING_GOAL: usize = 0;
@@ -52,7 +54,7 @@ const VERTICAL_GOAL: usize = 2;
 enum Want {
     Listen,
     Drive {
-        since: u64,
+        since: Moment,
     },
     /// To listen, once the vehicle says that it drives itself.
     GiveBack,
@@ -98,13 +100,15 @@ pub struct Controller {
     control: Control,
     want: Want,
     lost: bool,
-    /// Ticks for which the vehicle has said that we do not drive, although we did.
+    /// Lines in which the vehicle has said that nobody drives it, one after the other.
     left: u64,
     goals: [Goal; 3],
     /// Ticks whose commands came too late to be sent, since the last that was.
     late: u64,
     /// Whether the tick that was taken last was late.
     was_late: bool,
+    /// We were away, and no state has come since then: what was heard last may be from before.
+    away: bool,
     grounding: Grounding,
     round_trip: RoundTrip,
     /// The host's time, as it was told last.
@@ -114,6 +118,8 @@ pub struct Controller {
     out: Vec<u8>,
     count: Count,
     notices: Vec<String>,
+    /// What the vehicle may still bring about of them.
+    allowance: Allowance,
     told: String,
 }
 
@@ -139,6 +145,7 @@ impl Controller {
             goals: Default::default(),
             late: 0,
             was_late: false,
+            away: false,
             round_trip: RoundTrip::new(1.0),
             host: Duration::ZERO,
             grounding: Grounding::default(),
@@ -146,6 +153,7 @@ impl Controller {
             out: Vec::new(),
             count: Count::default(),
             notices: Vec::new(),
+            allowance: Allowance::default(),
             told: String::new(),
         }
     }
@@ -195,9 +203,14 @@ impl Controller {
         self.lost || self.latest_tick.is_some_and(|latest| self.next_tick <= latest)
     }
 
-    /// Whether the vehicle's time has gone on since the tick that was taken last.
+    /// All that came while nobody looked has been heard: it is old, and the next state is the vehicle's word.
+    pub fn was_away(&mut self) {
+        self.away = true;
+    }
+
+    /// Whether the vehicle's time has gone on since the tick that was taken last, or may have.
     fn is_late(&self) -> bool {
-        !self.lost && self.is_due()
+        !self.lost && (self.away || self.is_due())
     }
 
     /// Whether it is the vehicle's last word, of this tick or a later one, that we drive it.
@@ -235,7 +248,7 @@ impl Controller {
             FromVehicle::Error(code, text) if self.grounding.hear(code, &text, self.next_tick) => {}
             FromVehicle::Error(code, text) => {
                 let comma = if text.is_empty() { "" } else { ", " };
-                self.notice(format!("the vehicle says: error {code}{comma}{text}"));
+                self.notice_of_vehicle(format!("the vehicle says: error {code}{comma}{text}"));
             }
             FromVehicle::Ctd(ctd) => {
                 self.gather(TEMPERATURE, &[ctd.temperature]);
@@ -252,12 +265,15 @@ impl Controller {
             Stamp::ClockSet(tick) => {
                 // Who has lost the vehicle hears later what it said meanwhile: that tells nothing of its clock.
                 if !self.lost && self.want != Want::Leave {
-                    self.notice("the vehicle's time leapt: its clock was set; the mission's time goes on".to_string());
+                    self.notice_of_vehicle(
+                        "the vehicle's time leapt: its clock was set; the mission's time goes on".to_string(),
+                    );
                 }
                 tick
             }
         };
         self.latest_tick = Some(tick);
+        self.away = false;
         self.round_trip.told(state.heading_goal, Told::State, self.moment());
         self.speed = state.speed;
         let position = self.frame.to_point(state.position);
@@ -330,10 +346,12 @@ impl Controller {
         let tick = self.next_tick;
         self.next_tick += 1;
         snapshot.samples.clear();
+        self.notices.extend(self.allowance.tick(tick));
         let until = self.heard.iter().take_while(|heard| heard.tick <= tick).count();
         let heard: Vec<Heard> = self.heard.drain(..until).collect();
         for heard in heard {
             self.mode = heard.mode;
+            self.left = if is_left(heard.mode) { self.left + 1 } else { 0 };
             self.take_in_goals(heard.heading_goal, heard.depth_goal);
             snapshot.samples.extend(heard.samples);
         }
@@ -359,7 +377,9 @@ impl Controller {
             (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
             (Want::GiveBack, _) => self.say(&ToVehicle::Override(false)),
             // After late ticks a command comes first.
-            (Want::Drive { .. }, Control::InControl | Control::Suspended) if self.spoke < tick && !was_late => {
+            (Want::Drive { .. }, Control::InControl | Control::Suspended)
+                if self.spoke < tick && !was_late && self.left == 0 =>
+            {
                 self.keep_alive(tick);
             }
             _ => {}
@@ -392,14 +412,9 @@ impl Controller {
             }
             Want::Listen | Want::GiveBack | Want::Leave => return Control::Monitoring,
         };
-        let suspended = mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over;
-        if driven && !suspended && !(active && mode.phase() == Phase::InMission) {
-            self.left += 1;
-            if self.left < LEFT_TICKS {
-                return self.control;
-            }
-        } else {
-            self.left = 0;
+        let suspended = is_suspended(mode);
+        if driven && (1..LEFT_LINES).contains(&self.left) {
+            return self.control;
         }
         match (mode.phase(), self.control) {
             (_, ended @ (Control::Released | Control::Refused)) => ended,
@@ -410,7 +425,7 @@ impl Controller {
             _ if driven && suspended => Control::Suspended,
             (Phase::InMission, _) if active && !suspended => Control::InControl,
             _ if driven => self.end(Control::Released, "the vehicle has left override by itself"),
-            (phase, _) if tick - since > REQUEST_TICKS => {
+            (phase, _) if self.round_trip.between(since, Moment { tick, ..self.moment() }) > REQUEST_TICKS => {
                 let why = match phase {
                     Phase::PreLaunch => "it is not launched yet",
                     Phase::Suspended => "its mission is suspended",
@@ -435,6 +450,15 @@ impl Controller {
         self.notice(why);
     }
 
+    /// What the vehicle brings about, which may be anything, and as much as it likes.
+    fn notice_of_vehicle(&mut self, text: String) {
+        if self.told != text
+            && let Some(text) = self.allowance.admit(text)
+        {
+            self.notice(text);
+        }
+    }
+
     /// What was told last is not told again.
     fn notice(&mut self, text: String) {
         if self.notices.len() < NOTICES_MAX && self.told != text {
@@ -442,4 +466,14 @@ impl Controller {
             self.notices.push(text);
         }
     }
+}
+
+/// Whether a vehicle that says this has suspended its mission, and whoever drives it.
+fn is_suspended(mode: Mode) -> bool {
+    mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over
+}
+
+/// Whether a vehicle that says this is driven by nobody.
+fn is_left(mode: Mode) -> bool {
+    !is_suspended(mode) && !(mode.has(Mode::ACTIVE) && mode.phase() == Phase::InMission)
 }

@@ -21,7 +21,7 @@ const MARKS_MAX: usize = 256;
 const TURN: u16 = 3600;
 
 /// A moment, by both clocks.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Moment {
     /// The last tick of the vehicle's time that was heard.
     pub tick: u64,
@@ -173,7 +173,8 @@ impl RoundTrip {
         waits.max(self.last)
     }
 
-    fn between(&self, from: Moment, to: Moment) -> u64 {
+    /// The ticks from one moment to another, by the clock that counts more.
+    pub fn between(&self, from: Moment, to: Moment) -> u64 {
         let by_host = host_ticks(to.host.saturating_sub(from.host), self.rate);
         by_host.max(to.tick.saturating_sub(from.tick))
     }

@@ -42,6 +42,8 @@ pub struct ReconVehicle {
     ticked: Duration,
     /// When we looked last for what has come.
     looked: Duration,
+    /// There was a pause before that.
+    paused: bool,
     greeted: Option<Duration>,
     /// When the first tick was taken.
     begun: Option<Duration>,
@@ -74,6 +76,7 @@ impl ReconVehicle {
             silence,
             ticked,
             looked: ticked,
+            paused: false,
             greeted: None,
             begun: None,
             rate,
@@ -84,32 +87,36 @@ impl ReconVehicle {
         }
     }
 
-    /// Looks once for bytes; whether any came.
+    /// Looks once for bytes; whether any came. Only time in which we listened counts as silence.
     fn look(&mut self, wait: Duration) -> Result<bool, VehicleError> {
         let mut bytes = Vec::new();
         let received = self.transport.receive(&mut bytes, wait);
-        self.controller.tell_time((self.clock)());
+        let now = (self.clock)();
+        let away = now.saturating_sub(self.looked);
+        if away >= PAUSE {
+            self.paused = true;
+            self.ticked = (self.ticked + away).min(now);
+        }
+        self.looked = now;
+        self.controller.tell_time(now);
         self.controller.hear(&bytes);
         received.or_else(|error| self.fail(error))?;
         Ok(!bytes.is_empty())
     }
 
     /// Takes in all that has come, so that the last word is known before we speak. After a pause what is still on its way
-    /// through the system is waited for, and only time in which we listened counts as silence.
+    /// through the system is waited for; the system keeps no more than its room allows, and that is the oldest. So no word is the
+    /// last before the next has come.
     fn catch_up(&mut self) -> Result<(), VehicleError> {
-        let now = (self.clock)();
-        let away = now.saturating_sub(self.looked);
-        let paused = away >= PAUSE;
-        if paused {
-            self.ticked = (self.ticked + away).min(now);
-        }
-        let wait = if paused { QUIET } else { Duration::ZERO };
         for _ in 0..LOOKS_MAX {
-            if !self.look(wait)? {
+            let wait = if self.paused { QUIET } else { Duration::ZERO };
+            if !self.look(wait)? && (wait == QUIET || !self.paused) {
                 break;
             }
         }
-        self.looked = (self.clock)();
+        if std::mem::take(&mut self.paused) {
+            self.controller.was_away();
+        }
         Ok(())
     }
 
@@ -167,6 +174,10 @@ impl Vehicle for ReconVehicle {
         self.catch_up()?;
         if !self.controller.is_due() {
             self.look(LOOK)?;
+            // We may have been stopped while we waited.
+            if self.paused {
+                self.catch_up()?;
+            }
         }
         let now = (self.clock)();
         if self.controller.is_due() {

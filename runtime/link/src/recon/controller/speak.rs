@@ -4,6 +4,7 @@ use super::{Controller, Want};
 use crate::recon::frame::seal;
 use crate::recon::message::{SpeedGoal, ToVehicle};
 use crate::recon::mode::Mode;
+use crate::recon::round_trip::Moment;
 use albacore_vehicle::{Command, Control, TICK_S, Vertical};
 
 /// Who commands nothing says this often that it is there.
@@ -22,7 +23,7 @@ impl Controller {
     /// Asks for control; the following ticks tell how that goes.
     pub fn take_over(&mut self) {
         if matches!(self.want, Want::Listen | Want::GiveBack) {
-            self.want = Want::Drive { since: self.next_tick };
+            self.want = Want::Drive { since: Moment { tick: self.next_tick, ..self.moment() } };
             self.round_trip.begin();
             self.say(&ToVehicle::Override(true));
         }
@@ -33,7 +34,6 @@ impl Controller {
         if let Want::Drive { .. } = self.want {
             self.want = Want::GiveBack;
             self.control = Control::Monitoring;
-            self.left = 0;
             self.say(&ToVehicle::Override(false));
         }
     }
@@ -65,7 +65,7 @@ impl Controller {
         let heading = self.round_trip.marked(command.heading, moment);
         for (i, message) in [ToVehicle::Heading(heading), speed, vertical].into_iter().enumerate() {
             if let Some(ignored) = self.goals[i].ask(message, now) {
-                self.notice(ignored);
+                self.notice_of_vehicle(ignored);
             }
         }
         // Something else was said in this tick.
@@ -90,6 +90,7 @@ impl Controller {
     /// for control has none to give.
     pub fn release(&mut self) -> bool {
         let heard = self.heard.drain(..).next_back().map(|heard| heard.mode);
+        self.notices.extend(self.allowance.end());
         match self.want {
             Want::Listen => return true,
             // What was heard before we asked is no answer.
