@@ -122,6 +122,23 @@ fn a_scenario_elsewhere_is_told_before_the_first_tick() {
     assert!(status == Some(2) && misspelt.contains("did you mean `sci_2002`?"), "{misspelt}");
 }
 
+/// A no-go zone far from the area keeps the mission from nothing, in a scenario that is named on the command line too.
+#[test]
+fn a_no_go_zone_far_away_is_told_in_any_scenario() {
+    let folder = project("far-zone");
+    let zone = "rectangle(center: 36.18°N 70.0°W, along: 0 deg, length: 40 m, width: 40 m)";
+    let text = std::fs::read_to_string(folder.join(FILES[0])).unwrap();
+    let scenario = text.lines().find_map(|line| line.strip_prefix("scenario ")).unwrap();
+    let name = scenario.split([' ', '(']).next().unwrap();
+    let (_, rest) = text.split_once("\nscenario ").unwrap();
+    let (block, _) = rest.split_once("\n}").unwrap();
+    let copy = format!("\nscenario {block}\n}}\n").replacen(name, "other", 1);
+    let copy = copy.replacen('{', &format!("{{\n    no_go(\"far\", {zone})"), 1);
+    std::fs::write(folder.join(FILES[0]), text + &copy).unwrap();
+    let (_, told) = albacore(&folder, &["check", FILES[0], "--in", "other"]);
+    assert!(told.contains("the no-go zone \"far\" of `other` is 51"), "{told}");
+}
+
 /// A file that has the latitude first lies somewhere else on the globe: what the scenario says of places shows it.
 #[test]
 fn a_file_with_the_latitude_first_is_told() {

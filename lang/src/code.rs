@@ -46,6 +46,8 @@ codes! {
         AreasFile = "file",
         AreasGoal = "goal",
         AreasLarge = "large",
+        AreasPole = "pole",
+        AreasSmall = "small",
         AreasSwapped = "swapped",
     }
     args {

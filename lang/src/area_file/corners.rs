@@ -4,7 +4,8 @@ use super::{Position, fault};
 use crate::FileFault;
 use crate::diagnostic::distance;
 use albacore_geometry::{
-    AREA_CORNERS_MAX, AREA_REACH_MAX_M, Area, Geodetic, Point, TangentFrame, Vector, longitude_beside,
+    AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, Geodetic, Point, TangentFrame, Vector,
+    goes_round_a_pole, longitude_beside,
 };
 
 /// What is thinner than this, in metres, is no area but a point or a line.
@@ -57,6 +58,10 @@ fn together(corners: &[Position], others: &[Position]) -> Vec<Position> {
 /// What keeps corners on the globe from making an area.
 fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
     let n = corners.len();
+    if goes_round_a_pole(&corners.iter().map(|c| c.longitude_deg).collect::<Vec<f64>>()) {
+        let message = format!("{what} goes round a pole, where no longitude is its middle");
+        return Some(fault(message, "cut it into areas that have no pole in them"));
+    }
     let sum = corners.iter().fold((0.0, 0.0), |s, c| (s.0 + c.latitude_deg, s.1 + c.longitude_deg));
     let frame = TangentFrame { origin: Geodetic::from_degrees(sum.0 / n as f64, sum.1 / n as f64) };
     let place = |c: &Position| frame.to_point(Geodetic::from_degrees(c.latitude_deg, c.longitude_deg));
@@ -89,6 +94,13 @@ fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
                 message,
                 "look for a sign or a digit that is wrong in its corners, or cut it into smaller areas",
             ));
+        }
+        Ok(area) if area.width() < AREA_WIDTH_MIN_M => {
+            let message = format!(
+                "{what} is {:.2} m wide where it is thinnest, and no area is thinner than {AREA_WIDTH_MIN_M} m",
+                area.width()
+            );
+            return Some(fault(message, "look for corners that are nearly in one place or on one line"));
         }
         Ok(_) => return None,
         Err(error) => error,

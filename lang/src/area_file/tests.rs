@@ -173,6 +173,16 @@ fn corners_that_make_no_area_are_told_one_by_one() {
 }
 
 #[test]
+fn slivers_and_what_goes_round_a_pole_are_no_areas() {
+    let sliver = [(-75.75, 36.18), (-75.74, 36.18), (-75.745, 36.180005)];
+    misshapen(&sliver, "POLYGON is 0.55 m wide where it is thinnest, and no area is thinner than 1 m", "on one line");
+    let round = [(0.0, 89.999), (120.0, 89.999), (-120.0, 89.999)];
+    misshapen(&round, "POLYGON goes round a pole, where no longitude is its middle", "cut it into areas");
+    let beside = [(170.0, 89.5), (-170.0, 89.5), (180.0, 89.6)];
+    assert!(read("a.geojson", &geojson(&[("null", &outline(&beside))]), None).is_ok());
+}
+
+#[test]
 fn an_area_may_lie_across_the_180th_meridian() {
     let across = [(179.9, 0.0), (-179.9, 0.0), (-179.9, 0.1), (179.9, 0.1)];
     let corners = read("a.geojson", &geojson(&[("{}", &outline(&across))]), None).unwrap();

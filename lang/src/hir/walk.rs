@@ -76,7 +76,7 @@ impl Activity {
     }
 
     /// Its calls, and the overlays that it puts on, each with its arguments.
-    fn calls_with_args(&self) -> Vec<(ActivityId, &[Expr])> {
+    pub fn calls_with_args(&self) -> Vec<(ActivityId, &[Expr])> {
         let mut calls = Vec::new();
         let mut blocks: Vec<&Block> = Vec::new();
         if let Body::Sequence(block) | Body::Amend { block, .. } = &self.body {

@@ -3,6 +3,7 @@
 
 mod channels;
 mod control;
+mod fixed;
 mod inputs;
 mod limits;
 mod livelock;
@@ -32,7 +33,7 @@ pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     findings.extend(control::check(hir, mission));
     findings.extend(inputs::check(hir, mission));
     findings.extend(places::check(hir, mission));
-    findings.extend(places::large(hir, mission));
+    findings.extend(places::unusable(hir, mission));
     match swapped::check(hir, mission) {
         Some(swapped) => findings.push(swapped),
         None => findings.extend(places::goals(hir, mission)),

@@ -1,13 +1,17 @@
 //! Where things are: a scenario that begins outside the area of its mission, or has a source there, or a no-go zone far from it,
 //! is seldom meant. Nor is a goal outside the area.
 
+use super::fixed::Fixed;
 use super::swapped;
 use crate::code::Code;
 use crate::diagnostic::{Diagnostic, distance};
 use crate::hir::{Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
 use crate::source::Span;
-use albacore_geometry::{AREA_REACH_MAX_M, Area, Geodetic, Heading, Point, TangentFrame};
+use albacore_geometry::{
+    AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, Geodetic, Heading, Point, TangentFrame, goes_round_a_pole,
+};
 use albacore_program::Guide;
+use std::collections::BTreeSet;
 
 /// What is farther from the area than this, m, is nothing to the mission: a no-go zone may well lie beside it, and a vehicle start
 /// there.
@@ -54,9 +58,26 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     scenario.clauses.iter().filter_map(|clause| outside(clause).or_else(|| far(clause))).collect()
 }
 
-/// An area of constants that reaches farther than a plane can be taken for the sea.
-pub(super) fn large(hir: &Hir, mission: usize) -> Option<Diagnostic> {
+/// An area of constants in which no mission can be planned: round a pole, too thin to work in, or reaching farther than a plane can
+/// be taken for the sea.
+pub(super) fn unusable(hir: &Hir, mission: usize) -> Option<Diagnostic> {
     let (area, written, _) = of_mission(hir, mission)?;
+    if goes_round_a_pole(&longitudes(written_area(hir, mission)?)) {
+        return Some(
+            Diagnostic::error(
+                Code::AreasPole,
+                written,
+                "this area goes round a pole, where no longitude is its middle",
+            )
+            .help("cut it into areas that have no pole in them, or give corners in metres"),
+        );
+    }
+    if area.width() < AREA_WIDTH_MIN_M {
+        let message = format!("this area is {:.3} m wide where it is thinnest", area.width());
+        return Some(Diagnostic::error(Code::AreasSmall, written, message).help(format!(
+            "no area is thinner than {AREA_WIDTH_MIN_M} m: look for a unit, and for corners that are nearly on one line"
+        )));
+    }
     let reach = area.reach();
     (reach > AREA_REACH_MAX_M).then(|| {
         let (far, most) = (distance(reach), distance(AREA_REACH_MAX_M));
@@ -67,41 +88,62 @@ pub(super) fn large(hir: &Hir, mission: usize) -> Option<Diagnostic> {
     })
 }
 
-/// Constant goals of the mission's own statements that lie outside its area.
+/// Goals of a mission and of what it calls that are made of constants and lie outside its area.
 pub(super) fn goals(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
     let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
-    let mut findings = Vec::new();
-    for block in activity.blocks() {
-        block.each(&mut |stmt| {
-            let StmtKind::Timed(timed) = &stmt.kind else { return };
-            let Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, args) = &timed.action else {
-                return;
-            };
-            let places = args.first().map(ends).unwrap_or_default();
-            let outside = places.into_iter().filter_map(|e| Some((e.span, -area.gap(point(e, frame)?))));
-            findings.extend(outside.filter(|(_, out)| *out > GOAL_MARGIN_M).map(|(span, out)| {
-                let message = format!("this goal is {} outside the area of the mission `{}`", distance(out), activity.name);
-                Diagnostic::warning(Code::AreasGoal, span, message)
-                    .label(written, "the area")
-                    .help("if the vehicle shall not go there, look for minutes exchanged, and for north and east; else widen the area")
-            }));
-        });
+    let mut fixed = Fixed::of(hir, mission, frame);
+    let mut outside: Vec<(Span, f64, Span)> = Vec::new();
+    for id in hir.called_from(mission) {
+        let unit = fixed.unit(id);
+        for block in hir.activities[id].blocks() {
+            block.each(&mut |stmt| {
+                let StmtKind::Timed(timed) = &stmt.kind else { return };
+                let Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, args) = &timed.action
+                else {
+                    return;
+                };
+                let Some(goal) = args.first() else { return };
+                let places =
+                    fixed.places(unit, goal).into_iter().map(|(span, place)| (span, -area.gap(place), goal.span));
+                outside.extend(places.filter(|(_, out, _)| *out > GOAL_MARGIN_M));
+            });
+        }
     }
-    findings
-}
-
-/// The places that guidance is given: a point, or both ends of a line.
-fn ends(goal: &Expr) -> Vec<&Expr> {
-    match &goal.kind {
-        ExprKind::Do(Builtin::Line, ends) => ends.iter().collect(),
-        _ => vec![goal],
-    }
+    // One that several statements go to is one mistake.
+    let mut told = BTreeSet::new();
+    outside.retain(|(span, ..)| told.insert(*span));
+    outside
+        .into_iter()
+        .map(|(span, out, goal)| {
+            let message = format!("this goal is {} outside the area of the mission `{}`", distance(out), activity.name);
+            let finding = Diagnostic::warning(Code::AreasGoal, span, message).label(written, "the area");
+            let contains = goal.file == span.file && goal.start <= span.start && span.end <= goal.end;
+            let finding = if contains { finding } else { finding.label(goal, "the vehicle goes there") };
+            finding.help("if the vehicle shall not go there, look for minutes exchanged, and for north and east; else widen the area")
+        })
+        .collect()
 }
 
 /// The area of a mission and where that is written, if it is made of constants.
 pub fn operating_area(hir: &Hir, mission: usize) -> Option<(Area, Span)> {
     of_mission(hir, mission).map(|(area, written, _)| (area, written))
+}
+
+/// The longitudes of an area's corners where they are written on the globe.
+fn longitudes(area: &Expr) -> Vec<f64> {
+    let longitude = |corner: &Expr| match corner.kind {
+        ExprKind::Geodetic { longitude_deg, .. } => Some(longitude_deg),
+        _ => None,
+    };
+    match &area.kind {
+        ExprKind::Unwrap(inner) | ExprKind::Else(inner, _) => longitudes(inner),
+        ExprKind::Do(Builtin::Polygon, operands) => match operands.as_slice() {
+            [Expr { kind: ExprKind::List(corners), .. }] => corners.iter().filter_map(longitude).collect(),
+            _ => Vec::new(),
+        },
+        _ => Vec::new(),
+    }
 }
 
 /// The area of a mission as it is written.
@@ -128,7 +170,7 @@ fn finding(mission: &str, area: Span, place: Span, what: &str, out_m: f64) -> Di
 }
 
 /// An area of constants.
-fn area(e: &Expr, frame: Option<TangentFrame>) -> Option<Area> {
+pub(super) fn area(e: &Expr, frame: Option<TangentFrame>) -> Option<Area> {
     match &e.kind {
         ExprKind::Do(Builtin::Rectangle, operands) => {
             let [center, along, length, width] = operands.as_slice() else { return None };

@@ -12,6 +12,9 @@ pub const AREA_CORNERS_MAX: usize = 16;
 /// of the local frame is wrong by 123 mm in a kilometre.
 pub const AREA_REACH_MAX_M: f64 = 100_000.0;
 
+/// What is thinner than this, m, is no area to work in, but a point or a line: positions are known no better.
+pub const AREA_WIDTH_MIN_M: f64 = 1.0;
+
 /// Corners closer together than this, in metres, are one corner.
 const CORNER_SEPARATION_M: f64 = 1e-3;
 
@@ -141,6 +144,12 @@ impl Area {
         self.corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max)
     }
 
+    /// How thin it is where it is thinnest, m: the least distance of two parallels between which it lies.
+    pub fn width(&self) -> f64 {
+        let across = |edge: Edge| self.corners.iter().map(|&c| edge.gap(c)).fold(0.0, f64::max);
+        self.edges().map(across).fold(f64::INFINITY, f64::min)
+    }
+
     /// How far another area lies wholly beyond an edge of this one, m; negative where none of its edges parts them.
     pub fn beyond(&self, other: &Area) -> f64 {
         let of_edge = |edge: Edge| other.corners.iter().map(|&c| -edge.gap(c)).fold(f64::INFINITY, f64::min);
@@ -159,6 +168,15 @@ impl Area {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_width_is_the_least_there_is() {
+        let of = |length, width| Area::rectangle(Point::ORIGIN, Heading::from_degrees(30.0), length, width).unwrap();
+        assert!((of(200.0, 40.0).width() - 40.0).abs() < 1e-9 && (of(3.0, 40.0).width() - 3.0).abs() < 1e-9);
+        let corner = |north, east| Point::new(north, east);
+        let sliver = Area::polygon(&[corner(0.0, 0.0), corner(0.0, 100.0), corner(0.5, 50.0)]).unwrap();
+        assert!((sliver.width() - 0.5).abs() < 1e-4);
+    }
 
     #[test]
     fn a_rectangle_lies_along_its_heading() {

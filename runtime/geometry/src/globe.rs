@@ -27,6 +27,13 @@ pub fn longitude_beside(longitude_deg: f64, other_deg: f64) -> f64 {
     }
 }
 
+/// Whether the longitudes of a polygon's corners, in their order, go once round the globe: a pole lies in it.
+pub fn goes_round_a_pole(longitudes_deg: &[f64]) -> bool {
+    let next = longitudes_deg.iter().cycle().skip(1);
+    let turned: f64 = longitudes_deg.iter().zip(next).map(|(&here, &there)| longitude_beside(there, here) - here).sum();
+    turned.abs() > 180.0
+}
+
 /// A longitude, in degrees, in (-180, 180]; one that is there already stays the same to the bit.
 pub fn longitude_within(longitude_deg: f64) -> f64 {
     if longitude_deg > -180.0 && longitude_deg <= 180.0 {

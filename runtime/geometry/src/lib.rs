@@ -13,10 +13,10 @@ mod mercator;
 mod plane;
 mod rows;
 
-pub use area::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, Area, AreaError, Edge};
+pub use area::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Edge};
 pub use ellipsoid::metres_per_radian;
 pub use geodetic::{Geodetic, TangentFrame};
-pub use globe::{longitude_beside, longitude_within};
+pub use globe::{goes_round_a_pole, longitude_beside, longitude_within};
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};
 pub use rows::{ROWS_MAX, row};

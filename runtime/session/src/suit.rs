@@ -6,7 +6,7 @@ use albacore_lang::code::Code;
 use albacore_lang::diagnostic::{Diagnostic, distance};
 use albacore_lang::source::Span;
 use albacore_lang::{FAR_M, SAME_PLANE_M, Script};
-use albacore_sim::{Ground, Scenario};
+use albacore_sim::{Ground, NoGo, Scenario};
 use albacore_vehicle::channels;
 
 /// A world in which a mission is to run.
@@ -28,7 +28,10 @@ pub(crate) fn findings(script: &Script, mission: &str, held: &Held) -> Vec<Diagn
     findings.extend(unmeasured(script, mission, name, world));
     match elsewhere(script, mission, held) {
         Some(finding) => findings.push(finding),
-        None => findings.extend(uncovered(script, mission, name, world)),
+        None => {
+            findings.extend(uncovered(script, mission, name, world));
+            findings.extend(far_zones(script, mission, name, world));
+        }
     }
     findings
 }
@@ -71,6 +74,23 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
         _ => format!("move the one to the other, or write `mission {mission} in SCENARIO` with one that lies there"),
     };
     Some(Diagnostic::error(Code::ScenariosOutside, written, message).help(format!("{places}: {mend}")))
+}
+
+/// No-go zones of a world far from the area of the mission, which cannot keep it from anything. Those of its own scenario are told
+/// where they are written.
+fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
+    let own = script.missions().find(|info| info.name == mission).and_then(|info| info.scenario.as_deref());
+    let Some((area, written)) = script.operating_area(mission).filter(|_| own != Some(scenario)) else {
+        return Vec::new();
+    };
+    let far = |zone: &NoGo| {
+        let out = area.beyond(&zone.area);
+        let what = format!("the no-go zone \"{}\" of `{scenario}`", zone.name);
+        let message = format!("{what} is {} outside the area of the mission `{mission}`", distance(out));
+        let help = "look for minutes exchanged in its corners, and for north and east";
+        (out > FAR_M).then(|| Diagnostic::warning(Code::ScenariosOutside, written, message).help(help))
+    };
+    world.no_go.iter().filter_map(far).collect()
 }
 
 /// What the mission requires and the vehicle has no sensor for.
