@@ -1,8 +1,8 @@
 //! The water below, as far as it is known: what the limits of depth and altitude are held by. They never fail open.
 //!
 //! The altitude is an echo. Where none comes, or the same one again and again while the depth changes, nothing is known of what
-//! lies deeper than the vehicle has been: it descends no further than to where the least altitude was last known to hold. Where
-//! none has ever come it rises to the surface, but for what a chart says.
+//! lies deeper than the vehicle has been: it descends no further than to where the least altitude was last known to hold, and rises
+//! from there as the bottom may. Where none has ever come it rises to the surface, but for what a chart says.
 
 use crate::Event;
 use crate::state::{Limits, Run};
@@ -17,6 +17,14 @@ pub type Chart = Arc<dyn Fn(Point, f64) -> Option<f64> + Send + Sync>;
 
 /// An altitude this near to the one that is commanded is held, m: then the depth may change and it does not.
 const HELD_M: f64 = 0.5;
+/// An echo counts for so long, s, that no other has confirmed, or after which came what is not believed.
+const DOUBTFUL_S: f64 = 1.0;
+/// A bottom of which nothing is heard is taken to rise by so much in each metre of way.
+const RISE: f64 = 0.25;
+/// An altitude that is below the least by this share of it, or by so much, m, is no noise: it leads up, whatever the depth is told
+/// to be.
+const LOW_SHARE: f64 = 0.25;
+const LOW_MAX_M: f64 = 0.5;
 /// A chart is asked for so many standard deviations of the position around it, and for so much more, m.
 const CHART_SIGMAS: f64 = 3.0;
 const CHART_MARGIN_M: f64 = 10.0;
@@ -27,6 +35,10 @@ pub(crate) struct Bottom {
     /// The altitude that was told last.
     altitude: Option<f64>,
     heard: Option<Heard>,
+    /// What came after it is not believed.
+    doubted: bool,
+    /// The way through the water that was commanded since it came, m.
+    way: f64,
     /// The tick from which limits are held: an echo may be on its way.
     begun: Option<u64>,
     /// It was told that the bottom is lost.
@@ -42,12 +54,17 @@ struct Heard {
     water: f64,
     /// Depth and altitude of the latest, added up.
     water_now: f64,
+    /// The altitude of the latest.
+    altitude: f64,
+    /// Whether another has confirmed it.
+    confirmed: bool,
 }
 
 impl Run {
     /// Takes in the altitude that has come in this tick, if one has.
     pub fn sound(&mut self) {
         let tick = self.state.tick;
+        self.state.bottom.way += self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
         let told = |at: Option<u32>, ticks: f64| {
             let at = at.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
             (tick as f64 - self.get(at + Input::STAMP) <= ticks).then(|| self.get(at + Input::VALUE))
@@ -61,13 +78,23 @@ impl Run {
         let water = depth + altitude;
         let again = self.state.bottom.altitude == Some(altitude) && !held;
         let before = self.state.bottom.heard.filter(|_| again);
+        let confirmed =
+            self.state.bottom.heard.is_some_and(|heard| (tick - heard.tick) as f64 * TICK_S <= LIMIT_FRESH_S);
         self.state.bottom.altitude = Some(altitude);
+        (self.state.bottom.doubted, self.state.bottom.way) = (false, 0.0);
         self.state.bottom.heard = Some(Heard {
             tick,
             depth: before.map_or(depth, |before| before.depth.min(depth)),
             water: before.map_or(water, |before| before.water.min(water)),
             water_now: water,
+            altitude,
+            confirmed,
         });
+    }
+
+    /// An altitude has come that is not believed.
+    pub fn doubt_sounding(&mut self) {
+        self.state.bottom.doubted = true;
     }
 
     /// Holds what is asked of the vertical within the limits. Depth and altitude are bound to one another by the water's depth:
@@ -79,7 +106,12 @@ impl Run {
         let bounded = altitude.0 > 0.0 || depth.1 < f64::MAX;
         let floor = self.floor(p, altitude.0).min(depth.1);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
+        let low = altitude.0 - (LOW_SHARE * altitude.0).min(LOW_MAX_M);
         match (asked, known) {
+            (Vertical::Depth(metres), Some(heard)) if heard.altitude < low => {
+                self.limit(Channel::Depth, metres);
+                Vertical::Depth(depth.0)
+            }
             (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
                 let given = self.limit(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
@@ -107,8 +139,10 @@ impl Run {
             .map(|(_, numbers)| numbers.fresh)
             .fold(f64::MAX, f64::min);
         let fresh = if fresh == f64::MAX { LIMIT_FRESH_S / TICK_S } else { fresh };
+        let doubted = self.state.bottom.doubted;
+        let fresh = |heard: &Heard| if heard.confirmed && !doubted { fresh } else { fresh.min(DOUBTFUL_S / TICK_S) };
         let age = |heard: &Heard| (self.state.tick - heard.tick + self.state.lag.round_trip) as f64;
-        self.state.bottom.heard.filter(|heard| age(heard) <= fresh)
+        self.state.bottom.heard.filter(|heard| age(heard) <= fresh(heard))
     }
 
     /// How deep the vehicle may go by a least altitude, m.
@@ -117,7 +151,7 @@ impl Run {
         let floor = match (heard, self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - altitude_min,
             _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
-            (Some(heard), None) => heard.depth.min(heard.water - altitude_min),
+            (Some(heard), None) => heard.depth.min(heard.water - altitude_min - RISE * self.state.bottom.way),
             (None, None) => self.charted().map_or(self.unheard(), |water| water - altitude_min),
         };
         floor.max(0.0)

@@ -27,6 +27,7 @@ impl Run {
 
     /// Rule 6: at the very start the present heading and depth, speed 0.
     pub fn stand(&mut self) {
+        self.state.stands = true;
         self.state.filtered = self.heading();
         self.state.asked =
             Asked { course: self.heading(), over_ground: false, speed: 0.0, vertical: Vertical::Depth(self.depth()) };

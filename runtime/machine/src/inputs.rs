@@ -4,6 +4,7 @@ use crate::state::{Run, Senses};
 use albacore_arithmetic::{Age, Operation};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_program::{Input, Program, Slot};
+use albacore_vehicle::channels::ALTITUDE;
 use albacore_vehicle::{Channel, Sample};
 
 /// An input that a mission requires and the vehicle does not deliver.
@@ -67,6 +68,9 @@ impl Run {
         }
         let tick = self.state.tick as f64;
         for sample in samples {
+            if sample.is_withheld_of(ALTITUDE) {
+                self.doubt_sounding();
+            }
             let Some(Some(index)) = wiring.get(sample.channel as usize) else { continue };
             let input = &program.inputs[*index as usize];
             let width = (input.width as usize).min(sample.reading.len());

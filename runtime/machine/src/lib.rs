@@ -4,6 +4,7 @@
 //! it takes what was sensed and gives what to command.
 
 mod activity;
+mod aground;
 mod allowance;
 mod area;
 mod bottom;
@@ -17,6 +18,7 @@ mod guide;
 mod inputs;
 mod lists;
 mod mission;
+mod requirements;
 mod state;
 mod trig;
 

@@ -1,6 +1,7 @@
 //! The machine: a mission from its first tick to its release.
 
 use crate::activity::Status;
+use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::inputs::{MissingInput, senses, wiring};
@@ -9,11 +10,8 @@ use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
-use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot, TICK_S, Vertical};
+use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot, Vertical};
 use std::sync::Arc;
-
-/// A mission whose vehicle has lain on the bottom for so long, s, is aborted: its recovery leads up.
-const AGROUND_MAX_S: f64 = 30.0;
 
 /// Executes one mission.
 #[derive(Clone)]
@@ -44,7 +42,8 @@ impl Run {
             limits: Limits::NONE,
             declared: Declared::default(),
             bottom: Bottom::default(),
-            aground: None,
+            aground: Aground::default(),
+            stands: false,
             limited: [false; 3],
             requires: Vec::new(),
             link: Requirement::LINK,
@@ -69,7 +68,7 @@ impl Run {
         }
     }
 
-    fn number(&mut self, p: &Program, code: &Code) -> f64 {
+    pub fn number(&mut self, p: &Program, code: &Code) -> f64 {
         self.execute(p, code.entry, p.mission.base);
         self.get(p.mission.base + code.value)
     }
@@ -178,7 +177,7 @@ impl Machine {
         run.state.lag = snapshot.lag;
         run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
-        run.state.aground = snapshot.aground.then(|| run.state.aground.unwrap_or(run.state.tick));
+        run.feel_bottom(snapshot.aground);
         let command = run.live(p);
         run.state.tick += 1;
         command
@@ -223,6 +222,8 @@ impl Run {
                 self.begin_to_count();
                 self.execute(p, p.mission.params, p.mission.base);
                 self.take_requirements(p);
+                // They hold from the first command on; what they are made of may be known better when all has come.
+                self.compute_limits(p);
                 self.await_inputs(p)
             }
             Phase::Awaiting => self.await_inputs(p),
@@ -230,7 +231,7 @@ impl Run {
                 // The time limit bounds the run: it does not stand still while the mission is held.
                 let time_is_up = self.time_is_up();
                 if self.is_stranded() {
-                    self.events.push(Event::Aborted(format!("aground for {AGROUND_MAX_S} s")));
+                    self.tell_stranded();
                     return self.recover(p, Outcome::Aground);
                 }
                 if let Some(held) = self.hold_while_stale(p, time_is_up) {
@@ -265,62 +266,7 @@ impl Run {
         }
     }
 
-    /// Begins once every required input has come that has no `at first`. One that never came is as old as the mission: what
-    /// is to be done when it is stale is done, and the mission's time runs.
-    fn await_inputs(&mut self, p: &Program) -> Option<Command> {
-        let lived = (self.state.tick - self.state.began) as f64;
-        let mut waits = false;
-        for (i, require) in p.mission.requires.iter().enumerate() {
-            let input = &p.inputs[require.input as usize];
-            if require.at_first.is_some() || self.has_sample(input) {
-                continue;
-            }
-            waits = true;
-            let Requirement { fresh, patience, .. } = self.state.requires[i];
-            if !std::mem::replace(&mut self.state.requires[i].stale, true) {
-                self.events.push(Event::Awaited(require.input));
-            }
-            if lived > fresh + patience.unwrap_or(0.0) {
-                self.events.push(Event::Aborted(format!("`{}` has never come", input.name)));
-                return self.over(p, Outcome::Aborted);
-            }
-        }
-        if !waits {
-            self.start(p);
-            return self.after_step(p, Status::Running);
-        }
-        if self.time_is_up() {
-            self.tell_time_is_up();
-            return self.over(p, Outcome::TimedOut);
-        }
-        if p.mission.guest {
-            return None;
-        }
-        // Rule 6: at the very start the present heading and depth, speed 0, as far as they are known.
-        let knows = |at: Option<Slot>| at.is_some_and(|at| self.get(at + Input::STAMP) >= 0.0);
-        (knows(self.senses.heading) && knows(self.senses.depth)).then(|| Command {
-            heading: self.heading(),
-            speed: 0.0,
-            vertical: Vertical::Depth(self.depth()),
-        })
-    }
-
-    /// The numbers of the requirements and of the time limit.
-    fn take_requirements(&mut self, p: &Program) {
-        let mut requires = Vec::new();
-        for require in &p.mission.requires {
-            let fresh = self.number(p, &require.fresh);
-            let patience = require.hold_for.as_ref().map(|code| self.number(p, code));
-            requires.push(Requirement { fresh, patience, stale: false, since: 0 });
-        }
-        self.state.requires = requires;
-        self.state.within = p.mission.within.as_ref().map(|code| self.number(p, code));
-        if let Some(code) = &p.mission.limits.latency_max {
-            self.state.link.fresh = self.number(p, code);
-        }
-    }
-
-    fn start(&mut self, p: &Program) {
+    pub fn start(&mut self, p: &Program) {
         let base = p.mission.base;
         self.state.phase = Phase::Running;
         self.stand();
@@ -341,60 +287,12 @@ impl Run {
         self.compute_limits(p);
     }
 
-    fn time_out(&mut self, p: &Program) -> Option<Command> {
+    pub fn time_out(&mut self, p: &Program) -> Option<Command> {
         self.tell_time_is_up();
         self.recover(p, Outcome::TimedOut)
     }
 
-    /// Required inputs that are too old suspend the mission; too long, and they abort it. Gives the command of a mission that
-    /// is held.
-    fn hold_while_stale(&mut self, p: &Program, time_is_up: bool) -> Option<Option<Command>> {
-        let tick = self.state.tick;
-        let lagging = self.lagging();
-        let (mut any_stale, mut lost) = (lagging.is_some(), self.lost_link(lagging.as_deref()));
-        for (i, require) in p.mission.requires.iter().enumerate() {
-            let input = &p.inputs[require.input as usize];
-            // Before its first sample the `at first` value holds.
-            let stale = self.has_sample(input) && self.age_ticks(input) > self.state.requires[i].fresh;
-            if stale != self.state.requires[i].stale {
-                self.state.requires[i].stale = stale;
-                self.state.requires[i].since = tick;
-                self.events.push(if stale { Event::Stale(require.input) } else { Event::Fresh(require.input) });
-            }
-            // Each has a patience of its own, which counts from when it became stale.
-            let Requirement { patience, since, .. } = self.state.requires[i];
-            if stale && (tick - since) as f64 >= patience.unwrap_or(0.0) {
-                let cause = lagging.as_ref().map(|lagging| format!(": {lagging}")).unwrap_or_default();
-                lost = lost.or_else(|| Some(format!("no fresh `{}`{cause}", input.name)));
-            }
-            any_stale |= stale;
-        }
-        if !any_stale {
-            if matches!(self.state.phase, Phase::Holding(_)) {
-                self.state.phase = Phase::Running;
-            }
-            return None;
-        }
-        let since = match self.state.phase {
-            Phase::Holding(since) => since,
-            _ => self.state.tick,
-        };
-        self.state.phase = Phase::Holding(since);
-        if let Some(why) = lost {
-            self.events.push(Event::Aborted(why));
-            return Some(self.recover(p, Outcome::Aborted));
-        }
-        if time_is_up {
-            return Some(self.time_out(p));
-        }
-        let before = self.state.asked;
-        self.state.asked.speed = 0.0;
-        let command = self.command_if_ours(p);
-        self.state.asked = before;
-        Some(command)
-    }
-
-    fn after_step(&mut self, p: &Program, status: Status) -> Option<Command> {
+    pub fn after_step(&mut self, p: &Program, status: Status) -> Option<Command> {
         if let Some(why) = self.abort.take() {
             self.events.push(Event::Aborted(why));
             return match self.deserted.take() {
@@ -410,7 +308,7 @@ impl Run {
 
     /// Leaves all that is inside the mission and begins the recovery; without one the mission is over, and so is that of a
     /// guest while its vehicle runs its own plan.
-    fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
+    pub fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         self.abort = None;
         let wish = self.state.wish;
         let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
@@ -457,22 +355,15 @@ impl Run {
         self.over(p, outcome)
     }
 
-    /// Whether the vehicle that we drive has lain on the bottom for too long: what the mission asks for does not free it.
-    fn is_stranded(&self) -> bool {
-        let lain = self.state.aground.map_or(0, |since| self.state.tick.saturating_sub(since));
-        self.state.wish == Wish::Drive && lain as f64 * TICK_S >= AGROUND_MAX_S
-    }
-
     /// The end: everything is left, nothing more is commanded. A mission that leaves its vehicle on the bottom has not come to
     /// its own end, whatever it says.
-    fn over(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
+    pub fn over(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         if matches!(self.state.phase, Phase::Over(_)) {
             return None;
         }
-        let ended_by_us = matches!(outcome, Outcome::Completed | Outcome::TimedOut | Outcome::Aborted);
-        let stranded = ended_by_us && self.state.aground.is_some();
-        if stranded && outcome == Outcome::Completed {
-            self.events.push(Event::Aborted(String::from("the vehicle lies on the bottom")));
+        let stranded = self.is_aground_at(outcome);
+        if let (Some(how), Outcome::Completed) = (stranded, outcome) {
+            self.events.push(Event::Aborted(how.to_string()));
         }
         let cause = match outcome {
             Outcome::Completed => Cause::Done,
@@ -485,7 +376,7 @@ impl Run {
         }
         self.leave(p, p.mission.activity, base, cause);
         self.events.extend(self.state.allowance.end());
-        let outcome = if stranded { Outcome::Aground } else { outcome };
+        let outcome = if stranded.is_some() { Outcome::Aground } else { outcome };
         self.state.phase = Phase::Over(outcome);
         self.events.push(Event::Ended(outcome));
         None

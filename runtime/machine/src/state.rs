@@ -1,6 +1,7 @@
 //! The state of a run: one plain value.
 
 use crate::Outcome;
+use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::trig::Trig;
@@ -33,8 +34,10 @@ pub struct State {
     pub(crate) limits: Limits,
     /// What is known of the water below.
     pub(crate) bottom: Bottom,
-    /// Since which tick the vehicle has lain on the bottom.
-    pub(crate) aground: Option<u64>,
+    /// The vehicle on the bottom.
+    pub(crate) aground: Aground,
+    /// Whether the heading and the depth of the very start have been taken.
+    pub(crate) stands: bool,
     /// For each channel whether a limit holds it back.
     pub(crate) limited: [bool; 3],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.

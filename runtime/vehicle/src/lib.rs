@@ -79,6 +79,11 @@ impl Sample {
         self.channel |= WITHHELD;
     }
 
+    /// Whether it is of a channel and not to be believed.
+    pub fn is_withheld_of(&self, channel: u16) -> bool {
+        self.channel == WITHHELD | channel
+    }
+
     /// Whether it is not to be believed.
     pub fn is_withheld(&self) -> bool {
         self.channel & WITHHELD != 0

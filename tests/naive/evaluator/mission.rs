@@ -1,6 +1,7 @@
 //! A mission's life: rules 2, 6 and 17, and what section 8 of the reference says of `requires`, `limits` and the recovery.
 
 use super::activation::{Aborted, Activation};
+use super::bottom::Bottom;
 use super::expr::{Frame, Scope, number, value};
 use super::timed::Setpoints;
 use super::world::{Asked, World, ticks};
@@ -25,9 +26,9 @@ enum Phase {
 }
 
 /// An input that the mission cannot do without.
-struct Required {
-    input: usize,
-    fresh: u64,
+pub(super) struct Required {
+    pub input: usize,
+    pub fresh: u64,
     /// How long it may be stale; none: not at all.
     patience: u64,
     has_at_first: bool,
@@ -35,29 +36,10 @@ struct Required {
     stale_since: Option<u64>,
 }
 
-/// What was heard of the bottom, m.
-#[derive(Clone, Copy)]
-struct Echo {
-    tick: u64,
-    altitude: f64,
-    depth: f64,
-    water: f64,
-    sum: f64,
-}
-
-#[derive(Default)]
-struct Bottom {
-    echo: Option<Echo>,
-    lost: bool,
-    begun: Option<u64>,
-    commanded: Option<Vertical>,
-}
-
-/// So long a vertical limit goes by what was sensed: 5 s.
-const FRESH_TICKS: u64 = 50;
 /// A vehicle that lies on the bottom for so long is stranded: 30 s.
 const STRANDED_TICKS: u64 = 300;
-
+/// One that lies there for so long has done more than touch it: 10 s.
+const TOUCHED_TICKS: u64 = 100;
 /// The naive evaluator of one mission.
 pub struct Evaluator<'p> {
     pub w: World<'p>,
@@ -70,14 +52,17 @@ pub struct Evaluator<'p> {
     began: u64,
     within: Option<u64>,
     recovery_within: Option<u64>,
-    required: Vec<Required>,
+    pub(super) required: Vec<Required>,
     /// Least and greatest, by channel.
-    limits: [(f64, f64); 3],
+    pub(super) limits: [(f64, f64); 3],
     limited: [bool; 3],
     filter: CommandFilter,
-    bottom: Bottom,
-    /// Since when the vehicle has lain on the bottom.
+    pub(super) bottom: Bottom,
+    /// Since when the vehicle has lain on the bottom, and whether it ever has for longer than a touch.
     aground: Option<u64>,
+    has_lain: bool,
+    /// Rule 6: whether the heading and depth of the very start have been taken.
+    stands: bool,
     control: Control,
 }
 
@@ -114,6 +99,8 @@ impl<'p> Evaluator<'p> {
             filter: CommandFilter::new(w.heading()),
             bottom: Bottom::default(),
             aground: None,
+            has_lain: false,
+            stands: false,
             control: Control::Disconnected,
             w,
         })
@@ -133,6 +120,7 @@ impl<'p> Evaluator<'p> {
         self.w.sense(self.sensors, &snapshot.samples);
         self.bottom.hear(&self.w);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
+        self.has_lain |= self.aground.is_some_and(|since| self.w.tick - since >= TOUCHED_TICKS);
         if snapshot.control != self.control {
             self.control = snapshot.control;
             self.w.say(format!("control {:?}", self.control));
@@ -205,6 +193,24 @@ impl<'p> Evaluator<'p> {
             self.required.push(Required { input, fresh, patience, has_at_first, awaited, stale_since });
         }
         self.within = declared.within.as_ref().map(|e| ticks(self.number(e)));
+        self.take_limits();
+    }
+
+    fn take_limits(&mut self) {
+        for (channel, least, e) in &self.declared.limits {
+            let value = number(&mut self.w, Scope::of(&self.mission.frame), e);
+            let (low, high) = &mut self.limits[*channel as usize];
+            *(if *least { low } else { high }) = value;
+        }
+        self.w.fastest = self.limits[Channel::Speed as usize].1;
+    }
+
+    /// Rule 6: at the very start the present heading and depth, at speed 0.
+    fn stand(&mut self) {
+        let (heading, depth) = (self.w.heading(), self.w.depth().unwrap_or(0.0));
+        self.stands = true;
+        self.filter = CommandFilter::new(heading);
+        self.w.asked = Asked { course: heading, over_ground: false, speed: 0.0, vertical: Vertical::Depth(depth) };
     }
 
     /// Rule 17: the time limit counts also while the mission waits for a first sample or is held.
@@ -242,15 +248,19 @@ impl<'p> Evaluator<'p> {
             self.w.say("timeout".into());
             return self.over("timed_out", Cause::TimedOut);
         }
-        let depth = self.w.depth().filter(|_| self.w.knows_heading())?;
-        Some(Command { heading: self.w.heading(), speed: 0.0, vertical: Vertical::Depth(depth) })
+        if self.is_stranded() {
+            self.w.say("abort aground for 30 s".into());
+            return self.over("aground", Cause::Aborted);
+        }
+        if !self.stands {
+            self.w.depth().filter(|_| self.w.knows_heading())?;
+            self.stand();
+        }
+        Some(self.command())
     }
 
     fn start(&mut self) -> Result<(), Aborted> {
-        // Rule 6: at the very start the present heading and depth, at speed 0.
-        let (heading, depth) = (self.w.heading(), self.w.depth().unwrap_or(0.0));
-        self.filter = CommandFilter::new(heading);
-        self.w.asked = Asked { course: heading, over_ground: false, speed: 0.0, vertical: Vertical::Depth(depth) };
+        self.stand();
         for require in &self.declared.requires {
             if let (Some(e), None) = (&require.at_first, self.w.inputs[require.input].stamp) {
                 let shape = self.w.shape(&e.ty);
@@ -261,18 +271,17 @@ impl<'p> Evaluator<'p> {
             }
         }
         let begun = self.mission.begin(&mut self.w);
-        for (channel, least, e) in &self.declared.limits {
-            let value = number(&mut self.w, Scope::of(&self.mission.frame), e);
-            let (low, high) = &mut self.limits[*channel as usize];
-            *(if *least { low } else { high }) = value;
-        }
-        self.w.fastest = self.limits[Channel::Speed as usize].1;
+        self.take_limits();
         begun
+    }
+
+    fn is_stranded(&self) -> bool {
+        self.aground.is_some_and(|since| self.w.tick - since >= STRANDED_TICKS)
     }
 
     fn run(&mut self) -> Option<Command> {
         let time_is_up = self.time_is_up();
-        if self.aground.is_some_and(|since| self.w.tick - since >= STRANDED_TICKS) {
+        if self.is_stranded() {
             self.w.say("abort aground for 30 s".into());
             return self.begin_recovery("aground", Cause::Aborted);
         }
@@ -366,9 +375,11 @@ impl<'p> Evaluator<'p> {
 
     fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {
         if self.phase != Phase::Over {
-            let stranded = self.aground.is_some() && ["completed", "timed_out", "aborted"].contains(&outcome);
+            let lies = self.aground.is_some() && ["completed", "timed_out", "aborted"].contains(&outcome);
+            let stranded = lies || self.has_lain && outcome == "completed";
             if stranded && outcome == "completed" {
-                self.w.say("abort the vehicle lies on the bottom".into());
+                let how = if lies { "lies" } else { "has lain" };
+                self.w.say(format!("abort the vehicle {how} on the bottom"));
             }
             self.recovery.leave(&mut self.w, Cause::Preempted);
             self.mission.leave(&mut self.w, cause);
@@ -396,58 +407,13 @@ impl<'p> Evaluator<'p> {
         if (asked.over_ground || amended != asked.course) && speed > 0.0 {
             let fastest = self.limits[Channel::Speed as usize].1;
             let water = through_water(course, speed, self.w.flow(), fastest);
-            self.bottom.commanded = Some(vertical);
-            return Command { heading: water.heading, speed: water.speed, vertical };
+            let command = Command { heading: water.heading, speed: water.speed, vertical };
+            return *self.bottom.commanded.insert(command);
         }
-        let command = Command { heading: course, speed: speed.max(0.0), vertical };
-        self.bottom.commanded = Some(vertical);
-        command
+        *self.bottom.commanded.insert(Command { heading: course, speed: speed.max(0.0), vertical })
     }
 
-    /// Section 8: the limits of depth and altitude both hold; without an echo of the bottom the vehicle goes no deeper than where
-    /// the least altitude was last known to hold, and where there never was one, to the surface.
-    fn vertical(&mut self, asked: Vertical) -> Vertical {
-        let (low, high) = self.limits[Channel::Depth as usize];
-        let (lowest, highest) = self.limits[Channel::Altitude as usize];
-        let names = ["altitude", "water_depth"];
-        let own = self.required.iter().filter(|r| names.contains(&&*self.w.hir.inputs[r.input].name)).map(|r| r.fresh);
-        let fresh = own.min().unwrap_or(FRESH_TICKS);
-        let young = self.w.tick - *self.bottom.begun.get_or_insert(self.w.tick) <= FRESH_TICKS;
-        let echo = self.bottom.echo;
-        let known = echo.filter(|echo| self.w.tick - echo.tick <= fresh);
-        let floor = match (known, echo) {
-            (Some(echo), _) => Some(echo.water - lowest),
-            (None, _) if lowest == 0.0 && matches!(asked, Vertical::Depth(_)) => None,
-            (None, Some(echo)) => Some(echo.depth.min(echo.water - lowest)),
-            (None, None) if young => Some(self.w.depth().unwrap_or(0.0)),
-            (None, None) => Some(0.0),
-        };
-        let deepest = floor.map_or(high, |floor| floor.max(0.0).min(high));
-        let lost = known.is_none() && lowest > 0.0 && !(echo.is_none() && young);
-        if lost != std::mem::replace(&mut self.bottom.lost, lost) {
-            self.w.say(if lost { format!("bottom lost {deepest:?}") } else { "bottom found".into() });
-        }
-        match asked {
-            Vertical::Altitude(asked) => {
-                let given = self.limit(Channel::Altitude, asked);
-                match known {
-                    Some(echo) => {
-                        let most = if low > 0.0 { (echo.sum - low).max(lowest) } else { f64::MAX };
-                        Vertical::Altitude(given.min(most).max(echo.sum - high).max(0.0))
-                    }
-                    None if lowest > 0.0 || high < f64::MAX => Vertical::Depth(deepest),
-                    None => Vertical::Altitude(given),
-                }
-            }
-            Vertical::Depth(asked) => {
-                let given = self.limit(Channel::Depth, asked);
-                let least = known.map_or(0.0, |echo| echo.water - highest);
-                Vertical::Depth(given.max(least).min(deepest).max(0.0))
-            }
-        }
-    }
-
-    fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
+    pub(super) fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
         let (low, high) = self.limits[channel as usize];
         // Speed 0 is always allowed.
         let given = if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.max(low).min(high.max(low)) };
@@ -457,22 +423,6 @@ impl<'p> Evaluator<'p> {
             self.w.say(format!("limit {channel:?} {how}"));
         }
         given
-    }
-}
-
-impl Bottom {
-    fn hear(&mut self, w: &World) {
-        let (Some(altitude), Some(depth)) = (w.lately("altitude", 0), w.lately("depth", FRESH_TICKS)) else { return };
-        let sum = depth + altitude;
-        let held = matches!(self.commanded, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
-        let new = Echo { tick: w.tick, altitude, depth, water: sum, sum };
-        self.echo = Some(match self.echo {
-            // It may be an old one.
-            Some(old) if old.altitude == altitude && !held => {
-                Echo { depth: old.depth.min(depth), water: old.water.min(sum), ..new }
-            }
-            _ => new,
-        });
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod activation;
 mod body;
+mod bottom;
 mod expr;
 mod mission;
 mod table;

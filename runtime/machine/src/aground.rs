@@ -1,0 +1,55 @@
+//! A vehicle on the bottom: when that ends a mission, and as what.
+
+use crate::state::{Run, Wish};
+use crate::{Event, Outcome};
+use albacore_vehicle::TICK_S;
+use serde::{Deserialize, Serialize};
+
+/// A mission whose vehicle has lain on the bottom for so long, s, is aborted: its recovery leads up.
+const AGROUND_MAX_S: f64 = 30.0;
+/// One that has lain there for so long, s, has done more than touch it, whatever comes after.
+const TOUCHED_MAX_S: f64 = 10.0;
+
+/// What is known of the vehicle on the bottom.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Aground {
+    /// Since which tick it has lain there.
+    since: Option<u64>,
+    /// Whether it has lain there for longer than a touch.
+    lay: bool,
+}
+
+impl Run {
+    /// Takes in whether the vehicle lies on the bottom.
+    pub fn feel_bottom(&mut self, aground: bool) {
+        let since = aground.then(|| self.state.aground.since.unwrap_or(self.state.tick));
+        self.state.aground.since = since;
+        self.state.aground.lay |= self.lain_s() >= TOUCHED_MAX_S;
+    }
+
+    fn lain_s(&self) -> f64 {
+        self.state.aground.since.map_or(0.0, |since| self.state.tick.saturating_sub(since) as f64 * TICK_S)
+    }
+
+    /// Whether the vehicle that we drive has lain on the bottom for too long: what the mission asks for does not free it.
+    pub fn is_stranded(&self) -> bool {
+        self.state.wish == Wish::Drive && self.lain_s() >= AGROUND_MAX_S
+    }
+
+    pub fn tell_stranded(&mut self) {
+        self.events.push(Event::Aborted(format!("aground for {AGROUND_MAX_S} s")));
+    }
+
+    /// Why a mission that ends so has ended aground, if it has. One that leaves its vehicle on the bottom, or has left it there
+    /// for a while, has not come to its own end, whatever it says.
+    pub fn is_aground_at(&self, outcome: Outcome) -> Option<&'static str> {
+        let Aground { since, lay } = self.state.aground;
+        match outcome {
+            Outcome::Completed | Outcome::TimedOut | Outcome::Aborted if since.is_some() => {
+                Some("the vehicle lies on the bottom")
+            }
+            Outcome::Completed if lay => Some("the vehicle has lain on the bottom"),
+            _ => None,
+        }
+    }
+}

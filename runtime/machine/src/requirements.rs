@@ -1,0 +1,119 @@
+//! What a mission requires: it waits for the first samples, and is held while they are too old.
+
+use crate::activity::Status;
+use crate::state::{Phase, Requirement, Run};
+use crate::{Event, Outcome};
+use albacore_program::{Input, Program, Slot};
+use albacore_vehicle::Command;
+
+impl Run {
+    /// Begins once every required input has come that has no `at first`. One that never came is as old as the mission: what
+    /// is to be done when it is stale is done, and the mission's time runs.
+    pub fn await_inputs(&mut self, p: &Program) -> Option<Command> {
+        let lived = (self.state.tick - self.state.began) as f64;
+        let mut waits = false;
+        for (i, require) in p.mission.requires.iter().enumerate() {
+            let input = &p.inputs[require.input as usize];
+            if require.at_first.is_some() || self.has_sample(input) {
+                continue;
+            }
+            waits = true;
+            let Requirement { fresh, patience, .. } = self.state.requires[i];
+            if !std::mem::replace(&mut self.state.requires[i].stale, true) {
+                self.events.push(Event::Awaited(require.input));
+            }
+            if lived > fresh + patience.unwrap_or(0.0) {
+                self.events.push(Event::Aborted(format!("`{}` has never come", input.name)));
+                return self.over(p, Outcome::Aborted);
+            }
+        }
+        if !waits {
+            self.start(p);
+            return self.after_step(p, Status::Running);
+        }
+        if self.time_is_up() {
+            self.tell_time_is_up();
+            return self.over(p, Outcome::TimedOut);
+        }
+        if self.is_stranded() {
+            self.tell_stranded();
+            return self.over(p, Outcome::Aground);
+        }
+        if p.mission.guest {
+            return None;
+        }
+        // Rule 6: at the very start the present heading and depth, speed 0, once they are known. What is present is taken once:
+        // a depth that is told otherwise than it is held would lead further and further down.
+        if !self.state.stands {
+            let knows = |at: Option<Slot>| at.is_some_and(|at| self.get(at + Input::STAMP) >= 0.0);
+            if !(knows(self.senses.heading) && knows(self.senses.depth)) {
+                return None;
+            }
+            self.stand();
+        }
+        self.command_if_ours(p)
+    }
+
+    /// The numbers of the requirements and of the time limit.
+    pub fn take_requirements(&mut self, p: &Program) {
+        let mut requires = Vec::new();
+        for require in &p.mission.requires {
+            let fresh = self.number(p, &require.fresh);
+            let patience = require.hold_for.as_ref().map(|code| self.number(p, code));
+            requires.push(Requirement { fresh, patience, stale: false, since: 0 });
+        }
+        self.state.requires = requires;
+        self.state.within = p.mission.within.as_ref().map(|code| self.number(p, code));
+        if let Some(code) = &p.mission.limits.latency_max {
+            self.state.link.fresh = self.number(p, code);
+        }
+    }
+
+    /// Required inputs that are too old suspend the mission; too long, and they abort it. Gives the command of a mission that
+    /// is held.
+    pub fn hold_while_stale(&mut self, p: &Program, time_is_up: bool) -> Option<Option<Command>> {
+        let tick = self.state.tick;
+        let lagging = self.lagging();
+        let (mut any_stale, mut lost) = (lagging.is_some(), self.lost_link(lagging.as_deref()));
+        for (i, require) in p.mission.requires.iter().enumerate() {
+            let input = &p.inputs[require.input as usize];
+            // Before its first sample the `at first` value holds.
+            let stale = self.has_sample(input) && self.age_ticks(input) > self.state.requires[i].fresh;
+            if stale != self.state.requires[i].stale {
+                self.state.requires[i].stale = stale;
+                self.state.requires[i].since = tick;
+                self.events.push(if stale { Event::Stale(require.input) } else { Event::Fresh(require.input) });
+            }
+            // Each has a patience of its own, which counts from when it became stale.
+            let Requirement { patience, since, .. } = self.state.requires[i];
+            if stale && (tick - since) as f64 >= patience.unwrap_or(0.0) {
+                let cause = lagging.as_ref().map(|lagging| format!(": {lagging}")).unwrap_or_default();
+                lost = lost.or_else(|| Some(format!("no fresh `{}`{cause}", input.name)));
+            }
+            any_stale |= stale;
+        }
+        if !any_stale {
+            if matches!(self.state.phase, Phase::Holding(_)) {
+                self.state.phase = Phase::Running;
+            }
+            return None;
+        }
+        let since = match self.state.phase {
+            Phase::Holding(since) => since,
+            _ => self.state.tick,
+        };
+        self.state.phase = Phase::Holding(since);
+        if let Some(why) = lost {
+            self.events.push(Event::Aborted(why));
+            return Some(self.recover(p, Outcome::Aborted));
+        }
+        if time_is_up {
+            return Some(self.time_out(p));
+        }
+        let before = self.state.asked;
+        self.state.asked.speed = 0.0;
+        let command = self.command_if_ours(p);
+        self.state.asked = before;
+        Some(command)
+    }
+}
