@@ -1,8 +1,9 @@
 //! What a vehicle cannot have done is not believed at once: one wrong sample is no reason to steer, and none to abort a mission.
 //!
-//! A sample that cannot follow the last one that was believed, for its distance, its time and what both say of their own errors,
-//! is withheld and told. It is believed when it persists: when samples that follow one another have said so for a while. What no
-//! sensor can measure is never believed. The limits are those of the watch ([`crate::Vigil`]).
+//! A sample that cannot follow the last one that was believed, for its distance, its time and what is known of the errors of both,
+//! is withheld and told. It is believed when it persists: when samples that follow one another have said so for a while. So is all
+//! of a channel that is wrong more often than now and then, even where it happens to fit. What no sensor can measure is never
+//! believed. The limits are those of the watch ([`crate::Vigil`]).
 
 use crate::vigil::Kind;
 use albacore_geometry::math::degrees;
@@ -16,6 +17,15 @@ const PERSISTS_S: f64 = 2.0;
 const PERSISTS_SAMPLES: u32 = 3;
 /// A bottom that comes nearer is believed with so many samples: to wait would be the greater risk.
 const NEARER_SAMPLES: u32 = 2;
+/// A first sample has nothing to follow: within so much, m, of where missions begin it is believed, and elsewhere with the second.
+const BEGINS_WITHIN_M: f64 = 2_000.0;
+const BEGINS_ABOVE_M: f64 = 20.0;
+const FIRST_SAMPLES: u32 = 2;
+/// Each sample that is doubted counts so much, up to the most, and each that is believed takes one away. Above the trusted number a
+/// sample is not believed because it fits: one in three may be wrong, and of several in a row no more than these.
+const DOUBT: u32 = 2;
+const DOUBTS_TRUSTED: u32 = 6;
+const DOUBTS_MAX: u32 = 20;
 /// That a channel was doubted is told again when it was not for so many ticks: 15 s.
 const AGAIN_TICKS: u64 = 150;
 
@@ -78,7 +88,13 @@ struct Doubtful {
 struct Channel {
     kind: Kind,
     believed: Option<(Reading, u64)>,
+    /// Whether a second sample has confirmed what is believed.
+    confirmed: bool,
+    /// When a sample came last, whatever it said: what a vehicle may have done since grows with the time without any.
+    came: u64,
     doubtful: Option<Doubtful>,
+    /// How much the channel is doubted.
+    doubts: u32,
     /// When it was doubted last.
     doubted: Option<u64>,
 }
@@ -92,7 +108,15 @@ pub struct Gate {
 
 impl Default for Gate {
     fn default() -> Self {
-        let channel = |(_, kind)| Channel { kind, believed: None, doubtful: None, doubted: None };
+        let channel = |(_, kind)| Channel {
+            kind,
+            believed: None,
+            confirmed: false,
+            came: 0,
+            doubtful: None,
+            doubts: 0,
+            doubted: None,
+        };
         Gate { channels: JUDGED.map(channel), told: Vec::new() }
     }
 }
@@ -118,18 +142,22 @@ impl Channel {
         }
         let kind = self.kind;
         if kind != Kind::Position && !kind.can_be(reading) {
+            self.came = tick;
+            self.doubtful = None;
             self.doubt(tick, Change::Impossible(reading[0]), told);
             return false;
         }
-        let Some((before, at)) = self.believed else {
-            self.believed = Some((reading, tick));
-            return true;
-        };
         let seconds = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
-        if kind.can_follow(reading, before, seconds(at)) {
-            (self.believed, self.doubtful) = (Some((reading, tick)), None);
+        let came = std::mem::replace(&mut self.came, tick);
+        let follows = match self.believed {
+            Some((before, _)) => kind.can_follow(reading, before, seconds(came)),
+            None => begins(kind, reading),
+        };
+        if follows && self.doubts <= DOUBTS_TRUSTED {
+            self.believe(tick, reading);
             return true;
         }
+        let (before, at) = self.believed.unwrap_or((Reading::default(), 0));
         let change = change(kind, reading, before);
         let first = Doubtful { reading, tick, since: tick, samples: 1 };
         let doubtful = match self.doubtful {
@@ -140,19 +168,31 @@ impl Channel {
         };
         let lasts = seconds(doubtful.since);
         let nearer = kind == Kind::Altitude && reading[0] < before[0];
-        let persists = if nearer {
+        let persists = if self.believed.is_none() || !self.confirmed {
+            doubtful.samples >= FIRST_SAMPLES
+        } else if nearer {
             doubtful.samples >= NEARER_SAMPLES
         } else {
             doubtful.samples >= PERSISTS_SAMPLES && lasts >= PERSISTS_S
         };
         if persists {
             told.push(Doubt { kind, change: Change::Believed(change, lasts) });
-            (self.believed, self.doubtful) = (Some((reading, tick)), None);
+            // A bottom that comes nearer is believed for itself; the channel is as doubtful as before.
+            self.doubts = if nearer { self.doubts } else { 0 };
+            self.believe(tick, reading);
             return true;
         }
         self.doubtful = Some(doubtful);
-        self.doubt(tick, Change::Rejected(change, seconds(at)), told);
+        if !follows {
+            self.doubt(tick, Change::Rejected(change, seconds(at)), told);
+        }
         false
+    }
+
+    fn believe(&mut self, tick: u64, reading: Reading) {
+        self.confirmed = self.believed.is_some();
+        (self.believed, self.doubtful) = (Some((reading, tick)), None);
+        self.doubts = self.doubts.saturating_sub(1);
     }
 
     fn doubt(&mut self, tick: u64, change: Change, told: &mut Vec<Doubt>) {
@@ -161,6 +201,16 @@ impl Channel {
             told.push(Doubt { kind: self.kind, change });
         }
         self.doubted = Some(tick);
+        self.doubts = (self.doubts + DOUBT).min(DOUBTS_MAX);
+    }
+}
+
+/// Whether a first reading is where missions begin.
+fn begins(kind: Kind, reading: Reading) -> bool {
+    match kind {
+        Kind::Position => Point::new(reading[0], reading[1]).distance(Point::ORIGIN) <= BEGINS_WITHIN_M,
+        Kind::Depth => reading[0] <= BEGINS_ABOVE_M,
+        _ => true,
     }
 }
 

@@ -7,6 +7,7 @@
 mod dead_reckoning;
 mod flow_estimate;
 mod gate;
+mod sounding;
 mod trust;
 mod vigil;
 

@@ -1,10 +1,11 @@
 //! What of a snapshot is believed, in one place between vehicle and mission: simulated or at the end of a link.
 //!
 //! The watch looks at all that came and steers nothing, with one exception: an altitude that it knows to be stuck is withheld, so
-//! that the limits of the mission take the bottom for lost. The gate withholds what cannot have happened, until it persists. What is
-//! withheld stays in the snapshot, marked, so that a journal holds all that came and all that was believed.
+//! that the limits of the mission take the bottom for lost. So is one that becomes no less in a dive. The gate withholds what cannot
+//! have happened, until it persists. What is withheld stays in the snapshot, marked, so that a journal holds all that came and all that was believed.
 
 use crate::gate::Gate;
+use crate::sounding::Sounding;
 use crate::vigil::{Kind, Sight, Vigil};
 use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
 use albacore_vehicle::{Command, Snapshot};
@@ -14,6 +15,7 @@ use albacore_vehicle::{Command, Snapshot};
 pub struct Trust {
     vigil: Vigil,
     gate: Gate,
+    sounding: Sounding,
 }
 
 impl Trust {
@@ -31,12 +33,21 @@ impl Trust {
                 ALTITUDE if altitude_is_stuck => false,
                 channel => self.gate.believes(tick, channel, sample.reading),
             };
+            let believed = match sample.channel {
+                DEPTH if believed && sample.reading[0].is_finite() => {
+                    self.sounding.dive(sample.reading[0]);
+                    true
+                }
+                ALTITUDE => believed && self.sounding.believes(tick, sample.reading[0], command),
+                _ => believed,
+            };
             if !believed {
                 water_is_doubtful |= matches!(sample.channel, DEPTH | ALTITUDE);
                 sample.withhold();
             }
         }
         told.extend(self.gate.take_told().iter().map(ToString::to_string));
+        told.extend(self.sounding.take_told());
         told
     }
 }

@@ -48,7 +48,7 @@ fn noise_all_over_the_place_is_never_believed_and_told_once() {
         (tick, if tick < 50 { [0.0, 0.0, 1.0] } else { [far, -far, 1.0] })
     });
     let (withheld, said) = judged(POSITION, places);
-    assert!(withheld.len() >= 248, "{}", withheld.len());
+    assert_eq!(withheld, (50..300).collect::<Vec<_>>());
     assert_eq!(said.len(), 1, "{said:?}");
 }
 
@@ -58,6 +58,37 @@ fn a_bottom_that_comes_nearer_is_believed_with_the_second_sample() {
     assert_eq!(judged(ALTITUDE, altitudes(4.0)).0, [50]);
     assert_eq!(judged(ALTITUDE, altitudes(40.0)).0, (50..70).collect::<Vec<_>>());
     assert_eq!(judged(ALTITUDE, altitudes(-40.0)).0, (50..100).collect::<Vec<_>>());
+}
+
+/// A sample with an error of its own that would allow anything excuses itself no more than another.
+#[test]
+fn a_sample_does_not_excuse_itself() {
+    let positions = (0..100).map(|tick| (tick, if tick == 50 { [5000.0, 0.0, 900.0] } else { [0.0, 0.0, 1.0] }));
+    assert_eq!(judged(POSITION, positions).0, [50]);
+}
+
+/// A first sample that is far from where missions begin waits for the second; one that is near gives way to the two after it.
+#[test]
+fn a_first_sample_is_held_against_those_that_follow() {
+    let first = |first: f64| (0..10).map(move |tick| (tick, [if tick == 0 { first } else { 3.0 }, 0.0, 1.0]));
+    assert_eq!(judged(POSITION, first(5000.0)).0, [0]);
+    assert_eq!(judged(POSITION, first(500.0)).0, [1]);
+    assert_eq!(judged(DEPTH, first(500.0)).0, [0]);
+    let far = (0..10).map(|tick| (tick, [5000.0, 0.0, 1.0]));
+    assert_eq!(judged(POSITION, far).0, [0]);
+}
+
+/// Echoes all over the place, within what an altitude can be: that now and then one fits does not make it true.
+#[test]
+fn one_that_fits_among_many_that_do_not_is_not_believed() {
+    let mut seed = 1u64;
+    let echoes = (0..3000u64).map(|tick| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (tick, [if tick < 50 { 17.0 } else { (seed >> 33) as f64 % 40.0 }, 0.0, 0.0])
+    });
+    let (withheld, said) = judged(ALTITUDE, echoes);
+    let deeper = said.iter().filter(|(_, what)| what.starts_with("believed")).count();
+    assert!(withheld.len() > 2700, "{}: {deeper}", withheld.len());
 }
 
 /// After a silence more can have happened.

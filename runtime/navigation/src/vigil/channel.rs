@@ -90,8 +90,10 @@ impl Kind {
         let change = (now[0] - before[0]).abs();
         match self {
             Kind::Position => {
-                // A fix may correct what both expect of their errors: six standard deviations, and 5 m for who tells none.
-                let error = (now[2] * now[2] + before[2] * before[2]).sqrt();
+                // A fix may correct what both expect of their errors: six standard deviations, and 5 m for who tells none. The
+                // later is no excuse for itself: its own error is no larger here than that of the one before.
+                let own = now[2].min(before[2]);
+                let error = (own * own + before[2] * before[2]).sqrt();
                 let moved = Point::new(now[0], now[1]).distance(Point::new(before[0], before[1]));
                 moved <= 10.0 * time + 6.0 * error + 5.0
             }

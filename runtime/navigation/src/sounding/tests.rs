@@ -1,0 +1,75 @@
+use super::*;
+use albacore_geometry::Heading;
+
+/// What is told of altitudes, one for each depth, while a depth is commanded.
+fn told(goal: Vertical, soundings: impl IntoIterator<Item = (f64, f64)>) -> Vec<(usize, String)> {
+    let mut sounding = Sounding::default();
+    let command = Command { heading: Heading::NORTH, speed: 1.0, vertical: goal };
+    let mut told = Vec::new();
+    for (i, (depth, altitude)) in soundings.into_iter().enumerate() {
+        sounding.dive(depth);
+        sounding.believes(i as u64, altitude, Some(&command));
+        told.extend(sounding.take_told().map(|what| (i, what)));
+    }
+    told
+}
+
+fn wobble(i: usize) -> f64 {
+    if i.is_multiple_of(2) { 0.0 } else { 0.01 }
+}
+
+/// A dive by 5 cm a tick.
+fn dive(altitude: impl Fn(usize, f64) -> f64) -> Vec<(f64, f64)> {
+    (0..200).map(|i| (3.0 + 0.05 * i as f64, altitude(i, 3.0 + 0.05 * i as f64))).collect()
+}
+
+#[test]
+fn an_echo_of_the_bottom_is_believed_in_a_dive() {
+    let down = Vertical::Depth(40.0);
+    assert_eq!(told(down, dive(|i, depth| 20.0 + wobble(i) - depth)), []);
+    assert_eq!(told(down, dive(|i, depth| 20.0 + wobble(i) - 0.4 * depth)), [], "a bottom that falls away");
+}
+
+#[test]
+fn an_altitude_that_stays_the_same_in_a_dive_is_not_believed() {
+    for altitude in [0.3, 50.0, 9000.0] {
+        let told = told(Vertical::Depth(40.0), dive(|i, _| altitude + wobble(i)));
+        assert_eq!(told, [(30, String::from("rejected: altitude, no less after a dive of 1.5 m"))], "{altitude}");
+    }
+    let told = told(Vertical::Altitude(2.0), dive(|i, _| 5.0 + wobble(i)));
+    assert_eq!(told.len(), 1, "{told:?}");
+}
+
+/// One that is told late tells of the climb before.
+#[test]
+fn one_that_grows_in_a_dive_is_not_believed() {
+    assert_eq!(told(Vertical::Depth(40.0), dive(|_, depth| 2.0 + 0.5 * depth)).len(), 2);
+}
+
+#[test]
+fn one_that_fails_in_the_middle_of_a_dive_is_not_believed_either() {
+    let told = told(Vertical::Depth(40.0), dive(|i, depth| if i < 100 { 20.0 - depth } else { 12.0 + wobble(i) }));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!((100..=160).contains(&told[0].0), "{told:?}");
+}
+
+#[test]
+fn what_changes_again_is_believed_again() {
+    let told = told(Vertical::Depth(40.0), dive(|i, depth| if i < 100 { 12.0 } else { 20.0 - depth }));
+    let same = (30, String::from("rejected: altitude, no less after a dive of 1.5 m"));
+    assert_eq!(told, [same, (180, String::from("believed: altitude, changes again"))]);
+}
+
+/// Along a slope, by altitude or by the limit of one, it stays the same while the depth changes; so it does at rest, and in a swell.
+#[test]
+fn what_is_kept_may_stay_the_same() {
+    assert_eq!(told(Vertical::Altitude(2.0), dive(|i, _| 2.1 + wobble(i))), []);
+    let mut sounding = Sounding::default();
+    for (tick, (depth, altitude)) in (0..).zip(dive(|i, _| 2.0 + wobble(i))) {
+        let command = Command { heading: Heading::NORTH, speed: 1.0, vertical: Vertical::Depth(depth + 0.1) };
+        sounding.dive(depth);
+        assert!(sounding.believes(tick, altitude, Some(&command)));
+    }
+    let swell = (0..2000).map(|i| (3.0 + if i / 45 % 2 == 0 { 1.6 } else { -1.6 }, 5.0));
+    assert_eq!(told(Vertical::Depth(3.0), swell), []);
+}

@@ -1,0 +1,107 @@
+//! Limits never fail open: no fault of the depth or of the altitude lets a mission with `altitude >= A` touch the bottom.
+
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
+use albacore_session::{Faults, Outcome, Plan, Run, load, load_faults};
+use std::path::Path;
+
+const LIMITS: &str = "tests/aground/limits.alb";
+/// What can be wrong with an altitude, but for an error that could be true of it.
+const ALTITUDES: [&str; 8] = [
+    "off",
+    "stuck",
+    "garbage",
+    "slow(every: 4 s)",
+    "delayed(by: 3 s)",
+    "intermittent(heard: 1 s, silent: 4 s)",
+    "not_a_number",
+    "wrong(size: -1)",
+];
+/// A depth that is told wrong, while the vehicle holds the true one that it is told: the altitude alone can lead up.
+const DEPTHS: [&str; 5] = ["stuck", "garbage", "wrong", "wrong(size: 3)", "wrong(size: 20)"];
+const FROM: [&str; 4] = ["0 s", "12 s", "25 s", "60 s"];
+
+fn run(mission: &str, scenario: &str, faults: &[String]) -> (Outcome, String) {
+    let script = load(Path::new(LIMITS), None, &[]).unwrap();
+    assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+    let plan = Plan::new(&script, LIMITS, Some(mission), Some(scenario)).unwrap();
+    let faults = load_faults(faults);
+    assert!(faults.is_sound(), "{:?}", faults.findings);
+    let mut run = Run::new(&plan.with_faults(&Faults::of(&faults).unwrap()).unwrap(), 1).unwrap();
+    let outcome = run.to_end();
+    (outcome, run.trace().to_string())
+}
+
+/// Runs each mission over each bottom with each fault of a sensor, and gives what touched the bottom.
+fn aground(sensor: &str, disorders: &[&str]) -> Vec<String> {
+    let mut aground = Vec::new();
+    for mission in ["deep", "by_altitude"] {
+        for scenario in ["level", "shallow", "rising"] {
+            for disorder in disorders {
+                for from in FROM {
+                    let fault = format!("{sensor}, {disorder}, from: {from}");
+                    let (outcome, trace) = run(mission, scenario, std::slice::from_ref(&fault));
+                    if trace.contains("grounded at") || outcome == Outcome::Aground {
+                        aground.push(format!("{mission} in {scenario}, {fault}: {outcome:?}"));
+                    }
+                }
+            }
+        }
+    }
+    aground
+}
+
+#[test]
+fn no_altitude_leads_aground() {
+    let aground = aground("altitude", &ALTITUDES);
+    assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+}
+
+#[test]
+fn no_depth_leads_aground_while_the_altitude_is_true() {
+    let aground = aground("depth", &DEPTHS);
+    assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+}
+
+#[test]
+fn a_mission_that_waits_stays_where_it_began_to() {
+    let (outcome, trace) = run("waiting", "biased", &[]);
+    assert_eq!(outcome, Outcome::Aborted, "{trace}");
+    assert!(trace.contains("`flow` has never come") && !trace.contains("grounded at"), "{trace}");
+}
+
+/// What is wrong for a moment aborts nothing: a first sample too has others to follow it.
+#[test]
+fn one_wrong_sample_aborts_nothing() {
+    for fault in [
+        "position, jump(5 km), from: 0 s, to: 0.1 s",
+        "position, jump(5 km), from: 20 s, to: 20.1 s",
+        "position, garbage, from: 20 s, to: 20.1 s",
+        "position, garbage, from: 0 s, to: 0.1 s",
+        "depth, wrong(size: 100), from: 0 s, to: 0.1 s",
+        "depth, garbage, from: 20 s, to: 20.1 s",
+        "heading, garbage, from: 20 s, to: 20.1 s",
+        "speed, garbage, from: 20 s, to: 20.1 s",
+    ] {
+        for seed in 1..=8 {
+            let script = load(Path::new("tests/aground/one_wrong.alb"), None, &[]).unwrap();
+            assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+            let plan = Plan::new(&script, "one_wrong.alb", None, None).unwrap();
+            let faults = Faults::of(&load_faults(&[fault.to_string()])).unwrap();
+            let mut run = Run::new(&plan.with_faults(&faults).unwrap(), seed).unwrap();
+            assert_eq!(run.to_end(), Outcome::Completed, "{fault}, seed {seed}:\n{}", run.trace());
+        }
+    }
+}
+
+/// Depths all over the place for longer than the vehicle can do without: the mission ends for want of one, not by what it heard.
+#[test]
+fn garbage_is_never_taken_for_a_depth() {
+    for seed in 1..=8 {
+        let script = load(Path::new("tests/aground/one_wrong.alb"), None, &[]).unwrap();
+        let plan = Plan::new(&script, "one_wrong.alb", None, None).unwrap();
+        let faults = Faults::of(&load_faults(&["depth, garbage, from: 10 s, to: 30 s".into()])).unwrap();
+        let mut run = Run::new(&plan.with_faults(&faults).unwrap(), seed).unwrap();
+        assert_eq!(run.to_end(), Outcome::Completed, "seed {seed}:\n{}", run.trace());
+    }
+}
