@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A mission whose vehicle has lain on the bottom for so long, s, is aborted: its recovery leads up.
 const AGROUND_MAX_S: f64 = 30.0;
-/// One that has lain there for so long, s, has done more than touch it, whatever comes after.
+/// One that has lain there for so long in all, s, has done more than touch it, whatever comes after.
 const TOUCHED_MAX_S: f64 = 10.0;
 
 /// What is known of the vehicle on the bottom.
@@ -15,8 +15,8 @@ const TOUCHED_MAX_S: f64 = 10.0;
 pub(crate) struct Aground {
     /// Since which tick it has lain there.
     since: Option<u64>,
-    /// Whether it has lain there for longer than a touch.
-    lay: bool,
+    /// For how many ticks it has lain there in all.
+    ticks: u64,
 }
 
 impl Run {
@@ -24,7 +24,7 @@ impl Run {
     pub fn feel_bottom(&mut self, aground: bool) {
         let since = aground.then(|| self.state.aground.since.unwrap_or(self.state.tick));
         self.state.aground.since = since;
-        self.state.aground.lay |= self.lain_s() >= TOUCHED_MAX_S;
+        self.state.aground.ticks += u64::from(aground);
     }
 
     fn lain_s(&self) -> f64 {
@@ -43,12 +43,12 @@ impl Run {
     /// Why a mission that ends so has ended aground, if it has. One that leaves its vehicle on the bottom, or has left it there
     /// for a while, has not come to its own end, whatever it says.
     pub fn is_aground_at(&self, outcome: Outcome) -> Option<&'static str> {
-        let Aground { since, lay } = self.state.aground;
+        let Aground { since, ticks } = self.state.aground;
         match outcome {
             Outcome::Completed | Outcome::TimedOut | Outcome::Aborted if since.is_some() => {
                 Some("the vehicle lies on the bottom")
             }
-            Outcome::Completed if lay => Some("the vehicle has lain on the bottom"),
+            Outcome::Completed if ticks as f64 * TICK_S >= TOUCHED_MAX_S => Some("the vehicle has lain on the bottom"),
             _ => None,
         }
     }

@@ -38,7 +38,7 @@ pub(super) struct Required {
 
 /// A vehicle that lies on the bottom for so long is stranded: 30 s.
 const STRANDED_TICKS: u64 = 300;
-/// One that lies there for so long has done more than touch it: 10 s.
+/// One that lies there for so long in all has done more than touch it: 10 s.
 const TOUCHED_TICKS: u64 = 100;
 /// The naive evaluator of one mission.
 pub struct Evaluator<'p> {
@@ -58,9 +58,9 @@ pub struct Evaluator<'p> {
     limited: [bool; 3],
     filter: CommandFilter,
     pub(super) bottom: Bottom,
-    /// Since when the vehicle has lain on the bottom, and whether it ever has for longer than a touch.
+    /// Since when the vehicle has lain on the bottom, and for how many ticks in all.
     aground: Option<u64>,
-    has_lain: bool,
+    lain: u64,
     /// Rule 6: whether the heading and depth of the very start have been taken.
     stands: bool,
     control: Control,
@@ -99,7 +99,7 @@ impl<'p> Evaluator<'p> {
             filter: CommandFilter::new(w.heading()),
             bottom: Bottom::default(),
             aground: None,
-            has_lain: false,
+            lain: 0,
             stands: false,
             control: Control::Disconnected,
             w,
@@ -120,7 +120,7 @@ impl<'p> Evaluator<'p> {
         self.w.sense(self.sensors, &snapshot.samples);
         self.bottom.hear(&self.w);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
-        self.has_lain |= self.aground.is_some_and(|since| self.w.tick - since >= TOUCHED_TICKS);
+        self.lain += u64::from(snapshot.aground);
         if snapshot.control != self.control {
             self.control = snapshot.control;
             self.w.say(format!("control {:?}", self.control));
@@ -376,7 +376,7 @@ impl<'p> Evaluator<'p> {
     fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {
         if self.phase != Phase::Over {
             let lies = self.aground.is_some() && ["completed", "timed_out", "aborted"].contains(&outcome);
-            let stranded = lies || self.has_lain && outcome == "completed";
+            let stranded = lies || self.lain >= TOUCHED_TICKS && outcome == "completed";
             if stranded && outcome == "completed" {
                 let how = if lies { "lies" } else { "has lain" };
                 self.w.say(format!("abort the vehicle {how} on the bottom"));
