@@ -108,6 +108,10 @@ fn rounds<'b>(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &'b Stmt) -> Option<(us
             let mut rounds = Vec::new();
             while next < last || (*inclusive && next == last) {
                 rounds.push(Value::Number(next));
+                // Beyond 2^53 there is no next one.
+                if next + 1.0 == next {
+                    break;
+                }
                 next += 1.0;
             }
             (*var, rounds, body)
