@@ -31,6 +31,9 @@ pub fn help(word: &str) -> Option<&'static str> {
         "int" | "float" | "double" | "string" | "bool" | "auto" | "local" => {
             "write `let NAME = VALUE`: its type is that of the value"
         }
+        "fn" | "strategy" | "mission" | "overlay" | "scenario" | "record" | "enum" => {
+            "what is declared with it stands at the left margin, outside every block"
+        }
         "const" => "`const` stands at the left margin; in a block write `let`",
         "when" | "whenever" => "write `on X { … }` at the top of the behavior; in a table `A -> B on X`",
         "end" | "endif" | "endwhile" | "endfor" => {
@@ -41,6 +44,17 @@ pub fn help(word: &str) -> Option<&'static str> {
         }
         _ => return maneuver(word),
     })
+}
+
+/// Loops that begin with a word of ours: `do { … } while X`, `until X { … }`.
+pub fn repeated(word: &str, rest: &str) -> Option<String> {
+    let (head, _) = rest.split_once('{').filter(|(head, _)| !head.contains('\n'))?;
+    match (word, head.trim()) {
+        ("do", "") => Some("write `while X { … }`: what is done once in any case stands before it, too".to_string()),
+        ("until", "") => None,
+        ("until", condition) => Some(format!("write `while not ({condition}) {{ … }}`")),
+        _ => None,
+    }
 }
 
 /// What other vehicles are told to do, and how ours is told.

@@ -1,7 +1,7 @@
 //! Arguments: by position or by label, defaults for the rest; and the functions that every script knows.
 
 use super::expr::article;
-use super::{Checker, Def, ParamInfo};
+use super::{Checker, Def, ParamInfo, globe};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -50,6 +50,10 @@ impl<'t> Checker<'t> {
         span: Span,
         declared: Option<Span>,
     ) -> Option<Vec<Expr>> {
+        if let Some(finding) = globe::two_numbers(what, params, args) {
+            self.report(finding);
+            return None;
+        }
         let mut given: Vec<Option<&tree::Expr>> = vec![None; params.len()];
         let mut failed = false;
         let mut next = 0;

@@ -5,7 +5,7 @@ use super::facts::Place;
 use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::dimension::Dimension;
+use crate::dimension::{self, Dimension};
 use crate::hir::{Builtin, Expr, ExprKind, Interval, TextPart};
 use crate::source::Span;
 use crate::syntax::tree::{self, Unary};
@@ -179,7 +179,7 @@ impl<'t> Checker<'t> {
             _ => None,
         };
         let mut checked: Vec<Expr> = Vec::new();
-        let mut common = wanted;
+        let mut common = wanted.or_else(|| unit_of_some(elements));
         for element in elements {
             let value = match &common {
                 Some(ty) => self.expr_as(element, &ty.clone(), "an element of this list"),
@@ -336,4 +336,15 @@ pub(super) fn article(name: &str) -> String {
         Some('A' | 'E' | 'I' | 'O') => format!("an {name}"),
         _ => format!("a {name}"),
     }
+}
+
+/// Of a list that begins with a number without a unit: the type of the first number that has one, which the others want.
+fn unit_of_some(elements: &[tree::Expr]) -> Option<Type> {
+    let unit = |e: &tree::Expr| match &e.kind {
+        tree::ExprKind::Number { unit: Some(unit), .. } => dimension::unit(&unit.node, &|_| None),
+        _ => None,
+    };
+    let is_bare = |e: &tree::Expr| matches!(e.kind, tree::ExprKind::Number { unit: None, .. });
+    elements.first().filter(|e| is_bare(e))?;
+    elements.iter().find_map(unit).filter(|unit| !unit.dimension.is_none()).map(|unit| Type::Quantity(unit.dimension))
 }

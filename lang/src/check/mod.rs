@@ -13,6 +13,7 @@ mod depth;
 mod expr;
 mod facts;
 mod flow;
+mod globe;
 mod hidden;
 mod lists;
 mod loops;

@@ -183,6 +183,7 @@ impl<'t> Checker<'t> {
     fn undeclared(&mut self, name: &tree::Name) {
         let finding = self.unknown_name_finding(&name.node, name.span);
         let help = match self.scope.setting {
+            _ if name.node == "area" => "the area of a mission has a name: `area op = rectangle(…)`".to_string(),
             Setting::Body => {
                 format!(
                     "declare it: `memory {0}: TYPE = …` at the top, or `let {0} = …` here if it never changes",

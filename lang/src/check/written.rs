@@ -47,6 +47,8 @@ impl<'t> Checker<'t> {
                 finding.help(habit)
             } else if matches!(word.node.as_str(), "N" | "E" | "W" | "°N" | "°S" | "°E" | "°W") {
                 finding.help("a position is its latitude, a blank and its longitude: `36.18°N 75.74°W`")
+            } else if word.node == "rpm" {
+                finding.help("turns are counted in `Hz`, turns a second: 60 of them a minute are `1 Hz`")
             } else if word.node == "M" {
                 finding.help("metres are `m`, nautical miles `nmi`")
             } else if matches!(word.node.as_str(), "bar" | "dbar" | "mbar" | "Pa" | "kPa") {

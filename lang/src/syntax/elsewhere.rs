@@ -134,9 +134,14 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
     let last = last_word(before);
     let open = before.matches('(').count() > before.matches(')').count();
     if rest.starts_with('=') && !rest.starts_with("==") && (open || VERBS.contains(&verb)) && verb != last {
+        let value = super::slips::with_unit(last, line_end(&rest[1..]).trim_end_matches(')'));
+        if !open && ["depth", "altitude", "speed"].contains(&last) {
+            let message = Some(format!("`at` is missing before `{last}`"));
+            return Some(Habit { message, help: format!("write `at {last} {value}` in place of the comma") });
+        }
         return Some(Habit {
             message: Some("an argument's name is followed by a colon".to_string()),
-            help: format!("write `{last}: {}`", line_end(&rest[1..]).trim_end_matches(')')),
+            help: format!("write `{last}: {value}`"),
         });
     }
     if verb == "keep" && rest.starts_with('=') {
@@ -263,9 +268,6 @@ fn operator(before: &str, rest: &str) -> Option<Habit> {
             write(format!("0{}", line_end(rest).split([' ', ')', ',']).next().unwrap_or("")))
         }
         _ if rest.starts_with('%') && before.trim().is_empty() => {
-            Some(Habit { message: None, help: "comments begin with `//`".to_string() })
-        }
-        _ if rest.starts_with("--") || before.trim() == "--" => {
             Some(Habit { message: None, help: "comments begin with `//`".to_string() })
         }
         _ => None,

@@ -2,7 +2,7 @@
 
 use super::build::{Bad, Place};
 use super::habits::{habit, untyped_memory};
-use super::{Grammar, Rule, places};
+use super::{Grammar, Rule, places, slips};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::foreign;
@@ -70,6 +70,9 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
             }
             _ => Diagnostic::error(Code::SyntaxClause, span, format!("`{word}` begins no statement")),
         };
+        if let Some(help) = foreign::repeated(&word, after_word) {
+            return finding.help(help);
+        }
         if OPERATOR_WORDS.contains(&word.as_str()) {
             let mend = match super::scan::goes_on_after(&word) {
                 true => format!("end that line with `{word}`, and it goes on here"),
@@ -116,6 +119,12 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
                 .help("name its inner parts with `let`, or make functions of them");
         }
     };
+    let before = text[..offset].rsplit(['\n', ';', '{']).next().unwrap_or("");
+    if let Some(slip) = slips::slip(before, rest) {
+        let at = start + offset - before.len() + slip.start;
+        let span = Span { file, start: at as u32, end: (at + slip.length()) as u32 };
+        return slip.finding(span);
+    }
     let wants_name = expected.split([',', ' ']).any(|word| word == "name");
     if wants_name && is_reserved(token) {
         return Diagnostic::error(Code::SyntaxReserved, span, format!("`{token}` is a word of the language, no name"))
@@ -126,15 +135,10 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
     } else {
         format!("expected {expected}, found {}", found(rest))
     };
-    let before = text[..offset].rsplit(['\n', ';', '{']).next().unwrap_or("");
     if let Some((begins, length, ours)) = places::foreign(before, rest) {
         let at = start + offset - before.len() + begins;
         let span = Span { file, start: at as u32, end: (at + length) as u32 };
         return places::finding(span, &ours);
-    }
-    if text[..offset].trim_end().ends_with("++") {
-        return Diagnostic::error(Code::SyntaxExpected, span, message)
-            .help("an assignment names both sides: `n = n + 1`");
     }
     match habit(before, rest, &expected) {
         Some(habit) => Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or(message)).help(habit.help),
@@ -143,12 +147,7 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
                 Diagnostic::error(Code::SyntaxExpected, span, format!("expected `,` or an operator, found `{token}`"))
                     .help(help)
             }
-            None if is_position(before, rest) => Diagnostic::error(
-                Code::SyntaxExpected,
-                span,
-                "this position cannot be read",
-            )
-            .help("a position is its latitude, a blank and its longitude: `36°10.8'N 75°44.4'W`, or `36.18°N 75.74°W`"),
+            None if is_position(before, rest) => places::finding(span, &places::Ours::Half),
             None => Diagnostic::error(Code::SyntaxExpected, span, message),
         },
     }

@@ -172,7 +172,7 @@ fn number(before: &str, rest: &str) -> Option<Habit> {
 }
 
 /// The number and the unit with which a text ends.
-fn quantity(text: &str) -> Option<(&str, &str)> {
+pub(super) fn quantity(text: &str) -> Option<(&str, &str)> {
     let text = text.trim_end();
     let unit = text.rfind(|c: char| c.is_ascii_digit()).map(|at| text[at + 1..].trim_start())?;
     let rest = text[..text.len() - unit.len()].trim_end();

@@ -10,6 +10,7 @@ mod errors;
 mod habits;
 mod places;
 mod scan;
+mod slips;
 pub mod tree;
 mod words;
 
