@@ -11,24 +11,46 @@ use std::time::{Duration, Instant};
 /// Who asks again sooner than this has not asked twice: a terminal that is closed sends several signals at once.
 const AGAIN: Duration = Duration::from_millis(300);
 
-/// What asks a program to end. Those that tell of a fault of its own cannot be survived, and are left out.
-#[cfg(unix)]
-const REQUESTS: [i32; 12] = [
-    signal::SIGINT,
-    signal::SIGTERM,
-    signal::SIGQUIT,
-    signal::SIGHUP,
-    signal::SIGUSR1,
-    signal::SIGUSR2,
-    signal::SIGALRM,
-    signal::SIGVTALRM,
-    signal::SIGPROF,
-    signal::SIGIO,
-    signal::SIGABRT,
-    signal::SIGXCPU,
+/// Signals that end no program by themselves, that only stop one, that a library of the system keeps for
+/// itself, or that are an error of the disk.
+#[cfg(target_os = "linux")]
+const OTHERS: [i32; 12] = [
+    signal::SIGPIPE,
+    signal::SIGCHLD,
+    signal::SIGCONT,
+    signal::SIGSTOP,
+    signal::SIGTSTP,
+    signal::SIGTTIN,
+    signal::SIGTTOU,
+    signal::SIGURG,
+    signal::SIGWINCH,
+    signal::SIGXFSZ,
+    32,
+    33,
 ];
+/// Those that cannot be caught, and those that tell of a fault of the program's own: it would be met again at once.
+#[cfg(target_os = "linux")]
+const FATAL: [i32; 5] = [signal::SIGKILL, signal::SIGILL, signal::SIGFPE, signal::SIGSEGV, signal::SIGBUS];
+/// The last of those that have no name.
+#[cfg(target_os = "linux")]
+const LAST: i32 = 64;
+
+/// What asks a program to end: every signal that ends one and can be caught.
+#[cfg(target_os = "linux")]
+fn requests() -> impl Iterator<Item = i32> {
+    (1..=LAST).filter(|request| !OTHERS.contains(request) && !FATAL.contains(request))
+}
+#[cfg(all(unix, not(target_os = "linux")))]
+fn requests() -> impl Iterator<Item = i32> {
+    use signal::*;
+    let ends =
+        [SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGABRT, SIGTRAP, SIGSYS];
+    ends.into_iter().chain(LIMITS)
+}
 #[cfg(not(unix))]
-const REQUESTS: [i32; 2] = [signal::SIGINT, signal::SIGTERM];
+fn requests() -> impl Iterator<Item = i32> {
+    [signal::SIGINT, signal::SIGTERM].into_iter()
+}
 
 /// What the system sends by itself, and again: a limit on time was reached.
 #[cfg(unix)]
@@ -62,7 +84,8 @@ impl Heard {
     }
 }
 
-/// A flag that any of them raises. The second ends the program at once, whatever it is about.
+/// A flag that any of them raises. A second ends the program at once, whatever it is about: one that comes 0.3 s after the first or
+/// later, and is none that the system sends by itself.
 pub fn flag() -> Arc<AtomicBool> {
     heard().is_looked_at = true;
     listen();
@@ -109,11 +132,20 @@ pub fn ctrl_c() -> Arc<AtomicBool> {
     interrupted
 }
 
-/// A flag that Ctrl-Z raises, which then stops nothing.
+/// A flag that Ctrl-Z raises, which then stops nothing. Nor does a terminal that lets nobody write from the background (`stty
+/// tostop`): call it before the threads begin that write.
 #[cfg(unix)]
 pub fn ctrl_z() -> Arc<AtomicBool> {
-    let asked = Arc::new(AtomicBool::new(false));
+    use nix::sys::signal::{SigSet, Signal};
+    let (asked, by_terminal) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
     let _ = signal_hook::flag::register(signal::SIGTSTP, Arc::clone(&asked));
+    let mut of_terminal = SigSet::empty();
+    for request in [Signal::SIGTTIN, Signal::SIGTTOU] {
+        // Whoever sends it stops nothing, and who blocks it may write.
+        let _ = signal_hook::flag::register(request as i32, Arc::clone(&by_terminal));
+        of_terminal.add(request);
+    }
+    let _ = of_terminal.thread_block();
     asked
 }
 
@@ -143,10 +175,10 @@ fn listen() {
     LISTENING.get_or_init(|| {
         let ignored = ignored();
         // Without handlers a signal ends the program at once, as it does any other.
-        let Ok(mut signals) = Signals::new(REQUESTS.iter().filter(|request| is_heard(**request, ignored))) else {
-            return;
-        };
+        let Ok(mut signals) = Signals::new([0; 0]) else { return };
         let handle = signals.handle();
+        // One that the system does not have is none.
+        requests().filter(|request| is_heard(*request, ignored)).for_each(|request| _ = handle.add_signal(request));
         let listening = Builder::new().name("signals".into()).spawn(move || {
             for request in signals.forever() {
                 RAISED.store(true, Ordering::Relaxed);

@@ -39,11 +39,11 @@ impl Live {
     /// Runs to the end, gives the vehicle back, and then waits for terminal and disk no longer than is stated.
     pub fn run(self, run: Run) -> Exit {
         let Live { bar, journal, interrupted, mut kept, telling } = self;
+        let stopping = interruption::ctrl_z();
         let mut speaker = match Speaker::new(bar) {
             Ok(speaker) => speaker,
             Err(error) => return no_thread(&error),
         };
-        let stopping = interruption::ctrl_z();
         let mut tell = |told: Told<'_>| {
             if stopping.swap(false, Ordering::Relaxed) {
                 speaker.say(CTRL_Z);

@@ -475,5 +475,5 @@ fn is_suspended(mode: Mode) -> bool {
 
 /// Whether a vehicle that says this is driven by nobody.
 fn is_left(mode: Mode) -> bool {
-    !is_suspended(mode) && !(mode.has(Mode::ACTIVE) && mode.phase() == Phase::InMission)
+    !(is_suspended(mode) || mode.has(Mode::ACTIVE) && mode.phase() == Phase::InMission)
 }
