@@ -39,6 +39,13 @@ const PARTS: [Code; 16] = [
     Code::TimeInstantLoop,
 ];
 
+/// Findings of a call: what could not be read may have declared what is called, under the name of a function of ours.
+const CALLS: [Code; 6] =
+    [Code::TypesMismatch, Code::ArgsLabel, Code::ArgsMany, Code::ArgsMissing, Code::ArgsTwice, Code::FlowUnused];
+
+/// Words after which the name of what can be called is declared.
+const CALLABLE: [&str; 5] = ["fn", "behavior", "strategy", "overlay", "record"];
+
 /// Words after which a name is declared, inside a declaration.
 const DECLARING: [&str; 8] = ["let", "var", "memory", "signal", "behavior", "area", "for", "clause"];
 
@@ -52,6 +59,8 @@ const NAMING: [&str; 17] = [
 pub struct Echoes<'a> {
     /// Those of whole declarations, known everywhere.
     anywhere: Names<'a>,
+    /// Those among them that can be called.
+    callable: BTreeSet<&'a str>,
     /// Those of parts of a declaration, known in it.
     inside: BTreeMap<Span, Names<'a>>,
 }
@@ -72,7 +81,7 @@ impl Names<'_> {
 
 impl<'a> Echoes<'a> {
     pub fn of(unread: &[Unread], sources: &'a Sources) -> Self {
-        let mut echoes = Echoes { anywhere: Names::default(), inside: BTreeMap::new() };
+        let mut echoes = Echoes { anywhere: Names::default(), callable: BTreeSet::new(), inside: BTreeMap::new() };
         for u in unread {
             let text = sources.text(u.span);
             let names = match u.item {
@@ -81,7 +90,11 @@ impl<'a> Echoes<'a> {
             };
             names.any |= lacks_name(text);
             match u.item {
-                None => names.known.extend(words(text)),
+                None => {
+                    names.known.extend(words(text));
+                    let named = words(text).zip(words(text).skip(1)).filter(|(word, _)| CALLABLE.contains(word));
+                    echoes.callable.extend(named.map(|(_, name)| name));
+                }
                 Some(_) => names.known.extend(declared(text)),
             }
         }
@@ -96,8 +109,33 @@ impl<'a> Echoes<'a> {
             let known: Vec<_> = items.map(|(_, names)| names).chain([&self.anywhere]).collect();
             return words(sources.text(span)).any(|name| known.iter().any(|names| names.may_hold(name)));
         }
+        if CALLS.contains(&finding.code) && !self.callable.is_empty() {
+            return called(span, sources).any(|name| self.callable.contains(name));
+        }
         PARTS.contains(&finding.code) && items.next().is_some()
     }
+}
+
+/// What a stretch calls itself, and the call on its line among whose arguments it stands.
+fn called(span: Span, sources: &Sources) -> impl Iterator<Item = &str> {
+    let before = sources.text(Span { start: 0, end: span.start, ..span });
+    let line = before.rsplit('\n').next().unwrap_or("");
+    let mut closed = 0_usize;
+    let open = line.char_indices().rev().find(|(_, c)| match c {
+        ')' => {
+            closed += 1;
+            false
+        }
+        '(' if closed > 0 => {
+            closed -= 1;
+            false
+        }
+        c => *c == '(',
+    });
+    let around = open.and_then(|(at, _)| line[..at].rsplit(|c: char| !c.is_alphanumeric() && c != '_').next());
+    let text = sources.text(span);
+    let own = words(text).next().filter(|name| text.strip_prefix(name).is_some_and(|rest| rest.starts_with('(')));
+    around.into_iter().chain(own)
 }
 
 /// The names that a part of a declaration may declare: a word before them says so, or a type after them.

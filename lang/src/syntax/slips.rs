@@ -162,8 +162,19 @@ fn mutable(before: &str, rest: &str) -> Option<Slip> {
         start: line.len() - declared.len() - "mut ".len(),
         length: "mut".len(),
         message: "what `let` names never changes".to_string(),
-        help: format!("write `var {}`, or keep it in a `memory`", declared.trim()),
+        help: changing(declared.trim()),
     })
+}
+
+/// How what changes is declared: in a function, and where time goes by.
+fn changing(declared: &str) -> String {
+    let (name, value) = declared.split_once('=').map_or((declared, "…"), |(name, value)| (name.trim(), value.trim()));
+    let ty = match value.parse::<f64>() {
+        Ok(_) if !value.contains('.') => "Int",
+        Ok(_) => "Ratio",
+        Err(_) => "TYPE",
+    };
+    format!("write `memory {name}: {ty} = {value}` at the top, or in a function `var {name} = {value}`")
 }
 
 /// `x in [1, 2]`.
