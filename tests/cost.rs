@@ -4,6 +4,7 @@
 
 use std::path::Path;
 use std::process::Command;
+use std::time::{Duration, Instant};
 
 #[test]
 fn cost() {
@@ -20,4 +21,65 @@ fn told(path: &Path) -> String {
         .output()
         .unwrap();
     String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
+}
+
+/// A script of a mission, with declarations before it and a body.
+fn script(declarations: &str, body: &str) -> String {
+    format!(
+        "{declarations}
+mission large in calm within 20 min {{
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+    limits {{ altitude >= 2 m, speed <= 2.5 m/s }}
+    requires {{ position, course, heading, depth, altitude fresh 500 s, else abort }}
+    recovery within 5 min {{ goto op.center }}
+    with depth 3 m, speed 1.5 m/s
+    {body}
+}}
+"
+    )
+}
+
+fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).map(|i| line(i) + "\n").collect()
+}
+
+/// Work that grows with the square of a script takes from ten seconds to minutes here, and what does not about one.
+#[test]
+#[expect(clippy::disallowed_methods, reason = "what is tested is the time that a person waits")]
+fn large_scripts_are_checked_in_time() {
+    let alone = script("", "wait for 1 s");
+    let scripts = [
+        (
+            "scenarios",
+            script(&lines(16_000, |i| format!("scenario s{i} {{ bottom(from: 8 m, to: 12 m) }}")), "wait for 1 s"),
+        ),
+        ("missions", lines(1600, |i| alone.replace("mission large", &format!("mission m{i}")))),
+        (
+            "tests",
+            alone.clone()
+                + &lines(8000, |i| format!("test \"a{i}\" {{ run large in calm seeds 1..1\n expect completed }}")),
+        ),
+        (
+            "any",
+            script(
+                &format!(
+                    "strategy any_of() {{ start b0\n{}{}}}",
+                    lines(8000, |i| format!("behavior b{i} {{ steer north }}")),
+                    lines(8000, |i| format!("any -> b{i} on depth > {} m", i % 100))
+                ),
+                "any_of()",
+            ),
+        ),
+    ];
+    for (name, script) in scripts {
+        let begun = Instant::now();
+        let file = std::env::temp_dir().join(format!("albacore-{}-{name}.alb", std::process::id()));
+        std::fs::write(&file, script).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_albacore")).arg("check").arg(&file).output().unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        let refused = told.contains("limits::rules");
+        assert!(output.status.code() == Some(0) || name == "any" && refused, "{name}: {told:.2000}");
+        assert!(begun.elapsed() < Duration::from_secs(10), "{name}: {:?}", begun.elapsed());
+    }
 }

@@ -94,6 +94,7 @@ codes! {
         LimitsMemory = "memory",
         LimitsRange = "range",
         LimitsRecord = "record",
+        LimitsRules = "rules",
         LimitsSetpoint = "setpoint",
         LimitsSignal = "signal",
         LimitsSteps = "steps",

@@ -150,15 +150,15 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     findings.extend(checked.unused.into_iter().filter(|f| !errors.iter().any(|e| e.file == f.span().file)));
     // A mission is looked at as a whole when its parts are sound: half-understood parts would be found wanting twice.
     let broken = Broken::of(modules, &errors, &checked.hir);
-    for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(&checked.hir, *id)) {
+    for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(*id)) {
         findings.extend(rules::check(&checked.hir, *id));
     }
     let tables = (0..checked.hir.activities.len()).filter(|id| checked.hir.activities[*id].span.file == ENTRY);
-    for id in tables.filter(|id| !broken.reaches(&checked.hir, *id)) {
+    for id in tables.filter(|id| !broken.reaches(*id)) {
         findings.extend(rules::livelocks(&checked.hir, id));
     }
     let own = checked.hir.tests.iter().filter(|test| test.span.file == ENTRY);
-    for test in own.filter(|test| !broken.reaches(&checked.hir, test.mission)) {
+    for test in own.filter(|test| !broken.reaches(test.mission)) {
         findings.extend(rules::tests_reports(&checked.hir, test));
     }
     let meant: Vec<usize> = missions
@@ -181,14 +181,14 @@ impl Script {
 
     /// What is worth knowing and nothing wrong: rules of the script's own file that can hold in the same tick.
     pub fn notes(&self) -> Vec<Diagnostic> {
-        let own = |id: &usize| self.hir.activities[*id].span.file == ENTRY && !self.broken.reaches(&self.hir, *id);
+        let own = |id: &usize| self.hir.activities[*id].span.file == ENTRY && !self.broken.reaches(*id);
         (0..self.hir.activities.len()).filter(own).flat_map(|id| rules::overlaps(&self.hir, id)).collect()
     }
 
     /// Whether a mission has no error, nor anything that it calls: it can be looked at although others have some.
     pub fn mission_is_sound(&self, name: &str) -> bool {
         let found = self.missions.iter().find(|(info, _)| info.name == name);
-        found.is_some_and(|(_, id)| !self.broken.reaches(&self.hir, *id))
+        found.is_some_and(|(_, id)| !self.broken.reaches(*id))
     }
 
     /// Whether a scenario has no error.

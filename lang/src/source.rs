@@ -55,11 +55,15 @@ pub struct Source {
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     files: Vec<Source>,
+    /// Where the lines of each file begin: a place is looked up, for there may be as many as there are lines.
+    lines: Vec<Arc<[u32]>>,
 }
 
 impl Sources {
     /// Adds a file.
     pub fn add(&mut self, source: Source) -> FileId {
+        let ends = source.text.match_indices('\n').map(|(at, _)| at as u32 + 1);
+        self.lines.push(std::iter::once(0).chain(ends).collect());
         self.files.push(source);
         FileId((self.files.len() - 1) as u32)
     }
@@ -81,25 +85,29 @@ impl Sources {
 
     /// Line and column of a span's start, both counted from 1, the column in characters.
     pub fn line_column(&self, span: Span) -> (usize, usize) {
-        let text = &self.get(span.file).text;
-        let before = text.get(..span.start as usize).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        (line, column)
+        let line = self.line(span);
+        let begin = self.lines[span.file.0 as usize][line - 1];
+        let before = self.text(Span { start: begin, end: span.start, ..span });
+        (line, before.chars().count() + 1)
     }
 
     /// The length in bytes of the line on which a span begins.
     pub fn line_length(&self, span: Span) -> usize {
-        let text = &self.get(span.file).text;
-        let (before, after) = text.split_at_checked(span.start as usize).unwrap_or((text, ""));
-        before.rsplit('\n').next().map_or(0, str::len) + after.split('\n').next().map_or(0, str::len)
+        let (line, starts) = (self.line(span), &self.lines[span.file.0 as usize]);
+        let end = starts.get(line).map_or(self.get(span.file).text.len(), |next| *next as usize - 1);
+        end - starts[line - 1] as usize
+    }
+
+    /// The line on which a span begins, counted from 1.
+    fn line(&self, span: Span) -> usize {
+        self.lines[span.file.0 as usize].partition_point(|start| *start <= span.start)
     }
 
     /// `file:line` of a span, as traces print it: without its folders, so that a trace is the same wherever the script lies.
     pub fn place(&self, span: Span) -> String {
         let name = &self.get(span.file).name;
         let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
-        format!("{file}:{}", self.line_column(span).0)
+        format!("{file}:{}", self.line(span))
     }
 }
 

@@ -249,6 +249,8 @@ pub struct Checker<'t> {
     types: TypeTable,
     hir: Hir,
     scope: Scope,
+    /// The tests of each module, by their names as those of files.
+    tests_named: BTreeMap<(usize, String), Span>,
     /// The test that is being checked, while its expectations are.
     test: Option<truth::TestScope>,
     findings: Vec<Diagnostic>,
@@ -295,6 +297,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         types: TypeTable::default(),
         hir: Hir::default(),
         scope: Scope::new(0, Setting::Constant),
+        tests_named: BTreeMap::new(),
         test: None,
         findings: Vec::new(),
         names_used: unused::NamesUsed::default(),

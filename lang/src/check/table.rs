@@ -8,7 +8,14 @@ use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
 use crate::source::Span;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Rules by which a behavior is left at most, those of `any` among them: each is compared with all before it.
+const RULES_MAX: usize = 256;
+/// Rules of a table at most, each as often as it has sources: it is written out for each.
+const EXITS_MAX: usize = 65_536;
+/// Of the rules that shadow another so many are shown.
+const SHOWN: usize = 3;
 
 impl<'t> Checker<'t> {
     pub(super) fn table(
@@ -18,7 +25,7 @@ impl<'t> Checker<'t> {
         result: Option<&Type>,
         clauses: &[&'t Clause],
     ) -> Body {
-        let mut names: Vec<&tree::Name> = Vec::new();
+        let mut names = Names::default();
         let mut behaviors = Vec::new();
         let mut start = None;
         let mut unstarted = None;
@@ -26,7 +33,7 @@ impl<'t> Checker<'t> {
         for clause in clauses {
             match &clause.kind {
                 ClauseKind::Behavior(b) => {
-                    if let Some(earlier) = names.iter().find(|n| n.node == b.name.node) {
+                    if let Some(earlier) = names.index(&b.name.node).map(|i| names.all[i]) {
                         let finding = Diagnostic::error(
                             Code::NamesTwice,
                             b.name.span,
@@ -54,14 +61,24 @@ impl<'t> Checker<'t> {
         }
         if let Some((name, span)) = unstarted {
             if start.is_none() {
-                start = names.iter().find(|n| n.node == name).copied();
+                start = names.index(name).map(|i| names.all[i]);
             }
             let help = format!("write `start {name}`, if it begins with that behavior");
             self.misplaced(span, "a switching table has no statements", &help);
         }
+        let mut room = Room::of(&names);
         let mut rules = Vec::new();
         for rule in &written {
-            rules.extend(self.rule(rule, &names, result));
+            let sources = self.sources(rule, &names);
+            // A table that is too large is not looked at further: what it lacks may be among what was left out.
+            if let Some(message) = room.lacks(&sources, &names) {
+                self.report(
+                    Diagnostic::error(Code::LimitsRules, rule.sources_span, message)
+                        .help("make several tables of it, each a strategy of its own"),
+                );
+                return Body::Sequence(hir::Block::default());
+            }
+            rules.extend(self.rule(rule, sources, &names, result));
         }
         let start = match start {
             Some(name) => self.behavior_named(name, &names),
@@ -69,7 +86,7 @@ impl<'t> Checker<'t> {
                 let name = &a.name.node;
                 // A brace in the wrong place.
                 let inner =
-                    names.first().filter(|_| matches!(a.kind, tree::ActivityKind::Behavior) && written.is_empty());
+                    names.all.first().filter(|_| matches!(a.kind, tree::ActivityKind::Behavior) && written.is_empty());
                 self.report(match inner {
                     Some(inner) => Diagnostic::error(
                         Code::RulesStart,
@@ -125,33 +142,47 @@ impl<'t> Checker<'t> {
         self.hir.activities.len() - 1
     }
 
-    fn behavior_named(&mut self, name: &tree::Name, names: &[&tree::Name]) -> Option<usize> {
-        let found = names.iter().position(|n| n.node == name.node);
+    fn behavior_named(&mut self, name: &tree::Name, names: &Names) -> Option<usize> {
+        let found = names.index(&name.node);
         if found.is_none() {
+            let known = || names.all.iter().map(|n| n.node.as_str());
             let finding =
                 Diagnostic::error(Code::RulesUnknown, name.span, format!("there is no behavior `{}` here", name.node));
-            let finding = match self.suggestion(&name.node, names.iter().map(|n| n.node.as_str())) {
+            let finding = match self.suggestion(&name.node, known()) {
                 Some(help) => finding.help(help),
                 None => finding,
             };
             self.report(finding);
             // What was probably meant stands in for it, so that the table is not found wanting a second time.
-            let meant = self.nearest(&name.node, names.iter().map(|n| n.node.as_str()));
-            return names.iter().position(|n| Some(n.node.as_str()) == meant);
+            return self.nearest(&name.node, known()).and_then(|meant| names.index(meant));
         }
         found
     }
 
-    fn rule(&mut self, rule: &tree::SwitchingRule, names: &[&tree::Name], result: Option<&Type>) -> Option<Rule> {
+    /// The behaviors that a rule leaves.
+    fn sources(&mut self, rule: &tree::SwitchingRule, names: &Names) -> Vec<usize> {
+        if rule.sources.is_empty() {
+            // `any -> C`: all but C.
+            let to = match &rule.target {
+                tree::Target::Behavior(name) => names.index(&name.node),
+                _ => None,
+            };
+            (0..names.all.len()).filter(|&i| to != Some(i)).collect()
+        } else {
+            rule.sources.iter().filter_map(|name| self.behavior_named(name, names)).collect()
+        }
+    }
+
+    fn rule(
+        &mut self,
+        rule: &tree::SwitchingRule,
+        sources: Vec<usize>,
+        names: &Names,
+        result: Option<&Type>,
+    ) -> Option<Rule> {
         let to = match &rule.target {
             tree::Target::Behavior(name) => Some(self.behavior_named(name, names)),
             _ => None,
-        };
-        let sources: Vec<usize> = if rule.sources.is_empty() {
-            // `any -> C`: all but C.
-            (0..names.len()).filter(|&i| to.flatten() != Some(i)).collect()
-        } else {
-            rule.sources.iter().filter_map(|name| self.behavior_named(name, names)).collect()
         };
         let on = self.rule_condition(&rule.on);
         let facts = self.shown(&on, true);
@@ -223,20 +254,29 @@ impl<'t> Checker<'t> {
             .iter()
             .map(|&b| tree::Name { node: hir.activities[b].name.clone(), span: hir.activities[b].span })
             .collect();
+        let leaving = hir::leaving(rules, behaviors.len());
         let mut reached = vec![false; names.len()];
+        // Whether a rule leads there that does not come back.
+        let mut entered = vec![false; names.len()];
+        for rule in rules {
+            if let Target::Behavior(to) = rule.target {
+                entered[to] |= !rule.back;
+            }
+        }
         let mut todo = vec![start];
         while let Some(at) = todo.pop() {
             if std::mem::replace(&mut reached[at], true) {
                 continue;
             }
-            for rule in rules.iter().filter(|r| r.sources.contains(&at)) {
-                if let Target::Behavior(to) = rule.target {
+            for &rule in &leaving[at] {
+                if let Target::Behavior(to) = rules[rule].target {
                     todo.push(to);
                 }
             }
         }
+        let mut known = BTreeSet::new();
         for (i, name) in names.iter().enumerate() {
-            if names[..i].iter().any(|earlier| earlier.node == name.node) {
+            if !known.insert(&name.node) {
                 continue;
             }
             if !reached[i] {
@@ -246,13 +286,12 @@ impl<'t> Checker<'t> {
                 );
                 continue;
             }
-            let only_back =
-                rules.iter().all(|r| !matches!(r.target, Target::Behavior(to) if to == i) || r.back) && i != start;
+            let only_back = !entered[i] && i != start;
             let ends = match &hir.activities[behaviors[i]].body {
                 Body::Sequence(block) => can_end(block, hir, &mut BTreeMap::new()),
                 _ => false,
             };
-            let leaving: Vec<&Rule> = rules.iter().filter(|r| r.sources.contains(&i)).collect();
+            let leaving: Vec<&Rule> = leaving[i].iter().map(|&rule| &rules[rule]).collect();
             let answered = leaving.iter().any(|r| Self::is_just_done(&r.on));
             if ends && !answered && !only_back {
                 self.report(
@@ -289,35 +328,86 @@ impl<'t> Checker<'t> {
                 }
             }
         }
-        self.shadowed(rules, &names);
+        self.shadowed(rules, &leaving, &names);
     }
 
     /// A rule after one of the same source whose guard always holds is never tried.
-    fn shadowed(&mut self, rules: &[Rule], names: &[tree::Name]) {
+    fn shadowed(&mut self, rules: &[Rule], leaving: &[Vec<usize>], names: &[tree::Name]) {
         for (k, later) in rules.iter().enumerate() {
-            let shares = |earlier: &Rule| earlier.sources.iter().any(|source| later.sources.contains(source));
-            let shadows: Vec<&Rule> = rules[..k]
-                .iter()
-                .filter(|earlier| earlier.sources.len() >= later.sources.len() && shares(earlier))
-                .filter(|earlier| same_condition(&earlier.on, &later.on))
-                .collect();
-            for source in &later.sources {
-                let (Some(name), Some(earlier)) =
-                    (names.get(*source), shadows.iter().find(|earlier| earlier.sources.contains(source)))
-                else {
-                    continue;
-                };
-                self.report(
-                    Diagnostic::error(
-                        Code::RulesShadowed,
-                        later.on_span,
-                        format!("this rule of `{}` is never reached", name.node),
-                    )
-                    .label(earlier.on_span, "this one holds whenever it does, and comes first")
-                    .help("remove it, or put it first"),
-                );
+            // A rule of many behaviors is compared once with each other one.
+            let mut compared: BTreeMap<usize, bool> = BTreeMap::new();
+            let mut shadows = |earlier: usize| {
+                *compared.entry(earlier).or_insert_with(|| {
+                    let earlier = &rules[earlier];
+                    earlier.sources.len() >= later.sources.len() && same_condition(&earlier.on, &later.on)
+                })
+            };
+            let mut left: Vec<(&str, &Rule)> = Vec::new();
+            for &source in &later.sources {
+                let shadow =
+                    leaving[source].iter().take_while(|earlier| **earlier < k).find(|earlier| shadows(**earlier));
+                left.extend(shadow.map(|&earlier| (names[source].node.as_str(), &rules[earlier])));
+            }
+            let Some(((first, _), others)) = left.split_first() else { continue };
+            let of = match others {
+                [] => format!("`{first}`"),
+                [(second, _)] => format!("`{first}` and `{second}`"),
+                _ => format!("`{first}` and {} others", others.len()),
+            };
+            let message = format!("this rule of {of} is never reached");
+            let finding = Diagnostic::error(Code::RulesShadowed, later.on_span, message);
+            let finding = finding.help(if left.len() < later.sources.len() {
+                "leave that out of its sources, or put it first"
+            } else {
+                "remove it, or put it first"
+            });
+            let before: BTreeSet<Span> = left.iter().map(|(_, earlier)| earlier.on_span).collect();
+            let label =
+                |finding: Diagnostic, span| finding.label(span, "this one holds whenever it does, and comes first");
+            self.report(before.into_iter().take(SHOWN).fold(finding, label));
+        }
+    }
+}
+
+/// The behaviors of a table by their names; of two of one name the first.
+#[derive(Default)]
+struct Names<'n> {
+    all: Vec<&'n tree::Name>,
+    places: BTreeMap<&'n str, usize>,
+}
+
+impl<'n> Names<'n> {
+    fn push(&mut self, name: &'n tree::Name) {
+        self.places.entry(&name.node).or_insert(self.all.len());
+        self.all.push(name);
+    }
+
+    fn index(&self, name: &str) -> Option<usize> {
+        self.places.get(name).copied()
+    }
+}
+
+/// How many rules leave each behavior of a table, and all of them together.
+struct Room {
+    each: Vec<usize>,
+    all: usize,
+}
+
+impl Room {
+    fn of(names: &Names) -> Self {
+        Room { each: vec![0; names.all.len()], all: 0 }
+    }
+
+    /// Counts a rule by the behaviors that it leaves; tells where it is one too many.
+    fn lacks(&mut self, sources: &[usize], names: &Names) -> Option<String> {
+        for &source in sources {
+            self.each[source] += 1;
+            if self.each[source] > RULES_MAX {
+                return Some(format!("`{}` has more than {RULES_MAX} rules", names.all[source].node));
             }
         }
+        self.all += sources.len();
+        (self.all > EXITS_MAX).then(|| format!("the behaviors of this table have more than {EXITS_MAX} rules together"))
     }
 }
 

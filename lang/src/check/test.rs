@@ -6,7 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Expect, Test, When, test_file_name};
 use crate::source::Span;
-use crate::syntax::tree::{self, ExpectMode, Item, TestClause};
+use crate::syntax::tree::{self, ExpectMode, TestClause};
 use crate::types::Type;
 
 /// A test runs this many seeds at most.
@@ -107,26 +107,12 @@ impl<'t> Checker<'t> {
 
     /// Snapshots are kept under the names of their tests.
     fn test_is_told_apart(&mut self, m: usize, test: &'t tree::Test, name: &str) {
-        let modules = self.modules;
-        let tests = modules[m].tree.items.iter().filter_map(|item| match item {
-            Item::Test(test) => Some(test),
-            _ => None,
-        });
-        for earlier in tests.take_while(|t| t.name.span != test.name.span) {
-            let other = self.plain_text(&earlier.name);
-            if test_file_name(&other) == test_file_name(name) {
-                self.report(
-                    Diagnostic::error(
-                        Code::TestsName,
-                        test.name.span,
-                        format!("the test \"{name}\" has the name of another"),
-                    )
-                    .label(earlier.name.span, "this one")
-                    .help("give it another: a test is known by the letters and digits (a to z, 0 to 9) of its name"),
-                );
-                return;
-            }
-        }
+        let Some(earlier) = self.tests_named.insert((m, test_file_name(name)), test.name.span) else { return };
+        self.report(
+            Diagnostic::error(Code::TestsName, test.name.span, format!("the test \"{name}\" has the name of another"))
+                .label(earlier, "this one")
+                .help("give it another: a test is known by the letters and digits (a to z, 0 to 9) of its name"),
+        );
     }
 
     fn mission_named(&mut self, m: usize, path: &tree::Path) -> Option<usize> {

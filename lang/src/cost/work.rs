@@ -4,7 +4,7 @@ use super::bill::Bill;
 use super::places;
 use crate::check::takes_time;
 use crate::hir::{
-    Action, Activity, ActivityId, Block, Body, Builtin, ClauseArg, ClauseUse, Decl, Expr, ExprKind, FnId, Hir,
+    self, Action, Activity, ActivityId, Block, Body, Builtin, ClauseArg, ClauseUse, Decl, Expr, ExprKind, FnId, Hir,
     InputPart, Stmt, StmtKind, Target, TextPart, Timed, Var, With, children,
 };
 use crate::source::{Sources, Span};
@@ -401,10 +401,10 @@ impl<'a> Work<'a> {
         let Body::Table { behaviors, rules, .. } = &activity.body else { return Bill::default() };
         let returns = rules.iter().any(|rule| rule.back);
         let (mut dearest, mut all, mut dearest_switch) = (Bill::default(), Bill::default(), Bill::default());
-        for (place, &behavior) in behaviors.iter().enumerate() {
+        for (&behavior, leaving) in behaviors.iter().zip(hir::leaving(rules, behaviors.len())) {
             let mut guards: u64 = 0;
             let mut switch = Bill::default();
-            for rule in rules.iter().filter(|rule| rule.sources.contains(&place)) {
+            for rule in leaving.into_iter().map(|i| &rules[i]) {
                 guards = sum([guards, self.watched(&rule.on), self.expr(&rule.on)]);
                 let effect = rule.effect.as_ref().map_or(0, |block| self.instant(block, vars));
                 let fired = match &rule.target {

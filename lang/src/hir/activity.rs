@@ -87,6 +87,19 @@ pub struct Rule {
     pub on_span: Span,
 }
 
+/// For each behavior of a table the rules that leave it, in their order.
+pub fn leaving(rules: &[Rule], behaviors: usize) -> Vec<Vec<usize>> {
+    let mut leaving = vec![Vec::new(); behaviors];
+    for (i, rule) in rules.iter().enumerate() {
+        for &source in &rule.sources {
+            if leaving[source].last() != Some(&i) {
+                leaving[source].push(i);
+            }
+        }
+    }
+    leaving
+}
+
 /// Where a rule leads.
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "each variant is what it says")]

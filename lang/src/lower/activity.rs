@@ -19,7 +19,7 @@ impl<'a> Lowering<'a> {
         let activity = &self.hir.activities[id];
         self.find_origin(activity);
         self.inputs();
-        self.keep_samples();
+        self.keep_samples(id);
         self.claim_inputs();
         self.constants_at = Some(slot(self.input_words()));
         let unit = self.unit(id);
@@ -255,27 +255,12 @@ impl<'a> Lowering<'a> {
                 match init {
                     Some(e) => self.scratch(|l| l.expr_into(e, to)),
                     None => {
-                        let words = self.words(&self.var_type(*var));
+                        let words = self.words(&self.vars[*var].ty);
                         self.emit(Op::Clear { to, words });
                     }
                 }
             }
         }
-    }
-
-    /// The type of a variable of the unit that is being lowered.
-    fn var_type(&self, var: usize) -> Type {
-        self.unit_vars().get(var).map_or(Type::Bool, |v| v.ty.clone())
-    }
-
-    /// The variables of the unit that is being lowered: the last activity on the path that has a frame.
-    pub(super) fn unit_vars(&self) -> &'a [Var] {
-        let hir = self.hir;
-        self.path
-            .iter()
-            .rev()
-            .find_map(|name| hir.activities.iter().find(|a| a.owner.is_none() && a.full_name == *name))
-            .map_or(&[], |a| &a.vars)
     }
 
     fn abort(&mut self, why: &[hir::TextPart], condition: &Expr) -> Abort {

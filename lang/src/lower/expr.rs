@@ -209,7 +209,6 @@ impl<'a> Lowering<'a> {
             return *code;
         }
         let function = &self.hir.fns[id];
-        self.path.push(function.name.clone());
         self.prepare_block(&function.body);
         for order in function.vars.iter().filter_map(|v| v.order.as_ref()) {
             self.prepare(&order.key);
@@ -225,7 +224,6 @@ impl<'a> Lowering<'a> {
             l.block_into(&function.body, to);
             l.emit(Op::Return);
         });
-        self.path.pop();
         let code = FnCode { entry: entry.get(), result: result.get(), words, ops: self.emitted - before };
         self.fns.insert(id, code);
         code

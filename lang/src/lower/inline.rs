@@ -21,13 +21,13 @@ impl<'a> Lowering<'a> {
         for var in function.vars.iter().skip(args.len()) {
             vars.push(self.temp(self.words(&var.ty)));
         }
-        self.path.push(function.name.clone());
         let outer = std::mem::replace(&mut self.frame.vars, vars);
+        let outer_vars = std::mem::replace(&mut self.vars, &function.vars);
         // The lists that are kept in order are the caller's, under numbers that here mean other variables.
         let sorters = std::mem::take(&mut self.frame.sorters);
         self.block_into(&function.body, to);
         self.frame.sorters = sorters;
+        self.vars = outer_vars;
         self.frame.vars = outer;
-        self.path.pop();
     }
 }

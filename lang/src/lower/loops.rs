@@ -67,7 +67,7 @@ impl<'a> Lowering<'a> {
     /// An area that cannot change while it is walked stays where it is; any other is copied.
     fn walked_area(&mut self, area: &Expr) -> Slot {
         match area.kind {
-            hir::ExprKind::Var(id) if self.frame_vars()[id].kind.is_fixed() => self.frame.vars[id],
+            hir::ExprKind::Var(id) if self.vars[id].kind.is_fixed() => self.frame.vars[id],
             _ => {
                 let copy = self.lasting(self.words(&Type::Area));
                 self.scratch(|l| l.expr_into(area, copy));

@@ -100,14 +100,16 @@ struct Lowering<'a> {
     origin: Option<Geodetic>,
     fns: BTreeMap<usize, FnCode>,
     units: BTreeMap<usize, UnitCode>,
-    /// The names of what is being lowered, outermost first.
-    path: Vec<String>,
+    /// The variables of what is being lowered: a function's or a unit's.
+    vars: &'a [hir::Var],
     frame: Frame,
     findings: Vec<Diagnostic>,
     /// What a test gives the mission in place of its defaults.
     mission_args: Option<&'a [hir::Expr]>,
     /// Where constants have their absolute slots: only a mission has room for them.
     constants_at: Option<Slot>,
+    /// The places of constants among the program's, by their bits.
+    constants: BTreeMap<u64, Slot>,
     /// How many instructions there are. Those past the most that a program can hold are counted only: it is refused.
     emitted: u64,
 }
@@ -206,11 +208,12 @@ impl<'a> Lowering<'a> {
             origin: None,
             fns: BTreeMap::new(),
             units: BTreeMap::new(),
-            path: Vec::new(),
+            vars: &[],
             frame: Frame::default(),
             findings: Vec::new(),
             mission_args: None,
             constants_at: None,
+            constants: BTreeMap::new(),
             emitted: 0,
         }
     }
@@ -294,8 +297,9 @@ impl<'a> Lowering<'a> {
     }
 
     /// Lowers a unit twice, the second time with temporaries after all that lives on. Gives the words of its frame.
-    fn twice(&mut self, vars: &[hir::Var], work: impl Fn(&mut Self)) -> u64 {
+    fn twice(&mut self, vars: &'a [hir::Var], work: impl Fn(&mut Self)) -> u64 {
         let outer = std::mem::take(&mut self.frame);
+        let outer_vars = std::mem::replace(&mut self.vars, vars);
         // Callees must be complete before the first pass, so that both passes emit the same: the first pass lowers them.
         let mut temp_base = 0;
         let begin = self.here();
@@ -314,6 +318,7 @@ impl<'a> Lowering<'a> {
         }
         let words = self.frame.lasting.saturating_add(self.frame.temp_most);
         let slots = std::mem::replace(&mut self.frame, outer).vars;
+        self.vars = outer_vars;
         self.claim_unit(begin, words, vars, &slots);
         words
     }
@@ -385,9 +390,11 @@ impl<'a> Lowering<'a> {
     }
 
     /// `hits` may need more samples than were kept: the blocks are laid out before any code, so the most is taken first.
-    fn keep_samples(&mut self) {
+    fn keep_samples(&mut self, mission: usize) {
         let mut kept = vec![0; self.hir.inputs.len()];
-        watch::samples_counted(self.hir, &mut kept);
+        for id in self.hir.called_from(mission) {
+            watch::samples_counted(&self.hir.activities[id], &mut kept);
+        }
         let mut at = 0;
         for (input, kept) in self.program.inputs.iter_mut().zip(kept) {
             input.kept = kept;
@@ -399,13 +406,11 @@ impl<'a> Lowering<'a> {
     /// The absolute slot of a constant, the same for the same bits; none where there is no room.
     fn constant(&mut self, value: f64) -> Option<Slot> {
         let at = self.constants_at?;
-        let constants = &mut self.program.constants;
-        let known = constants.iter().position(|known| known.to_bits() == value.to_bits());
-        let index = known.unwrap_or_else(|| {
-            constants.push(value);
-            constants.len() - 1
+        let index = *self.constants.entry(value.to_bits()).or_insert_with(|| {
+            self.program.constants.push(value);
+            self.program.constants.len() as Slot - 1
         });
-        Some(ABSOLUTE | (at + index as Slot))
+        Some(ABSOLUTE | (at + index))
     }
 
     fn input_words(&self) -> u64 {

@@ -10,7 +10,6 @@ impl<'a> Lowering<'a> {
             return *unit;
         }
         let activity = &self.hir.activities[id];
-        self.path.push(activity.full_name.clone());
         self.prepare_activity(id);
         let index = std::cell::Cell::new(0);
         let before = self.emitted;
@@ -18,7 +17,6 @@ impl<'a> Lowering<'a> {
             l.sorters(&activity.vars);
             index.set(l.activity(id, 0));
         });
-        self.path.pop();
         let unit = UnitCode { activity: index.get(), words, ops: self.emitted - before };
         self.units.insert(id, unit);
         unit

@@ -1,7 +1,7 @@
 //! Statements to code. Whatever a statement keeps while time goes by lives on in the frame.
 
 use super::Lowering;
-use crate::hir::{self, Action, Block, Expr, Stmt, StmtKind, Timed, With};
+use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed, With};
 use crate::types::Type;
 use albacore_program::{
     CallSite, Cause, Channel, GUIDANCE_WORDS, Guide, Op, OverlaySite, OverrideEnd, ReportSite, Slot, header, setpoints,
@@ -46,7 +46,7 @@ impl<'a> Lowering<'a> {
             }
             StmtKind::Clear(var) => {
                 // All of it: lists are compared word by word, what is beyond their count too.
-                let (to, words) = (self.frame.vars[*var], self.words(&self.frame_vars()[*var].ty));
+                let (to, words) = (self.frame.vars[*var], self.words(&self.vars[*var].ty));
                 self.emit(Op::Clear { to, words });
             }
             StmtKind::If(condition, then, otherwise) => {
@@ -126,19 +126,9 @@ impl<'a> Lowering<'a> {
     }
 
     fn capacity(&self, var: usize) -> u32 {
-        match self.frame_vars().get(var).map(|v| &v.ty) {
+        match self.vars.get(var).map(|v| &v.ty) {
             Some(Type::List(_, capacity)) => *capacity,
             _ => 1,
-        }
-    }
-
-    /// The variables of what is being lowered: a function's or a unit's.
-    pub(super) fn frame_vars(&self) -> &'a [hir::Var] {
-        let hir = self.hir;
-        let Some(name) = self.path.last() else { return &[] };
-        match hir.fns.iter().find(|f| f.name == *name && f.vars.len() == self.frame.vars.len()) {
-            Some(function) => &function.vars,
-            None => self.unit_vars(),
         }
     }
 

@@ -14,10 +14,9 @@ impl<'a> Lowering<'a> {
             self.program.rules.push(lowered);
         }
         let mut entries = Vec::new();
-        for (source, &index) in indices.iter().enumerate() {
+        for (&index, leaving) in indices.iter().zip(hir::leaving(rules, behaviors.len())) {
             let owner = self.program.activities[index as usize].header;
-            let leaving: Vec<(usize, &hir::Rule)> =
-                rules.iter().enumerate().filter(|(_, r)| r.sources.contains(&source)).collect();
+            let leaving: Vec<(usize, &hir::Rule)> = leaving.into_iter().map(|i| (i, &rules[i])).collect();
             // The same guard may serve several sources: each has its own timers.
             let timers = self.place_timers(leaving.iter().map(|(_, r)| &r.on));
             let arm = self.here();

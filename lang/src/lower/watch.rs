@@ -1,7 +1,7 @@
 //! Temporal operators: each has a place in the frame, is set back when its watch begins and updated at every tick.
 
 use super::Lowering;
-use crate::hir::{self, ClauseArg, Expr, ExprKind, Hir, InputPart, activity_children, children};
+use crate::hir::{self, Activity, ClauseArg, Expr, ExprKind, InputPart, activity_children, children};
 use albacore_program::{Op, Slot};
 
 /// A temporal operator in place.
@@ -85,17 +85,15 @@ fn temporal_nodes<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
     }
 }
 
-/// For each input the most samples that any `hits` counts back.
-pub(super) fn samples_counted(hir: &Hir, kept: &mut [u32]) {
+/// For each input the most samples that any `hits` of an activity counts back.
+pub(super) fn samples_counted(activity: &Activity, kept: &mut [u32]) {
     fn walk(e: &Expr, kept: &mut [u32]) {
         if let ExprKind::Input(id, InputPart::Hits(_, of)) = &e.kind {
             kept[*id] = kept[*id].max(*of);
         }
         children(e, &mut |child| walk(child, kept));
     }
-    for activity in &hir.activities {
-        activity_children(activity, &mut |e| walk(e, kept));
-    }
+    activity_children(activity, &mut |e| walk(e, kept));
 }
 
 /// The first geodetic positions of an expression, to find the origin of a frame.

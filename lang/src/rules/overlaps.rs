@@ -2,39 +2,54 @@
 
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Body, Builtin, Expr, ExprKind, Hir, Interval, Rule, Target, same_condition};
+use crate::hir::{Body, Builtin, Expr, ExprKind, Hir, Interval, Rule, Target, leaving, same_condition};
+use std::collections::BTreeMap;
 
 /// The notes on a switching table: one for each rule that comes before others.
 pub fn check(hir: &Hir, activity: usize) -> Vec<Diagnostic> {
     let Body::Table { behaviors, rules, .. } = &hir.activities[activity].body else { return Vec::new() };
-    let pairs: Vec<(&Rule, &Rule, usize)> = pairs(rules).collect();
-    let note = |rule: &Rule| {
-        let mut after = pairs.iter().filter(|(before, ..)| before.on_span == rule.on_span).peekable();
-        let &&(_, _, source) = after.peek()?;
-        let name = &hir.activities[behaviors[source]].name;
-        let note =
-            Diagnostic::note(Code::RulesOverlap, rule.on_span, format!("rules of `{name}` can hold in the same tick"))
-                .here("this one then decides")
-                .help("nothing is wrong if that is meant; if not, put the other first or say `and not …` in it");
-        Some(after.fold(note, |note, (_, after, _)| note.label(after.on_span, "this one is then not tried")))
+    let pairs = pairs(rules, behaviors.len());
+    let note = |(before, pairs): (usize, Vec<(usize, usize)>)| {
+        let name = &hir.activities[behaviors[pairs[0].1]].name;
+        let note = Diagnostic::note(
+            Code::RulesOverlap,
+            rules[before].on_span,
+            format!("rules of `{name}` can hold in the same tick"),
+        )
+        .here("this one then decides")
+        .help("nothing is wrong if that is meant; if not, put the other first or say `and not …` in it");
+        pairs.iter().fold(note, |note, (after, _)| note.label(rules[*after].on_span, "this one is then not tried"))
     };
-    rules.iter().filter_map(note).collect()
+    pairs.into_iter().map(note).collect()
 }
 
-/// Each two rules of one behavior that can hold at once and differ: the one that is tried first, the other, the behavior.
-fn pairs(rules: &[Rule]) -> impl Iterator<Item = (&Rule, &Rule, usize)> {
-    let all = rules.iter().enumerate().flat_map(|(i, first)| rules[i + 1..].iter().map(move |second| (first, second)));
-    all.filter_map(|(first, second)| {
-        let source = *first.sources.iter().find(|source| second.sources.contains(source))?;
-        if same_outcome(first, second) || exclude(&first.on, &second.on) {
-            return None;
+/// Each two rules of one behavior that can hold at once and differ: by the one that is tried first the others, each with the
+/// behavior.
+fn pairs(rules: &[Rule], behaviors: usize) -> BTreeMap<usize, Vec<(usize, usize)>> {
+    let leaving = leaving(rules, behaviors);
+    let mut pairs: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+    for (i, first) in rules.iter().enumerate() {
+        // Of each other rule the first behavior that both leave.
+        let mut beside: BTreeMap<usize, usize> = BTreeMap::new();
+        for &source in &first.sources {
+            for &other in leaving[source].iter().rev().take_while(|other| **other > i) {
+                beside.entry(other).or_insert(source);
+            }
         }
-        // What can hold only when the body is done is tried after it, and all else before it, wherever it stands.
-        Some(match (needs_done(&first.on), needs_done(&second.on)) {
-            (true, false) => (second, first, source),
-            _ => (first, second, source),
-        })
-    })
+        for (j, source) in beside {
+            let second = &rules[j];
+            if same_outcome(first, second) || exclude(&first.on, &second.on) {
+                continue;
+            }
+            // What can hold only when the body is done is tried after it, and all else before it, wherever it stands.
+            let (before, after) = match (needs_done(&first.on), needs_done(&second.on)) {
+                (true, false) => (j, i),
+                _ => (i, j),
+            };
+            pairs.entry(before).or_default().push((after, source));
+        }
+    }
+    pairs
 }
 
 /// Whether a guard holds only when the body has come to its end.

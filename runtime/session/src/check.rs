@@ -1,22 +1,22 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
 use crate::plan::{Plan, PlanError};
+use crate::suit::{self, Held};
 use crate::wanted::Wanted;
 use crate::world;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{MissionInfo, Script};
+use albacore_program::Program;
 
 /// All that is wrong with a script's sound missions, in the scenarios that they name, and with its own sound scenarios, and notes
 /// of what is worth knowing.
 pub fn findings(script: &Script) -> Vec<Diagnostic> {
-    let mut findings = of_missions(script);
-    findings.extend(of_scenarios(script));
+    let mut findings = of_scenarios(script);
     for mission in sound_missions(script) {
-        let Some(named) = &mission.scenario else { continue };
-        // A scenario that is wrong in itself has been told of, where it stands.
-        let is_sound = script.scenario_is_sound(named.rsplit('.').next().unwrap_or(named));
-        if is_sound && let Ok(found) = misfits(script, mission, &Wanted::default()) {
-            findings.extend(found);
+        match script.mission(&mission.name) {
+            Some(Ok(program)) => findings.extend(own_misfits(script, mission, &program)),
+            Some(Err(found)) => findings.extend(found),
+            None => {}
         }
     }
     findings
@@ -46,6 +46,19 @@ fn of_missions(script: &Script) -> Vec<Diagnostic> {
 fn of_scenarios(script: &Script) -> Vec<Diagnostic> {
     let own = script.own_scenarios().filter(|name| script.scenario_is_sound(name) && runs_are_sound(script, name));
     own.flat_map(|name| scenario(script, name)).collect()
+}
+
+/// What a mission misses in the scenario that it names.
+fn own_misfits(script: &Script, mission: &MissionInfo, program: &Program) -> Vec<Diagnostic> {
+    let Some(named) = &mission.scenario else { return Vec::new() };
+    // A scenario that is wrong in itself has been told of, where it stands.
+    if !script.scenario_is_sound(named.rsplit('.').next().unwrap_or(named)) {
+        return Vec::new();
+    }
+    let origin = program.mission.origin;
+    let Ok((lowered, understood)) = world::scenario(script, named, origin) else { return Vec::new() };
+    let held = Held { name: &lowered.name, world: &understood.world, places: &lowered.places, origin };
+    suit::findings(script, &mission.name, &held)
 }
 
 /// What a mission misses in a world.
