@@ -21,10 +21,10 @@ impl Program {
     pub fn verify_ranges(&self, claims: &Claims) -> Result<(), Unsound> {
         let pieces: BTreeSet<Addr> = self.pieces().into_iter().chain(claims.pieces.iter().copied()).collect();
         for unit in &claims.units {
-            let mut own: Vec<Addr> = pieces.iter().copied().filter(|at| unit.code.contains(at)).collect();
+            let mut own: Vec<Addr> = pieces.range(unit.code.clone()).copied().collect();
             let guards = self.guards(unit);
-            own.extend(guards.iter().map(|(guard, _)| *guard));
-            own.extend(guards.iter().flat_map(|(_, rule)| self.follow(*rule)));
+            own.extend(guards.keys());
+            own.extend(guards.values().flat_map(|(_, rules)| rules).flat_map(|rule| self.follow(*rule)));
             own.sort_unstable();
             own.dedup();
             let mut ranges = Ranges::new(self, claims, unit, &own);
@@ -37,31 +37,23 @@ impl Program {
         Ok(())
     }
 
-    /// The guards of a unit's rules, and whose they are.
-    fn guards(&self, unit: &Unit) -> Vec<(Addr, u32)> {
+    /// The guards of a unit's rules by where they begin: where their value is, and whose they are.
+    fn guards(&self, unit: &Unit) -> Guards {
         let tables = self.activities.iter().filter_map(|activity| match &activity.body {
             Body::Table(table) if unit.code.contains(&activity.entry) => Some(table),
             _ => None,
         });
-        let exits = tables.flat_map(|table| &table.behaviors).flat_map(|behavior| &behavior.exits);
-        exits
-            .flat_map(|exit| {
-                [Some(exit.guard), exit.guard_done].into_iter().flatten().map(|code| (code.entry, exit.rule))
-            })
-            .collect()
-    }
-
-    /// Where the value of a guard is.
-    fn guard_value(&self, guard: Addr) -> Option<Slot> {
-        let tables = self.activities.iter().filter_map(|activity| match &activity.body {
-            Body::Table(table) => Some(table),
-            _ => None,
-        });
-        let exits = tables.flat_map(|table| &table.behaviors).flat_map(|behavior| &behavior.exits);
-        let mut codes = exits.flat_map(|exit| [Some(exit.guard), exit.guard_done].into_iter().flatten());
-        codes.find(|code| code.entry == guard).map(|code| code.value)
+        let mut guards = Guards::new();
+        for exit in tables.flat_map(|table| &table.behaviors).flat_map(|behavior| &behavior.exits) {
+            for code in [Some(exit.guard), exit.guard_done].into_iter().flatten() {
+                guards.entry(code.entry).or_insert((code.value, Vec::new())).1.push(exit.rule);
+            }
+        }
+        guards
     }
 }
+
+type Guards = BTreeMap<Addr, (Slot, Vec<u32>)>;
 
 /// The ranges of one unit.
 pub(super) struct Ranges<'p> {
@@ -72,13 +64,21 @@ pub(super) struct Ranges<'p> {
     typed: BTreeMap<Addr, Vec<(Slot, Word)>>,
     /// Where ways meet.
     meets: BTreeSet<Addr>,
-    /// For each piece the words that others of its unit write.
-    foreign: BTreeMap<Addr, Vec<(Slot, u32)>>,
+    /// Who writes each word of the unit.
+    writers: Vec<Writer>,
     /// What timers show, as far as it is known.
     pub(super) timers: BTreeMap<Slot, Option<Vec<(Slot, Interval)>>>,
     /// The results of instructions in the piece at hand, and how often they were computed.
     pub(super) results: BTreeMap<Addr, (Interval, u32)>,
     pub(super) holds_to_it: bool,
+}
+
+/// The pieces of code that write a word.
+#[derive(Clone, Copy)]
+enum Writer {
+    Nobody,
+    One(Addr),
+    Several,
 }
 
 impl<'p> Ranges<'p> {
@@ -98,15 +98,22 @@ impl<'p> Ranges<'p> {
             ground,
             typed,
             meets,
-            foreign: BTreeMap::new(),
+            writers: vec![Writer::Nobody; unit.words as usize],
             timers: BTreeMap::new(),
             results: BTreeMap::new(),
             holds_to_it: false,
         };
-        let writes: Vec<(Addr, Vec<(Slot, u32)>)> = own.iter().map(|&piece| (piece, ranges.writes(piece))).collect();
-        for &(piece, _) in &writes {
-            let others = writes.iter().filter(|(other, _)| *other != piece).flat_map(|(_, writes)| writes);
-            ranges.foreign.insert(piece, merged(others.copied().collect()));
+        for &piece in own {
+            for (slot, words) in ranges.writes(piece) {
+                let end = slot.saturating_add(words).min(unit.words) as usize;
+                for writer in ranges.writers.get_mut(slot as usize..end).unwrap_or_default() {
+                    *writer = match writer {
+                        Writer::Nobody => Writer::One(piece),
+                        Writer::One(other) if *other == piece => Writer::One(piece),
+                        _ => Writer::Several,
+                    };
+                }
+            }
         }
         ranges
     }
@@ -146,16 +153,14 @@ impl<'p> Ranges<'p> {
         self.unit.lists.iter().copied().find(|(slot, _)| *slot == list).unwrap_or((list, ABSOLUTE - list))
     }
 
-    fn unit_code(&mut self, own: &[Addr], guards: &[(Addr, u32)]) -> Result<(), Unsound> {
+    fn unit_code(&mut self, own: &[Addr], guards: &Guards) -> Result<(), Unsound> {
         let mut after: BTreeMap<u32, Known> = BTreeMap::new();
-        let is_guard = |at: &Addr| guards.iter().any(|(guard, _)| guard == at);
-        for &guard in own.iter().filter(|at| is_guard(at)) {
+        for (&guard, (value, rules)) in guards {
             let Some(mut known) = self.piece(guard, Known::default())? else { continue };
-            let fires = self.program.guard_value(guard).is_none_or(|value| known.assume(&self.ground, value, true));
-            if !fires {
+            if !known.assume(&self.ground, *value, true) {
                 continue;
             }
-            for rule in guards.iter().filter(|(of, _)| *of == guard).map(|(_, rule)| *rule) {
+            for &rule in rules {
                 let known = match after.get(&rule) {
                     Some(other) => other.join(&known, &self.ground),
                     None => known.clone(),
@@ -163,8 +168,9 @@ impl<'p> Ranges<'p> {
                 after.insert(rule, known);
             }
         }
-        let following: BTreeSet<Addr> = guards.iter().flat_map(|(_, rule)| self.program.follow(*rule)).collect();
-        for &piece in own.iter().filter(|at| !is_guard(at) && !following.contains(at)) {
+        let following: BTreeSet<Addr> =
+            guards.values().flat_map(|(_, rules)| rules).flat_map(|rule| self.program.follow(*rule)).collect();
+        for &piece in own.iter().filter(|at| !guards.contains_key(at) && !following.contains(at)) {
             self.piece(piece, Known::default())?;
         }
         for (rule, known) in after {
@@ -346,9 +352,12 @@ impl<'p> Ranges<'p> {
 
     /// Other code may run: what it writes is as claimed, and samples may come.
     pub(super) fn time_passes(&self, entry: Addr, known: &mut Known) {
-        let foreign = self.foreign.get(&entry).map_or(&[][..], Vec::as_slice);
-        let last = |slot: Slot| foreign.partition_point(|(from, _)| *from <= slot).checked_sub(1);
-        known.grounded(|slot| slot & ABSOLUTE != 0 || last(slot).is_some_and(|i| slot - foreign[i].0 < foreign[i].1));
+        let is_foreign = |slot: Slot| match self.writers.get(slot as usize) {
+            Some(Writer::One(piece)) => *piece != entry,
+            Some(Writer::Several) => true,
+            Some(Writer::Nobody) | None => false,
+        };
+        known.grounded(|slot| slot & ABSOLUTE != 0 || is_foreign(slot));
     }
 }
 
