@@ -33,10 +33,10 @@ impl Files {
         read_file(&file, bytes_max).map_err(|unread| match unread {
             Unread::System(e) => error(&format!("cannot be read: {}", plain(&e)), "look at its permissions"),
             Unread::NoFile(what) => error(&format!("is {what}"), "name a file"),
-            Unread::Large(most) => error(
-                &format!("is too large: {} MB are read at most", most as f64 / 1e6),
-                "cut out the part that is needed",
-            ),
+            Unread::Large(most) => {
+                let (has, most) = (file.metadata().map_or(most, |found| found.len()) as f64 / 1e6, most as f64 / 1e6);
+                error(&format!("has {has:.1} MB: {most} MB are read at most"), "cut out the part that is needed")
+            }
         })
     }
 
