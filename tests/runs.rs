@@ -194,7 +194,8 @@ fn of_many_runs_in_one_folder_one_has_it() {
         let ended = |code| outputs.iter().filter(|output| output.status.code() == Some(code)).count();
         // Whoever comes after the first has ended may replace it.
         assert!(if more.is_empty() { ended(0) == 1 } else { ended(0) >= 1 });
-        assert_eq!(ended(0) + ended(2), 12);
+        let failed: Vec<_> = outputs.iter().filter(|output| !matches!(output.status.code(), Some(0 | 2))).collect();
+        assert!(failed.is_empty(), "{failed:?}");
         let out = project.join("out");
         assert!(is_whole(&out));
         let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();

@@ -122,8 +122,7 @@ fn albacore() -> Vec<Option<Duration>> {
     answers
 }
 
-/// The first line of each period, counted from when the state was sent: a goal, or once a second the question that measures the
-/// round trip, which stands in the place of one.
+/// The first line of each period, counted from when the state was sent.
 fn periods(far_end: &mut FarEnd, transport: &mut dyn Transport, count: usize, hears: bool) -> Vec<Option<Duration>> {
     let mut heard = Vec::new();
     let begun = Instant::now();

@@ -103,11 +103,19 @@ fn make_room(folder: &Path, replace: bool) -> Result<(), Refusal> {
     match there.first() {
         Some((found, path)) if path.ends_with(JOURNAL) => {
             let removed = |error| unwritable(path, &error);
-            if found.is_file() {
-                let journal = disk::old_file(path).map_err(removed)?;
-                own(&journal, folder)?;
+            if !found.is_file() {
+                return disk::remove(path).map_err(removed);
             }
-            disk::remove(path).map_err(removed)
+            let journal = match disk::old_file(path) {
+                // Another has removed it since: whoever creates the next one has the folder.
+                Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+                journal => journal.map_err(removed)?,
+            };
+            own(&journal, folder)?;
+            let done = disk::remove(path).map_err(removed);
+            // Locked until it is gone: what has its name from then on is another's.
+            drop(journal);
+            done
         }
         _ => Ok(()),
     }
