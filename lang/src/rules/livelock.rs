@@ -1,58 +1,38 @@
-//! Rules that undo each other: a table that switches to and fro on one condition gets nowhere.
+//! Rules that undo each other: a table that switches to and fro, or round in a ring, on what goes on to hold gets nowhere.
 
+use super::levels::{Level, Signals};
 use super::overlaps::exclude;
 use crate::check::never_ends;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, Activity, Body, Decl, Expr, ExprKind, Hir, Rule, StmtKind, Target, VarId, children};
-use crate::hir::{Builtin, same_condition};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::hir::{
+    Action, ActivityId, Block, Body, Builtin, Expr, ExprKind, Hir, Rule, StmtKind, Target, VarId, children, leaving,
+};
+use std::collections::BTreeSet;
+
+/// The most steps that are taken in one table in search of rings: beyond, nothing is said of the rest.
+const STEPS: usize = 1 << 18;
 
 /// The warnings on a switching table.
-pub fn check(hir: &Hir, activity: usize) -> Vec<Diagnostic> {
+pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
     let strategy = &hir.activities[activity];
     let Body::Table { behaviors, rules, .. } = &strategy.body else { return Vec::new() };
-    let table = Table { strategy, assigned: assigned(hir, strategy, behaviors) };
-    let mut findings = Vec::new();
-    for (i, rule) in rules.iter().enumerate() {
-        let Target::Behavior(to) = rule.target else { continue };
-        if rule.back && !never_ends(hir, behaviors[to]) && table.lasts(&rule.on, until(hir, behaviors[to])) {
-            findings.push(comes_again(rule, &hir.activities[behaviors[to]].name));
-        }
-        let undone = rules[i + 1..].iter().find(|other| {
-            let is_undone = |to: usize, from: &Rule| {
-                matches!(from.target, Target::Behavior(x) if rule.sources.contains(&x)) && from.sources.contains(&to)
-            };
-            let same = same_condition(&rule.on, &other.on) || same_condition(&other.on, &rule.on);
-            !rule.back && !other.back && is_undone(to, other) && same
-        });
-        if let Some(other) = undone
-            && table.holds_at_entry(&rule.on)
-            && table.holds_at_entry(&other.on)
-        {
-            let finding = Diagnostic::warning(Code::RulesLivelock, other.on_span, "this rule undoes another at once")
-                .label(rule.on_span, "which holds whenever it does, or the other way about")
-                .help("write `becomes …` in both, or two conditions that exclude each other");
-            findings.push(finding);
-        }
-    }
-    findings
-}
-
-/// A condition that may still hold when the behavior it leads to is done.
-fn comes_again(rule: &Rule, name: &str) -> Diagnostic {
-    let message = format!("this may hold again as soon as `{name}` is done, and switch on every other tick");
-    let finding = Diagnostic::warning(Code::RulesLivelock, rule.on_span, message);
-    finding.help(if mentions_after(&rule.on) {
-        "time goes on counting from the entry: write `becomes after T` for once in each stay. To begin anew each time, leave out \
-         `then back` and come back with a rule `on done`"
-    } else {
-        "write `becomes …`, or let the behavior end only when the condition no longer holds: `… until not …`"
-    })
+    let signals = Signals::of(strategy);
+    let table = Table {
+        hir,
+        activity,
+        behaviors,
+        rules,
+        leaving: leaving(rules, behaviors.len()),
+        levels: rules.iter().map(|rule| signals.levels(&rule.on)).collect(),
+        signals,
+    };
+    let comes_again = rules.iter().filter_map(|rule| table.comes_again(rule));
+    comes_again.chain(table.rings().into_iter().map(|ring| table.undoes(&ring))).collect()
 }
 
 /// What a sequence surely ends with: the condition after the `until` of its last statement.
-fn until(hir: &Hir, behavior: usize) -> Option<&Expr> {
+fn until(hir: &Hir, behavior: ActivityId) -> Option<&Expr> {
     let Body::Sequence(block) = &hir.activities[behavior].body else { return None };
     let mut last = block.stmts.last()?;
     while let StmtKind::With(_, inner) = &last.kind {
@@ -66,52 +46,157 @@ fn until(hir: &Hir, behavior: usize) -> Option<&Expr> {
     }
 }
 
-/// The variables that anything in a table assigns: what they say may be over when it is asked again.
-fn assigned(hir: &Hir, strategy: &Activity, behaviors: &[usize]) -> BTreeSet<VarId> {
-    let parts = std::iter::once(strategy).chain(behaviors.iter().map(|&b| &hir.activities[b]));
-    parts.flat_map(Activity::blocks).flat_map(|block| block.assigned()).collect()
-}
-
 struct Table<'h> {
-    strategy: &'h Activity,
-    assigned: BTreeSet<VarId>,
+    hir: &'h Hir,
+    activity: ActivityId,
+    behaviors: &'h [ActivityId],
+    rules: &'h [Rule],
+    leaving: Vec<Vec<usize>>,
+    /// Of each rule, the ways in which its guard can go on to hold.
+    levels: Vec<Vec<Level<'h>>>,
+    signals: Signals<'h>,
 }
 
-impl Table<'_> {
-    /// Whether a guard may still hold when what it led to is done: no part of it is an edge or is assigned by the table.
-    fn lasts(&self, guard: &Expr, end: Option<&Expr>) -> bool {
-        let is_over = |end| alternatives(end).into_iter().all(|end| exclude(guard, end));
-        !end.is_some_and(is_over) && self.goes_on(guard, true, &mut BTreeMap::new())
-    }
+/// Rules that lead from a behavior back to it, each with the behavior that it leaves.
+type Ring = Vec<(usize, usize)>;
 
-    /// Whether a guard holds again at once after each of two switches: its times too begin anew then.
-    fn holds_at_entry(&self, guard: &Expr) -> bool {
-        self.goes_on(guard, false, &mut BTreeMap::new())
-    }
-
-    /// `known` are the variables that were looked through, so that each signal is looked at once.
-    fn goes_on(&self, e: &Expr, keeps_time: bool, known: &mut BTreeMap<VarId, bool>) -> bool {
-        match &e.kind {
-            ExprKind::Becomes(_) | ExprKind::Done => return false,
-            ExprKind::After(_) | ExprKind::HeldFor(..) if !keeps_time => return false,
-            ExprKind::Do(Builtin::Or, operands) => return operands.iter().any(|e| self.goes_on(e, keeps_time, known)),
-            ExprKind::Var(id) => {
-                if let Some(known) = known.get(id) {
-                    return *known;
-                }
-                let signal = self.strategy.decls.iter().find_map(|decl| match decl {
-                    Decl::Signal(var, e) if var == id => Some(e),
-                    _ => None,
-                });
-                let goes_on = !self.assigned.contains(id) && signal.is_none_or(|e| self.goes_on(e, keeps_time, known));
-                known.insert(*id, goes_on);
-                return goes_on;
-            }
-            _ => {}
+impl<'h> Table<'h> {
+    /// A condition that may still hold when the behavior it leads to is done, and lead there again.
+    fn comes_again(&self, rule: &'h Rule) -> Option<Diagnostic> {
+        let Target::Behavior(to) = rule.target else { return None };
+        let behavior = self.behaviors[to];
+        let way = rule.sources.iter().map(|&source| (source, rule)).chain([(to, rule)]);
+        if !rule.back || never_ends(self.hir, behavior) || !self.lasts(&rule.on, until(self.hir, behavior), way) {
+            return None;
         }
-        let mut all = true;
-        children(e, &mut |child| all = all && self.goes_on(child, keeps_time, known));
-        all
+        let name = &self.hir.activities[behavior].name;
+        let message = format!("this may hold again as soon as `{name}` is done, and switch on every other tick");
+        let finding = Diagnostic::warning(Code::RulesLivelock, rule.on_span, message);
+        Some(finding.help(if mentions_after(&rule.on) {
+            "time goes on counting from the entry: write `becomes after T` for once in each stay. To begin anew each time, leave out \
+             `then back` and come back with a rule `on done`"
+        } else {
+            "write `becomes …`, or let the behavior end only when the condition no longer holds: `… until not …`"
+        }))
+    }
+
+    /// Whether a guard may still hold when what it led to is done: it has a way without an edge that neither the end of that
+    /// behavior nor what is assigned on the way excludes.
+    fn lasts(&self, guard: &'h Expr, end: Option<&Expr>, way: impl Iterator<Item = (usize, &'h Rule)>) -> bool {
+        let is_over = |end| alternatives(end).into_iter().all(|end| exclude(guard, end));
+        if end.is_some_and(is_over) {
+            return false;
+        }
+        let assigned = self.assigned(way);
+        self.signals.ways(guard).into_iter().any(|way| {
+            let mut read = BTreeSet::new();
+            self.signals.reads(way, &mut read);
+            self.signals.outlasts(way) && read.is_disjoint(&assigned)
+        })
+    }
+
+    /// The variables that are assigned where a way leads through: in the behaviors, by the effects of the rules, and by what the
+    /// table does in any of them.
+    fn assigned(&self, way: impl Iterator<Item = (usize, &'h Rule)>) -> BTreeSet<VarId> {
+        let reactions = |id: ActivityId| self.hir.activities[id].reactions.iter().map(|(_, block)| block);
+        let mut blocks: Vec<&Block> = reactions(self.activity).collect();
+        for (behavior, rule) in way {
+            blocks.extend(&rule.effect);
+            // A behavior has the variables of its strategy; what else is called has its own.
+            for id in self.hir.called_from(self.behaviors[behavior]) {
+                let called = &self.hir.activities[id];
+                if called.owner == Some(self.activity) {
+                    blocks.extend(called.blocks());
+                }
+            }
+        }
+        blocks.into_iter().flat_map(Block::assigned).collect()
+    }
+
+    /// Rings of rules that hold at once and go on to hold, each once.
+    fn rings(&self) -> Vec<Ring> {
+        let mut rings: Vec<Ring> = Vec::new();
+        let mut told = BTreeSet::new();
+        let mut left = STEPS;
+        for (first, rule) in self.rules.iter().enumerate() {
+            for &source in &rule.sources {
+                let ring = self.levels[first].iter().find_map(|level| {
+                    let mut ring = vec![(first, source)];
+                    self.goes_round(level, level, &mut ring, &mut left).then_some(ring)
+                });
+                let Some(mut ring) = ring else { continue };
+                ring.sort_unstable();
+                if ring.iter().all(|(rule, _)| !told.contains(rule)) {
+                    told.extend(ring.iter().map(|(rule, _)| *rule));
+                    rings.push(ring);
+                }
+            }
+        }
+        rings
+    }
+
+    /// Whether others of whose conditions the first speaks lead on from the last rule of a way back to where it began, in a
+    /// state in which all hold.
+    fn goes_round(&self, first: &Level<'h>, state: &Level<'h>, way: &mut Ring, left: &mut usize) -> bool {
+        let Some(&(rule, _)) = way.last() else { return false };
+        let Target::Behavior(to) = self.rules[rule].target else { return false };
+        if self.rules[rule].back {
+            return false;
+        }
+        if to == way[0].1 {
+            return self.is_undisturbed(way) && way.iter().all(|step| self.is_tried(*step, state));
+        }
+        if way.iter().any(|(_, been)| *been == to) {
+            return false;
+        }
+        for &next in &self.leaving[to] {
+            for level in &self.levels[next] {
+                let Some(less) = left.checked_sub(1) else { return false };
+                *left = less;
+                if !first.covers(level) {
+                    continue;
+                }
+                let Some(both) = state.and(level) else { continue };
+                way.push((next, to));
+                if self.goes_round(first, &both, way, left) {
+                    return true;
+                }
+                way.pop();
+            }
+        }
+        false
+    }
+
+    /// Whether no rule before this one surely leads elsewhere.
+    fn is_tried(&self, (rule, source): (usize, usize), state: &Level<'h>) -> bool {
+        let earlier = self.leaving[source].iter().take_while(|other| **other < rule);
+        !earlier.flat_map(|&other| &self.levels[other]).any(|other| state.implies(other))
+    }
+
+    /// Whether nothing that a ring's rules read is assigned on it.
+    fn is_undisturbed(&self, ring: &Ring) -> bool {
+        let mut read = BTreeSet::new();
+        ring.iter().for_each(|(rule, _)| self.signals.reads(&self.rules[*rule].on, &mut read));
+        let way = ring.iter().map(|&(rule, source)| (source, &self.rules[rule]));
+        read.is_empty() || read.is_disjoint(&self.assigned(way))
+    }
+
+    fn undoes(&self, ring: &Ring) -> Diagnostic {
+        let on = |(rule, _): &(usize, usize)| self.rules[*rule].on_span;
+        let (last, others) = match ring.split_last() {
+            Some((last, others)) => (on(last), others),
+            None => (self.hir.activities[self.activity].span, ring.as_slice()),
+        };
+        let message = match others.len() {
+            0 | 1 => "this rule undoes another at once".to_string(),
+            _ => format!("these {} rules lead round in as many ticks, again and again", ring.len()),
+        };
+        let finding = Diagnostic::warning(Code::RulesLivelock, last, message);
+        let finding =
+            others.iter().fold(finding, |finding, other| finding.label(on(other), "which can hold at the same time"));
+        finding.help(
+            "write `becomes …` in each, or conditions that exclude each other, with room between: `> 4 m` and `< 2 m`",
+        )
     }
 }
 

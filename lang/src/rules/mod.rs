@@ -5,6 +5,7 @@ mod channels;
 mod control;
 mod fixed;
 mod inputs;
+mod levels;
 mod limits;
 mod livelock;
 mod overlaps;

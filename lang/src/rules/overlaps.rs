@@ -89,7 +89,7 @@ fn conjuncts(guard: &Expr) -> Vec<&Expr> {
 }
 
 /// Whether one says that the other does not hold.
-fn contrary(a: &Expr, b: &Expr) -> bool {
+pub(super) fn contrary(a: &Expr, b: &Expr) -> bool {
     match (&a.kind, &b.kind) {
         (ExprKind::Do(Builtin::Not, inner), _) => inner.iter().any(|inner| same_condition(inner, b)),
         // `x < y` beside `y < x` or `y <= x`.
@@ -103,16 +103,34 @@ fn contrary(a: &Expr, b: &Expr) -> bool {
 /// Whether two comparisons of one thing with numbers leave it no number.
 fn apart(a: &Expr, b: &Expr) -> bool {
     let (Some((x, p)), Some((y, q))) = (compared(a), compared(b)) else { return false };
+    let (p, q) = (p.numbers(), q.numbers());
     same_condition(x, y) && (p.high < q.low || q.high < p.low)
 }
 
+/// On which side of a number something is.
+#[derive(Clone, Copy)]
+pub(super) enum Side {
+    Below(f64),
+    Above(f64),
+}
+
+impl Side {
+    /// The numbers there, the end among them.
+    pub fn numbers(self) -> Interval {
+        match self {
+            Side::Below(end) => Interval::at_most(end),
+            Side::Above(end) => Interval::at_least(end),
+        }
+    }
+}
+
 /// What a comparison says of the side that is no constant.
-fn compared(e: &Expr) -> Option<(&Expr, Interval)> {
+pub(super) fn compared(e: &Expr) -> Option<(&Expr, Side)> {
     let ExprKind::Do(Builtin::Lt | Builtin::Le, operands) = &e.kind else { return None };
     let (low, high) = (&operands[0], &operands[1]);
     match (low.range.constant(), high.range.constant()) {
-        (None, Some(bound)) => Some((low, Interval::at_most(bound))),
-        (Some(bound), None) => Some((high, Interval::at_least(bound))),
+        (None, Some(bound)) => Some((low, Side::Below(bound))),
+        (Some(bound), None) => Some((high, Side::Above(bound))),
         _ => None,
     }
 }

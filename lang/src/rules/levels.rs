@@ -1,0 +1,272 @@
+//! States in which conditions hold for as long as nothing changes: what keeps two rules at work at once.
+
+use super::overlaps::{Side, compared, contrary};
+use crate::hir::{Activity, Builtin, Decl, Expr, ExprKind, Interval, VarId, children, same_condition};
+use crate::types::Type;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The most parts of a condition that are looked at, and the most ways in which it can hold: what is larger counts as unknown.
+const MOST: usize = 64;
+
+/// The signals of a strategy, by their variables.
+pub struct Signals<'h>(BTreeMap<VarId, &'h Expr>);
+
+/// What must hold at once for a condition to hold, and goes on to hold until something that it reads changes.
+#[derive(Clone, Debug, Default)]
+pub struct Level<'h> {
+    parts: Vec<Part<'h>>,
+}
+
+/// One demand on the state.
+#[derive(Clone, Debug)]
+enum Part<'h> {
+    /// A number lies here.
+    Bound(&'h Expr, Interval),
+    /// A condition of another form holds, or does not.
+    Truth(&'h Expr, bool),
+}
+
+/// Two demands at once.
+enum Beside<'h> {
+    /// They are of different things.
+    Other,
+    /// They are one.
+    Both(Part<'h>),
+    /// No state has room for both.
+    NoRoom,
+}
+
+impl<'h> Signals<'h> {
+    /// Those that an activity declares.
+    pub fn of(activity: &'h Activity) -> Self {
+        let signal = |decl: &'h Decl| match decl {
+            Decl::Signal(var, e) => Some((*var, e)),
+            _ => None,
+        };
+        Signals(activity.decls.iter().filter_map(signal).collect())
+    }
+
+    /// The levels on which a condition can hold at the entry of a behavior, tick after tick: without those that wait for an
+    /// edge, for a time or for the end of a body.
+    pub fn levels(&self, condition: &'h Expr) -> Vec<Level<'h>> {
+        self.ways(condition).into_iter().filter_map(|way| self.level(way)).collect()
+    }
+
+    /// What `or` joins, also behind the names of signals. None where that is too much.
+    pub fn ways(&self, condition: &'h Expr) -> Vec<&'h Expr> {
+        let mut ways = Vec::new();
+        let mut ahead = vec![condition];
+        for _ in 0..MOST {
+            let Some(e) = ahead.pop() else { return ways };
+            let e = self.meant(e);
+            match &e.kind {
+                ExprKind::Do(Builtin::Or, operands) => ahead.extend(operands),
+                _ => ways.push(e),
+            }
+        }
+        Vec::new()
+    }
+
+    /// The variables that an expression reads, those that its signals read among them.
+    pub fn reads(&self, e: &'h Expr, read: &mut BTreeSet<VarId>) {
+        if let ExprKind::Var(id) = &e.kind
+            && read.insert(*id)
+            && let Some(signal) = self.0.get(id)
+        {
+            self.reads(signal, read);
+        }
+        children(e, &mut |child| self.reads(child, read));
+    }
+
+    /// Whether what held when a behavior was entered may hold when it is done: no edge is in it, nor the end of a body.
+    pub fn outlasts(&self, e: &'h Expr) -> bool {
+        self.has_none(e, &|e| matches!(e.kind, ExprKind::Becomes(_) | ExprKind::Done), &mut BTreeSet::new())
+    }
+
+    /// Whether what holds goes on to hold at the entry of a behavior, where times begin anew.
+    fn is_level(&self, e: &'h Expr) -> bool {
+        let is_timed = |e: &Expr| matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..));
+        self.outlasts(e) && self.has_none(e, &is_timed, &mut BTreeSet::new())
+    }
+
+    /// Whether no part of an expression, nor of what its signals are, is of a kind.
+    fn has_none(&self, e: &'h Expr, kind: &dyn Fn(&Expr) -> bool, seen: &mut BTreeSet<VarId>) -> bool {
+        if kind(e) {
+            return false;
+        }
+        if let ExprKind::Var(id) = &e.kind
+            && let Some(signal) = self.0.get(id)
+            && seen.insert(*id)
+        {
+            return self.has_none(signal, kind, seen);
+        }
+        let mut none = true;
+        children(e, &mut |child| none = none && self.has_none(child, kind, seen));
+        none
+    }
+
+    /// What stands behind the name of a signal.
+    fn meant(&self, mut e: &'h Expr) -> &'h Expr {
+        while let ExprKind::Var(id) = &e.kind
+            && let Some(signal) = self.0.get(id)
+        {
+            e = signal;
+        }
+        e
+    }
+
+    fn level(&self, way: &'h Expr) -> Option<Level<'h>> {
+        let mut level = Level::default();
+        let mut ahead = vec![(way, true)];
+        let mut left = MOST;
+        while let Some((e, holds)) = ahead.pop() {
+            left = left.checked_sub(1)?;
+            let e = self.meant(e);
+            match &e.kind {
+                ExprKind::Do(Builtin::And, operands) if holds => ahead.extend(operands.iter().map(|e| (e, true))),
+                ExprKind::Do(Builtin::Or, operands) if !holds => ahead.extend(operands.iter().map(|e| (e, false))),
+                ExprKind::Do(Builtin::Not, operands) => ahead.extend(operands.iter().map(|e| (e, !holds))),
+                ExprKind::Number(truth) if (*truth != 0.0) == holds => {}
+                ExprKind::Number(_) => return None,
+                _ if !self.is_level(e) => return None,
+                _ => level = level.with(&Part::of(e, holds))?,
+            }
+        }
+        Some(level)
+    }
+}
+
+impl<'h> Level<'h> {
+    /// Both at once; `None` when no state has room for both.
+    pub fn and(&self, other: &Level<'h>) -> Option<Self> {
+        other.parts.iter().try_fold(self.clone(), |level, part| level.with(part))
+    }
+
+    /// Whether this speaks of all that the other speaks of.
+    pub fn covers(&self, other: &Level<'h>) -> bool {
+        other.parts.iter().all(|part| self.parts.iter().any(|own| same(own.subject(), part.subject())))
+    }
+
+    /// Whether the other holds whenever this does.
+    pub fn implies(&self, other: &Level<'h>) -> bool {
+        other.parts.iter().all(|part| match part {
+            Part::Bound(x, range) => {
+                let own = self.parts.iter().find_map(|own| match own {
+                    Part::Bound(y, own) if same(x, y) => Some(*own),
+                    _ => None,
+                });
+                range.covers(own.unwrap_or(x.range))
+            }
+            Part::Truth(x, holds) => {
+                self.parts.iter().any(|own| matches!(own, Part::Truth(y, other) if same(x, y) && holds == other))
+            }
+        })
+    }
+
+    /// With one more demand, if there is room for it.
+    fn with(mut self, part: &Part<'h>) -> Option<Self> {
+        for own in &mut self.parts {
+            match own.beside(part) {
+                Beside::NoRoom => return None,
+                Beside::Both(both) => {
+                    *own = both;
+                    return Some(self);
+                }
+                Beside::Other => {}
+            }
+        }
+        if let Part::Bound(x, range) = part {
+            room(&x.ty, x.range, *range)?;
+        }
+        self.parts.push(part.clone());
+        Some(self)
+    }
+}
+
+impl<'h> Part<'h> {
+    fn of(e: &'h Expr, holds: bool) -> Self {
+        if let Some((x, side)) = compared(e) {
+            let strict = matches!(e.kind, ExprKind::Do(Builtin::Lt, _));
+            return Part::Bound(x, numbers(x, side, holds, strict));
+        }
+        match equated(e) {
+            Some((x, value)) if holds => Part::Bound(x, Interval::exactly(value)),
+            _ => Part::Truth(e, holds),
+        }
+    }
+
+    fn beside(&self, other: &Part<'h>) -> Beside<'h> {
+        match (self, other) {
+            (Part::Bound(x, a), Part::Bound(y, b)) if same(x, y) => match room(&x.ty, *a, *b) {
+                Some(both) => Beside::Both(Part::Bound(x, both)),
+                None => Beside::NoRoom,
+            },
+            (Part::Truth(x, a), Part::Truth(y, b)) if same(x, y) && a == b => Beside::Both(self.clone()),
+            (Part::Truth(x, _), Part::Truth(y, _)) if same(x, y) => Beside::NoRoom,
+            (Part::Truth(x, true), Part::Truth(y, true)) if contrary(x, y) || contrary(y, x) || meet(x, y) => {
+                Beside::NoRoom
+            }
+            // `mode == m` beside `mode != m`.
+            (Part::Truth(e, false), Part::Bound(x, at)) | (Part::Bound(x, at), Part::Truth(e, false))
+                if equated(e).is_some_and(|(y, value)| same(x, y) && at.constant() == Some(value)) =>
+            {
+                Beside::NoRoom
+            }
+            _ => Beside::Other,
+        }
+    }
+
+    fn subject(&self) -> &'h Expr {
+        match self {
+            Part::Bound(x, _) => x,
+            Part::Truth(e, _) => equated(e).map_or(e, |(x, _)| x),
+        }
+    }
+}
+
+/// The numbers that a comparison leaves where it holds, or where it does not.
+fn numbers(x: &Expr, side: Side, holds: bool, strict: bool) -> Interval {
+    let (Side::Below(end) | Side::Above(end)) = side;
+    let is_most = matches!(side, Side::Below(_)) == holds;
+    // The last whole number on this side of the end.
+    let end = match (x.ty == Type::Int, is_most, strict == holds) {
+        (false, _, _) => end,
+        (true, true, false) => end.floor(),
+        (true, true, true) => end.ceil() - 1.0,
+        (true, false, false) => end.ceil(),
+        (true, false, true) => end.floor() + 1.0,
+    };
+    if is_most { Interval::at_most(end) } else { Interval::at_least(end) }
+}
+
+/// What two ranges share, if that is more than an end at which they touch. Whole numbers and what is asked to be one value stay there.
+fn room(ty: &Type, a: Interval, b: Interval) -> Option<Interval> {
+    let (low, high) = (a.low.max(b.low), a.high.min(b.high));
+    let stays = *ty == Type::Int || a.constant().is_some() || b.constant().is_some();
+    (low < high || low == high && stays).then(|| Interval::new(low, high))
+}
+
+/// What is asked to be one value, and that value.
+fn equated(e: &Expr) -> Option<(&Expr, f64)> {
+    let ExprKind::Do(Builtin::Eq, operands) = &e.kind else { return None };
+    let (a, b) = (&operands[0], &operands[1]);
+    match (a.range.constant(), b.range.constant()) {
+        (None, Some(value)) => Some((a, value)),
+        (Some(value), None) => Some((b, value)),
+        _ => None,
+    }
+}
+
+/// Whether two comparisons leave a number that is not whole the one value at which both sides are equal.
+fn meet(a: &Expr, b: &Expr) -> bool {
+    match (&a.kind, &b.kind) {
+        (ExprKind::Do(Builtin::Le, xs), ExprKind::Do(Builtin::Le, ys)) => {
+            xs[0].ty != Type::Int && same(&xs[0], &ys[1]) && same(&xs[1], &ys[0])
+        }
+        _ => false,
+    }
+}
+
+fn same(a: &Expr, b: &Expr) -> bool {
+    same_condition(a, b) && same_condition(b, a)
+}
