@@ -47,12 +47,19 @@ pub struct Folder {
     pub record: Reserved,
 }
 
+/// Removes a file of an earlier run, as [`disk::remove`] does.
+type Remove<'a> = &'a mut dyn FnMut(&Path) -> io::Result<()>;
+
 /// Why a folder is not ours: what is wrong, a fix, and how the program ends.
 pub struct Refusal(pub String, pub &'static str, pub Exit);
 
 impl Folder {
     /// Makes the folder, or takes it, for a run that started at a time.
     pub fn claim(place: &Place, started: Utc, record: &str) -> Result<Self, Refusal> {
+        Folder::claim_by(&mut disk::remove, place, started, record)
+    }
+
+    fn claim_by(remove: Remove, place: &Place, started: Utc, record: &str) -> Result<Self, Refusal> {
         let (path, is_new) = match place {
             Place::New(mission) => {
                 let runs = Path::new(RUNS).join(mission);
@@ -61,11 +68,11 @@ impl Folder {
             Place::Named { folder, replace } => {
                 let is_new = !folder.exists();
                 std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
-                make_room(folder, *replace)?;
+                make_room(remove, folder, *replace)?;
                 (folder.clone(), is_new)
             }
         };
-        let claimed = begun(&path).and_then(|journal| match recorded(&path, record) {
+        let claimed = begun(&path).and_then(|journal| match recorded(remove, &path, record) {
             Ok(record) => Ok(Folder { path: path.clone(), journal, record }),
             Err(error) => {
                 let _ = disk::remove(&path.join(JOURNAL));
@@ -78,14 +85,20 @@ impl Folder {
         claimed
     }
 
-    /// Whether its path leads to it still: whoever moved or removed it may have put another there.
+    /// Whether its path leads to its journal still, and with that to the folder: whoever moved or removed them may have put others
+    /// there.
     pub fn is_there(&self) -> bool {
         disk::is_at(&self.journal, &self.path.join(JOURNAL)).unwrap_or(false)
     }
+
+    /// Whether its path leads to its record still.
+    pub fn is_recorded(&self) -> bool {
+        self.record.is_at(&self.path.join(RECORD))
+    }
 }
 
-/// Sees to it that a folder holds no journal: with `replace` an earlier run's is removed.
-fn make_room(folder: &Path, replace: bool) -> Result<(), Refusal> {
+/// Sees to it that a folder holds no journal: with `replace` an earlier run is removed.
+fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal> {
     let there =
         FILES.map(|name| folder.join(name)).into_iter().filter_map(|path| Some((path.symlink_metadata().ok()?, path)));
     let there: Vec<_> = there.collect();
@@ -104,7 +117,7 @@ fn make_room(folder: &Path, replace: bool) -> Result<(), Refusal> {
         Some((found, path)) if path.ends_with(JOURNAL) => {
             let removed = |error| unwritable(path, &error);
             if !found.is_file() {
-                return disk::remove(path).map_err(removed);
+                return remove(path).map_err(removed);
             }
             let journal = match disk::old_file(path) {
                 // Another has removed it since: whoever creates the next one has the folder.
@@ -112,7 +125,11 @@ fn make_room(folder: &Path, replace: bool) -> Result<(), Refusal> {
                 journal => journal.map_err(removed)?,
             };
             own(&journal, folder)?;
-            let done = disk::remove(path).map_err(removed);
+            // Whoever ends this in between finds no record beside another journal, and no picture beside another record.
+            let done = [RECORD, TRACE, PICTURE, JOURNAL].iter().try_for_each(|name| {
+                let path = folder.join(name);
+                remove(&path).map_err(|error| unwritable(&path, &error))
+            });
             // Locked until it is gone: what has its name from then on is another's.
             drop(journal);
             done
@@ -133,9 +150,9 @@ fn begun(folder: &Path) -> Result<File, Refusal> {
     Ok(journal)
 }
 
-/// Removes what is left of an earlier run, and begins the record.
-fn recorded(folder: &Path, record: &str) -> io::Result<Reserved> {
-    [RECORD, TRACE, PICTURE].iter().try_for_each(|name| disk::remove(&folder.join(name)))?;
+/// Removes what is left of an earlier run that has no journal, and begins the record.
+fn recorded(remove: Remove, folder: &Path, record: &str) -> io::Result<Reserved> {
+    [RECORD, TRACE, PICTURE].iter().try_for_each(|name| remove(&folder.join(name)))?;
     Reserved::new(&folder.join(RECORD), record, RECORD_MORE)
 }
 
@@ -160,4 +177,30 @@ fn taken(folder: &Path) -> Refusal {
 pub fn unwritable(path: &Path, error: &io::Error) -> Refusal {
     let message = format!("`{}` cannot be written: {error}", path.display());
     Refusal(message, "choose another folder with `--out`, or run without files with `--no-out`", Exit::Failed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whoever is killed while he replaces a run leaves nothing of it beside another journal, and its record only beside all of it.
+    #[test]
+    fn a_run_is_replaced_from_its_record_to_its_journal() {
+        for allowed in 0..=4 {
+            let folder = tempfile::tempdir().unwrap();
+            FILES.iter().for_each(|name| std::fs::write(folder.path().join(name), "old").unwrap());
+            let mut removed = 0;
+            let mut remove = |path: &Path| {
+                let is_old = |name: &&str| std::fs::read(folder.path().join(name)).is_ok_and(|text| text == b"old");
+                let old: Vec<&str> = FILES.into_iter().filter(|name| is_old(&name)).collect();
+                assert!(old.is_empty() || old.contains(&JOURNAL), "after {removed}: {old:?}");
+                assert!(old.len() == FILES.len() || !old.contains(&RECORD), "after {removed}: {old:?}");
+                removed += 1;
+                if removed > allowed { Err(ErrorKind::PermissionDenied.into()) } else { disk::remove(path) }
+            };
+            let place = Place::Named { folder: folder.path().to_path_buf(), replace: true };
+            assert!(Folder::claim_by(&mut remove, &place, Utc::now(), "new").is_err());
+            assert_eq!(removed, allowed + 1);
+        }
+    }
 }
