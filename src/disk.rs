@@ -88,6 +88,11 @@ impl Reserved {
         self.room
     }
 
+    /// Whether a path leads to it.
+    pub fn is_at(&self, path: &Path) -> bool {
+        is_at(&self.file, path).unwrap_or(false)
+    }
+
     /// Writes the last text, and gives back the room that it does not need.
     pub fn finish(&mut self, text: &str) -> io::Result<()> {
         self.write(text)?;
@@ -96,7 +101,7 @@ impl Reserved {
     }
 
     /// A text over the one that was there, with blanks as far as the room goes: the file grows only once.
-    fn write(&mut self, text: &str) -> io::Result<()> {
+    pub fn write(&mut self, text: &str) -> io::Result<()> {
         let blanks = self.room.checked_sub(text.len()).ok_or(ErrorKind::FileTooLarge)?;
         self.file.rewind()?;
         self.file.write_all((text.to_string() + &" ".repeat(blanks)).as_bytes())?;

@@ -9,8 +9,9 @@ use crate::exit::Exit;
 use crate::message;
 use albacore_session::{Run, Summary};
 pub use folder::Place;
-use folder::{Folder, JOURNAL, PICTURE, Refusal, TRACE};
+use folder::{Folder, JOURNAL, PICTURE, RECORD, Refusal, TRACE};
 pub use record::{Asked, Record};
+use std::fmt::Display;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -65,16 +66,23 @@ impl Kept {
 
     /// The journal can be written no further; gives what to tell.
     pub fn journal_failed(&mut self, error: &io::Error) -> String {
-        self.failed = true;
+        self.loses_journal(error);
         let help = "the mission goes on without; what the journal holds up to here can be read";
         message::error_text(&format!("`{}` cannot be written: {error}", self.journal_path().display()), Some(help))
     }
 
     /// The disk takes no more of the journal; gives what to tell.
     pub fn journal_stalled(&mut self) -> String {
-        self.failed = true;
+        self.loses_journal("the disk has taken nothing for 3 s");
         let text = format!("`{}` is cut short: the disk has taken nothing for 3 s", self.journal_path().display());
         message::error_text(&text, Some("what it holds up to there can be read; the vehicle was given back before"))
+    }
+
+    fn loses_journal(&mut self, why: impl Display) {
+        self.failed = true;
+        if let Some((_, record)) = &mut self.files {
+            record.loses(JOURNAL, why);
+        }
     }
 
     fn journal_path(&self) -> PathBuf {
@@ -89,25 +97,56 @@ impl Kept {
     }
 
     /// Writes how it ended, trace and picture. The record is the first, and has room on a disk that is full: how a mission ended is
-    /// told, whatever becomes of the others.
+    /// told, whatever becomes of the others. What became of them is told in it last.
     pub fn finish(&mut self, run: &Run, summary: &Summary) -> Left {
         let Some((folder, record)) = self.files.as_mut() else { return Left::default() };
+        let (path, room) = (folder.path.clone(), folder.record.room());
         record.ends(summary);
-        let room = folder.record.room();
-        let recorded = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.finish(&text));
-        let (path, is_there) = (folder.path.clone(), folder.is_there());
-        let is_recorded = self.tell(recorded);
-        if !is_there {
-            let message = format!("`{}` is not this run's folder any more: it was moved or removed", path.display());
-            let help = "trace and picture were not written; `run.json` and the journal are where the folder is now, if anywhere";
-            message::error(&message, Some(help));
-            self.failed = true;
-            return Left::default();
+        [TRACE, PICTURE].into_iter().for_each(|name| record.loses(name, "not written yet"));
+        let begun = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.write(&text));
+        let (is_there, mut troubles) = (folder.is_there(), Vec::new());
+        if is_there {
+            for (name, text) in [(TRACE, run.trace().to_string()), (PICTURE, run.svg())] {
+                match whole(&path.join(name), &text) {
+                    Ok(()) => record.has(name),
+                    Err(error) => {
+                        record.loses(name, &error);
+                        troubles.push((unwritten(&path.join(name), &error), None));
+                    }
+                }
+            }
+        } else {
+            [TRACE, PICTURE].into_iter().for_each(|name| record.loses(name, "the run's folder was another's by then"));
+            if folder.is_recorded() {
+                record.loses(JOURNAL, GONE);
+            }
         }
-        let picture = path.join(PICTURE);
-        let written = whole(&path.join(TRACE), &run.trace().to_string()).and_then(|()| whole(&picture, &run.svg()));
-        let is_written = self.tell(written) && is_recorded;
-        Left { folder: Some(path), picture: is_written.then_some(picture) }
+        let ended = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.finish(&text));
+        if let Err(error) = begun.and(ended) {
+            troubles.push((unwritten(&path.join(RECORD), &error), Some(format!("the run ended: {}", record.end()))));
+        }
+        let end = record.end();
+        match (is_there, folder.is_recorded()) {
+            (true, true) => {}
+            (true, false) => {
+                let help = format!("the run ended: {end}; what has its name now was left as it is");
+                troubles.push((not_ours(&path.join(RECORD)), Some(help)));
+            }
+            (false, true) => {
+                let help = "trace and picture were not written: another run may have the folder";
+                troubles.push((not_ours(&path.join(JOURNAL)), Some(help.to_string())));
+            }
+            (false, false) => {
+                let message =
+                    format!("`{}` is not this run's folder any more: it was moved or removed", path.display());
+                let help = "trace and picture were not written; `run.json` and the journal are where the folder is now, if anywhere";
+                troubles.push((message, Some(format!("the run ended: {end}; {help}"))));
+            }
+        }
+        self.failed |= !troubles.is_empty();
+        troubles.iter().for_each(|(what, help)| message::error(what, help.as_deref()));
+        let picture = troubles.is_empty().then(|| path.join(PICTURE));
+        Left { folder: is_there.then_some(path), picture }
     }
 
     /// The run's folder, if it has one.
@@ -119,13 +158,15 @@ impl Kept {
     pub fn has_failed(&self) -> bool {
         self.failed
     }
+}
 
-    /// Says what could not be written; whether all was.
-    fn tell(&mut self, written: io::Result<()>) -> bool {
-        let Err(error) = written else { return true };
-        let path = self.path().unwrap_or(Path::new(""));
-        message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
-        self.failed = true;
-        false
-    }
+/// What became of a file that has the name of a run's file no more.
+const GONE: &str = "it was removed or replaced";
+
+fn not_ours(path: &Path) -> String {
+    format!("`{}` is not this run's any more: {GONE}", path.display())
+}
+
+fn unwritten(path: &Path, error: &io::Error) -> String {
+    format!("`{}` cannot be written: {error}", path.display())
 }

@@ -133,6 +133,41 @@ fn a_full_disk_is_said_once_and_the_mission_goes_on() {
     }
 }
 
+/// What could not be written is told where the outcome is: whoever finds the folder later has not seen the messages.
+#[test]
+fn a_record_tells_what_could_not_be_written() {
+    let out = empty("lost");
+    assert_eq!(albacore(BOX, &out).output().unwrap().status.code(), Some(0));
+    assert!(lost(&out, "completed").is_empty());
+    // A file may grow to 8 KiB: only the journal needs more.
+    let out = empty("lost-full");
+    let run = albacore(BOX, &out);
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "ulimit -f 16; exec \"$0\" \"$@\""]).arg(run.get_program()).args(run.get_args());
+    let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert_eq!(lost(&out, "completed"), ["journal"]);
+    let out = empty("lost-picture");
+    let child = long_run(&out, 10_000);
+    std::fs::create_dir(out.join("run.svg")).unwrap();
+    send("-TERM", &child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(stderr(&output).contains("run.svg` cannot be written: "), "{}", stderr(&output));
+    assert_eq!(lost(&out, "interrupted"), ["run.svg"]);
+    assert!(out.join("trace.txt").exists());
+}
+
+/// The files that a run's record says were lost, of which it says why; the run has ended so.
+fn lost(out: &Path, outcome: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(out.join("run.json")).unwrap();
+    let record: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(record["outcome"], outcome);
+    let lost = record["lost"].as_object().unwrap();
+    assert!(lost.values().all(|why| why.as_str().is_some_and(|why| !why.is_empty())), "{record}");
+    lost.keys().cloned().collect()
+}
+
 /// A mission of days is not begun without what was asked to be kept of it.
 #[test]
 fn a_folder_that_cannot_be_written_is_said_before_the_first_tick() {

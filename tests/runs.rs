@@ -233,6 +233,34 @@ fn a_run_whose_folder_is_moved_says_there_how_it_ended() {
     assert!(is_whole(&moved) && record(&moved)["outcome"] == "interrupted");
 }
 
+/// An editor that saves puts another file in the place of the one that it read.
+#[test]
+fn a_record_that_was_replaced_is_told_and_left_alone() {
+    for (name, other) in [("record-gone", None), ("record-replaced", Some("mine"))] {
+        let project = project(name);
+        let (out, child) = (project.join("out"), long_run(&project, "out"));
+        std::fs::remove_file(out.join("run.json")).unwrap();
+        other.into_iter().for_each(|text| std::fs::write(out.join("run.json"), text).unwrap());
+        let (code, _, said) = ended(child);
+        assert!(code == Some(4) && said.contains("`out/run.json` is not this run's any more"), "{code:?} {said}");
+        assert!(said.contains("interrupted"), "{said}");
+        assert_eq!(std::fs::read_to_string(out.join("run.json")).ok().as_deref(), other);
+        assert!(is_whole(&out) && out.join("trace.txt").exists() && out.join("run.svg").exists());
+    }
+}
+
+#[test]
+fn a_journal_that_was_removed_is_told() {
+    let project = project("journal-gone");
+    let (out, child) = (project.join("out"), long_run(&project, "out"));
+    std::fs::remove_file(out.join("journal")).unwrap();
+    let (code, _, said) = ended(child);
+    assert!(code == Some(4) && said.contains("`out/journal` is not this run's any more"), "{code:?} {said}");
+    let lost = record(&out)["lost"].clone();
+    assert!(["journal", "trace.txt", "run.svg"].iter().all(|name| lost[name].is_string()), "{lost}");
+    assert_eq!(names(&out), ["run.json"]);
+}
+
 /// What would stand in the way is said before anything of the run that was there is gone.
 #[test]
 fn a_run_that_cannot_be_replaced_is_left_as_it_is() {

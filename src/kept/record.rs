@@ -6,6 +6,8 @@ use crate::output;
 use crate::plan::{ScriptDigest, scripts};
 use albacore_session::{Plan, Summary};
 use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Display;
 
 /// The record of a run. It is written when the run begins and when it has ended: one that has no end was killed, or goes on.
 #[derive(Serialize)]
@@ -30,6 +32,8 @@ pub struct Record {
     reason: String,
     ticks: Option<u64>,
     digest: Option<String>,
+    /// The files that are not whole, or not there, and why.
+    lost: BTreeMap<&'static str, String>,
 }
 
 /// What the command line asked for.
@@ -66,6 +70,7 @@ impl Record {
             reason: String::new(),
             ticks: None,
             digest: None,
+            lost: BTreeMap::new(),
         }
     }
 
@@ -94,11 +99,27 @@ impl Record {
         self.ticks = Some(summary.ticks);
         self.digest = Some(summary.digest.clone());
     }
+
+    /// A file is not whole, or not there.
+    pub fn loses(&mut self, name: &'static str, why: impl Display) {
+        self.lost.insert(name, why.to_string());
+    }
+
+    /// It is, after all.
+    pub fn has(&mut self, name: &str) {
+        self.lost.remove(name);
+    }
+
+    /// How the run ended, as a person reads it.
+    pub fn end(&self) -> String {
+        let outcome = self.outcome.replace('_', " ");
+        if self.reason.is_empty() || self.reason == outcome { outcome } else { format!("{outcome} ({})", self.reason) }
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Record;
+    use super::{BTreeMap, Record};
     use crate::clock::Utc;
 
     /// A record that is larger than its room would not fit on a full disk.
@@ -121,6 +142,7 @@ mod tests {
             reason: "\u{202e}why".repeat(10_000),
             ticks: None,
             digest: None,
+            lost: BTreeMap::new(),
         };
         let text = record.json(4096).unwrap();
         assert!(text.len() <= 4096 && text.contains("\\u202ewhy") && text.contains('…'), "{text}");
