@@ -22,6 +22,12 @@ impl Synced {
         Synced { file, due: now() + STEP, is_new: false }
     }
 
+    /// Writes a piece whole or not at all. A disk that takes no more lets a file be cut.
+    pub fn write_whole(&mut self, piece: &[u8]) -> io::Result<()> {
+        let before = self.file.metadata()?.len();
+        self.write_all(piece).inspect_err(|_| drop(self.file.set_len(before)))
+    }
+
     fn sync(&mut self) -> io::Result<()> {
         if !std::mem::take(&mut self.is_new) {
             return Ok(());

@@ -9,7 +9,7 @@ use crate::disk;
 use crate::synced::Synced;
 use albacore_trace::Digest;
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Bytes of a record.
@@ -27,7 +27,7 @@ impl Sums {
 
     /// Adds a line.
     pub fn add(&mut self, line: &[u8]) -> io::Result<()> {
-        self.0.write_all(record(line).as_bytes())
+        self.0.write_whole(record(line).as_bytes())
     }
 }
 
