@@ -199,6 +199,38 @@ fn a_table_holds_one_campaign() {
     refused(&mission, "1..5", &out, &["--resume"], 2, "reporting.alb` was changed");
 }
 
+/// A scenario of the mission's own file is the same one when it is named by that file.
+#[test]
+fn a_campaign_knows_its_scenario_by_either_name() {
+    let folder = empty("named");
+    let mission = script(&folder, "reporting.alb", REPORTING);
+    let named = ["--resume", "--in", &format!("{mission}#choppy")];
+    let whole = table(&mission, "1..4", &folder.join("whole.csv"), &[]);
+    let out = folder.join("a.csv");
+    table(&mission, "1..2", &out, &[]);
+    assert_eq!(table(&mission, "1..4", &out, &named), whole);
+    let out = folder.join("b.csv");
+    table(&mission, "1..2", &out, &named[1..]);
+    assert_eq!(table(&mission, "1..4", &out, &["--resume"]), whole);
+    // Text that another file adds is another origin.
+    let other = script(&folder, "other.alb", &REPORTING.replace("mission reporting", "mission other"));
+    refused(&mission, "1..4", &out, &["--resume", "--in", &format!("{other}#choppy")], 2, "was begun");
+}
+
+#[test]
+fn no_two_columns_have_one_name() {
+    let folder = empty("columns");
+    let report = "report \"=1\": position\n    report \"'=1\": position\n    report \"a b\": position";
+    let mission =
+        script(&folder, "columns.alb", &REPORTING.replace("report \"end, of \\\"all\\\"\": position", report));
+    let table = table(&mission, "1", &folder.join("t.csv"), &[]);
+    let mut names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    assert_eq!(names.len(), 11 + 2 * 4, "{names:?}");
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), 11 + 2 * 4, "{names:?}");
+}
+
 /// Writes the checksums of a table as if it had been written so.
 fn sums(out: &Path) {
     let text = std::fs::read_to_string(out).unwrap();
@@ -414,19 +446,24 @@ fn a_disk_that_fails_is_said_at_once() {
 #[test]
 fn a_disk_that_is_full_leaves_rows_that_can_be_gone_on_with() {
     let folder = empty("full");
-    let out = folder.join("table.csv");
-    // A file that may grow no further fails as a full disk does.
-    let limited = "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\"";
-    let campaign = command(BOX, "1..100", &out, &[]);
-    let mut shell = Command::new("sh");
-    shell.args(["-c", limited]).arg(campaign.get_program()).args(campaign.get_args());
-    let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
-    let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(4), "{said}");
-    assert_eq!(said.matches("error: ").count(), 1, "{said}");
-    assert!(said.contains("table.csv` cannot be written: ") && said.contains("--resume"), "{said}");
-    let resumed = table(BOX, "1..100", &out, &["--resume"]);
-    assert_eq!(resumed, table(BOX, "1..100", &folder.join("whole.csv"), &[]));
+    let whole = table(BOX, "1..100", &folder.join("whole.csv"), &[]);
+    for blocks in [3, 4, 5] {
+        let out = folder.join(format!("table-{blocks}.csv"));
+        // A file that may grow no further fails as a full disk does.
+        let limited = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
+        let campaign = command(BOX, "1..100", &out, &[]);
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &limited]).arg(campaign.get_program()).args(campaign.get_args());
+        let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(4), "{said}");
+        assert_eq!(said.matches("error: ").count(), 1, "{said}");
+        assert!(said.contains(".csv` cannot be written: ") && said.contains("--resume"), "{said}");
+        // A row that is cut looks real, and what it says is wrong.
+        let left = std::fs::read_to_string(&out).unwrap();
+        assert!(rows(&left) > 1 && left.ends_with('\n') && whole.starts_with(&left), "{left}");
+        assert_eq!(table(BOX, "1..100", &out, &["--resume"]), whole);
+    }
 }
 
 #[test]

@@ -9,8 +9,7 @@ use super::seeds::Seeds;
 use super::sums::{self, Sums};
 use crate::disk;
 use crate::synced::Synced;
-use albacore_session::campaign::{Columns, Row, Tally};
-use albacore_session::seen::one_line;
+use albacore_session::campaign::{Columns, Row, Tally, plain};
 use std::fs::{File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -211,7 +210,7 @@ impl Table {
         }
         match &mut self.state {
             State::Adding(file, sums) => {
-                file.write_all(&line)?;
+                file.write_whole(&line)?;
                 sums.add(&line)?;
                 self.rows += 1;
             }
@@ -305,23 +304,10 @@ fn seed_of(line: &[u8], columns: &Columns) -> Option<String> {
 
 /// A row as it stands in the file. Names and reasons may have line ends in them; a row is one line.
 fn line(cells: &[String]) -> Vec<u8> {
-    let plain = |cell: &String| no_formula(one_line(cell));
     let mut writer = csv::Writer::from_writer(Vec::new());
     // Memory takes everything.
-    let _ = writer.write_record(cells.iter().map(plain));
+    let _ = writer.write_record(cells.iter().map(|cell| plain(cell)));
     writer.into_inner().unwrap_or_default()
-}
-
-/// A text that a spreadsheet would compute stands behind a `'`, which makes it a text there. Numbers are numbers. Where a comma
-/// stands in numbers, a spreadsheet parts cells at semicolons.
-fn no_formula(cell: String) -> String {
-    let part = |part: &str| {
-        let is_number = part.parse::<f64>().is_ok_and(f64::is_finite);
-        let said = part.trim_start_matches(|c: char| c.is_whitespace() || c == '"');
-        let starts_one = said.starts_with(['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}']);
-        if starts_one && !is_number { format!("'{part}") } else { part.to_string() }
-    };
-    cell.split(';').map(part).collect::<Vec<_>>().join(";")
 }
 
 #[cfg(test)]

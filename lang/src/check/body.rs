@@ -8,6 +8,7 @@ use crate::hir::{Block, Expr, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Action, Clause, ClauseKind};
 use crate::types::Type;
+use albacore_program::seen::is_unseen;
 
 impl<'t> Checker<'t> {
     pub(super) fn check_fn(&mut self, m: usize, f: &'t tree::Function) {
@@ -192,7 +193,7 @@ impl<'t> Checker<'t> {
                     }
                 }
                 self.effects_allowed(span, "`report`");
-                StmtKind::Report { name: self.plain_text(name), fields: checked }
+                StmtKind::Report { name: self.report_name(name), fields: checked }
             }
             ClauseKind::Log(text) => {
                 self.effects_allowed(span, "`log`");
@@ -280,6 +281,25 @@ impl<'t> Checker<'t> {
     }
 
     /// A text without holes.
+    /// The name of a report: it stands in a line of the trace and over a column of a table.
+    fn report_name(&mut self, text: &tree::Expr) -> String {
+        let name = self.plain_text(text);
+        let has_holes = matches!(&text.kind, tree::ExprKind::Text(parts)
+            if parts.iter().any(|part| matches!(part, tree::TextPart::Hole(_))));
+        let wrong = match &name {
+            // Told already.
+            _ if has_holes => return name,
+            name if name.trim().is_empty() => "a report has a name",
+            name if name.chars().any(is_unseen) => "a name is one line, without characters that cannot be seen",
+            _ => return name,
+        };
+        self.report(
+            Diagnostic::error(Code::TypesName, text.span, wrong)
+                .help("tests and tables look for it: write it such as `report \"end\": position`"),
+        );
+        name
+    }
+
     pub(super) fn plain_text(&mut self, text: &tree::Expr) -> String {
         match &text.kind {
             tree::ExprKind::Text(parts) => {

@@ -1,9 +1,11 @@
 //! A campaign: one mission in one scenario with many seeds, on all cores, its results in the order of the seeds.
 
+mod cell;
 mod columns;
 mod statistics;
 mod tally;
 
+pub use cell::plain;
 pub use columns::{Columns, Row};
 pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
 pub use tally::{Tally, Within};

@@ -81,7 +81,14 @@ impl Plan {
             Some((file, scenario)) => {
                 let other = other_script(file, scenario, wanted)?;
                 let plan = Plan::with(&other, program, scenario)?;
-                Ok(Plan { sources: sources(script).into_iter().chain(plan.sources).collect(), ..plan })
+                // The file may be the mission's own, or import what that imports.
+                let mut sources = sources(script);
+                for source in plan.sources {
+                    if sources.iter().all(|known| known.digest != source.digest) {
+                        sources.push(source);
+                    }
+                }
+                Ok(Plan { sources, ..plan })
             }
         }
     }

@@ -1,5 +1,6 @@
 //! The columns of a campaign's table, all known before the first run, and the cells of a row.
 
+use super::cell::plain;
 use crate::summary::Summary;
 use albacore_program::{Program, number};
 
@@ -117,8 +118,9 @@ impl Columns {
     }
 }
 
-/// The name itself, or what is made of it when another column has it.
-fn unused(names: &[String], mut name: String) -> String {
+/// The name as it stands in the table, or what is made of it when another column has it.
+fn unused(names: &[String], name: String) -> String {
+    let mut name = plain(&name);
     while names.contains(&name) {
         name.push('_');
     }
@@ -157,5 +159,9 @@ mod tests {
     fn no_two_columns_have_one_name() {
         assert_eq!(further(&["report", "end"], 1)[0], "report_t_s_");
         assert_eq!(further(&["a", "a_2"], 2)[4], "a_2_t_s_");
+        // What is made of a name for a spreadsheet may be another name.
+        let made = further(&["=1", "'=1", "a\u{1b}", "a\\u{1b}"], 1);
+        assert_eq!((made[0].as_str(), made[2].as_str()), ("'=1_t_s", "'=1_t_s_"));
+        assert_eq!((made[4].as_str(), made[6].as_str()), ("a\\u{1b}_t_s", "a\\u{1b}_t_s_"));
     }
 }
