@@ -192,7 +192,7 @@ mod tests {
             let mut removed = 0;
             let mut remove = |path: &Path| {
                 let is_old = |name: &&str| std::fs::read(folder.path().join(name)).is_ok_and(|text| text == b"old");
-                let old: Vec<&str> = FILES.into_iter().filter(|name| is_old(&name)).collect();
+                let old: Vec<&str> = FILES.into_iter().filter(|name| is_old(name)).collect();
                 assert!(old.is_empty() || old.contains(&JOURNAL), "after {removed}: {old:?}");
                 assert!(old.len() == FILES.len() || !old.contains(&RECORD), "after {removed}: {old:?}");
                 removed += 1;
