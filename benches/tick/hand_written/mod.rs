@@ -62,7 +62,7 @@ enum Doing {
 impl Mission {
     /// A mission that has not begun.
     pub fn new() -> Option<Self> {
-        let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0).ok()?;
+        let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0);
         Some(Mission {
             cage: Cage::new(&area),
             area,

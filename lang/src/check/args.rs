@@ -11,6 +11,7 @@ use crate::syntax::tree;
 use crate::types::Type;
 use crate::{foreign, suggest};
 use albacore_arithmetic::{Operation, Sqrt};
+use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 
 /// Verbs whose setpoints are told after `at`, not among their arguments.
 const GUIDANCE: [&str; 5] = ["goto", "follow", "dubins", "loiter", "steer"];
@@ -270,30 +271,11 @@ impl<'t> Checker<'t> {
             "rectangle" => {
                 let params = [("center", Type::Point), ("along", Type::Heading), ("length", LENGTH), ("width", LENGTH)];
                 let Some(values) = self.simple_args(name, &params, args, span) else { return self.unknown(span) };
-                for side in &values[2..] {
-                    if side.range.low <= 0.0 {
-                        self.report(
-                            Diagnostic::error(
-                                Code::RangesSide,
-                                side.span,
-                                "a rectangle's sides must be longer than nothing",
-                            )
-                            .help("use a positive constant, or a parameter with a range such as `in 1 m..10 km`"),
-                        );
-                    } else if side.range.high > albacore_geometry::AREA_REACH_MAX_M {
-                        let may_be = if side.range.low > albacore_geometry::AREA_REACH_MAX_M { "is" } else { "may be" };
-                        let message =
-                            format!("a rectangle's side {may_be} longer than 100 km, and no plane is so large");
-                        self.report(
-                            Diagnostic::error(Code::AreasLarge, side.span, message)
-                                .help("look at its unit; of a parameter give a range that ends at 100 km or less"),
-                        );
-                    }
-                }
+                values[2..].iter().for_each(|side| self.side(side));
                 self.operation(Builtin::Rectangle, values, Type::Area, span)
             }
             "polygon" => {
-                let corners = Type::List(Box::new(Type::Point), albacore_geometry::AREA_CORNERS_MAX as u32);
+                let corners = Type::List(Box::new(Type::Point), AREA_CORNERS_MAX as u32);
                 simple(self, &[("corners", corners)], Builtin::Polygon, Type::Area.optional())
             }
             "area_file" => self.area_file(args, span),
@@ -340,6 +322,27 @@ impl<'t> Checker<'t> {
                 self.unknown(span)
             }
         }
+    }
+
+    /// Says what is wrong with a rectangle's side.
+    fn side(&mut self, side: &Expr) {
+        let (low, high) = (side.range.low, side.range.high);
+        let finding = if low == high && low > 0.0 && low < AREA_WIDTH_MIN_M {
+            let message = format!("this side is {low} m long, and no area is thinner than {AREA_WIDTH_MIN_M} m");
+            Diagnostic::error(Code::AreasSmall, side.span, message).help("look at its unit")
+        } else if low < AREA_WIDTH_MIN_M {
+            let message = format!("a rectangle's sides must be {AREA_WIDTH_MIN_M} m long or more");
+            Diagnostic::error(Code::RangesSide, side.span, message)
+                .help("use a positive constant, a parameter with a range such as `in 1 m..10 km`, or `clamp(x, 1 m, 10 km)`")
+        } else if high > AREA_REACH_MAX_M {
+            let may_be = if low > AREA_REACH_MAX_M { "is" } else { "may be" };
+            let message = format!("a rectangle's side {may_be} longer than 100 km, and no plane is so large");
+            Diagnostic::error(Code::AreasLarge, side.span, message)
+                .help("look at its unit; of a parameter give a range that ends at 100 km or less")
+        } else {
+            return;
+        };
+        self.report(finding);
     }
 
     fn square_root(&mut self, args: &[tree::Arg], span: Span) -> Expr {

@@ -58,6 +58,7 @@ impl<'a> Lowering<'a> {
             let (list, it) = (self.frame.vars[id], self.frame.vars[order.it]);
             let words = self.words(inner);
             self.emit(Op::Sort { list, words, it, key, value, most: order.most });
+            self.typed(it, inner);
             let reads = self.key_reads(order);
             let sorted_by: Option<Vec<SortedBy>> = reads.map(|reads| {
                 reads.into_iter().map(|(read, words)| SortedBy { read, words, then: self.lasting(words) }).collect()
@@ -66,7 +67,8 @@ impl<'a> Lowering<'a> {
                 self.copy(by.then, by.read, by.words);
             }
             self.emit(Op::Return);
-            self.frame.sorters.insert(id, Sorter { entry: sorter, sorted_by });
+            let element = (**inner).clone();
+            self.frame.sorters.insert(id, Sorter { entry: sorter, it, element, sorted_by });
         }
     }
 
@@ -93,13 +95,10 @@ impl<'a> Lowering<'a> {
     /// An ordered list is put in order at the start of a tick if what its key is made of has changed since it was last put
     /// in order: an insertion or an assignment puts it in order itself.
     fn refresh_order(&mut self, var: usize) {
-        let Some(Sorter { entry, sorted_by }) = self.frame.sorters.get(&var).cloned() else { return };
-        let Some(sorted_by) = sorted_by else {
-            self.emit(Op::Call { code: entry, base: 0 });
-            return;
-        };
+        let Some(sorter) = self.frame.sorters.get(&var).cloned() else { return };
+        let Some(sorted_by) = &sorter.sorted_by else { return self.sort_by(&sorter) };
         let mut changed = Vec::new();
-        for by in &sorted_by {
+        for by in sorted_by {
             self.scratch(|l| {
                 let same = l.temp(1);
                 l.emit(Op::Eq { to: same, a: by.read, b: by.then, words: by.words });
@@ -108,8 +107,14 @@ impl<'a> Lowering<'a> {
         }
         let in_order = self.emit(Op::Jump { to: 0 });
         self.land_all(changed);
-        self.emit(Op::Call { code: entry, base: 0 });
+        self.sort_by(&sorter);
         self.land(in_order);
+    }
+
+    /// Puts an ordered list in order. What its key found last is an element.
+    pub(super) fn sort_by(&mut self, sorter: &Sorter) {
+        self.emit(Op::Call { code: sorter.entry, base: 0 });
+        self.typed(sorter.it, &sorter.element);
     }
 
     /// One activity; gives its index in the program.

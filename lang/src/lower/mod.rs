@@ -27,6 +27,7 @@ use crate::cost::limits::{self, INSTRUCTIONS_MAX, WORDS_MAX};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Hir};
 use crate::source::{Sources, Span};
+use crate::types::Type;
 use crate::types::TypeTable;
 use albacore_geometry::{Geodetic, Point, TangentFrame};
 use albacore_program::{ABSOLUTE, Addr, Claims, Input, Op, Program, Shape, Slot};
@@ -53,6 +54,9 @@ struct FnCode {
 #[derive(Clone)]
 struct Sorter {
     entry: Addr,
+    /// Where its key finds an element, and what that is.
+    it: Slot,
+    element: Type,
     /// What the list's key is made of beside the element; none when that cannot be compared.
     sorted_by: Option<Vec<SortedBy>>,
 }

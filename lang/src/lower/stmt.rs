@@ -1,6 +1,6 @@
 //! Statements to code. Whatever a statement keeps while time goes by lives on in the frame.
 
-use super::Lowering;
+use super::{Lowering, Sorter};
 use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed, With};
 use crate::types::Type;
 use albacore_program::{
@@ -35,10 +35,13 @@ impl<'a> Lowering<'a> {
             StmtKind::Insert(var, e) => {
                 let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
                 let capacity = self.capacity(*var);
-                match self.frame.sorters.get(var).map(|sorter| sorter.entry) {
-                    Some(sort) => self.emit(Op::PushSorted { list, item, words, capacity, sort }),
-                    None => self.emit(Op::Push { list, item, words, capacity }),
-                };
+                match self.frame.sorters.get(var).cloned() {
+                    Some(Sorter { entry: sort, it, element, .. }) => {
+                        self.emit(Op::PushSorted { list, item, words, capacity, sort });
+                        self.typed(it, &element);
+                    }
+                    None => _ = self.emit(Op::Push { list, item, words, capacity }),
+                }
             }
             StmtKind::Remove(var, e) => {
                 let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
@@ -120,8 +123,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn sort(&mut self, var: usize) {
-        if let Some(sorter) = self.frame.sorters.get(&var) {
-            self.emit(Op::Call { code: sorter.entry, base: 0 });
+        if let Some(sorter) = self.frame.sorters.get(&var).cloned() {
+            self.sort_by(&sorter);
         }
     }
 

@@ -175,7 +175,7 @@ pub(super) fn area(e: &Expr, frame: Option<TangentFrame>) -> Option<Area> {
         ExprKind::Do(Builtin::Rectangle, operands) => {
             let [center, along, length, width] = operands.as_slice() else { return None };
             let [along, length, width] = [along, length, width].map(|e| e.range.constant());
-            Area::rectangle(point(center, frame)?, Heading::from_radians(along?), length?, width?).ok()
+            Some(Area::rectangle(point(center, frame)?, Heading::from_radians(along?), length?, width?))
         }
         ExprKind::Do(Builtin::Polygon, operands) => match operands.as_slice() {
             [Expr { kind: ExprKind::List(corners), .. }] => {

@@ -15,6 +15,9 @@ pub const AREA_REACH_MAX_M: f64 = 100_000.0;
 /// What is thinner than this, m, is no area to work in, but a point or a line: positions are known no better.
 pub const AREA_WIDTH_MIN_M: f64 = 1.0;
 
+/// No place lies farther from the origin of its frame, north or east, than this, m: more than twice round the Earth.
+pub const PLACE_MAX_M: f64 = 1e8;
+
 /// Corners closer together than this, in metres, are one corner.
 const CORNER_SEPARATION_M: f64 = 1e-3;
 
@@ -104,11 +107,15 @@ impl Area {
         Ok(Area { corners })
     }
 
-    /// The rectangle of a given length along a direction and width across it, in metres.
-    pub fn rectangle(center: Point, along: Heading, length: f64, width: f64) -> Result<Self, AreaError> {
-        let (u, v) = (along.unit(), (along + PI / 2.0).unit());
-        let (u, v) = ((length / 2.0) * u, (width / 2.0) * v);
-        Area::polygon(&[center + u - v, center + u + v, center - u + v, center - u - v])
+    /// The rectangle of a given length along a direction and width across it, in metres. There is always one: a side shorter than
+    /// [`AREA_WIDTH_MIN_M`] is as long as that, and a centre farther out than [`PLACE_MAX_M`] lies there, so that no corner falls
+    /// on another by rounding.
+    pub fn rectangle(center: Point, along: Heading, length: f64, width: f64) -> Self {
+        let near = |x: f64| x.clamp(-PLACE_MAX_M, PLACE_MAX_M);
+        let center = Point::new(near(center.north), near(center.east));
+        let half = |side: f64| 0.5 * side.max(AREA_WIDTH_MIN_M);
+        let (u, v) = (half(length) * along.unit(), half(width) * (along + PI / 2.0).unit());
+        Area { corners: vec![center + u - v, center + u + v, center - u + v, center - u - v] }
     }
 
     /// The corners, clockwise seen from above.
@@ -171,7 +178,7 @@ mod tests {
 
     #[test]
     fn the_width_is_the_least_there_is() {
-        let of = |length, width| Area::rectangle(Point::ORIGIN, Heading::from_degrees(30.0), length, width).unwrap();
+        let of = |length, width| Area::rectangle(Point::ORIGIN, Heading::from_degrees(30.0), length, width);
         assert!((of(200.0, 40.0).width() - 40.0).abs() < 1e-9 && (of(3.0, 40.0).width() - 3.0).abs() < 1e-9);
         let corner = |north, east| Point::new(north, east);
         let sliver = Area::polygon(&[corner(0.0, 0.0), corner(0.0, 100.0), corner(0.5, 50.0)]).unwrap();
@@ -180,11 +187,22 @@ mod tests {
 
     #[test]
     fn a_rectangle_lies_along_its_heading() {
-        let area = Area::rectangle(Point::new(10.0, 20.0), Heading::from_degrees(90.0), 200.0, 40.0).unwrap();
+        let area = Area::rectangle(Point::new(10.0, 20.0), Heading::from_degrees(90.0), 200.0, 40.0);
         assert!(area.center().distance(Point::new(10.0, 20.0)) < 1e-9);
         assert!((area.gap(Point::new(10.0, 20.0)) - 20.0).abs() < 1e-9);
         assert!((area.gap(Point::new(10.0, 119.0)) - 1.0).abs() < 1e-9);
         assert!((area.gap(Point::new(10.0, 125.0)) + 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn there_is_a_rectangle_for_all_numbers() {
+        for (far, length, width) in [(0.0, 4e-4, 400.0), (1e150, 100.0, 1000.0), (1e12, 1.0, 1e5), (-1e9, 0.0, -3.0)] {
+            let center = Point::new(far, -far);
+            let area = Area::rectangle(center, Heading::from_degrees(33.0), length, width);
+            assert_eq!(area.edges().count(), 4);
+            let middle = area.center();
+            assert!(area.gap(middle) > 0.49 && area.gap(middle + Vector::new(0.0, 1e5)) < 0.0, "{area:?}");
+        }
     }
 
     #[test]
@@ -212,7 +230,7 @@ mod tests {
     #[test]
     fn areas_overlap_whose_insides_meet() {
         let square = |north, east, turned: f64| {
-            Area::rectangle(Point::new(north, east), Heading::from_degrees(turned), 10.0, 10.0).unwrap()
+            Area::rectangle(Point::new(north, east), Heading::from_degrees(turned), 10.0, 10.0)
         };
         let area = square(0.0, 0.0, 0.0);
         for (north, east, turned, meet) in [
@@ -230,13 +248,13 @@ mod tests {
             let other = square(north, east, turned);
             assert_eq!((area.overlaps(&other), other.overlaps(&area)), (meet, meet), "{north} {east} {turned}");
         }
-        let whole = Area::rectangle(Point::ORIGIN, Heading::NORTH, 1000.0, 1000.0).unwrap();
+        let whole = Area::rectangle(Point::ORIGIN, Heading::NORTH, 1000.0, 1000.0);
         assert!(whole.overlaps(&area) && area.overlaps(&whole));
     }
 
     #[test]
     fn an_edge_knows_both_its_directions() {
-        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 100.0, 50.0).unwrap();
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 100.0, 50.0);
         let north_edge = area.edges().max_by(|a, b| a.normal.north.total_cmp(&b.normal.north)).unwrap();
         assert_eq!(north_edge.tangent(Heading::from_degrees(80.0)).degrees().round(), 90.0);
         assert_eq!(north_edge.tangent(Heading::from_degrees(300.0)).degrees().round(), 270.0);

@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn rows_lie_along_the_long_side_and_alternate() {
-        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0).unwrap();
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0);
         // Three rows 33.3 m apart. The first long edge, clockwise from the north-west corner, is the eastern one.
         let (n, e) = (100.0, 33.333);
         assert!(lead(&rows(&area, 40.0), &[(n, e), (-n, e), (-n, 0.0), (n, 0.0), (n, -e), (-n, -e)]));
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn rows_begin_at_the_nearest_of_four_ends() {
-        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0).unwrap();
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0);
         // Of an odd number the last ends across the area from where the first begins, of an even number beside it.
         for (north, east) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
             for (far_north, far_east) in [(300.0, 200.0), (100.0, 33.0), (5.0, 2.0)] {
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn of_ends_equally_near_the_first_is_taken() {
-        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0).unwrap();
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0);
         let first = |north: f64, east: f64| rows_near(&area, 50.0, Point::new(north, east))[0].start;
         // Clockwise along the eastern edge: its row's start is in the north.
         for (near, expected) in [
@@ -187,11 +187,11 @@ mod tests {
 
     #[test]
     fn too_many_rows_lie_farther_apart_and_nonsense_is_bounded() {
-        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 1500.0).unwrap();
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 1500.0);
         for step in [1.0, 0.0, -3.0, f64::NAN] {
             assert_eq!(rows(&area, step).len(), ROWS_MAX as usize, "step {step}");
         }
-        let rounded = Area::rectangle(Point::ORIGIN, Heading::from_degrees(17.0), 300.0, 200.0).unwrap();
+        let rounded = Area::rectangle(Point::ORIGIN, Heading::from_degrees(17.0), 300.0, 200.0);
         assert_eq!(rows(&rounded, 40.0).len(), 5);
         assert_eq!(rows(&area, f64::INFINITY).len(), 1);
         assert_eq!(row(std::iter::empty(), 10.0, Point::ORIGIN, 0), None);

@@ -71,8 +71,8 @@ impl Run {
             match op {
                 Op::Rectangle { to, center, along, length, width } => {
                     let (length, width) = (self.get(b(length)), self.get(b(width)));
-                    let area = Area::rectangle(self.point(b(center)), self.heading_at(b(along)), length, width).ok();
-                    self.set_area(b(to), area.as_ref());
+                    let area = Area::rectangle(self.point(b(center)), self.heading_at(b(along)), length, width);
+                    self.set_area(b(to), Some(&area));
                 }
                 Op::Polygon { to, points, ok } => {
                     let count = self.get(b(points)) as u32;

@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn the_deepest_of_several_pits_is_found_to_the_millimetre() {
-        let area = Area::rectangle(Point::new(20.0, -10.0), Heading::from_degrees(30.0), 400.0, 240.0).unwrap();
+        let area = Area::rectangle(Point::new(20.0, -10.0), Heading::from_degrees(30.0), 400.0, 240.0);
         let pits = vec![pit(80.0, 20.0, 1.4, 45.0), pit(-60.0, -31.7, 2.0, 12.0), pit(-500.0, 0.0, 9.0, 20.0)];
         let bottom = Bottom { pits, ..Bottom::flat(3.0) };
         let deepest = bottom.deepest(&area);
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn of_a_slope_it_is_the_corner_and_of_a_pit_outside_the_edge() {
-        let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(30.0), 200.0, 100.0).unwrap();
+        let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(30.0), 200.0, 100.0);
         let slope = Bottom::plane(Plane { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 1000.0 });
         let corner = *area.corners().iter().max_by(|a, b| slope.depth_at(**a).total_cmp(&slope.depth_at(**b))).unwrap();
         assert!(slope.deepest(&area).distance(corner) < 0.01, "{:?}", slope.deepest(&area));
@@ -110,7 +110,7 @@ mod tests {
         let corner = Point::new(499.0, 499.0);
         let grid = Grid { south_west: Point::ORIGIN, north_east: corner, rows: 500, columns: 500, depths };
         let bottom = Bottom { ground: Ground::Grid(Arc::new(grid)), pits: Vec::new() };
-        let area = Area::rectangle(Point::new(250.0, 250.0), Heading::NORTH, 480.0, 480.0).unwrap();
+        let area = Area::rectangle(Point::new(250.0, 250.0), Heading::NORTH, 480.0, 480.0);
         assert!(bottom.deepest(&area).distance(Point::new(311.0, 402.0)) < 1e-3, "{:?}", bottom.deepest(&area));
         assert!(bottom.depth_at(Point::new(498.0, 2.0)) > 10.99, "and a deeper one lies outside");
     }

@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn each_incident_is_told_once_and_so_is_its_end() {
-        let area = Area::rectangle(Point::new(50.0, 0.0), Heading::NORTH, 20.0, 20.0).unwrap();
+        let area = Area::rectangle(Point::new(50.0, 0.0), Heading::NORTH, 20.0, 20.0);
         let mut incidents = Incidents::new(&[NoGo { name: "wreck".into(), area }]);
         for (north, aground) in [(0.0, false), (39.0, false), (40.0, false), (45.0, true), (45.0, true), (61.0, false)]
         {

@@ -17,7 +17,7 @@ pub fn duck_2003_flat() -> Scenario {
     let across = down_flow + Heading::from_degrees(90.0).radians();
     let place = |x: f64, y: f64| Point::ORIGIN + x * down_flow.unit() + y * across.unit();
     Scenario {
-        region: Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0).ok(),
+        region: Some(Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0)),
         flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), ..Flow::default() },
         bottom: Bottom {
             ground: Ground::Plane(Plane { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0 }),

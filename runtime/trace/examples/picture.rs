@@ -27,13 +27,13 @@ const FLOW_DEG: f64 = 140.0;
 
 /// A search down a long area, the plume traced up-flow, bow-ties, a source declared.
 fn tall() -> Result<Picture, Box<dyn Error>> {
-    let area = Area::rectangle(Point::new(-310.0, 240.0), Heading::from_degrees(320.0), 1094.0, 367.0)?;
+    let area = Area::rectangle(Point::new(-310.0, 240.0), Heading::from_degrees(320.0), 1094.0, 367.0);
     chase("duck_single", &area, Point::new(0.0, 0.0), Point::new(13.0, 2.0), 45.0, 780.0)
 }
 
 /// The same in a small square.
 fn square() -> Result<Picture, Box<dyn Error>> {
-    let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 200.0)?;
+    let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 200.0);
     chase("harbour <square> & \"quotes\"", &area, Point::new(45.0, -40.0), Point::new(47.0, -37.5), 12.0, 110.0)
 }
 
@@ -124,7 +124,7 @@ fn chase(
 
 /// A narrow area with marks close together and at its edge.
 fn several() -> Result<Picture, Box<dyn Error>> {
-    let area = Area::rectangle(Point::new(500.0, 100.0), Heading::NORTH, 1094.0, 367.0)?;
+    let area = Area::rectangle(Point::new(500.0, 100.0), Heading::NORTH, 1094.0, 367.0);
     let named = |name: &str, north: f64, east: f64| (name.to_string(), Point::new(north, east));
     let declared = vec![
         named("first, 13.2 m off", 313.0, 2.0),

@@ -5,7 +5,7 @@ use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_trace::{Depths, Digest, Picture};
 
 fn full() -> Picture {
-    let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0).unwrap();
+    let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0);
     let around = |i: u32| Point::new(f64::from(i % 997) - 500.0, f64::from(i % 613) - 300.0);
     Picture {
         title: "a <mission> & \"its\" 'end'".into(),
@@ -129,7 +129,7 @@ fn only_behaviors_that_were_active_are_in_the_legend() {
 #[test]
 fn a_searched_bottom_is_drawn_as_lines_of_equal_depth() {
     let pit = |p: Point| 4.0 + 2.0 / (1.0 + p.distance(Point::new(20.0, -30.0)) / 40.0);
-    let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 320.0, 220.0).unwrap();
+    let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 320.0, 220.0);
     let depths = Depths::sound(area.corners(), pit);
     let deepest = Some(Point::new(20.0, -30.0));
     let svg = Picture { area: area.corners().to_vec(), depths, deepest, ..Picture::default() }.svg();

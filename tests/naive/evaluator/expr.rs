@@ -264,7 +264,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Pair | B::Line => return Value::Parts(operands.to_vec()),
         B::Rectangle => {
             let area = Area::rectangle(at(0).point(), at(1).heading(), n(2), n(3));
-            return Value::Area(area.map(|area| area.edges().collect()).unwrap_or_default());
+            return Value::Area(area.edges().collect());
         }
         B::Polygon => {
             let corners: Vec<Point> = at(0).list().iter().map(Value::point).collect();

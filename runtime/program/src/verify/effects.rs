@@ -6,6 +6,7 @@ use super::ranges::{PATIENCE, Ranges};
 use super::written::written;
 use crate::{ABSOLUTE, Addr, GUIDANCE_WORDS, Guide, Op, RADIUS_MIN_M, Slot};
 use albacore_arithmetic::{Div, Interval, Operation, Operator, Pow, Sqrt, Ticks, counted};
+use albacore_geometry::AREA_WIDTH_MIN_M;
 
 impl Ranges<'_> {
     /// One instruction that does not jump.
@@ -24,8 +25,8 @@ impl Ranges<'_> {
             }
             Op::Ticks { a, .. } => must(Ticks::is_defined([range(known, a)]), "a time may be negative")?,
             Op::Rectangle { length, width, .. } => {
-                let has_size = range(known, length).low > 0.0 && range(known, width).low > 0.0;
-                must(has_size, "a rectangle may have no size")?;
+                let has_size = [length, width].iter().all(|side| range(known, *side).low >= AREA_WIDTH_MIN_M);
+                must(has_size, "a rectangle may be too thin")?;
             }
             Op::RowAt { step, .. } => must(range(known, step).low > 0.0, "rows may lie no distance apart")?,
             Op::Begin { guide, args, .. } => {

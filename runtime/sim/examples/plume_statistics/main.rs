@@ -86,7 +86,7 @@ fn record(root: &Path) -> Result<Arc<Recording>, Box<dyn Error>> {
 /// Our own plume with the record's numbers: `own_plume_a` of `missions/recorded.alb`.
 fn half_rate(recording: &Recording) -> Scenario {
     Scenario {
-        region: Area::rectangle(Point::ORIGIN, Heading::NORTH, 1094.0, 367.0).ok(),
+        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 1094.0, 367.0)),
         flow: Flow {
             mean: 0.125 * Heading::from_degrees(180.0).unit(),
             meander: Some(Meander::default()),

@@ -150,7 +150,7 @@ pub fn amounts(layer: Option<f64>) -> Result<Vec<(f64, f64)>, ScenarioError> {
 /// A uniform flow of 0.2 m/s with one source.
 fn uniform(plume: Plume, rate: f64) -> Scenario {
     Scenario {
-        region: Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0).ok(),
+        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0)),
         flow: Flow { mean: Vector::new(0.2, 0.0), ..Flow::default() },
         plume: Some(plume),
         sources: vec![Source { at: Point::new(-900.0, 0.0), rate, ..Source::default() }],

@@ -8,7 +8,7 @@ use albacore_geometry::{Area, Heading, Point, Vector};
 /// A wide uniform flow with one source near its up-flow end.
 fn uniform(rate: f64, settings: scenario::Plume) -> Scenario {
     Scenario {
-        region: Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0).ok(),
+        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0)),
         flow: Flow { mean: Vector::new(0.2, 0.0), ..Flow::default() },
         plume: Some(settings),
         sources: vec![scenario::Source { at: Point::new(-900.0, 0.0), rate, ..Default::default() }],

@@ -2,7 +2,7 @@
 
 use super::{RecordedKernel, RecordingError, shortened};
 use albacore_geometry::math::exp;
-use albacore_geometry::{Area, Heading, Point};
+use albacore_geometry::{AREA_WIDTH_MIN_M, Area, Heading, Point};
 use serde::Deserialize;
 use std::ops::Range;
 
@@ -377,10 +377,9 @@ impl Extent {
     fn area(&self) -> Option<Area> {
         let ([south, north], [west, east]) = (self.north, self.east);
         let center = Point::new(0.5 * (south + north), 0.5 * (west + east));
-        if !(north > south && east > west) {
-            return None;
-        }
-        Area::rectangle(center, Heading::NORTH, north - south, east - west).ok()
+        let (length, width) = (north - south, east - west);
+        let is_area = length >= AREA_WIDTH_MIN_M && width >= AREA_WIDTH_MIN_M;
+        is_area.then(|| Area::rectangle(center, Heading::NORTH, length, width))
     }
 }
 

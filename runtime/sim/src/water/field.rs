@@ -186,7 +186,7 @@ mod tests {
     fn duck(meander: &Meander, seed: u64) -> Field {
         let direction = Heading::from_degrees(140.0);
         let flow = Flow { mean: 0.125 * direction.unit(), meander: Some(meander.clone()), ..Flow::default() };
-        let region = Area::rectangle(Point::ORIGIN, direction, 1094.0, 367.0).unwrap();
+        let region = Area::rectangle(Point::ORIGIN, direction, 1094.0, 367.0);
         let mut field = Field::new(meander, &FlowFrame::new(&flow, Some(&region)), 0.0, &flow, seed);
         field.advance_to(0.0, STILL);
         field

@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn there_and_back() {
         let flow = Flow { mean: 0.125 * Heading::from_degrees(140.0).unit(), ..Flow::default() };
-        let region = Area::rectangle(Point::new(3.0, 4.0), Heading::from_degrees(140.0), 1094.0, 367.0).unwrap();
+        let region = Area::rectangle(Point::new(3.0, 4.0), Heading::from_degrees(140.0), 1094.0, 367.0);
         let frame = FlowFrame::new(&flow, Some(&region));
         assert!((frame.length - 1214.0).abs() < 1e-9 && (frame.width - 487.0).abs() < 1e-9);
         let (x, y) = frame.to_local(Point::new(3.0, 4.0));

@@ -41,7 +41,7 @@ fn scenario(change: impl Fn(&mut Plume)) -> Scenario {
     let mut plume = Plume::default();
     change(&mut plume);
     Scenario {
-        region: Area::rectangle(Point::ORIGIN, Heading::NORTH, 500.0, 250.0).ok(),
+        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 500.0, 250.0)),
         flow: Flow { mean: 0.125 * Heading::NORTH.unit(), meander: Some(Meander::default()), ..Flow::default() },
         plume: Some(plume),
         sources: vec![Source { at: Point::new(SOURCE[0] - 310.0, SOURCE[1] - 185.0), ..Source::default() }],
