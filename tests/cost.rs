@@ -60,6 +60,14 @@ fn large_scripts_are_checked_in_time() {
                 + &lines(8000, |i| format!("test \"a{i}\" {{ run large in calm seeds 1..1\n expect completed }}")),
         ),
         (
+            "variants",
+            format!(
+                "enum Many {{ {} }}\nfn which(e: Many) -> Int {{ match e {{ {} }} }}\n{alone}",
+                lines(20_000, |i| format!("v{i},")),
+                lines(20_000, |i| format!("v{i} {{ {i} }}"))
+            ),
+        ),
+        (
             "any",
             script(
                 &format!(
@@ -82,4 +90,23 @@ fn large_scripts_are_checked_in_time() {
         assert!(output.status.code() == Some(0) || name == "any" && refused, "{name}: {told:.2000}");
         assert!(begun.elapsed() < Duration::from_secs(10), "{name}: {:?}", begun.elapsed());
     }
+}
+
+/// What the vehicle's sensors look through at each sample is bounded, and told before anything else is made of it.
+#[test]
+fn a_scenario_has_so_many_clauses_of_one_name_at_most() {
+    let pits = |count| {
+        let pit = |i| format!("pit(\"p{i}\", at: point(north: {i} m, east: 0 m), depth: 1 m, radius: 9 m)");
+        format!("scenario holes {{ bottom(from: 9 m, to: 9 m)\n{} }}", lines(count, pit))
+    };
+    let told = |count: usize| {
+        let file = std::env::temp_dir().join(format!("albacore-{}-pits{count}.alb", std::process::id()));
+        std::fs::write(&file, pits(count)).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_albacore")).arg("check").arg(&file).output().unwrap();
+        std::fs::remove_file(&file).unwrap();
+        String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout)
+    };
+    assert!(told(1024).contains("no errors"), "{}", told(1024));
+    let many = told(20_000);
+    assert!(many.contains("20000 clauses `pit`: 1024 are the most") && many.contains("1 error"), "{many:.2000}");
 }

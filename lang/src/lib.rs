@@ -35,12 +35,13 @@ use crate::code::Code;
 use albacore_geometry::Geodetic;
 use albacore_program::Program;
 use broken::Broken;
-use check::Override;
+use check::{Checked, Override};
 use cost::Cost;
 use diagnostic::Diagnostic;
 use echo::Echoes;
 use loader::{Loader, module_name};
 use source::{FileId, Source, Sources, Span};
+use std::collections::BTreeMap;
 use syntax::tree::{self, ActivityKind, Item};
 
 /// Where imported modules come from.
@@ -81,6 +82,9 @@ pub struct Script {
     hir: hir::Hir,
     types: types::TypeTable,
     missions: Vec<(MissionInfo, usize)>,
+    /// Where missions and scenarios stand among all, by their names.
+    mission_ids: BTreeMap<String, hir::ActivityId>,
+    scenario_ids: BTreeMap<String, usize>,
     overrides: Vec<Override>,
     broken: Broken,
 }
@@ -134,15 +138,17 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     for file in checked.files {
         sources.add(file);
     }
+    let of_missions = checked.hir.activities.iter().enumerate().filter(|(_, a)| a.kind == hir::Kind::Mission);
+    // The first of a name: a second is an error.
+    let all_missions: BTreeMap<&str, usize> = of_missions.rev().map(|(id, a)| (a.full_name.as_str(), id)).collect();
     let mut missions = Vec::new();
     for item in &main.items {
         if let Item::Activity(a) = item
             && let ActivityKind::Mission { scenario, .. } = &a.kind
         {
             let info = MissionInfo { name: a.name.node.clone(), scenario: scenario.as_ref().map(tree::Path::text) };
-            let id =
-                checked.hir.activities.iter().position(|h| h.full_name == info.name && h.kind == hir::Kind::Mission);
-            missions.extend(id.map(|id| (info, id)));
+            let id = all_missions.get(info.name.as_str());
+            missions.extend(id.map(|id| (info, *id)));
         }
     }
     let is_error = |f: &&Diagnostic| f.severity == diagnostic::Severity::Error;
@@ -170,7 +176,11 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     // A value that is wrong has been told of: that it would change nothing is no second mistake.
     findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
-    Script { sources: sources.clone(), findings, hir: checked.hir, types: checked.types, missions, overrides, broken }
+    let mission_ids = missions.iter().map(|(info, id)| (info.name.clone(), *id)).collect();
+    let scenarios = checked.hir.scenarios.iter().enumerate().rev();
+    let scenario_ids = scenarios.map(|(id, scenario)| (scenario.name.clone(), id)).collect();
+    let Checked { hir, types, .. } = checked;
+    Script { sources: sources.clone(), findings, hir, types, missions, mission_ids, scenario_ids, overrides, broken }
 }
 
 impl Script {
@@ -187,14 +197,12 @@ impl Script {
 
     /// Whether a mission has no error, nor anything that it calls: it can be looked at although others have some.
     pub fn mission_is_sound(&self, name: &str) -> bool {
-        let found = self.missions.iter().find(|(info, _)| info.name == name);
-        found.is_some_and(|(_, id)| !self.broken.reaches(*id))
+        self.mission_ids.get(name).is_some_and(|id| !self.broken.reaches(*id))
     }
 
     /// Whether a scenario has no error.
     pub fn scenario_is_sound(&self, name: &str) -> bool {
-        let found = self.hir.scenarios.iter().find(|s| s.name == name);
-        found.is_some_and(|s| !self.broken.holds(s.span))
+        self.scenario_ids.get(name).is_some_and(|id| !self.broken.holds(self.hir.scenarios[*id].span))
     }
 
     /// The missions of the script's own file.
@@ -214,39 +222,38 @@ impl Script {
 
     /// The area of a mission, in its local frame, and where it is written; none where it is not made of constants.
     pub fn operating_area(&self, mission: &str) -> Option<(albacore_geometry::Area, source::Span)> {
-        let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
+        let id = self.mission_ids.get(mission)?;
         rules::operating_area(&self.hir, *id)
     }
 
     /// The finding for a mission whose area is of a file that has the latitude first, as far as places of its scenario show it.
     pub fn swapped_area(&self, mission: &str, places: &[Geodetic]) -> Option<Diagnostic> {
-        let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
+        let id = self.mission_ids.get(mission)?;
         rules::swapped(&self.hir, *id, places)
     }
 
     /// The inputs that a mission requires, each with the place where it says so.
     pub fn requirements(&self, mission: &str) -> Vec<(&str, source::Span)> {
-        let id = self.missions.iter().find(|(info, _)| info.name == mission).map(|(_, id)| *id);
-        let parts = id.and_then(|id| self.hir.activities[id].mission.as_ref());
+        let parts = self.mission_ids.get(mission).and_then(|id| self.hir.activities[*id].mission.as_ref());
         let requires = parts.into_iter().flat_map(|parts| &parts.requires);
         requires.map(|require| (self.hir.inputs[require.input].name.as_str(), require.span)).collect()
     }
 
     /// The checked program, its types, and where a mission stands in it.
     pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
-        let (_, id) = self.missions.iter().find(|(info, _)| info.name == mission)?;
+        let id = self.mission_ids.get(mission)?;
         Some((&self.hir, &self.types, *id))
     }
 
     /// A mission, ready for the machine.
     pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
-        let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
+        let id = self.mission_ids.get(name)?;
         Some(lower::mission(&self.hir, &self.types, &self.sources, *id))
     }
 
     /// What a mission costs.
     pub fn cost(&self, name: &str) -> Option<Result<Cost, Vec<Diagnostic>>> {
-        let (_, id) = self.missions.iter().find(|(info, _)| info.name == name)?;
+        let id = self.mission_ids.get(name)?;
         Some(cost::of(&self.hir, &self.types, &self.sources, *id))
     }
 
@@ -259,8 +266,8 @@ impl Script {
     /// A scenario, ready to be computed, in the frame about `origin`.
     pub fn scenario(&self, name: &str, origin: Option<Geodetic>) -> Option<Result<ScenarioProgram, Vec<Diagnostic>>> {
         let name = name.rsplit('.').next().unwrap_or(name);
-        let id = self.hir.scenarios.iter().position(|s| s.name == name)?;
-        Some(lower::scenario(&self.hir, &self.types, &self.sources, id, origin))
+        let id = self.scenario_ids.get(name)?;
+        Some(lower::scenario(&self.hir, &self.types, &self.sources, *id, origin))
     }
 }
 

@@ -332,8 +332,9 @@ impl<'t> Checker<'t> {
             Diagnostic::error(Code::AreasSmall, side.span, message).help("look at its unit")
         } else if low < AREA_WIDTH_MIN_M {
             let message = format!("a rectangle's sides must be {AREA_WIDTH_MIN_M} m long or more");
-            Diagnostic::error(Code::RangesSide, side.span, message)
-                .help("use a positive constant, a parameter with a range such as `in 1 m..10 km`, or `clamp(x, 1 m, 10 km)`")
+            Diagnostic::error(Code::RangesSide, side.span, message).help(
+                "use a positive constant, a parameter with a range such as `in 1 m..10 km`, or `clamp(x, 1 m, 10 km)`",
+            )
         } else if high > AREA_REACH_MAX_M {
             let may_be = if low > AREA_REACH_MAX_M { "is" } else { "may be" };
             let message = format!("a rectangle's side {may_be} longer than 100 km, and no plane is so large");

@@ -10,6 +10,7 @@ use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree::{self, Condition};
 use crate::types::Type;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl<'t> Checker<'t> {
     pub(super) fn if_stmt(
@@ -194,22 +195,20 @@ impl<'t> Checker<'t> {
                 Vec::new()
             }
         };
-        let mut seen: Vec<usize> = Vec::new();
+        let by_name: BTreeMap<&str, usize> = variants.iter().enumerate().map(|(i, v)| (v.as_str(), i)).collect();
+        let mut seen = BTreeSet::new();
         let mut checked = Vec::new();
         let mut otherwise = None;
         for arm in arms {
             let mut indices = Vec::new();
             for name in &arm.names {
-                match variants.iter().position(|v| *v == name.node) {
-                    Some(i) if seen.contains(&i) => self.report(Diagnostic::error(
+                match by_name.get(name.node.as_str()).copied() {
+                    Some(i) if !seen.insert(i) => self.report(Diagnostic::error(
                         Code::TypesMatch,
                         name.span,
                         format!("`{}` is matched already", name.node),
                     )),
-                    Some(i) => {
-                        seen.push(i);
-                        indices.push(i);
-                    }
+                    Some(i) => indices.push(i),
                     None if variants.is_empty() => {}
                     None => {
                         let finding = Diagnostic::error(

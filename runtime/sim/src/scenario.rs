@@ -28,6 +28,9 @@ use albacore_geometry::Area;
 use albacore_vehicle::{Channel, Handover, Limits, channels};
 use serde::{Deserialize, Serialize};
 
+/// The most clauses of one name in a scenario.
+const CLAUSES_MAX: usize = 1024;
+
 /// The world of a simulated run. SI units and radians throughout; points in the mission's tangent frame.
 ///
 /// The default is still water, 20 m deep, without a plume, and a vehicle with perfect sensors of position.
@@ -103,9 +106,34 @@ impl Scenario {
         self.plume.is_some() || self.recording.is_some()
     }
 
+    /// Each of them is looked at whenever the vehicle senses.
+    fn check_counts(&self, objections: &mut Objections) {
+        let leaks = self.sources.iter().filter(|source| source.to.is_some()).count();
+        for (clause, count) in [
+            ("tide", self.flow.tides.len()),
+            ("pit", self.bottom.pits.len()),
+            ("no_go", self.no_go.len()),
+            ("source", self.sources.len() - leaks),
+            ("leak", leaks),
+            ("patch", self.patches.len()),
+            ("fault", self.faults.len()),
+        ] {
+            objections.nth(clause, CLAUSES_MAX.min(count.saturating_sub(1))).unless(
+                None,
+                count <= CLAUSES_MAX,
+                format!("this scenario has {count} clauses `{clause}`: {CLAUSES_MAX} are the most"),
+                "leave some out; a bottom of many depths is a grid, `bottom_grid(…)`",
+            );
+        }
+    }
+
     /// Lists impossible physics, all of it at once.
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let mut objections = Objections::default();
+        self.check_counts(&mut objections);
+        if !objections.0.is_empty() {
+            return Err(ScenarioError { faults: objections.0 });
+        }
         flow::check(self, &mut objections);
         stratification::check(self, &mut objections);
         bottom::check(self, &mut objections);

@@ -7,6 +7,8 @@ use crate::water::frame::FlowFrame;
 const NODES_MAX: f64 = 40_000.0;
 /// A field step is cut into at most this many explicit ones.
 const SUBSTEPS_MAX: f64 = 50.0;
+/// The most nodes that are computed, step after step, before a run begins: some seconds of work.
+const SPIN_UP_WORK_MAX: f64 = 2e9;
 /// Share of the explicit scheme's stability limit that a sub-step uses.
 const STABILITY: f64 = 0.8;
 /// Corner speeds beyond the mean that stability allows for, in standard deviations.
@@ -68,7 +70,25 @@ pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Opti
         let message = format!("a flow that meanders so needs more than {SUBSTEPS_MAX} sub-steps to be stable");
         return fault("cell", message, "make `cell` larger, or `viscosity` smaller".into());
     }
+    let transit = frame.length / mean_speed;
+    let work = transit / meander.step * mesh.substeps * mesh.nodes() as f64;
+    if work > SPIN_UP_WORK_MAX {
+        let message = format!(
+            "the flow is so slow that it takes {} to cross the region: its meander is computed for as long before a run",
+            about(transit)
+        );
+        return fault("mean", message, "make it faster, `cell` larger, or the region smaller".into());
+    }
     None
+}
+
+/// A time in words.
+fn about(seconds: f64) -> String {
+    match seconds / 3600.0 {
+        hours if hours < 1000.0 => format!("{hours:.0} h"),
+        hours if hours < 1e6 => format!("{:.0} days", hours / 24.0),
+        _ => "many years".into(),
+    }
 }
 
 /// The speed to be ready for, m/s.
