@@ -1,6 +1,7 @@
 //! A vehicle on the bottom: when that ends a mission, and as what.
 
-use crate::state::{Run, Wish};
+use crate::bottom::UNDONE_M;
+use crate::state::{Phase, Run, Wish};
 use crate::{Event, Outcome};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,8 @@ pub(crate) struct Aground {
     since: Option<u64>,
     /// For how many ticks it has lain there in all.
     ticks: u64,
+    /// The least depth at which it has lain, m.
+    depth: Option<f64>,
 }
 
 impl Run {
@@ -25,6 +28,16 @@ impl Run {
         let since = aground.then(|| self.state.aground.since.unwrap_or(self.state.tick));
         self.state.aground.since = since;
         self.state.aground.ticks += u64::from(aground);
+        if aground {
+            let depth = self.depth();
+            self.state.aground.depth = Some(self.state.aground.depth.map_or(depth, |least| least.min(depth)));
+        }
+    }
+
+    /// How deep a recovery may go whose vehicle has lain on the bottom, m: clear of where that was, whatever is asked.
+    pub fn above_bottom(&self) -> f64 {
+        let lain = self.state.aground.depth.filter(|_| matches!(self.state.phase, Phase::Recovering(..)));
+        lain.map_or(f64::MAX, |depth| (depth - UNDONE_M).max(0.0))
     }
 
     fn lain_s(&self) -> f64 {
@@ -43,7 +56,7 @@ impl Run {
     /// Why a mission that ends so has ended aground, if it has. One that leaves its vehicle on the bottom, or has left it there
     /// for a while, has not come to its own end, whatever it says.
     pub fn is_aground_at(&self, outcome: Outcome) -> Option<&'static str> {
-        let Aground { since, ticks } = self.state.aground;
+        let Aground { since, ticks, .. } = self.state.aground;
         match outcome {
             Outcome::Completed | Outcome::TimedOut | Outcome::Aborted if since.is_some() => {
                 Some("the vehicle lies on the bottom")

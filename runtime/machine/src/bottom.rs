@@ -2,7 +2,7 @@
 //!
 //! The altitude is an echo. Where none comes, or the same one again and again while the depth changes, nothing is known of what
 //! lies deeper than the vehicle has been: it descends no further than to where the least altitude was last known to hold, and rises
-//! from there as the bottom may. Where none has ever come it rises to the surface, but for what a chart says.
+//! from there as the bottom may. From where it dived by echoes that are not believed any more it rises at once. Where none has ever come it rises to the surface, but for what a chart says.
 
 use crate::Event;
 use crate::state::{Limits, Run};
@@ -19,6 +19,9 @@ pub type Chart = Arc<dyn Fn(Point, f64) -> Option<f64> + Send + Sync>;
 const HELD_M: f64 = 0.5;
 /// An echo counts for so long, s, that no other has confirmed, or after which came what is not believed.
 const DOUBTFUL_S: f64 = 1.0;
+/// Where nothing came for 5 s but what is not believed, the dive that it led to is undone by so many metres: by that a true echo shows
+/// itself, too.
+pub(crate) const UNDONE_M: f64 = 2.5;
 /// A bottom of which nothing is heard is taken to rise by so much in each metre of way.
 const RISE: f64 = 0.25;
 /// An altitude that is below the least by this share of it, or by so much, m, is no noise: it leads up, whatever the depth is told
@@ -103,8 +106,9 @@ impl Run {
         let Limits { altitude, depth, .. } = self.state.limits;
         self.state.bottom.begun.get_or_insert(self.state.tick);
         let known = self.heard_lately(p);
-        let bounded = altitude.0 > 0.0 || depth.1 < f64::MAX;
-        let floor = self.floor(p, altitude.0).min(depth.1);
+        let deepest = depth.1.min(self.above_bottom());
+        let bounded = altitude.0 > 0.0 || deepest < f64::MAX;
+        let floor = self.floor(p, altitude.0).min(deepest);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
         let low = altitude.0 - (LOW_SHARE * altitude.0).min(LOW_MAX_M);
         match (asked, known) {
@@ -115,7 +119,7 @@ impl Run {
             (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
                 let given = self.limit(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
-                Vertical::Altitude(given.min(highest).max((water - depth.1).max(0.0)))
+                Vertical::Altitude(given.min(highest).max((water - deepest).max(0.0)))
             }
             // An altitude that nobody measures cannot be held within anything.
             (Vertical::Altitude(metres), None) if bounded => {
@@ -151,7 +155,11 @@ impl Run {
         let floor = match (heard, self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - altitude_min,
             _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
-            (Some(heard), None) => heard.depth.min(heard.water - altitude_min - RISE * self.state.bottom.way),
+            (Some(heard), None) => {
+                let lasts = (self.state.tick - heard.tick) as f64 * TICK_S;
+                let undone = if self.state.bottom.doubted && lasts > LIMIT_FRESH_S { UNDONE_M } else { 0.0 };
+                (heard.depth - undone).min(heard.water - altitude_min - RISE * self.state.bottom.way)
+            }
             (None, None) => self.charted().map_or(self.unheard(), |water| water - altitude_min),
         };
         floor.max(0.0)

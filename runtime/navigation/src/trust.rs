@@ -1,7 +1,7 @@
 //! What of a snapshot is believed, in one place between vehicle and mission: simulated or at the end of a link.
 //!
 //! The watch looks at all that came and steers nothing, with one exception: an altitude that it knows to be stuck is withheld, so
-//! that the limits of the mission take the bottom for lost. So is one that becomes no less in a dive. The gate withholds what cannot
+//! that the limits of the mission take the bottom for lost. So is one that does not follow a dive, or is told of a vehicle that lies on the bottom. The gate withholds what cannot
 //! have happened, until it persists. What is withheld stays in the snapshot, marked, so that a journal holds all that came and all that was believed.
 
 use crate::gate::Gate;
@@ -27,6 +27,7 @@ impl Trust {
         let altitude_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Altitude));
         // The depth of the water is the sum of the two.
         let mut water_is_doubtful = altitude_is_stuck;
+        let aground = snapshot.aground;
         for sample in &mut snapshot.samples {
             let believed = match sample.channel {
                 WATER_DEPTH => !water_is_doubtful,
@@ -38,7 +39,7 @@ impl Trust {
                     self.sounding.dive(sample.reading[0]);
                     true
                 }
-                ALTITUDE => believed && self.sounding.believes(tick, sample.reading[0], command),
+                ALTITUDE => believed && self.sounding.believes(tick, sample.reading[0], command, aground),
                 _ => believed,
             };
             if !believed {

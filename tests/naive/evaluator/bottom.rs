@@ -51,6 +51,7 @@ impl Evaluator<'_> {
             (None, None) if young => Some(self.w.depth().unwrap_or(0.0)),
             (None, None) => Some(0.0),
         };
+        let high = self.shoal().map_or(high, |shoal| high.min(shoal));
         let deepest = floor.map_or(high, |floor| floor.max(0.0).min(high));
         let lost = known.is_none() && lowest > 0.0 && !(echo.is_none() && young);
         if lost != std::mem::replace(&mut self.bottom.lost, lost) {

@@ -61,6 +61,8 @@ pub struct Evaluator<'p> {
     /// Since when the vehicle has lain on the bottom, and for how many ticks in all.
     aground: Option<u64>,
     lain: u64,
+    /// The least depth at which it has, m.
+    lain_at: Option<f64>,
     /// Rule 6: whether the heading and depth of the very start have been taken.
     stands: bool,
     control: Control,
@@ -100,6 +102,7 @@ impl<'p> Evaluator<'p> {
             bottom: Bottom::default(),
             aground: None,
             lain: 0,
+            lain_at: None,
             stands: false,
             control: Control::Disconnected,
             w,
@@ -121,6 +124,10 @@ impl<'p> Evaluator<'p> {
         self.bottom.hear(&self.w);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
         self.lain += u64::from(snapshot.aground);
+        if snapshot.aground {
+            let depth = self.w.depth().unwrap_or(0.0);
+            self.lain_at = Some(self.lain_at.map_or(depth, |least: f64| least.min(depth)));
+        }
         if snapshot.control != self.control {
             self.control = snapshot.control;
             self.w.say(format!("control {:?}", self.control));
@@ -273,6 +280,11 @@ impl<'p> Evaluator<'p> {
         let begun = self.mission.begin(&mut self.w);
         self.take_limits();
         begun
+    }
+
+    /// Section 8: a recovery stays 2.5 m above where the vehicle has lain on the bottom.
+    pub(super) fn shoal(&self) -> Option<f64> {
+        self.lain_at.filter(|_| matches!(self.phase, Phase::Recovering(..))).map(|at| (at - 2.5).max(0.0))
     }
 
     fn is_stranded(&self) -> bool {

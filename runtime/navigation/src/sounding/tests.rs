@@ -8,7 +8,7 @@ fn told(goal: Vertical, soundings: impl IntoIterator<Item = (f64, f64)>) -> Vec<
     let mut told = Vec::new();
     for (i, (depth, altitude)) in soundings.into_iter().enumerate() {
         sounding.dive(depth);
-        sounding.believes(i as u64, altitude, Some(&command));
+        sounding.believes(i as u64, altitude, Some(&command), false);
         told.extend(sounding.take_told().map(|what| (i, what)));
     }
     told
@@ -43,7 +43,7 @@ fn an_altitude_that_stays_the_same_in_a_dive_is_not_believed() {
 /// One that is told late tells of the climb before.
 #[test]
 fn one_that_grows_in_a_dive_is_not_believed() {
-    assert_eq!(told(Vertical::Depth(40.0), dive(|_, depth| 2.0 + 0.5 * depth)).len(), 2);
+    assert_eq!(told(Vertical::Depth(40.0), dive(|_, depth| 2.0 + 0.5 * depth)).len(), 1);
 }
 
 #[test]
@@ -54,10 +54,34 @@ fn one_that_fails_in_the_middle_of_a_dive_is_not_believed_either() {
 }
 
 #[test]
-fn what_changes_again_is_believed_again() {
-    let told = told(Vertical::Depth(40.0), dive(|i, depth| if i < 100 { 12.0 } else { 20.0 - depth }));
+fn what_follows_a_rise_is_believed_again() {
     let same = (30, String::from("rejected: altitude, no less after a dive of 1.5 m"));
-    assert_eq!(told, [same, (180, String::from("believed: altitude, changes again"))]);
+    let down_and_up = |altitude: fn(usize, f64) -> f64| {
+        let depth = |i: usize| if i < 100 { 3.0 + 0.05 * i as f64 } else { 8.0 - 0.05 * (i - 100) as f64 };
+        told(Vertical::Depth(40.0), (0..160).map(|i| (depth(i), altitude(i, depth(i)))).collect::<Vec<_>>())
+    };
+    let same_until_80 = down_and_up(|i, depth| if i < 80 { 12.0 } else { 20.0 - depth });
+    assert_eq!(same_until_80, [same.clone(), (140, String::from("believed: altitude, grows in a rise of 2.0 m"))]);
+    assert_eq!(down_and_up(|i, _| 12.0 + if i < 80 { 0.0 } else { 5.0 }), [same.clone()], "a change is no echo");
+    assert_eq!(down_and_up(|i, depth| if i < 80 { 12.0 } else { 12.0 + 0.2 * (8.0 - depth) }), [same]);
+}
+
+/// From a dive that began at the surface there is less to rise.
+#[test]
+fn a_rise_to_the_surface_is_long_enough() {
+    let depth = |i: usize| if i < 38 { 0.05 * i as f64 } else { (1.9 - 0.05 * (i - 38) as f64).max(0.2) };
+    let altitude = |i: usize| if i < 38 { 12.0 } else { 20.0 - depth(i) };
+    assert_eq!(told(Vertical::Depth(40.0), (0..80).map(|i| (depth(i), altitude(i))).collect::<Vec<_>>()).len(), 2);
+}
+
+#[test]
+fn a_vehicle_on_the_bottom_has_no_altitude() {
+    let mut sounding = Sounding::default();
+    sounding.dive(20.0);
+    assert!(sounding.believes(0, 0.4, None, true), "a sounder sits above the keel");
+    assert!(!sounding.believes(1, 10.0, None, true));
+    assert_eq!(sounding.take_told().unwrap(), "rejected: altitude, 10.0 m of a vehicle on the bottom");
+    assert!(!sounding.believes(2, 10.0, None, false), "nor when it is free again");
 }
 
 /// Along a slope, by altitude or by the limit of one, it stays the same while the depth changes; so it does at rest, and in a swell.
@@ -68,7 +92,7 @@ fn what_is_kept_may_stay_the_same() {
     for (tick, (depth, altitude)) in (0..).zip(dive(|i, _| 2.0 + wobble(i))) {
         let command = Command { heading: Heading::NORTH, speed: 1.0, vertical: Vertical::Depth(depth + 0.1) };
         sounding.dive(depth);
-        assert!(sounding.believes(tick, altitude, Some(&command)));
+        assert!(sounding.believes(tick, altitude, Some(&command), false));
     }
     let swell = (0..2000).map(|i| (3.0 + if i / 45 % 2 == 0 { 1.6 } else { -1.6 }, 5.0));
     assert_eq!(told(Vertical::Depth(3.0), swell), []);
