@@ -8,7 +8,7 @@
 use crate::vigil::Kind;
 use albacore_geometry::math::degrees;
 use albacore_geometry::{Heading, Point};
-use albacore_vehicle::channels::{ALTITUDE, DEPTH, HEADING, POSITION, SPEED};
+use albacore_vehicle::channels::{ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, POSITION, SPEED};
 use albacore_vehicle::{Reading, TICK_S};
 use std::fmt;
 
@@ -20,7 +20,12 @@ const NEARER_SAMPLES: u32 = 2;
 /// A first sample has nothing to follow: within so much, m, of where missions begin it is believed, and elsewhere with the second.
 const BEGINS_WITHIN_M: f64 = 2_000.0;
 const BEGINS_ABOVE_M: f64 = 20.0;
+/// ... or a first battery with less in it than this.
+const BEGINS_CHARGED: f64 = 0.2;
 const FIRST_SAMPLES: u32 = 2;
+/// From this speed over ground on the course turns as the nose does, m/s: at rest it is any, and against a current that leaves the
+/// vehicle little way it turns many times as fast.
+const HAS_COURSE: f64 = 1.0;
 /// Each sample that is doubted counts so much, up to the most, and each that is believed takes one away. Above the trusted number a
 /// sample is not believed because it fits: one in three may be wrong, and of several in a row no more than these.
 const DOUBT: u32 = 2;
@@ -29,14 +34,16 @@ const DOUBTS_MAX: u32 = 20;
 /// That a channel was doubted is told again when it was not for so many ticks: 15 s.
 const AGAIN_TICKS: u64 = 150;
 
-/// The channels that are judged. The direction over ground is any at rest, the edge of a plume is sharp, and a mean flow says
-/// nothing of the vehicle.
-const JUDGED: [(u16, Kind); 5] = [
+/// The channels that are judged: what is measured of the vehicle itself, which is slow. What is measured of the water (flow, chemical,
+/// temperature, salinity) may have any edge, and a mode is a word and no measure.
+const JUDGED: [(u16, Kind); 7] = [
     (POSITION, Kind::Position),
+    (COURSE, Kind::Course),
     (HEADING, Kind::Heading),
     (SPEED, Kind::Speed),
     (DEPTH, Kind::Depth),
     (ALTITUDE, Kind::Altitude),
+    (BATTERY, Kind::Battery),
 ];
 
 /// What is told of a doubt.
@@ -64,6 +71,7 @@ impl fmt::Display for Doubt {
             Kind::Course | Kind::Heading => format!("{:.0} deg off", degrees(change)),
             Kind::Speed | Kind::Flow => format!("{change:.1} m/s off"),
             Kind::Chemical => format!("{change:.2} off"),
+            Kind::Battery => format!("{:.0} % off", 100.0 * change),
             Kind::Depth | Kind::Altitude => format!("{change:.1} m off"),
         };
         match self.change {
@@ -103,21 +111,14 @@ struct Channel {
 #[derive(Clone, Debug)]
 pub struct Gate {
     channels: [Channel; JUDGED.len()],
+    /// The speed over ground that was believed last, m/s.
+    speed: f64,
     told: Vec<Doubt>,
 }
 
 impl Default for Gate {
     fn default() -> Self {
-        let channel = |(_, kind)| Channel {
-            kind,
-            believed: None,
-            confirmed: false,
-            came: 0,
-            doubtful: None,
-            doubts: 0,
-            doubted: None,
-        };
-        Gate { channels: JUDGED.map(channel), told: Vec::new() }
+        Gate { channels: JUDGED.map(|(_, kind)| Channel::new(kind)), speed: 0.0, told: Vec::new() }
     }
 }
 
@@ -125,7 +126,16 @@ impl Gate {
     /// Whether a sample of a tick is believed.
     pub fn believes(&mut self, tick: u64, channel: u16, reading: Reading) -> bool {
         let Some(index) = JUDGED.iter().position(|(judged, _)| *judged == channel) else { return true };
-        self.channels[index].judge(tick, reading, &mut self.told)
+        if channel == COURSE && self.speed < HAS_COURSE {
+            // What follows has nothing to follow.
+            self.channels[index] = Channel::new(Kind::Course);
+            return true;
+        }
+        let believed = self.channels[index].judge(tick, reading, &mut self.told);
+        if channel == SPEED && believed {
+            self.speed = reading[0];
+        }
+        believed
     }
 
     /// What has been told since this was last asked.
@@ -135,6 +145,10 @@ impl Gate {
 }
 
 impl Channel {
+    fn new(kind: Kind) -> Self {
+        Channel { kind, believed: None, confirmed: false, came: 0, doubtful: None, doubts: 0, doubted: None }
+    }
+
     fn judge(&mut self, tick: u64, reading: Reading, told: &mut Vec<Doubt>) -> bool {
         // That a number is none is seen by everybody.
         if reading.iter().any(|x| !x.is_finite()) {
@@ -149,11 +163,11 @@ impl Channel {
         }
         let seconds = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         let came = std::mem::replace(&mut self.came, tick);
-        let follows = match self.believed {
-            Some((before, _)) => kind.can_follow(reading, before, seconds(came)),
+        let is_next = match self.believed {
+            Some((before, _)) => follows(kind, reading, before, seconds(came)),
             None => begins(kind, reading),
         };
-        if follows && self.doubts <= DOUBTS_TRUSTED {
+        if is_next && self.doubts <= DOUBTS_TRUSTED {
             self.believe(tick, reading);
             return true;
         }
@@ -161,7 +175,7 @@ impl Channel {
         let change = change(kind, reading, before);
         let first = Doubtful { reading, tick, since: tick, samples: 1 };
         let doubtful = match self.doubtful {
-            Some(d) if kind.can_follow(reading, d.reading, seconds(d.tick)) => {
+            Some(d) if follows(kind, reading, d.reading, seconds(d.tick)) => {
                 Doubtful { since: d.since, samples: d.samples + 1, ..first }
             }
             _ => first,
@@ -183,7 +197,7 @@ impl Channel {
             return true;
         }
         self.doubtful = Some(doubtful);
-        if !follows {
+        if !is_next {
             self.doubt(tick, Change::Rejected(change, seconds(at)), told);
         }
         false
@@ -205,11 +219,18 @@ impl Channel {
     }
 }
 
+/// Whether a reading can follow another after some seconds. The gate judges a course of a vehicle under way alone.
+fn follows(kind: Kind, now: Reading, before: Reading, time: f64) -> bool {
+    let kind = if kind == Kind::Course { Kind::Heading } else { kind };
+    kind.can_follow(now, before, time)
+}
+
 /// Whether a first reading is where missions begin.
 fn begins(kind: Kind, reading: Reading) -> bool {
     match kind {
         Kind::Position => Point::new(reading[0], reading[1]).distance(Point::ORIGIN) <= BEGINS_WITHIN_M,
         Kind::Depth => reading[0] <= BEGINS_ABOVE_M,
+        Kind::Battery => reading[0] >= BEGINS_CHARGED,
         _ => true,
     }
 }

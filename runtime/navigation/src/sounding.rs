@@ -76,7 +76,7 @@ impl Sounding {
     pub fn believes(&mut self, tick: u64, altitude: f64, command: Option<&Command>, aground: bool) -> bool {
         let Some(depth) = self.depth.filter(|_| altitude.is_finite()) else { return true };
         let told = if let Some(line) = &mut self.disbelieved {
-            line.rise(tick, depth, altitude).then(|| Told::Follows(line.from - depth))
+            line.rise(tick, depth, altitude).then_some(Told::Follows(line.from - depth))
         } else if aground && altitude > LYING_M {
             Some(Told::Lying(altitude))
         } else {

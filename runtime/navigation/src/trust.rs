@@ -7,8 +7,8 @@
 use crate::gate::Gate;
 use crate::sounding::Sounding;
 use crate::vigil::{Kind, Sight, Vigil};
-use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
-use albacore_vehicle::{Command, Snapshot};
+use albacore_vehicle::channels::{ALTITUDE, COURSE, DEPTH, HEADING, WATER_DEPTH};
+use albacore_vehicle::{Command, Sample, Snapshot};
 
 /// What is believed in one run: a function of what came and what was commanded.
 #[derive(Clone, Debug, Default)]
@@ -24,31 +24,47 @@ impl Trust {
     pub fn look(&mut self, tick: u64, snapshot: &mut Snapshot, command: Option<&Command>) -> Vec<String> {
         let mut told: Vec<String> = Vec::new();
         told.extend(self.vigil.look(tick, snapshot, command).iter().map(ToString::to_string));
+        // What is made of others is doubtful with them, and so it is looked at after them.
         let altitude_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Altitude));
-        // The depth of the water is the sum of the two.
-        let mut water_is_doubtful = altitude_is_stuck;
-        let aground = snapshot.aground;
-        for sample in &mut snapshot.samples {
-            let believed = match sample.channel {
-                WATER_DEPTH => !water_is_doubtful,
-                ALTITUDE if altitude_is_stuck => false,
-                channel => self.gate.believes(tick, channel, sample.reading),
-            };
-            let believed = match sample.channel {
-                DEPTH if believed && sample.reading[0].is_finite() => {
-                    self.sounding.dive(sample.reading[0]);
-                    true
+        let mut doubtful: Vec<u16> = altitude_is_stuck.then_some(ALTITUDE).into_iter().collect();
+        for made in [false, true] {
+            for sample in snapshot.samples.iter_mut().filter(|sample| sources(sample.channel).is_empty() != made) {
+                let believed = !sources(sample.channel).iter().any(|source| doubtful.contains(source))
+                    && (!altitude_is_stuck || sample.channel != ALTITUDE)
+                    && self.gate.believes(tick, sample.channel, sample.reading)
+                    && self.sounds(tick, sample, command, snapshot.aground);
+                if !believed {
+                    doubtful.push(sample.channel);
+                    sample.withhold();
                 }
-                ALTITUDE => believed && self.sounding.believes(tick, sample.reading[0], command, aground),
-                _ => believed,
-            };
-            if !believed {
-                water_is_doubtful |= matches!(sample.channel, DEPTH | ALTITUDE);
-                sample.withhold();
             }
         }
         told.extend(self.gate.take_told().iter().map(ToString::to_string));
         told.extend(self.sounding.take_told());
         told
     }
+
+    /// Whether a sample that the gate believes can be what the sounder hears.
+    fn sounds(&mut self, tick: u64, sample: &Sample, command: Option<&Command>, aground: bool) -> bool {
+        let number = sample.reading[0];
+        match sample.channel {
+            DEPTH if number.is_finite() => self.sounding.dive(number),
+            ALTITUDE => return self.sounding.believes(tick, number, command, aground),
+            _ => {}
+        }
+        true
+    }
 }
+
+/// What a channel is made of by the vehicle: the depth of the water is the sum of the two, and the velocity over ground is turned with
+/// the compass.
+fn sources(channel: u16) -> &'static [u16] {
+    match channel {
+        WATER_DEPTH => &[DEPTH, ALTITUDE],
+        COURSE => &[HEADING],
+        _ => &[],
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -47,6 +47,8 @@ pub enum Kind {
     Flow,
     /// The chemical sensor.
     Chemical,
+    /// What is left in the battery.
+    Battery,
 }
 
 impl Kind {
@@ -61,6 +63,7 @@ impl Kind {
             Kind::Altitude => "altitude",
             Kind::Flow => "flow",
             Kind::Chemical => "chemical",
+            Kind::Battery => "battery",
         }
     }
 
@@ -81,7 +84,7 @@ impl Kind {
             Kind::Speed => (-1.0..=15.0).contains(&a),
             Kind::Depth | Kind::Altitude => (-1.0..=11_000.0).contains(&a),
             Kind::Flow => Point::new(a, b).distance(Point::ORIGIN) <= 10.0,
-            Kind::Chemical => (-0.1..=1.1).contains(&a),
+            Kind::Chemical | Kind::Battery => (-0.1..=1.1).contains(&a),
         }
     }
 
@@ -105,6 +108,8 @@ impl Kind {
             Kind::Depth => change <= 3.0 * time + 1.0,
             Kind::Altitude => change <= 5.0 * time + 1.2,
             Kind::Flow => Point::new(now[0], now[1]).distance(Point::new(before[0], before[1])) <= 1.0,
+            // A gauge is coarse; a battery that is empty in a quarter of an hour is none of ours.
+            Kind::Battery => change <= 0.001 * time + 0.1,
             // At rest the course is any, and the edge of a plume is sharp.
             Kind::Course | Kind::Chemical => true,
         }
