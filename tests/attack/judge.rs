@@ -13,7 +13,7 @@ const MISSION: (f64, f64, f64) = (12.0, 3.0, 1.6);
 /// Those of its vehicle: m, m/s. What it holds is told as turns of the propeller.
 const VEHICLE: (f64, f64) = (14.0, 2.0);
 const RPM_AT_1_MPS: f64 = 1500.0 / 2.6;
-/// Numbers on the wire are rounded.
+/// Numbers on the wire are rounded, those of goals inward.
 const ROUNDED: f64 = 0.011;
 /// Dived at its limit, the vehicle overshoots a little, m.
 const OVERSHOOT: f64 = 1.0;
@@ -115,9 +115,9 @@ impl Goal {
         let (depth, altitude, speed) = MISSION;
         match self {
             Goal::Heading(degrees) => degrees.is_finite(),
-            Goal::Speed(asked) => (-ROUNDED..=speed + ROUNDED).contains(&asked),
-            Goal::Depth(asked) => (-ROUNDED..=depth + ROUNDED).contains(&asked),
-            Goal::Altitude(asked) => asked.is_finite() && asked >= altitude - ROUNDED,
+            Goal::Speed(asked) => (-ROUNDED..=speed).contains(&asked),
+            Goal::Depth(asked) => (-ROUNDED..=depth).contains(&asked),
+            Goal::Altitude(asked) => asked.is_finite() && asked >= altitude,
         }
     }
 

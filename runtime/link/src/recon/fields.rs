@@ -12,9 +12,12 @@ const GRAINS: f64 = 600_000.0;
 
 /// No number of the dialect is greater: what four hundred digits stand for is none.
 const GREATEST: f64 = 1e9;
+/// ... and none that a sensor tells counts for more.
+const TOLD_MAX: f64 = 1e8;
 
 /// Where numbers lie, in the units of the message. The sources state no ranges: ours are wider than any vehicle's, and their
-/// sums and products stay numbers. A message with a number outside is no message.
+/// sums and products stay numbers. A message with a number outside is no message, but for what a sensor tells: a sounder that hears
+/// nothing may say anything.
 pub mod ranges {
     use std::ops::RangeInclusive;
 
@@ -32,10 +35,20 @@ pub mod ranges {
     pub const CHARGES: RangeInclusive<f64> = 0.0..=100.0;
 }
 
+fn plain(text: &str) -> Option<f64> {
+    let is_plain = text.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
+    text.parse().ok().filter(|_| is_plain)
+}
+
 /// A plain decimal number of a size that means something. What Rust reads besides (`inf`, `nan`, `1e9`) is none.
 pub fn number(text: &str) -> Option<f64> {
-    let plain = text.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
-    text.parse().ok().filter(|x: &f64| plain && x.abs() <= GREATEST)
+    plain(text).filter(|x| x.abs() <= GREATEST)
+}
+
+/// What a sensor tells, however absurd: a plain decimal number, and no greater than one that has sums. Whether it can be is for who
+/// believes it to say, and the rest of its line is as true as ever.
+pub fn told(text: &str) -> Option<f64> {
+    plain(text).map(|x| x.clamp(-TOLD_MAX, TOLD_MAX))
 }
 
 /// A plain decimal number in a range.
@@ -50,6 +63,20 @@ pub fn fixed(value: f64, decimals: usize) -> String {
         Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_string(),
         _ => text,
     }
+}
+
+/// The same, and no greater than the value.
+pub fn fixed_down(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    let half = (0..decimals).fold(0.5, |half, _| half / 10.0);
+    // The text is the nearest number: where that is greater, the one before it is not.
+    if text.parse::<f64>().is_ok_and(|nearest| nearest > value) { fixed(value - half, decimals) } else { text }
+}
+
+/// The same, and no less than the value.
+pub fn fixed_up(value: f64, decimals: usize) -> String {
+    let text = fixed_down(-value, decimals);
+    text.strip_prefix('-').map_or_else(|| fixed(-text.parse().unwrap_or(0.0), decimals), str::to_string)
 }
 
 /// Degrees and minutes, as in `39N30.5553`; radians, north and east positive. `beyond` is the largest number of degrees.
@@ -109,6 +136,31 @@ mod tests {
             assert_eq!(number(none), None, "{none}");
         }
         assert_eq!((fixed(-0.001, 2).as_str(), fixed(-0.1, 2).as_str()), ("0.00", "-0.10"));
+    }
+
+    #[test]
+    fn goals_are_rounded_to_one_side() {
+        for (value, down, up) in [
+            (3.996, "3.99", "4.00"),
+            (1.995, "1.99", "2.00"),
+            (3.004, "3.00", "3.01"),
+            (4.35, "4.35", "4.35"),
+            (3.0, "3.00", "3.00"),
+            (0.0, "0.00", "0.00"),
+            (-0.0, "0.00", "0.00"),
+            (0.004, "0.00", "0.01"),
+            (-0.004, "-0.01", "0.00"),
+            (-1.5, "-1.50", "-1.50"),
+            (11_999.999, "11999.99", "12000.00"),
+        ] {
+            assert_eq!((fixed_down(value, 2).as_str(), fixed_up(value, 2).as_str()), (down, up), "{value}");
+        }
+        for i in 0..100_000 {
+            let value = f64::from(i) * 0.000_77 - 5.0;
+            let number = |text: String| text.parse::<f64>().unwrap();
+            let (down, up) = (number(fixed_down(value, 2)), number(fixed_up(value, 2)));
+            assert!(down <= value && value <= up && up - down < 0.010_001, "{value}: {down}, {up}");
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod to_vehicle;
 pub use from_vehicle::{Adcp, Ctd, FromVehicle, State};
 pub use to_vehicle::{SpeedGoal, ToVehicle};
 
-use super::fields::{fixed, number, ranges, within};
+use super::fields::{fixed, number, ranges, told, within};
 use albacore_geometry::Heading;
 use std::ops::RangeInclusive;
 
@@ -47,9 +47,14 @@ impl<'a> Fields<'a> {
         compass(self.text(name)?)
     }
 
-    /// 0 stands for what is not known, and nothing is below the bottom.
+    /// What a sensor tells.
+    fn told(&self, name: &str) -> Option<f64> {
+        told(self.text(name)?)
+    }
+
+    /// 0 stands for what is not known, and so does what is a little below the bottom; what no sounder is out by is told as it is.
     fn altitude(&self, name: &str) -> Option<Option<f64>> {
-        self.within(name, ranges::HEIGHTS).map(|a| (a > 0.0).then_some(a))
+        self.told(name).map(|a| (a > 0.0 || !ranges::HEIGHTS.contains(&a)).then_some(a))
     }
 }
 
@@ -99,6 +104,26 @@ mod tests {
         assert_eq!(captured.altitude, None, "an altitude of 0 is unknown");
         assert_eq!((captured.mode, captured.leg), (Mode(0x10), Some(0)));
         assert_eq!(captured.to_string(), CAPTURED);
+    }
+
+    /// The attack: a sounder that hears nothing made each state unreadable, and the run ended for want of one.
+    #[test]
+    fn what_a_sensor_tells_costs_no_more_than_itself() {
+        let nines = format!("A{}", "9".repeat(400));
+        for (told, altitude) in [
+            ("A-19562.36", Some(-19_562.36)),
+            ("A-999", Some(-999.0)),
+            ("A-3.2", None),
+            ("A99999.00", Some(99_999.0)),
+            (nines.as_str(), Some(1e8)),
+        ] {
+            assert_eq!(state(&CAPTURED.replace("A0.00", told)).altitude, altitude, "{told}");
+        }
+        assert_eq!(state(&CAPTURED.replace("D-0.10", "D99999")).depth, 99_999.0);
+        assert_eq!(state(&CAPTURED.replace(",V0.00", ",V-999.0")).speed, -999.0);
+        for absurd in [("P-0.3", "P-999"), ("R3.0", "R1000"), ("TR0", "TR999999999"), ("HR0.0", "HR99999")] {
+            assert_eq!(state(&CAPTURED.replace(absurd.0, absurd.1)).time_ms, 54_517_672, "{absurd:?}");
+        }
     }
 
     #[test]

@@ -153,16 +153,16 @@ impl State {
         Some(State {
             time_ms: time(fields.text("T")?)?,
             position: position(fields.text("LAT")?, fields.text("LON")?)?,
-            depth: fields.within("D", ranges::HEIGHTS)?,
+            depth: fields.told("D")?,
             depth_goal: fields.within("DG", ranges::HEIGHTS)?,
             altitude: fields.altitude("A")?,
-            pitch: radians(fields.within("P", ranges::ANGLES)?),
-            roll: radians(fields.within("R", ranges::ANGLES)?),
-            rpm: fields.within("TR", ranges::TURNS)?,
-            rpm_goal: fields.within("TRG", ranges::TURNS)?,
-            speed: fields.within("V", ranges::SPEEDS)?,
+            pitch: radians(fields.told("P")?),
+            roll: radians(fields.told("R")?),
+            rpm: fields.told("TR")?,
+            rpm_goal: fields.told("TRG")?,
+            speed: fields.told("V")?,
             heading: fields.heading("H")?,
-            heading_rate: radians(fields.within("HR", ranges::TURN_RATES)?),
+            heading_rate: radians(fields.told("HR")?),
             heading_goal: fields.heading("HG")?,
             mode: Mode(u8::from_str_radix(mode, 16).ok()?),
             leg,
@@ -176,7 +176,7 @@ impl Adcp {
         Some(Adcp {
             ahead: fields.within("F", ranges::SPEEDS)?,
             starboard: fields.within("S", ranges::SPEEDS)?,
-            vertical: fields.within("V", ranges::SPEEDS)?,
+            vertical: fields.told("V")?,
             altitude: fields.altitude("A")?,
             heading: fields.heading("H")?,
             current: match (fields.text("CF"), fields.text("CS")) {
@@ -194,7 +194,7 @@ impl Ctd {
             temperature: fields.number("T")?,
             conductivity: fields.number("C")?,
             salinity: fields.number("S")?,
-            depth: fields.within("D", ranges::HEIGHTS)?,
+            depth: fields.told("D")?,
             sound_speed: fields.number("V")?,
         })
     }

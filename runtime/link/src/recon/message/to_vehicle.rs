@@ -1,7 +1,7 @@
 //! What a controller says.
 
 use super::{Malformed, compass, compass_text, lettered};
-use crate::recon::fields::{fixed, number, ranges, within};
+use crate::recon::fields::{fixed, fixed_down, fixed_up, number, ranges, within};
 use albacore_geometry::Heading;
 use albacore_geometry::math::{degrees, radians};
 use std::fmt;
@@ -98,6 +98,7 @@ impl ToVehicle {
     }
 }
 
+/// Goals are rounded to the side that limits leave free: none is deeper, nearer to the bottom or faster than it was asked for.
 impl fmt::Display for ToVehicle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -105,8 +106,8 @@ impl fmt::Display for ToVehicle {
             ToVehicle::ClosestPoint(on) => write!(f, "c,{}", u8::from(*on)),
             ToVehicle::Heading(heading) => write!(f, "C,Heading,Goal,{}", compass_text(*heading)),
             ToVehicle::HeadingRate(rate) => write!(f, "C,Heading,Rate,{}", fixed(degrees(*rate), 1)),
-            ToVehicle::Depth(depth) => write!(f, "C,Depth,Depth,{}", fixed(*depth, 2)),
-            ToVehicle::Altitude(altitude) => write!(f, "C,Depth,Altitude,{}", fixed(*altitude, 2)),
+            ToVehicle::Depth(depth) => write!(f, "C,Depth,Depth,{}", fixed_down(*depth, 2)),
+            ToVehicle::Altitude(altitude) => write!(f, "C,Depth,Altitude,{}", fixed_up(*altitude, 2)),
             ToVehicle::Triangle([top, altitude, rate, bottom]) => write!(
                 f,
                 "C,Depth,Triangle,{},{},{},{}",
@@ -115,11 +116,11 @@ impl fmt::Display for ToVehicle {
                 fixed(*rate, 1),
                 fixed(*bottom, 1)
             ),
-            ToVehicle::Speed(SpeedGoal::Rpm(rpm)) => write!(f, "C,Speed,{} rpm", fixed(*rpm, 0)),
+            ToVehicle::Speed(SpeedGoal::Rpm(rpm)) => write!(f, "C,Speed,{} rpm", fixed_down(*rpm, 0)),
             ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed)) => {
-                write!(f, "C,Speed,{} meters/sec", fixed(*speed, 2))
+                write!(f, "C,Speed,{} meters/sec", fixed_down(*speed, 2))
             }
-            ToVehicle::Speed(SpeedGoal::Knots(speed)) => write!(f, "C,Speed,{} knots", fixed(*speed / KNOT, 2)),
+            ToVehicle::Speed(SpeedGoal::Knots(speed)) => write!(f, "C,Speed,{} knots", fixed_down(*speed / KNOT, 2)),
             ToVehicle::Query(what) => write!(f, "Q,{what}"),
             ToVehicle::KeepAlive(text) => write!(f, "V,{text}"),
             ToVehicle::VersionRequest => f.write_str("v"),
