@@ -10,7 +10,7 @@ use crate::axis::Axis;
 use crate::classic::{Classic, Variable};
 use crate::fault::{Fault, Faults, listed, shortened, told};
 use crate::marks;
-use crate::survey::{Kind, Survey, check_size, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::{Kind, Survey, check_size, going_on, is_on_earth, on_a_plane, on_the_globe};
 use packing::Packing;
 
 /// Names of variables that hold the bottom, where a file has several over two dimensions.
@@ -131,6 +131,9 @@ fn side(file: &Classic, bottom: &Variable, dimension: usize) -> Result<(Side, Ax
     let packing = Packing::of(variable)?;
     let mut places = file.values(variable)?;
     places.iter_mut().for_each(|place| *place = packing.value(*place));
+    if side == Side::Longitude {
+        going_on(&mut places);
+    }
     Ok((side, Axis::through(name, &places)?))
 }
 

@@ -14,7 +14,7 @@
 use crate::axis::Axis;
 use crate::fault::{Fault, Faults, counted, shortened};
 use crate::marks;
-use crate::survey::{Kind, Survey, check_size, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::{Kind, Survey, check_size, going_on, is_on_earth, on_a_plane, on_the_globe};
 
 /// What a head line looks like, for who has none.
 const HEAD: &str = "begin it with a line such as `# lon 140.0..144.9 n=60 lat 10.0..14.0 n=49 metres`, or with \
@@ -198,7 +198,13 @@ impl<'a> Head<'a> {
             faults.add(format!("line 1 gives no {missing}"), HEAD);
             return None;
         };
-        let between = |side: &Side| Axis::between(side.name, side.first, side.last, side.count);
+        let between = |side: &Side| {
+            let mut ends = [side.first, side.last];
+            if side.name.to_ascii_lowercase().starts_with("lon") {
+                going_on(&mut ends);
+            }
+            Axis::between(side.name, ends[0], ends[1], side.count)
+        };
         let (rows, columns) = (faults.take(between(north)), faults.take(between(east)));
         let (rows, columns) = (rows?, columns?);
         let is_geodetic = |side: &Side| !matches!(side.name.to_ascii_lowercase().as_str(), "north" | "east");

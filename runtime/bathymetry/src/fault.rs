@@ -1,7 +1,9 @@
 //! What is wrong with a file: all of it, each with its place and its mend.
 
-/// So many faults of one file are told; of the others their number.
+/// So many faults of one file with mends of their own are told; of the others their number.
 const TOLD_MAX: usize = 12;
+/// So many places of faults with one mend are named; of the others their number.
+const NAMED_MAX: u64 = 3;
 
 /// The mend of a grid that is too large.
 pub(crate) const CUT_IT: &str =
@@ -72,11 +74,30 @@ impl Unreadable {
     }
 }
 
-/// Collects faults while a file is read.
+/// Collects faults while a file is read. Those with one mend are one fault: of a damage that spoils a thousand cells a person reads
+/// where it begins.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
-    told: Vec<Fault>,
+    told: Vec<Alike>,
     untold: u64,
+    count: u64,
+}
+
+/// Faults with one mend: the first of them in words, and how many there are.
+#[derive(Debug)]
+struct Alike {
+    fault: Fault,
+    count: u64,
+}
+
+impl Alike {
+    fn told(self) -> Fault {
+        let Alike { mut fault, count } = self;
+        if count > NAMED_MAX {
+            fault.message += &format!("; and {} more such", count - NAMED_MAX);
+        }
+        fault
+    }
 }
 
 impl Faults {
@@ -85,7 +106,18 @@ impl Faults {
     }
 
     pub fn push(&mut self, fault: Fault) {
-        if self.told.len() < TOLD_MAX { self.told.push(fault) } else { self.untold += 1 }
+        self.count += 1;
+        let has_room = self.told.len() < TOLD_MAX;
+        match self.told.iter_mut().find(|alike| alike.fault.help == fault.help) {
+            Some(alike) => {
+                alike.count += 1;
+                if alike.count <= NAMED_MAX {
+                    alike.fault.message += &format!("; {}", fault.message);
+                }
+            }
+            None if has_room => self.told.push(Alike { fault, count: 1 }),
+            None => self.untold += 1,
+        }
     }
 
     /// The value, else its fault is noted.
@@ -95,14 +127,15 @@ impl Faults {
 
     /// How many there are.
     pub fn count(&self) -> u64 {
-        self.told.len() as u64 + self.untold
+        self.count
     }
 
-    pub fn into_unreadable(mut self) -> Option<Unreadable> {
-        if let (Some(last), 1..) = (self.told.last(), self.untold) {
+    pub fn into_unreadable(self) -> Option<Unreadable> {
+        let mut faults: Vec<Fault> = self.told.into_iter().map(Alike::told).collect();
+        if let (Some(last), 1..) = (faults.last(), self.untold) {
             let help = last.help.clone();
-            self.told.push(Fault::new(format!("and {} more faults such as these", self.untold), help));
+            faults.push(Fault::new(format!("and {} more faults such as these", self.untold), help));
         }
-        (!self.told.is_empty()).then_some(Unreadable { faults: self.told })
+        (!faults.is_empty()).then_some(Unreadable { faults })
     }
 }

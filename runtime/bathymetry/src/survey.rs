@@ -109,6 +109,21 @@ impl Survey {
     }
 }
 
+/// Longitudes, degrees, whose count begins anew on the way eastward, at 180 or at 360, as going on.
+pub(crate) fn going_on(longitudes: &mut [f64]) {
+    let mut turned = 0.0;
+    for i in 1..longitudes.len() {
+        // What falls by less than half a turn descends.
+        if longitudes[i - 1] - (longitudes[i] + turned) > 180.0 {
+            turned += 360.0;
+        }
+        longitudes[i] += turned;
+    }
+    if turned > 0.0 && longitudes.last().is_some_and(|last| *last > 360.0) {
+        longitudes.iter_mut().for_each(|longitude| *longitude -= 360.0);
+    }
+}
+
 /// The axes of a geodetic survey from those in degrees.
 pub(crate) fn on_the_globe(latitude: Axis, longitude: Axis, faults: &mut Faults) -> Option<(Axis, Axis)> {
     let (north, east) = (latitude.times(PI / 180.0), longitude.times(PI / 180.0));

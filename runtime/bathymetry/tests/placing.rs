@@ -56,6 +56,21 @@ fn without_a_place_it_lies_where_it_was_made() {
     assert_eq!(scaled.message, "a survey scaled by 0.5 lies nowhere by itself");
 }
 
+/// Across the 180th meridian the count of longitudes begins anew, and the survey goes on.
+#[test]
+fn a_survey_lies_on_both_sides_of_the_180th_meridian() {
+    let survey = |lon: &str| read(format!("# lon {lon} n=3 lat 10..12 n=2 depth in metres\n1,2,3\n4,5,6\n").as_bytes());
+    let across = survey("179..-179").unwrap();
+    assert_eq!(across, survey("179..181").unwrap());
+    assert_eq!(survey("359..1").unwrap(), survey("-1..1").unwrap());
+    for longitude in [179.9, -179.9] {
+        let frame = TangentFrame { origin: Geodetic::from_degrees(11.0, longitude) };
+        let extent = across.extent(&Placing { at: None, ..MIDDLE }, Some(frame)).unwrap();
+        assert!(extent.south_west.east < -90_000.0 && extent.north_east.east > 90_000.0, "{extent:?}");
+    }
+    assert!(survey("-179..-181").is_err(), "it descends");
+}
+
 /// How far off its place in the mission's frame the north-eastern corner of a survey comes to lie, `d` degrees of both from the
 /// point where degrees become metres.
 fn bend(latitude: f64, (north, east): (f64, f64)) -> f64 {

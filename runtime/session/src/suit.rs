@@ -21,7 +21,7 @@ pub(crate) struct Held<'a> {
     pub origin: Option<Geodetic>,
 }
 
-/// What a mission misses in a world; a note is of what may well be meant.
+/// What a mission misses in a world.
 pub(crate) fn findings(script: &Script, mission: &str, held: &Held) -> Vec<Diagnostic> {
     let (name, world) = (held.name, held.world);
     let mut findings = unsensed(script, mission, name, world);
@@ -125,7 +125,8 @@ fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) 
 /// Areas that reach no further beyond what is known than this, m, are meant to be its own.
 const MARGIN: f64 = 0.5;
 
-/// What the area of the mission has beyond a surveyed bottom or a recorded plume: all of it is an error.
+/// What the area of the mission has beyond a surveyed bottom or a recorded plume, where what the vehicle meets is made up. All of it is
+/// an error.
 fn uncovered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
     let Some((area, written)) = script.operating_area(mission) else { return Vec::new() };
     let finding = |(what, region, beyond): (&str, Area, &str)| {
@@ -138,8 +139,8 @@ fn uncovered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
         }
         let message =
             format!("the area of the mission `{mission}` reaches {out:.0} m beyond the {what} of `{scenario}`");
-        let note = Diagnostic::note(Code::ScenariosOutside, written, message);
-        (out > MARGIN).then(|| note.help(format!("{lies}; {beyond}")))
+        let finding = Diagnostic::warning(Code::ScenariosOutside, written, message);
+        (out > MARGIN).then(|| finding.help(format!("{lies}; {beyond}")))
     };
     known(world).into_iter().filter_map(finding).collect()
 }

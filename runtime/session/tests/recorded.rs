@@ -121,7 +121,7 @@ fn an_area_where_nothing_was_recorded_is_told() {
 }
 
 #[test]
-fn an_area_that_reaches_beyond_the_record_is_noted_and_can_be_run_in() {
+fn an_area_that_reaches_beyond_the_record_is_warned_of_and_can_be_run_in() {
     for (center, said) in [
         ("point(north: 0 m, east: 366 m)", Some("reaches 366 m beyond the record of `here`")),
         ("point(north: 12 m, east: 3 m)", Some("reaches 12 m beyond the record of `here`")),
@@ -131,12 +131,14 @@ fn an_area_that_reaches_beyond_the_record_is_noted_and_can_be_run_in() {
     ] {
         let script = script(center, RECORD);
         let found = findings(&script);
-        assert!(found.iter().all(|finding| finding.severity == Severity::Note), "{center}");
+        assert!(found.iter().all(|finding| finding.severity == Severity::Warning), "{center}");
         let message = found.first().map(|finding| finding.message.as_str());
         assert!(
             message.is_some() == said.is_some() && message.is_none_or(|m| m.contains(said.unwrap())),
             "{message:?}"
         );
-        assert!(Plan::new(&script, "such.alb", None, None).is_ok());
+        // Whoever runs it is told, too.
+        let plan = Plan::new(&script, "such.alb", None, None).unwrap();
+        assert_eq!(plan.warnings.len(), usize::from(said.is_some()), "{center}");
     }
 }

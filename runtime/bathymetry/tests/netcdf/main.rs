@@ -95,6 +95,17 @@ fn no_data_is_named_whatever_stands_for_it() {
     wrong(not_a_number, "`elevation(0, 1)` is no data (NaN)");
 }
 
+/// One damage is one fault: the first cells are named, and the others counted.
+#[test]
+fn cells_of_one_damage_are_told_together() {
+    let damage = Doubles(vec![f64::NAN, f64::NAN, f64::NAN, f64::NAN, 1e300, f64::NAN]);
+    let found = faults(&numbers(damage, &[]));
+    let found: Vec<&str> = found.iter().map(|fault| fault.message.as_str()).collect();
+    let nothing = "`elevation(0, 0)` is no data (NaN); `elevation(0, 1)` is no data (NaN); `elevation(0, 2)` is no data \
+         (NaN); and 2 more such";
+    assert_eq!(found, [nothing, "`elevation(1, 1)` is 1e300: neither water nor land on earth"]);
+}
+
 /// The small file with other numbers, and what is said of them beside their unit.
 fn numbers(values: writer::Values, said: &[(&'static str, writer::Values)]) -> File {
     File::small().with("elevation", |v| {
@@ -235,6 +246,26 @@ fn degrees_in_all_their_spellings() {
     );
 }
 
+/// A band across the 180th meridian, or across the one of Greenwich, in the numbers that the file has for it.
+#[test]
+fn longitudes_that_begin_anew_go_on() {
+    let band = |places: [f64; 3]| {
+        let mut file = File::small();
+        file.dimensions = vec![("lat", 2), ("lon", 3)];
+        for (variable, (name, units)) in
+            file.variables.iter_mut().zip([("lat", "degrees_north"), ("lon", "degrees_east")])
+        {
+            (variable.name, variable.attributes) = (name, vec![("units", Text(units))]);
+        }
+        file.with("lon", |v| v.values = Doubles(places.to_vec()))
+    };
+    let read = |places| read(&band(places).bytes(1)).unwrap();
+    assert_eq!(read([179.5, -180.0, -179.5]), read([179.5, 180.0, 180.5]));
+    assert_eq!(read([359.5, 0.0, 0.5]), read([-0.5, 0.0, 0.5]));
+    wrong(band([0.5, 0.0, -0.5]), "`lon(1)` is 0 after 0.5: it must ascend");
+    wrong(band([0.0, 200.0, 400.0]), "longitudes run from 0 to 400 degrees");
+}
+
 #[test]
 fn a_single_row_and_a_bottom_without_water_are_told_as_what_they_are() {
     let mut row = File::small();
@@ -297,8 +328,8 @@ fn lengths_that_no_file_holds_take_no_room() {
     let mut file = File::small();
     file.dimensions = vec![("y", 2_000_000_000), ("x", 2_000_000_000)];
     let found = faults(&file);
-    assert_eq!(found[0].message, format!("`y` has 2000000000 values: {CELLS_MAX} are read at most"));
-    assert_eq!(found.len(), 2, "both axes are told: {found:#?}");
+    let both = ["y", "x"].map(|name| format!("`{name}` has 2000000000 values: {CELLS_MAX} are read at most"));
+    assert_eq!((found.len(), &found[0].message), (1, &both.join("; ")), "both axes are told");
     file.dimensions = vec![("y", 3_000_000), ("x", 3)];
     let begin = file.bytes(1).len() as u64 - (2 + 3 + 6) * 8;
     let (end, held) = (begin + 24_000_000, file.bytes(1).len());
