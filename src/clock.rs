@@ -1,14 +1,32 @@
 //! The wall clock, which only the command line may read, and keeping time by it.
 
 use serde::{Serialize, Serializer};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant, SystemTime};
 
 /// Seconds of a vehicle's time in a tick.
 pub const TICK: Duration = Duration::from_millis(100);
 
-/// Now.
+/// Now, since any moment: the host's one clock, by which silence, pauses and the end of a mission are told. It goes on while the machine
+/// sleeps, as the vehicle does; `Instant` does not on Linux, and serves where there is no other.
+pub fn now() -> Duration {
+    with_sleep().unwrap_or_else(|| awake().duration_since(*BEGUN))
+}
+
+#[cfg(target_os = "linux")]
+fn with_sleep() -> Option<Duration> {
+    nix::time::clock_gettime(nix::time::ClockId::CLOCK_BOOTTIME).ok().map(Duration::from)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn with_sleep() -> Option<Duration> {
+    None
+}
+
+static BEGUN: LazyLock<Instant> = LazyLock::new(awake);
+
 #[expect(clippy::disallowed_methods, reason = "how long something took on the wall is no part of any result")]
-pub fn now() -> Instant {
+fn awake() -> Instant {
     Instant::now()
 }
 
@@ -43,7 +61,7 @@ pub fn rate(text: &str) -> Result<f64, String> {
 
 /// The moments at which ticks are due.
 pub struct Pace {
-    next: Instant,
+    next: Duration,
     period: Duration,
 }
 
@@ -56,11 +74,24 @@ impl Pace {
     /// How long until the next tick is due, when it should come no faster than real time or as fast as was said.
     pub fn left(&self, in_real_time: bool) -> Duration {
         let slack = if in_real_time { TICK.saturating_sub(self.period) } else { Duration::ZERO };
-        (self.next + slack).saturating_duration_since(now())
+        (self.next + slack).saturating_sub(now())
     }
 
     /// A tick begins. One that is late does not make the others hurry.
     pub fn begin(&mut self) {
         self.next = now().max(self.next) + self.period;
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    /// The time since the machine began, in which it may have slept, as the system itself tells it.
+    #[test]
+    fn the_hosts_clock_counts_its_sleep() {
+        let uptime = std::fs::read_to_string("/proc/uptime").unwrap();
+        let uptime: f64 = uptime.split_whitespace().next().unwrap().parse().unwrap();
+        assert!((now().as_secs_f64() - uptime).abs() < 2.0, "{:?} {uptime}", now());
     }
 }

@@ -3,7 +3,7 @@
 use crate::clock::now;
 use std::fs::File;
 use std::io::{self, ErrorKind, Write};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// So long what was written may be lost with the machine's power.
 const STEP: Duration = Duration::from_secs(1);
@@ -11,7 +11,7 @@ const STEP: Duration = Duration::from_secs(1);
 /// Writes at once, and lets the disk have it in steps. Who writes waits for the disk: no control loop should.
 pub struct Synced {
     file: File,
-    due: Instant,
+    due: Duration,
     /// Whether anything was written since the disk had all of it.
     is_new: bool,
 }
