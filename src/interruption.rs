@@ -6,7 +6,7 @@ use signal_hook::iterator::Signals;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::Builder;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Who asks again sooner than this has not asked twice: a terminal that is closed sends several signals at once.
 const AGAIN: Duration = Duration::from_millis(300);
@@ -28,7 +28,8 @@ const OTHERS: [i32; 12] = [
     32,
     33,
 ];
-/// Those that cannot be caught, and those that tell of a fault of the program's own: it would be met again at once.
+/// Those that cannot be caught, and those that tell of a fault of the program's own: a handler would return to it at once
+/// ([`hear_faults`]).
 #[cfg(target_os = "linux")]
 const FATAL: [i32; 5] = [signal::SIGKILL, signal::SIGILL, signal::SIGFPE, signal::SIGSEGV, signal::SIGBUS];
 /// The last of those that have no name.
@@ -62,7 +63,7 @@ const LIMITS: [i32; 0] = [];
 #[derive(Default)]
 struct Heard {
     /// The first request, and when it came.
-    first: Option<(i32, Instant)>,
+    first: Option<(i32, Duration)>,
     /// Whether somebody looks at the flag, and ends in good order.
     is_looked_at: bool,
     /// So many files are in the making, and would be left behind.
@@ -180,21 +181,49 @@ fn listen() {
         // One that the system does not have is none.
         requests().filter(|request| is_heard(*request, ignored)).for_each(|request| _ = handle.add_signal(request));
         let listening = Builder::new().name("signals".into()).spawn(move || {
-            for request in signals.forever() {
-                RAISED.store(true, Ordering::Relaxed);
-                let mut heard = heard();
-                let (_, begun) = *heard.first.get_or_insert_with(|| (request, now()));
-                let is_second = now().duration_since(begun) >= AGAIN && !LIMITS.contains(&request);
-                if is_second || heard.left_alone().is_some() {
-                    end(request);
-                }
-            }
+            signals.forever().for_each(hear);
         });
         if listening.is_err() {
             handle.close();
         }
     });
 }
+
+/// A request has come.
+fn hear(request: i32) {
+    RAISED.store(true, Ordering::Relaxed);
+    let mut heard = heard();
+    let (_, begun) = *heard.first.get_or_insert_with(|| (request, now()));
+    let is_second = now().saturating_sub(begun) >= AGAIN && !LIMITS.contains(&request);
+    if is_second || heard.left_alone().is_some() {
+        end(request);
+    }
+}
+
+/// Hears what tells of a fault of the program's own, where somebody else sends it: call it before any other thread begins. No handler
+/// may return from a fault; but one that is blocked waits for who asks for it when it was sent, and ends the program as ever when it is met.
+/// What is lost is the word of an overflown stack.
+#[cfg(unix)]
+pub fn hear_faults() {
+    use nix::sys::signal::{SigSet, Signal};
+    let mut faults = SigSet::empty();
+    [Signal::SIGILL, Signal::SIGFPE, Signal::SIGSEGV, Signal::SIGBUS].into_iter().for_each(|fault| faults.add(fault));
+    if faults.thread_block().is_err() {
+        return;
+    }
+    let hearing = Builder::new().name("faults".into()).spawn(move || {
+        while let Ok(fault) = faults.wait() {
+            hear(fault as i32);
+        }
+    });
+    if hearing.is_err() {
+        let _ = faults.thread_unblock();
+    }
+}
+
+/// There is no such thing.
+#[cfg(not(unix))]
+pub fn hear_faults() {}
 
 /// Ends the program as a signal does that nobody hears.
 fn end(request: i32) {

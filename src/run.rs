@@ -14,7 +14,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Reports that are printed; the trace has all of them.
 const REPORTS_TOLD_MAX: usize = 20;
@@ -59,6 +59,7 @@ pub struct Run {
 impl Run {
     /// Runs the mission to its end.
     pub fn run(&self) -> Exit {
+        interruption::hear_faults();
         let script = match self.choice.script(&self.script) {
             Ok(script) => script,
             Err(exit) => return exit,
@@ -189,13 +190,13 @@ impl Run {
 pub struct Telling {
     json: bool,
     on_link: bool,
-    started: Instant,
+    started: Duration,
 }
 
 impl Telling {
     /// Seconds since the run was asked for.
     pub fn wall_s(&self) -> f64 {
-        now().duration_since(self.started).as_secs_f64()
+        now().saturating_sub(self.started).as_secs_f64()
     }
 
     /// Tells it.
@@ -281,8 +282,7 @@ fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
     lines
 }
 
-/// The time since the run began, by the wall clock.
+/// The time of the machine that runs the mission.
 fn host_clock() -> HostClock {
-    let begun = now();
-    Box::new(move || now().duration_since(begun))
+    Box::new(now)
 }

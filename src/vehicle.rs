@@ -47,6 +47,7 @@ pub struct Vehicle {
 impl Vehicle {
     /// Serves until the person interrupts.
     pub fn run(&self) -> Exit {
+        interruption::hear_faults();
         let url = match WrittenUrl::parse(&self.link) {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),

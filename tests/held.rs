@@ -116,7 +116,7 @@ fn every_signal_that_ends_a_program_gives_the_vehicle_back() {
     let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
     let signals = ["INT", "TERM", "QUIT", "HUP", "USR1", "USR2", "ALRM", "VTALRM", "PROF", "IO", "ABRT", "XCPU"]
         .into_iter()
-        .chain(["TRAP", "SYS", "PWR", "STKFLT", "34", "50", "64"]);
+        .chain(["TRAP", "SYS", "PWR", "STKFLT", "34", "50", "64", "ILL", "FPE", "SEGV", "BUS"]);
     for (count, signal) in (1..).zip(signals) {
         let mut run = vehicle.mission(&["--mission", "stay", "--no-out"]).spawn().unwrap();
         eventually(signal, || (vehicle.said().matches("override taken").count() == count).then_some(()));
