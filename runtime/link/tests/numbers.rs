@@ -4,7 +4,7 @@
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{Controller, FrontSeat, Rows, seal};
-use albacore_sim::{Scenario, Simulator, VehicleSetup};
+use albacore_sim::{Disorder, Fault, Scenario, Sensor, Simulator, Trouble, VehicleSetup};
 use albacore_vehicle::{Limits, Snapshot, Vertical};
 
 /// As a vehicle may send them: all that has numbers.
@@ -180,4 +180,47 @@ fn a_command_that_makes_no_sense_is_answered_with_an_error() {
     let told: Vec<String> = vehicle.take_happenings().iter().map(ToString::to_string).collect();
     let absurd = told.iter().find(|told| told.contains("Altitude")).unwrap();
     assert!(absurd.starts_with("refused `#C,Depth,Altitude,999") && absurd.len() < 120, "{absurd}");
+}
+
+/// The attack: a flood of questions, each of which was answered, let the vehicle's clock lag. The newest counts.
+#[test]
+fn a_flood_is_taken_in_to_an_end() {
+    let mut vehicle = vehicle();
+    vehicle.tick(seal("E,1").as_bytes()).unwrap();
+    vehicle.take_output();
+    let flood = seal("v").repeat(100_000) + &seal("C,Nonsense").repeat(100_000) + &seal("C,Heading,Goal,90.0");
+    vehicle.tick(flood.as_bytes()).unwrap();
+    let said = String::from_utf8(vehicle.take_output()).unwrap();
+    assert!(said.lines().count() < 1_000, "{}", said.lines().count());
+    assert!(said.contains("#C,Heading,Goal,90.0"), "{}", said.len());
+    vehicle.tick(seal("v").repeat(500).as_bytes()).unwrap();
+    let said = String::from_utf8(vehicle.take_output()).unwrap();
+    assert_eq!(said.matches("#V,").count(), 1, "{said}");
+}
+
+/// It answers by what it does, and not by what its faulty sounder tells.
+#[test]
+fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
+    for size in [20.0, -20.0] {
+        let limits = Some(Limits { altitude: 2.0, ..Limits::default() });
+        let trouble = Trouble::Sensor(Sensor::Altitude, Disorder::Wrong(size));
+        let faults = vec![Fault { trouble, from: 0.0, to: None }];
+        let simulator = Simulator::new(&Scenario { limits, faults, ..Scenario::default() }, 1).unwrap();
+        let water = simulator.water_depth(Point::ORIGIN);
+        let rows: Rows = "100x20x2".parse().unwrap();
+        let start = (Point::ORIGIN, Heading::NORTH);
+        let mut vehicle = FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
+        vehicle.tick(seal("E,1").as_bytes()).unwrap();
+        for (above, accepted) in [(1.0, false), (3.0, true)] {
+            vehicle.take_output();
+            vehicle.tick(seal(&format!("C,Depth,Depth,{:.2}", water - above)).as_bytes()).unwrap();
+            let said = String::from_utf8(vehicle.take_output()).unwrap();
+            assert_eq!(said.contains("#C,Depth"), accepted, "{size}, {above}: {said}");
+            assert_eq!(
+                said.contains("#E,2,is asked to come nearer to the bottom"),
+                !accepted,
+                "{size}, {above}: {said}"
+            );
+        }
+    }
 }

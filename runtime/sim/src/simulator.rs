@@ -14,7 +14,7 @@ use albacore_vehicle::channels::{
     WATER_DEPTH,
 };
 use albacore_vehicle::{
-    Channel, Command, Control, LimitWatch, Limits, Snapshot, TICK_S, Vehicle, VehicleError, Vertical,
+    Beyond, Channel, Command, Control, LimitWatch, Limits, Snapshot, TICK_S, Vehicle, VehicleError, Vertical,
 };
 
 /// Ticks between what the vehicle tells of its own mission.
@@ -428,6 +428,10 @@ impl Vehicle for Simulator {
 
     fn limits(&self) -> Limits {
         self.watch.limits().clone()
+    }
+
+    fn heed(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
+        self.watch.limits().heed(asked, Some(self.water_depth_here()), tell);
     }
 
     fn held(&self) -> Option<Command> {

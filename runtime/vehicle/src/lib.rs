@@ -171,6 +171,11 @@ pub trait Vehicle {
         Limits::default()
     }
 
+    /// What of a command is beyond its own limits, by all that it knows of itself and of the water.
+    fn heed(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
+        self.limits().heed(asked, None, tell);
+    }
+
     /// What it does now: the command that it follows, as far as its own limits let it, whoever gave it. None when it follows
     /// none, or cannot tell.
     fn held(&self) -> Option<Command> {

@@ -7,7 +7,7 @@ use super::controller::FULL_SCALE_VOLTS;
 use super::fields::DAY_MS;
 use super::frame::{Deframer, seal};
 use super::grounding;
-use super::happening::Happening;
+use super::happening::{Happening, shortened};
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
 use super::seawater;
@@ -21,6 +21,8 @@ use albacore_vehicle::{Beyond, Command, Control, Gate, Handover, Snapshot, TICK_
 pub(super) const TIMEOUT_TICKS: u64 = 50;
 /// Ticks without a message after which who serves faster than real time should wait for the guest.
 const PATIENCE_TICKS: u64 = 10;
+/// Bytes that are taken in of a tick: what a line of 819,200 baud brings in one.
+const TAKEN_MAX: usize = 8192;
 /// Ticks between messages of the profiler.
 const ADCP_TICKS: u64 = 10;
 /// The day's time at tick 0: noon.
@@ -36,9 +38,6 @@ const OUT_OF_BOUNDS: u32 = 2;
 const NOT_SERVED: u32 = 3;
 // 4 and 5 tell of the bottom: `grounding`.
 const NOT_UNDERSTOOD: u32 = 6;
-
-/// So much of a message that cannot be understood is shown, bytes.
-const SHOWN: usize = 40;
 
 /// What a guest has asked for; it holds until something else is asked for.
 #[derive(Clone, Copy)]
@@ -98,6 +97,8 @@ pub struct FrontSeat<V> {
     aground: bool,
     /// Why something was refused last, and when.
     refused: Option<(&'static str, u64)>,
+    /// Whether somebody asks for its version.
+    asked_version: bool,
     out: Vec<u8>,
     happenings: Vec<Happening>,
 }
@@ -127,6 +128,7 @@ impl<V: Vehicle> FrontSeat<V> {
             given_up: false,
             aground: false,
             refused: None,
+            asked_version: false,
             out: Vec::new(),
             happenings,
         }
@@ -173,8 +175,9 @@ impl<V: Vehicle> FrontSeat<V> {
         self.is_driven() && self.silent >= PATIENCE_TICKS
     }
 
-    /// One tick, with the bytes that came since the last.
+    /// One tick, with the bytes that came since the last: the newest of them, for its time is bounded too.
     pub fn tick(&mut self, bytes: &[u8]) -> Result<(), VehicleError> {
+        let bytes = &bytes[bytes.len().saturating_sub(TAKEN_MAX)..];
         self.vehicle.sense(&mut self.snapshot)?;
         if self.tick == 0 {
             self.vehicle.take_over()?;
@@ -215,6 +218,9 @@ impl<V: Vehicle> FrontSeat<V> {
         for message in std::mem::take(&mut self.heard) {
             self.obey(&message);
         }
+        if std::mem::take(&mut self.asked_version) {
+            self.say(&FromVehicle::Version("albacore front seat".into()));
+        }
         if self.is_driven() && self.silent >= TIMEOUT_TICKS {
             self.happenings.push(Happening::TimedOut);
             self.leave();
@@ -235,7 +241,8 @@ impl<V: Vehicle> FrontSeat<V> {
                 self.leave();
             }
             ToVehicle::ClosestPoint(closest) => self.plan.return_to_closest_point(*closest),
-            ToVehicle::VersionRequest => self.say(&FromVehicle::Version("albacore front seat".into())),
+            // However often it was asked in a tick.
+            ToVehicle::VersionRequest => self.asked_version = true,
             ToVehicle::Query(_) | ToVehicle::KeepAlive(_) | ToVehicle::Other(_) => {}
             command => self.set_goal(command),
         }
@@ -293,8 +300,7 @@ impl<V: Vehicle> FrontSeat<V> {
     /// notice of that itself.
     fn answer_goal(&mut self, goal: &ToVehicle, wanted: Goals) {
         let (mut of_speed, mut of_vertical) = (None, None);
-        let water_depth = self.senses.altitude.map(|altitude| self.senses.depth + altitude);
-        self.vehicle.limits().heed(&wanted.command(), water_depth, &mut |beyond| match beyond {
+        self.vehicle.heed(&wanted.command(), &mut |beyond| match beyond {
             Beyond::Fast(_) | Beyond::Astern => of_speed = Some(beyond),
             Beyond::Deep(_) | Beyond::Low(_) | Beyond::High => of_vertical = Some(beyond),
         });
@@ -481,14 +487,6 @@ impl<V: Vehicle> FrontSeat<V> {
 
     fn say(&mut self, message: &FromVehicle) {
         self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
-    }
-}
-
-/// As much of a message as a person needs to know it again.
-fn shortened(body: &str) -> String {
-    match body.get(..SHOWN) {
-        Some(head) if body.len() > SHOWN => format!("{head}…"),
-        _ => body.to_string(),
     }
 }
 

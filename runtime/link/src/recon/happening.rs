@@ -6,6 +6,9 @@ use albacore_guidance::Milestone;
 use albacore_vehicle::TICK_S;
 use std::fmt;
 
+/// So much of a message that cannot be understood is shown, bytes.
+const SHOWN: usize = 40;
+
 /// What happened, for who watches.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Happening {
@@ -54,5 +57,13 @@ impl fmt::Display for Happening {
             Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
             Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
         }
+    }
+}
+
+/// As much of a message as a person needs to know it again.
+pub(super) fn shortened(body: &str) -> String {
+    match body.get(..SHOWN) {
+        Some(head) if body.len() > SHOWN => format!("{head}…"),
+        _ => body.to_string(),
     }
 }
