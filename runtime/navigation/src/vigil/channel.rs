@@ -183,6 +183,7 @@ impl Channel {
             self.reading = Some((reading, tick));
             return Some(Told { reading, same: 0, lively: false });
         };
+        let follows = self.kind.can_follow(reading, before, gap as f64 * TICK_S);
         if before == reading {
             self.same += 1;
             // It is well again when it changes, not when it happens to fit what it says.
@@ -195,7 +196,10 @@ impl Channel {
                 self.same_most = self.same_most.max(self.same);
             }
             self.same = 0;
-            self.learn(reading[0] - before[0]);
+            // What no vehicle can do is no noise of a sensor that is well.
+            if follows {
+                self.learn(reading[0] - before[0]);
+            }
         }
         let since = if self.same > 0 { since } else { tick };
         self.reading = Some((reading, since));
@@ -203,7 +207,7 @@ impl Channel {
         if lively && self.kind != Kind::Flow && self.same >= self.stuck_samples(reading[0]) {
             sights.see(Sight::Stuck(self.kind));
         }
-        if !self.kind.can_follow(reading, before, gap as f64 * TICK_S) {
+        if !follows {
             sights.see(Sight::Jumps(self.kind));
             return None;
         }

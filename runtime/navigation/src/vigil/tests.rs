@@ -140,3 +140,23 @@ fn rounding_is_no_noise() {
     });
     assert_eq!(told, []);
 }
+
+/// Over level ground an altitude may well rest, whatever its sounder told before.
+#[test]
+fn garbage_is_no_noise_by_which_a_rest_is_stuck() {
+    let mut vigil = Vigil::default();
+    for tick in 0..1200_u64 {
+        let garbage =
+            ((tick + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(31).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 51)
+                as f64;
+        let altitude = match tick {
+            0..200 => 22.0 - 0.05 * tick as f64,
+            200..600 => garbage,
+            _ => 12.0,
+        };
+        let mut snapshot = Snapshot::default();
+        snapshot.push(ALTITUDE, &[altitude]);
+        let sighted = vigil.look(tick, &snapshot, None);
+        assert!(sighted.iter().all(|told| told.sight != Sight::Stuck(Kind::Altitude)), "{tick}: {sighted:?}");
+    }
+}
