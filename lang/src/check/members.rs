@@ -75,7 +75,10 @@ impl<'t> Checker<'t> {
         }
         if let Some(module) = self.module_named(base) {
             return match self.names[module].get(&member.node).cloned() {
-                Some(def) => self.def_value(&def, &member.node, span),
+                Some(def) => {
+                    let module = if let tree::ExprKind::Name(name) = &base.kind { name } else { "" };
+                    self.def_value(&def, &format!("{module}.{}", member.node), span)
+                }
                 None => {
                     self.no_such_name(module, member);
                     self.unknown(span)

@@ -26,7 +26,11 @@ impl<'t> Checker<'t> {
             return value;
         }
         if value.range.high <= 0.0 {
-            let how = if value.range.high < 0.0 { "negative" } else { "zero" };
+            let how = match value.range {
+                Interval { high, .. } if high < 0.0 => "negative",
+                Interval { low, .. } if low < 0.0 => "never more than 0 s",
+                _ => "zero",
+            };
             self.report(
                 Diagnostic::error(Code::RangesDuration, value.span, format!("{what} is {how}"))
                     .help("write a time longer than 0 s"),
