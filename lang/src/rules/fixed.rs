@@ -5,7 +5,8 @@
 use super::places;
 use crate::hir::{Activity, Builtin, Expr, ExprKind, Hir, StmtKind, VarId, VarKind, children};
 use crate::source::Span;
-use albacore_geometry::{Area, Geodetic, Heading, Point, TangentFrame, Vector};
+use crate::types::Type;
+use albacore_geometry::{Area, Geodetic, Heading, Line, Point, TangentFrame, Vector, farthest_corner, row};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A name stands for so many values at most; further ones are not looked at.
@@ -27,12 +28,22 @@ enum Value {
 /// A value, and where it is written.
 type Written = (Span, Value);
 
+/// What a name is set to, by the statement that sets it.
+#[derive(Clone, Copy, Debug)]
+enum Source<'h> {
+    Value(&'h Expr),
+    /// Each edge of an area.
+    Edges(&'h Expr),
+    /// Each row of an area, so far apart at most.
+    Rows(&'h Expr, &'h Expr),
+}
+
 /// The constants of a mission with all that it calls.
 pub(super) struct Fixed<'h> {
     hir: &'h Hir,
     frame: Option<TangentFrame>,
     /// What each name is set to, with the activity in which that is written.
-    set: BTreeMap<Name, Vec<(usize, &'h Expr)>>,
+    set: BTreeMap<Name, Vec<(usize, Source<'h>)>>,
     /// The names that conditions ask about.
     tested: BTreeSet<Name>,
     known: BTreeMap<Name, Vec<Written>>,
@@ -45,7 +56,7 @@ impl<'h> Fixed<'h> {
         let mut fixed = Fixed { hir, frame, set, tested, known };
         let defaults = hir.activities[mission].defaults.iter().enumerate();
         for (param, default) in defaults.filter_map(|(param, default)| Some((param, default.as_ref()?))) {
-            fixed.sets((mission, param), mission, default);
+            fixed.sets((mission, param), mission, Source::Value(default));
         }
         for id in hir.called_from(mission) {
             fixed.look_through(id);
@@ -58,8 +69,8 @@ impl<'h> Fixed<'h> {
         self.hir.activities[id].owner.unwrap_or(id)
     }
 
-    fn sets(&mut self, name: Name, unit: usize, e: &'h Expr) {
-        self.set.entry(name).or_default().push((unit, e));
+    fn sets(&mut self, name: Name, unit: usize, source: Source<'h>) {
+        self.set.entry(name).or_default().push((unit, source));
     }
 
     fn look_through(&mut self, id: usize) {
@@ -67,21 +78,23 @@ impl<'h> Fixed<'h> {
         let activity: &'h Activity = &hir.activities[id];
         for decl in &activity.decls {
             if let crate::hir::Decl::Area(var, e) = decl {
-                self.sets((unit, *var), unit, e);
+                self.sets((unit, *var), unit, Source::Value(e));
             }
         }
         for (called, args) in activity.calls_with_args() {
             if hir.activities[called].owner.is_none() {
-                args.iter().enumerate().for_each(|(param, e)| self.sets((called, param), unit, e));
+                args.iter().enumerate().for_each(|(param, e)| self.sets((called, param), unit, Source::Value(e)));
             }
         }
         for block in activity.blocks() {
             block.each(&mut |stmt| match &stmt.kind {
                 StmtKind::Set(var, e) if hir.activities[unit].vars[*var].kind == VarKind::Let => {
-                    self.sets((unit, *var), unit, e);
+                    self.sets((unit, *var), unit, Source::Value(e));
                 }
+                StmtKind::ForEdges { var, area, .. } => self.sets((unit, *var), unit, Source::Edges(area)),
+                StmtKind::ForRows { var, area, step, .. } => self.sets((unit, *var), unit, Source::Rows(area, step)),
                 StmtKind::ForList { var, list: Expr { kind: ExprKind::List(elements), .. }, .. } => {
-                    elements.iter().for_each(|e| self.sets((unit, *var), unit, e));
+                    elements.iter().for_each(|e| self.sets((unit, *var), unit, Source::Value(e)));
                 }
                 StmtKind::If(e, ..) | StmtKind::Match(e, ..) | StmtKind::While { condition: e, .. } => {
                     self.tests(unit, e);
@@ -93,7 +106,7 @@ impl<'h> Fixed<'h> {
 
     fn tests(&mut self, unit: usize, e: &Expr) {
         if let ExprKind::Var(var) = e.kind
-            && e.ty != crate::types::Type::Area
+            && e.ty != Type::Area
         {
             self.tested.insert((unit, var));
         }
@@ -127,11 +140,37 @@ impl<'h> Fixed<'h> {
             ExprKind::Do(Builtin::Rectangle | Builtin::Polygon, _) => {
                 places::area(e, self.frame).map(|area| (e.span, Value::Area(area))).into_iter().collect()
             }
+            ExprKind::Part(whole, at) => {
+                let values = self.values(unit, whole).into_iter();
+                values.filter_map(|(span, value)| Some((span, part(value, *at, &e.ty)?))).collect()
+            }
             ExprKind::Do(op, operands) => {
                 let operands = operands.iter().map(|operand| self.values(unit, operand)).collect();
                 together(e.span, operands, |values| result(*op, values))
             }
             _ => Vec::new(),
+        }
+    }
+
+    fn values_of(&mut self, unit: usize, source: Source<'h>) -> Vec<Written> {
+        let lines = |written: Vec<Written>, of: &dyn Fn(&Area) -> Vec<Line>| {
+            let lines = written.into_iter().flat_map(|(span, value)| {
+                let lines = if let Value::Area(area) = value { of(&area) } else { Vec::new() };
+                lines.into_iter().map(move |line| (span, Value::Line(line.start, line.end)))
+            });
+            lines.collect()
+        };
+        match source {
+            Source::Value(e) => self.values(unit, e),
+            Source::Edges(area) => lines(self.values(unit, area), &|area| area.edges().map(|edge| edge.line).collect()),
+            Source::Rows(area, step) => {
+                let [(_, Value::Number(step))] = self.values(unit, step)[..] else { return Vec::new() };
+                // Where they begin changes their order and their direction alone.
+                let edges = |area: &Area| area.edges().collect::<Vec<_>>();
+                let nth = |area: &Area, n: u32| row(edges(area).into_iter(), step, area.center(), n);
+                let rows = |area: &Area| (0..VALUES_MAX as u32).map_while(|n| nth(area, n)).collect();
+                lines(self.values(unit, area), &rows)
+            }
         }
     }
 
@@ -145,8 +184,8 @@ impl<'h> Fixed<'h> {
         // Whoever comes here again on the way asks for what is made of itself.
         self.known.insert(name, Vec::new());
         let mut values = Vec::new();
-        for (unit, e) in self.set.get(&name).cloned().unwrap_or_default() {
-            values.extend(self.values(unit, e));
+        for (unit, source) in self.set.get(&name).cloned().unwrap_or_default() {
+            values.extend(self.values_of(unit, source));
             if values.len() > VALUES_MAX {
                 break;
             }
@@ -175,7 +214,7 @@ fn together(span: Span, operands: Vec<Vec<Written>>, of: impl Fn(&[Value]) -> Op
 }
 
 fn result(op: Builtin, operands: &[Value]) -> Option<Value> {
-    use Value::{Area, Line, Number, Pair};
+    use Value::{Area, Number, Pair};
     let vector = |p: &Point| Vector::new(p.north, p.east);
     let pair = |v: Vector| Pair(Point::new(v.north, v.east));
     Some(match (op, operands) {
@@ -186,8 +225,28 @@ fn result(op: Builtin, operands: &[Value]) -> Option<Value> {
         (Builtin::SubVector, [Pair(a), Pair(b)]) => pair(vector(a) - vector(b)),
         (Builtin::Scale, [Pair(v), Number(by)]) => pair(*by * vector(v)),
         (Builtin::Toward, [Number(length), Number(heading)]) => pair(*length * Heading::from_radians(*heading).unit()),
-        (Builtin::Line, [Pair(start), Pair(end)]) => Line(*start, *end),
+        (Builtin::Line, [Pair(start), Pair(end)]) => Value::Line(*start, *end),
         (Builtin::Center, [Area(area)]) => Pair(area.center()),
+        (Builtin::Corner, [Area(area), Number(heading), near @ ..]) => {
+            let near = match near {
+                [Pair(near)] => *near,
+                _ => area.center(),
+            };
+            Pair(farthest_corner(area.corners(), Heading::from_radians(*heading), near))
+        }
+        _ => return None,
+    })
+}
+
+/// A part of a value, by the place of its words.
+fn part(whole: Value, at: u32, ty: &Type) -> Option<Value> {
+    Some(match (whole, at, ty) {
+        // The line of an edge.
+        (line @ Value::Line(..), 0, Type::Line) => line,
+        (Value::Line(start, _), 0, Type::Point) => Value::Pair(start),
+        (Value::Line(_, end), 2, Type::Point) => Value::Pair(end),
+        (Value::Pair(p), 0, Type::Quantity(_)) => Value::Number(p.north),
+        (Value::Pair(p), 1, Type::Quantity(_)) => Value::Number(p.east),
         _ => return None,
     })
 }

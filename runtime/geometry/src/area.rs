@@ -21,6 +21,9 @@ pub const PLACE_MAX_M: f64 = 1e8;
 /// Corners closer together than this, in metres, are one corner.
 const CORNER_SEPARATION_M: f64 = 1e-3;
 
+/// Corners whose coordinates along a direction differ by less than this, in metres, are equally far.
+const EQUALLY_FAR_M: f64 = 1.0;
+
 /// A convex polygon in the tangent plane, its corners clockwise seen from above.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Area {
@@ -61,6 +64,18 @@ impl std::fmt::Display for AreaError {
 }
 
 impl std::error::Error for AreaError {}
+
+/// Of corners the one that lies farthest along a heading; of those equally far the one nearest to a point.
+pub fn farthest_corner(corners: &[Point], heading: Heading, near: Point) -> Point {
+    let far = corners.iter().map(|c| c.along(heading)).fold(f64::NEG_INFINITY, f64::max);
+    let mut best: Option<Point> = None;
+    for &c in corners.iter().filter(|c| c.along(heading) > far - EQUALLY_FAR_M) {
+        if best.is_none_or(|b| c.distance(near) < b.distance(near)) {
+            best = Some(c);
+        }
+    }
+    best.unwrap_or(near)
+}
 
 impl Edge {
     /// Metres from the edge's line, positive inside the area and negative outside.

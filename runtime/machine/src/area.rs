@@ -2,11 +2,8 @@
 
 use crate::state::Run;
 use albacore_arithmetic::bounded;
-use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector, row};
+use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector, farthest_corner, row};
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Slot};
-
-/// Corners whose coordinates along a direction differ by less than this, in metres, are equally far.
-const EQUALLY_FAR_M: f64 = 1.0;
 
 impl Run {
     pub fn point(&self, at: Slot) -> Point {
@@ -106,14 +103,7 @@ impl Run {
     /// The corner that lies farthest along a heading; of those equally far the one nearest to a point.
     pub fn farthest_corner(&self, area: Slot, heading: Heading, near: Point) -> Point {
         let corners: Vec<Point> = (0..self.corners(area)).map(|i| self.corner_point(area, i)).collect();
-        let far = corners.iter().map(|c| c.along(heading)).fold(f64::NEG_INFINITY, f64::max);
-        let mut best: Option<Point> = None;
-        for c in corners.into_iter().filter(|c| c.along(heading) > far - EQUALLY_FAR_M) {
-            if best.is_none_or(|b| c.distance(near) < b.distance(near)) {
-                best = Some(c);
-            }
-        }
-        best.unwrap_or(near)
+        farthest_corner(&corners, heading, near)
     }
 
     /// Where a ray from a point leaves the area; the point itself when it is outside.
