@@ -20,6 +20,9 @@ pub const FAR_M: f64 = 10_000.0;
 /// Goals no farther outside than this, m, are meant to be on the edge: a thousandth of a minute is 1.9 m.
 const GOAL_MARGIN_M: f64 = 2.0;
 
+/// What is no farther outside than this, m, is on the edge: no better do two ways to write one place agree.
+const EDGE_MARGIN_M: f64 = 0.01;
+
 /// The findings for the scenario that a mission names, as far as its places and the area are constants.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
@@ -53,7 +56,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         let place = clause.args.iter().find(|(name, _)| name == param)?;
         let ClauseArg::Value(e) = &place.1 else { return None };
         let out = -area.gap(point(e, frame)?);
-        (out > 0.0 && out <= most).then(|| finding(&activity.name, written, e.span, what, out))
+        (out > EDGE_MARGIN_M && out <= most).then(|| finding(&activity.name, written, e.span, what, out))
     };
     scenario.clauses.iter().filter_map(|clause| outside(clause).or_else(|| far(clause))).collect()
 }
