@@ -34,3 +34,26 @@ fn told(path: &Path, options: &[&str]) -> String {
     assert!(output.stdout.is_empty(), "findings go to standard error");
     String::from_utf8(output.stderr).unwrap()
 }
+
+/// A file in another encoding is one mistake, not one for each of its bytes.
+#[test]
+fn what_is_no_text_is_told_once() {
+    let script = "// Tiefe 3 m, öffnet nichts.\nconst shoal: Depth = 3 m\n";
+    let wide = |order: fn(u16) -> [u8; 2]| script.encode_utf16().flat_map(order).collect::<Vec<u8>>();
+    let marked = |mark: [u8; 2], bytes: Vec<u8>| [mark.to_vec(), bytes].concat();
+    let utf16 = "is UTF-16\n  help: save it as UTF-8\n";
+    let cases = [
+        ("little", wide(u16::to_le_bytes), utf16),
+        ("big", wide(u16::to_be_bytes), utf16),
+        ("little-marked", marked([0xFF, 0xFE], wide(u16::to_le_bytes)), utf16),
+        ("big-marked", marked([0xFE, 0xFF], wide(u16::to_be_bytes)), utf16),
+        ("zeros", vec![0; 4096], "is no text: it is full of bytes that are zero\n  help: save it as UTF-8\n"),
+    ];
+    for (name, bytes, expected) in cases {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("no-text-{name}.alb"));
+        std::fs::write(&path, bytes).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_albacore")).arg("check").arg(&path).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(said, format!("error: `{}` {expected}", path.display()));
+    }
+}

@@ -131,6 +131,9 @@ pub fn read_input(input: impl Read) -> Result<Source, FileError> {
 }
 
 fn source(name: &str, shown: &str, bytes: Vec<u8>) -> Result<Source, FileError> {
+    if let Some(what) = no_text(&bytes) {
+        return Err(FileError { message: format!("{shown} {what}"), help: Some("save it as UTF-8".into()) });
+    }
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Source { name: name.into(), text: text.into() }),
         Err(error) => {
@@ -140,6 +143,19 @@ fn source(name: &str, shown: &str, bytes: Vec<u8>) -> Result<Source, FileError> 
             Err(FileError { message, help: Some("save it as UTF-8".into()) })
         }
     }
+}
+
+/// What bytes are that begin with the mark of UTF-16, or of which a fourth is zero: in UTF-16 that is one byte of every letter of
+/// the language, always the first or always the second. A stray zero in a text is told at its place.
+fn no_text(bytes: &[u8]) -> Option<&'static str> {
+    let zeros = |odd: usize| bytes.iter().skip(odd).step_by(2).filter(|&&byte| byte == 0).count();
+    let (even, odd) = (zeros(0), zeros(1));
+    let is_many = even + odd > bytes.len() / 4;
+    let is_wide = is_many && even.min(odd) * 4 < even.max(odd);
+    if is_wide || bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
+        return Some("is UTF-16");
+    }
+    is_many.then_some("is no text: it is full of bytes that are zero")
 }
 
 fn larger(shown: &str, most: u64) -> FileError {
