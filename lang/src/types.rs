@@ -41,6 +41,8 @@ pub enum Type {
 pub struct RecordInfo {
     /// Its name.
     pub name: String,
+    /// The module that declares it; empty for the file that is run.
+    pub module: String,
     /// Its fields.
     pub fields: Vec<(String, Type)>,
 }
@@ -50,8 +52,15 @@ pub struct RecordInfo {
 pub struct EnumInfo {
     /// Its name.
     pub name: String,
+    /// The module that declares it; empty for the file that is run.
+    pub module: String,
     /// Its variants.
     pub variants: Vec<String>,
+}
+
+/// A name that several modules declare, as it is written where they are imported.
+fn qualified(module: &str, name: &str) -> String {
+    if module.is_empty() { name.to_string() } else { format!("{module}.{name}") }
 }
 
 /// The declared types of a program.
@@ -115,8 +124,16 @@ impl TypeTable {
             Type::Area => "Area".into(),
             Type::Edge => "Edge".into(),
             Type::Line => "Line".into(),
-            Type::Record(id) => self.records[*id].name.clone(),
-            Type::Enum(id) => self.enums[*id].name.clone(),
+            Type::Record(id) => {
+                let RecordInfo { name, module, .. } = &self.records[*id];
+                let twice = self.records.iter().filter(|other| other.name == *name).count() > 1;
+                if twice { qualified(module, name) } else { name.clone() }
+            }
+            Type::Enum(id) => {
+                let EnumInfo { name, module, .. } = &self.enums[*id];
+                let twice = self.enums.iter().filter(|other| other.name == *name).count() > 1;
+                if twice { qualified(module, name) } else { name.clone() }
+            }
             Type::Optional(inner) => format!("{}?", self.name(inner)),
             Type::List(inner, capacity) => format!("[{}; {capacity}]", self.name(inner)),
             Type::None => "none".into(),

@@ -121,14 +121,22 @@ impl<'t> Checker<'t> {
             Item::Enum { name, variants } => {
                 let id = self.types.enums.len();
                 let variant_names = variants.iter().map(|v| v.node.clone()).collect();
-                self.types.enums.push(EnumInfo { name: name.node.clone(), variants: variant_names });
+                self.types.enums.push(EnumInfo {
+                    name: name.node.clone(),
+                    module: self.modules[m].name.clone(),
+                    variants: variant_names,
+                });
                 self.define(m, name, Def::Enum(id));
                 for (i, variant) in variants.iter().enumerate() {
                     self.define(m, variant, Def::Variant(id, i));
                 }
             }
             Item::Record { name, .. } => {
-                self.types.records.push(RecordInfo { name: name.node.clone(), fields: Vec::new() });
+                self.types.records.push(RecordInfo {
+                    name: name.node.clone(),
+                    module: self.modules[m].name.clone(),
+                    fields: Vec::new(),
+                });
                 self.define(m, name, Def::Record(self.types.records.len() - 1));
             }
             Item::Unit { name, value } => {

@@ -452,6 +452,18 @@ impl<'t> Checker<'t> {
             {
                 "compare with a depth or an altitude, such as `top + 1 m`, or with a constant".into()
             }
+            (_, Depth | Altitude, x)
+                if (op.compares() || matches!(op, Binary::Add | Binary::Sub))
+                    && x.dimension().is_some_and(Dimension::is_none) =>
+            {
+                in_metres("right", b)
+            }
+            (_, x, Depth | Altitude)
+                if (op.compares() || matches!(op, Binary::Add | Binary::Sub))
+                    && x.dimension().is_some_and(Dimension::is_none) =>
+            {
+                in_metres("left", a)
+            }
             (Binary::Add | Binary::Sub, x, y)
             | (Binary::Lt | Binary::Le | Binary::Gt | Binary::Ge | Binary::Eq | Binary::Ne, x, y) => {
                 let (Some(d), Some(e)) = (x.dimension(), y.dimension()) else {
@@ -467,5 +479,13 @@ impl<'t> Checker<'t> {
             }
             (op, x, y) => return partner(op, x, y).map(str::to_string),
         })
+    }
+}
+
+/// A number that was meant in metres.
+fn in_metres(side: &str, number: &Expr) -> String {
+    match number.range.constant() {
+        Some(x) => format!("give the number on the {side} a unit: `{x} m`"),
+        None => format!("give the number on the {side} a unit, such as `m`"),
     }
 }
