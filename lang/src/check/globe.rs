@@ -10,8 +10,13 @@ use crate::types::Type;
 /// What to say of arguments among which latitude and longitude are two numbers: one mistake, and one finding.
 pub(super) fn two_numbers(what: &str, params: &[ParamInfo], args: &[Arg]) -> Option<Diagnostic> {
     if let ("point", [north, east]) = (what, args) {
-        let has_degrees = in_degrees(&north.value) && in_degrees(&east.value);
-        return has_degrees.then(|| pair(&north.value, &east.value)).flatten();
+        let finding = pair(&north.value, &east.value)?;
+        let (Some(x), Some(y)) = (bare(&north.value), bare(&east.value)) else {
+            let has_degrees = in_degrees(&north.value) && in_degrees(&east.value);
+            return has_degrees.then_some(finding);
+        };
+        let position = finding.help.clone().unwrap_or_default();
+        return Some(finding.help(format!("{position}; if these are metres, `point({x} m, {y} m)`")));
     }
     args.iter().enumerate().find_map(|(at, arg)| {
         let param = match &arg.label {
@@ -46,9 +51,14 @@ fn written(span: Span, latitude_deg: f64, longitude_deg: f64) -> Option<Diagnost
     })
 }
 
+/// A number without a unit, with its sign.
+fn bare(e: &Expr) -> Option<f64> {
+    if in_degrees(e) { None } else { degrees(e) }
+}
+
 fn in_degrees(e: &Expr) -> bool {
     match &e.kind {
-        ExprKind::Number { unit, .. } => unit.as_ref().is_some_and(|unit| unit.node == "deg"),
+        ExprKind::Number { unit, .. } => unit.as_ref().is_some_and(|unit| matches!(unit.node.as_str(), "deg" | "°")),
         ExprKind::Unary(_, inside) => in_degrees(inside),
         _ => false,
     }
