@@ -66,9 +66,13 @@ impl Mender {
             // What is open and began no further in than this line was to be closed before it.
             let outside = |open: &Open| open.margin < line.margin() || (closes && open.margin == line.margin());
             let level = self.open.iter().rposition(outside).map_or(0, |at| at + 1);
-            self.close_from(level, last_end, Some(line.start));
             let mut from = line.start;
-            if closes && self.open.last().is_none_or(|open| open.margin != line.margin()) {
+            // Of several that close on one line the margin shows nothing: each closes the innermost that is open.
+            let several = self.closers(line).count() > 1;
+            if !several {
+                self.close_from(level, last_end, Some(line.start));
+            }
+            if closes && !several && self.open.last().is_none_or(|open| open.margin != line.margin()) {
                 self.opener_missing(&lines[..index], line);
                 from += 1;
             }
@@ -78,14 +82,21 @@ impl Mender {
         self.close_from(0, last_end, next);
     }
 
+    /// The closers with which a line begins.
+    fn closers(&self, line: &Line) -> impl Iterator<Item = usize> {
+        let front = (line.start..line.end).take_while(|&at| matches!(self.bare[at], b')' | b']' | b'}' | b' '));
+        front.filter(|&at| self.bare[at] != b' ')
+    }
+
     fn brackets_of(&mut self, line: &Line, from: usize) {
+        let front = self.closers(line).last().unwrap_or(line.start);
         for at in from..line.end {
             let byte = self.bare[at];
             match byte {
                 b'(' | b'[' | b'{' => self.open.push(Open { bracket: byte, at, margin: line.margin() }),
                 b')' | b']' | b'}' => {
                     // A block that began on another line ends at the front of one.
-                    let here = |open: &Open| at == line.start || byte != b'}' || open.at >= line.start;
+                    let here = |open: &Open| at <= front || byte != b'}' || open.at >= line.start;
                     let fitting = |open: &Open| closer(open.bracket) == byte && here(open);
                     match self.open.iter().rposition(fitting) {
                         Some(level) => {
@@ -295,6 +306,20 @@ mod tests {
         check("fn f \n  a\n}\n", "fn f{\n  a\n}\n", &["a `{` is missing after this"]);
         check("fn f\n  a: B,\n) {\n}\n", "fn f(  a: B,\n) {\n}\n", &["a `(` is missing after this"]);
         check("fn f {\n  on a b }\n}\n", "fn f {\n  on a b  \n}\n", &["this `}` closes nothing"]);
+    }
+
+    #[test]
+    fn several_closers_on_a_line_close_what_is_open() {
+        check(
+            "fn f {\n  if a {\n    if b {\n      c\n}}\n}\n\n}\n",
+            "fn f {\n  if a {\n    if b {\n      c\n}}\n}\n\n \n",
+            &["this `}` closes nothing"],
+        );
+        check(
+            "fn f {\n  if a {\n    if b {\n      c\n}}\n",
+            "fn f {\n  if a {\n    if b {\n      c\n}}\n",
+            &["a `}` is missing after this"],
+        );
     }
 
     #[test]
