@@ -4,12 +4,15 @@ use crate::exit::Exit;
 use crate::{disk, message, output};
 use albacore_session::{Source, Sources};
 use similar::{DiffOp, TextDiff};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// So many lines of a difference are shown.
 const SHOWN_MAX: usize = 20;
 /// So many lines are compared, from the first that differs.
 const COMPARED_MAX: usize = 200;
+/// So many characters of a line are shown.
+const CHARS_MAX: usize = 400;
 
 /// Lay out scripts in the one style.
 #[derive(clap::Args)]
@@ -103,13 +106,21 @@ fn check(source: &Source, formatted: &str) -> Exit {
 fn difference(old: &str, new: &str) -> String {
     let (old, new, is_all) = compared(old, new);
     let diff = TextDiff::from_lines(old, new).unified_diff().context_radius(1).to_string();
-    let mut text: String = diff.lines().take(SHOWN_MAX).map(|line| format!("    {line}\n")).collect();
+    let mut text: String = diff.lines().take(SHOWN_MAX).map(|line| format!("    {}\n", bounded(line))).collect();
     match diff.lines().count().saturating_sub(SHOWN_MAX) {
         _ if !is_all => text.push_str("    and more lines\n"),
         0 => {}
         more => text.push_str(&format!("    and {more} more lines\n")),
     }
     text
+}
+
+/// A line, or as much of it as a terminal can show.
+fn bounded(line: &str) -> Cow<'_, str> {
+    match line.char_indices().nth(CHARS_MAX) {
+        Some((end, _)) => format!("{}… ({} bytes)", &line[..end], line.len()).into(),
+        None => line.into(),
+    }
 }
 
 /// The parts of two texts that are compared, and whether they are all of them: up to some lines behind the first that differs.
@@ -175,6 +186,14 @@ mod tests {
         let told = difference(&old, &new);
         assert!(told.starts_with("    @@ -1,200 +1,200 @@\n    -let  a0 = 0\n"), "{told}");
         assert_eq!((told.lines().count(), told.ends_with("    and more lines\n")), (SHOWN_MAX + 1, true), "{told}");
+    }
+
+    /// A line of megabytes is shown by its beginning.
+    #[test]
+    fn of_a_line_without_end_the_beginning_is_shown() {
+        let long = format!("log \"{}\"", "é".repeat(2_000_000));
+        let told = difference(&format!("{long} \n"), &format!("{long}\n"));
+        assert!(told.lines().all(|line| line.chars().count() < 450) && told.contains("é… (4000008 bytes)\n"), "{told}");
     }
 
     /// What is cut off is not told as deleted or added.

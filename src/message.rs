@@ -119,7 +119,13 @@ fn plain(finding: &Diagnostic, sources: &Sources) -> String {
     let help = finding.help.as_ref().map(|help| self::line(&format!("  help: {help}"))).unwrap_or_default();
     let name = &sources.get(place.file).name;
     let (message, place) = (self::line(&finding.message), self::line(&format!("[{name}:{line}:{column}]")));
-    format!("{}\n\n  × {message}    {place}{help}\n", finding.code)
+    // The signs with which the others are drawn.
+    let sign = match finding.severity {
+        Severity::Error => '×',
+        Severity::Warning => '⚠',
+        Severity::Note => '☞',
+    };
+    format!("{}\n\n  {sign} {message}    {place}{help}\n", finding.code)
 }
 
 /// Prints findings, in order, and how many there are.
