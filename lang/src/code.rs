@@ -174,6 +174,7 @@ codes! {
         SyntaxBracket = "bracket",
         SyntaxChain = "chain",
         SyntaxClause = "clause",
+        SyntaxComment = "comment",
         SyntaxDeceptive = "deceptive",
         SyntaxExpected = "expected",
         SyntaxItem = "item",

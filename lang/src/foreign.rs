@@ -36,6 +36,11 @@ pub fn help(word: &str) -> Option<&'static str> {
         }
         "const" => "`const` stands at the left margin; in a block write `let`",
         "when" | "whenever" => "write `on X { … }` at the top of the behavior; in a table `A -> B on X`",
+        "try" | "catch" | "except" | "finally" => {
+            "what fails is a value: `VALUE else OTHER` where it may be absent, `abort \"why\" on X` where the mission cannot go on"
+        }
+        "throw" | "raise" => "write `abort \"why\"`: the mission ends, and its recovery begins",
+        "lambda" => "a function has a name: `fn NAME(x: TYPE) -> TYPE { … }`, at the left margin",
         "end" | "endif" | "endwhile" | "endfor" => {
             "a block stands between `{` and `}`; `finish` ends a behavior or a mission"
         }

@@ -7,6 +7,7 @@ mod comments;
 mod declaration;
 mod written;
 
+use crate::diagnostic::has_error;
 use crate::source::{FileId, Source, Span};
 use crate::syntax::tree::Item;
 use crate::syntax::{self, Rule};
@@ -81,7 +82,7 @@ pub fn page(source: &Source) -> Option<Page> {
         let items = pairs.flat_map(|pair| pair.into_inner()).filter(|pair| pair.as_rule() != Rule::EOI);
         items.map(|pair| written::trimmed(file, pair.as_span())).collect()
     })?;
-    if !parsed.findings.is_empty() || spans.len() != parsed.file.items.len() {
+    if has_error(&parsed.findings) || spans.len() != parsed.file.items.len() {
         return None;
     }
     let written = Written::new(&source.text);

@@ -10,7 +10,7 @@ mod doc;
 mod print;
 mod table;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, has_error};
 use crate::source::FileId;
 use crate::syntax::{self, Comment};
 
@@ -38,7 +38,7 @@ pub fn format(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
 
 fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     let parsed = syntax::parse(file, source);
-    if !parsed.findings.is_empty() {
+    if has_error(&parsed.findings) {
         return Err(parsed.findings);
     }
     let doc = syntax::concrete(file, source, |pairs| build::file(source, &parsed.comments, pairs));
@@ -49,7 +49,7 @@ fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     let formatted: String = lines.iter().map(print::Line::text).collect();
     // Better not formatted than not the same script: a fault of ours must not reach a person's file.
     let again = syntax::parse(file, &formatted);
-    let is_whole = again.findings.is_empty() && again.file.items.len() == parsed.file.items.len();
+    let is_whole = !has_error(&again.findings) && again.file.items.len() == parsed.file.items.len();
     Ok(if is_whole && words(&again.comments, &formatted) == words(&parsed.comments, source) {
         formatted
     } else {

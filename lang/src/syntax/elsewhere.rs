@@ -14,6 +14,8 @@ const VERBS: [&str; 5] = ["goto", "follow", "dubins", "steer", "loiter"];
 pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     counted(before, rest)
         .or_else(|| block(before, rest, expected))
+        .or_else(|| lambda(before, rest))
+        .or_else(|| record(rest, expected))
         .or_else(|| comparison(before, rest))
         .or_else(|| decimals(before, rest))
         .or_else(|| label(before, rest))
@@ -104,9 +106,46 @@ fn comparison(before: &str, rest: &str) -> Option<Habit> {
         _ if rest.starts_with('=') && !left.ends_with(['<', '>', '=', '!', '~']) => is("=="),
         _ if rest.starts_with('=') && left.ends_with('~') || rest.starts_with("~=") => write("!="),
         _ if rest.starts_with('>') && left.ends_with('<') => write("!="),
-        _ if word(rest) == "is" => is("=="),
+        _ if word(rest) == "is" => absence(what, rest).or_else(|| is("==")),
         _ => None,
     }
+}
+
+/// `x is none`, `x is not none`: `rest` begins with `is`.
+pub(super) fn absence(what: &str, rest: &str) -> Option<Habit> {
+    let mut words = rest.strip_prefix("is")?.split_whitespace().map(word);
+    let (sign, asked) = match words.next()? {
+        "not" => ("!=", words.next()?),
+        asked => ("==", asked),
+    };
+    let is_none = matches!(asked, "none" | "None" | "null" | "nil" | "absent");
+    is_none.then(|| write(format!("{what} {sign} none"))).flatten()
+}
+
+/// `x => x + 1`, `|x| x + 1` where a value stands.
+fn lambda(before: &str, rest: &str) -> Option<Habit> {
+    let open = before.matches('(').count() > before.matches(')').count();
+    let first = word(before.trim_start());
+    let is_value = first != "fn" && open || ["let", "var", "const", "memory", "signal"].contains(&first);
+    let is_arrow = rest.starts_with("=>") || rest.starts_with("->") || before.ends_with('=') && rest.starts_with('>');
+    let is_bar = rest.starts_with('|') && before.trim_end().ends_with(['=', '(', ',']);
+    (is_value && (is_arrow || is_bar)).then(|| Habit {
+        message: Some("no function is a value".to_string()),
+        help: "declare it with its name, `fn NAME(x: TYPE) -> TYPE { … }`, and call it: `NAME(3 m)`".to_string(),
+    })
+}
+
+/// `{x: 1}` where a value stands.
+fn record(rest: &str, expected: &str) -> Option<Habit> {
+    let field = rest.strip_prefix('{')?.trim_start().trim_start_matches('"');
+    let after = field[word(field).len()..].trim_start_matches('"').trim_start();
+    (expected == "a value" && !word(field).is_empty() && after.starts_with(':')).then(|| Habit {
+        message: Some("values together are a record, which has a name".to_string()),
+        help: format!(
+            "declare it, `record NAME {{ {0}: TYPE }}`, and make one by its name: `NAME({0}: …)`",
+            word(field)
+        ),
+    })
 }
 
 /// `1,5 m/s`.

@@ -2,7 +2,7 @@
 
 use super::build::{Bad, Place};
 use super::habits::{habit, untyped_memory};
-use super::{Grammar, Rule, places, slips};
+use super::{Grammar, Rule, elsewhere, places, slips};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::foreign;
@@ -83,6 +83,9 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
         }
         if let Some(help) = foreign::help(&word).map(str::to_string).or_else(|| foreign::command(&word, after_word)) {
             return finding.help(help);
+        }
+        if let Some(habit) = elsewhere::absence(&word, after_word) {
+            return finding.help(habit.help);
         }
         if after_word.starts_with(":=") {
             return finding.help(format!("write `let {word} = …`, or `{word} = …` for a `memory`"));

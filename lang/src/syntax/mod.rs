@@ -9,6 +9,7 @@ mod elsewhere;
 mod errors;
 mod habits;
 mod places;
+mod quotient;
 mod scan;
 mod slips;
 pub mod tree;
@@ -60,7 +61,7 @@ pub struct Unread {
 /// Reads a source file.
 pub fn parse(file: FileId, source: &str) -> Parsed {
     let mut unread = Vec::new();
-    let (trees, findings, comments) = read(file, source, Rule::file, declarations, |b, pairs| {
+    let (trees, mut findings, comments) = read(file, source, Rule::file, declarations, |b, pairs| {
         let before = b.bad.len();
         let tree = build::file(b, pairs);
         let bad = &b.bad[before..];
@@ -74,6 +75,7 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
     if trees.is_empty() {
         unread.push(Unread { span: Span { file, start: 0, end: source.len() as u32 }, item: None });
     }
+    findings.extend(quotient::doubts(source, &comments));
     let items = trees.into_iter().flat_map(|tree| tree.items).collect();
     Parsed { file: tree::File { items }, findings, unread, comments }
 }
@@ -87,8 +89,9 @@ fn declarations(scanned: &Scanned) -> Vec<Range<usize>> {
 /// Reads statements that stand in no block: the lines of a prompt.
 pub fn parse_lines(file: FileId, source: &str) -> (tree::Block, Vec<Diagnostic>) {
     let whole = |scanned: &Scanned| std::iter::once(0..scanned.text.len()).collect();
-    let (block, findings, _) =
+    let (block, mut findings, comments) =
         read(file, source, Rule::lines, whole, |b, mut pairs| pairs.next().map(|pair| build_block::block(b, pair)));
+    findings.extend(quotient::doubts(source, &comments));
     let nothing = tree::Block { clauses: Vec::new(), span: Span { file, start: 0, end: source.len() as u32 } };
     (block.into_iter().flatten().next().unwrap_or(nothing), findings)
 }

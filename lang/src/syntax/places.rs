@@ -14,6 +14,8 @@ struct Angle {
     /// The letter, upper case; none where a sign says the same.
     letter: Option<char>,
     negative: bool,
+    /// Its degrees are marked with `°`.
+    marked: bool,
 }
 
 /// What a position of others is here.
@@ -21,6 +23,8 @@ struct Angle {
 pub(super) enum Ours {
     /// This very position.
     Written(String),
+    /// This very position, which was written with signs in place of letters.
+    Signed(String),
     /// One of these: a sign and a letter both say the hemisphere, and which of them is meant only the writer knows.
     OneOf(Vec<String>),
     /// Half of one.
@@ -51,6 +55,8 @@ pub(super) fn finding(span: Span, ours: &Ours) -> Diagnostic {
     match ours {
         Ours::Written(ours) => finding("this position cannot be read")
             .help(format!("write `{ours}`: latitude, a blank, longitude, each with `°` and its letter")),
+        Ours::Signed(ours) => finding("this position cannot be read")
+            .help(format!("write `{ours}`: a letter, N or S and E or W, stands in place of the sign")),
         Ours::OneOf(choices) => finding("a sign and a letter both say the hemisphere: keep one")
             .help(format!("write the letter and no sign, whichever place is meant: `{}`", choices.join("` or `"))),
         Ours::Half => finding("this position cannot be read").help(FORM),
@@ -72,14 +78,21 @@ pub(super) fn position(text: &str) -> Option<(usize, Ours)> {
     let (latitude, longitude) = match (first.letter, second.letter) {
         (Some('N' | 'S'), Some('E' | 'W')) => (first, second),
         (Some('E' | 'W'), Some('N' | 'S')) => (second, first),
+        // With the sign of degrees on both, and a minus for one hemisphere or the other, nothing else is meant.
+        (None, None) if first.marked && second.marked && (first.negative || second.negative) => (first, second),
         // A comma between two bare numbers parts them: decimals follow a point.
         (None, None) if bare(&first) && bare(&second) && ends(rest) && points(&text[..length]) == 2 => (first, second),
         _ => return None,
     };
+    let is_signed = latitude.letter.is_none() && (latitude.negative || longitude.negative);
     let (latitudes, longitudes) = (latitude.ours(['N', 'S'], 90.0)?, longitude.ours(['E', 'W'], 180.0)?);
     let mut choices: Vec<String> =
         latitudes.iter().flat_map(|north| longitudes.iter().map(move |east| format!("{north} {east}"))).collect();
-    let ours = if choices.len() == 1 { Ours::Written(choices.remove(0)) } else { Ours::OneOf(choices) };
+    let ours = match choices.len() {
+        1 if is_signed => Ours::Signed(choices.remove(0)),
+        1 => Ours::Written(choices.remove(0)),
+        _ => Ours::OneOf(choices),
+    };
     Some((length, ours))
 }
 
@@ -123,6 +136,7 @@ fn angle(text: &str) -> Option<(Angle, &str)> {
     let negative = text.starts_with('-');
     let (written, rest) = number(text.strip_prefix(['-', '+']).unwrap_or(text))?;
     let (mut degrees, mut minutes) = (written, None);
+    let marked = ["°", "º"].iter().any(|sign| rest.trim_start().starts_with(sign));
     let mut rest = sign(rest, &DEGREES);
     if let Some((written, after)) = number(rest).filter(|_| !degrees.contains('.')) {
         let (mut value, after) = (written.clone(), sign(after, &["''", "'", "′", "’", "min", "m"]));
@@ -143,7 +157,7 @@ fn angle(text: &str) -> Option<(Angle, &str)> {
         minutes = Some(degrees.split_off(whole - 2));
         degrees = degrees.trim_start_matches('0').to_string();
     }
-    Some((Angle { degrees, minutes, letter, negative }, rest))
+    Some((Angle { degrees, minutes, letter, negative, marked }, rest))
 }
 
 /// One of the four directions, which no name begins with.
@@ -180,7 +194,10 @@ mod tests {
 
     #[test]
     fn positions_of_others_are_understood() {
-        let ours = |text: &str| position(text).map(|(_, ours)| ours);
+        let ours = |text: &str| match position(text)?.1 {
+            Ours::Signed(ours) => Some(Ours::Written(ours)),
+            ours => Some(ours),
+        };
         let decimal = Some(Ours::Written("36.18°N 75.74°W".to_string()));
         for text in [
             "36.18N, 75.74W",
@@ -192,6 +209,8 @@ mod tests {
             "75.74W 36.18N",
             "36.18, -75.74)",
             "+36.18, -75.74",
+            "36.18° -75.74°",
+            "+36.18°, -75.74°",
             "36,18N 75,74W",
             "36,18°N, 75,74°W",
         ] {
@@ -210,6 +229,8 @@ mod tests {
             "36 deg 10.8 min N 75 deg 44.4 min W",
             "3610.8N 7544.4W",
             "3610.8N, 07544.4W",
+            "36°10.8' -75°44.4'",
+            "36°10'48\", -75°44'24\"",
         ] {
             assert_eq!(ours(text), Some(Ours::Written("36°10.8'N 75°44.4'W".to_string())), "{text}");
         }
