@@ -52,6 +52,14 @@ fn what_is_declared_is_known() {
 }
 
 #[test]
+fn what_var_names_is_assigned_as_in_a_script() {
+    let (code, answers) = answers("assigns", &[]);
+    insta::assert_snapshot!(answers);
+    // Some of its lines are refused.
+    assert_eq!(code, Some(3));
+}
+
+#[test]
 fn several_statements_of_a_line_are_done_in_order() {
     let (code, answers) = answers("several", &[]);
     insta::assert_snapshot!(answers);

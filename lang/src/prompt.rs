@@ -6,12 +6,13 @@
 
 mod value;
 
+pub(crate) use value::{Held, Known};
 pub use value::{Left, Named};
 
 use crate::check::{self, Module, Override};
 use crate::code::Code;
-use crate::diagnostic::{self, Diagnostic, Severity};
-use crate::hir::{Hir, VarId};
+use crate::diagnostic::{self, Diagnostic, Severity, has_error};
+use crate::hir::{self, Hir, VarId};
 use crate::loader::Loader;
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax::{self, tree};
@@ -61,6 +62,8 @@ pub struct Drive {
     pub known: Vec<Slot>,
     /// The value that the line leaves at its end.
     pub value: Option<Left>,
+    /// The `var`s of the prompt, which the line may assign.
+    pub vars: Vec<Left>,
     /// The inputs that the line itself reads, by their indices in the program.
     pub reads: Vec<u32>,
     /// It never ends by itself.
@@ -138,8 +141,7 @@ impl Prompt {
         for (name, leads) in imports {
             read.imports.entry(name).or_insert(leads);
         }
-        let unreadable = !findings.is_empty();
-        if !unreadable {
+        if !has_error(&findings) {
             // Earlier lines and the script were checked when they came.
             let of_new = |f: &Diagnostic| self.sources.get(f.span().file).name == name;
             findings.extend(
@@ -147,7 +149,7 @@ impl Prompt {
             );
         }
         diagnostic::settle(&mut findings);
-        if findings.iter().any(|f| f.severity == Severity::Error) {
+        if has_error(&findings) {
             self.modules.truncate(before);
             self.known.retain(|_, module| *module < before);
             return Read { line: None, findings };
@@ -160,10 +162,11 @@ impl Prompt {
         let source = self.source(text);
         let file = self.sources.add(source);
         let (block, mut findings) = syntax::parse_lines(file, text);
-        if !findings.is_empty() {
+        if has_error(&findings) {
             diagnostic::settle(&mut findings);
             return Read { line: None, findings };
         }
+        let doubts = findings;
         let span = block.span;
         let mut clauses = block.clauses;
         if let [tree::Clause { kind: tree::ClauseKind::With(items), .. }] = clauses.as_slice() {
@@ -178,19 +181,27 @@ impl Prompt {
         // An expression alone is asked for its value, which a hidden `let` takes.
         let mut expression = false;
         let mut name = None;
+        let mut held = Held::Fixed;
+        let is_var = |name: &str| known.iter().any(|n| n.name == name && n.is_var());
         if let [clause] = clauses.as_mut_slice() {
+            if let Some(given) = assigned(&clause.kind).filter(|given| is_var(given)) {
+                (expression, name, held) = (true, Some(given.to_string()), Held::Var);
+            }
             match &mut clause.kind {
                 tree::ClauseKind::Timed(timed) if self.is_expression(timed) => {
                     expression = true;
                     let name = tree::Name { node: VALUE.to_string(), span };
                     clause.kind = tree::ClauseKind::Let { name, ty: None, value: timed.clone() };
                 }
-                // What has a name may have another value: at the prompt that is said with or without `let`.
-                tree::ClauseKind::Assign { name, value } if known.iter().any(|n| n.name == name.node) => {
-                    let value = instant(value.clone());
-                    clause.kind = tree::ClauseKind::Let { name: name.clone(), ty: None, value };
-                }
                 tree::ClauseKind::Var { name, ty, value } => {
+                    if let Some(tree::TyKind::List { order: Some((_, key)), .. }) = ty.as_ref().map(|ty| &ty.kind) {
+                        let finding =
+                            Diagnostic::error(Code::PromptValue, key.span, "the prompt keeps no list in order").help(
+                                "leave `by` and its key out; a `memory` of a behavior or mission is kept in order",
+                            );
+                        return Read { line: None, findings: vec![finding] };
+                    }
+                    held = Held::Var;
                     let value = instant(value.clone());
                     clause.kind = tree::ClauseKind::Let { name: name.clone(), ty: ty.clone(), value };
                 }
@@ -213,11 +224,11 @@ impl Prompt {
             Ok(checked) => checked,
             Err(findings) => return Read { line: None, findings },
         };
-        match self.drive(&checked, file, known, left, name, origin) {
+        match self.drive(&checked, file, known, left.map(|left| (left, name, held)), origin) {
             Ok(drive) => {
                 // What only a whole mission shows is asked of statements; an expression commands nothing.
                 let line = if expression { Line::Value(drive) } else { Line::Statements(drive) };
-                Read { line: Some(line), findings: checked.findings }
+                Read { line: Some(line), findings: doubts.into_iter().chain(checked.findings).collect() }
             }
             Err(findings) => Read { line: None, findings },
         }
@@ -243,8 +254,8 @@ impl Prompt {
         with.extend(items);
         let before = std::mem::replace(&mut self.with, with);
         let checked = self.checked(library, Vec::new(), span, known);
-        let read = checked
-            .and_then(|checked| self.drive(&checked, span.file, known, None, None, origin).map(|_| checked.findings));
+        let read =
+            checked.and_then(|checked| self.drive(&checked, span.file, known, None, origin).map(|_| checked.findings));
         match read {
             Ok(findings) => Read { line: Some(Line::With), findings },
             Err(findings) => {
@@ -266,6 +277,9 @@ impl Prompt {
             tree::ExprKind::Match { arms, .. } => return arms.iter().all(|arm| self.gives_value(&arm.block)),
             _ => return !timed.is_modified(),
         };
+        if e.list_changed().is_some() {
+            return false;
+        }
         let is_activity = |module: usize, name: &str| {
             self.modules[module]
                 .tree
@@ -311,7 +325,7 @@ impl Prompt {
             body,
         };
         let mut module = self.module(tree::File { items: vec![tree::Item::Activity(mission)] });
-        module.known = known.iter().map(|n| (n.name.clone(), n.ty.clone())).collect();
+        module.known = Some(known.iter().map(Named::known).collect());
         let mut modules = self.modules.clone();
         modules.push(module);
         let check::Checked { hir, types, findings, .. } = check::check(&modules, library, self.overrides.clone());
@@ -320,7 +334,7 @@ impl Prompt {
         // sources that were looked at before.
         let mut findings: Vec<Diagnostic> =
             findings.into_iter().filter(|f| f.span().file == span.file && f.code.group() != "missions").collect();
-        if findings.iter().all(|f| f.severity != Severity::Error) {
+        if !has_error(&findings) {
             // What a line reads and has not come is told when it is driven.
             let meant = |f: &Diagnostic| f.severity == Severity::Error && f.code.group() != "missions";
             findings.extend(rules::check(&hir, mission).into_iter().filter(meant));
@@ -332,21 +346,20 @@ impl Prompt {
             );
         }
         diagnostic::settle(&mut findings);
-        if findings.iter().any(|f| f.severity == Severity::Error) {
+        if has_error(&findings) {
             return Err(findings);
         }
         let endless = check::never_ends(&hir, mission);
         Ok(Checked { hir, types, mission, findings, endless })
     }
 
-    /// Lowers a line that was checked.
+    /// Lowers a line that was checked. What it leaves is the variable of a name, to be held under a name or none.
     fn drive(
         &self,
         checked: &Checked,
         file: FileId,
         known: &[Named],
-        left: Option<String>,
-        name: Option<String>,
+        left: Option<(String, Option<String>, Held)>,
         origin: Option<Geodetic>,
     ) -> Result<Drive, Vec<Diagnostic>> {
         let Checked { hir, types, mission, .. } = checked;
@@ -354,11 +367,16 @@ impl Prompt {
         let activity = &hir.activities[*mission];
         let base = program.mission.base;
         let slot = |id: VarId| base + slot_of(types, &activity.vars, id);
-        let value = left.and_then(|wanted| {
+        let leaves = |id: VarId, name: Option<String>, held: Held| {
+            let hir::Var { ty, range, .. } = activity.vars[id].clone();
+            Left { name, slot: slot(id), shape: types.shape(&ty), ty, held, range }
+        };
+        let value = left.and_then(|(wanted, name, held)| {
             let id = activity.vars.iter().rposition(|v| v.name == wanted || v.name == VALUE)?;
-            let ty = activity.vars[id].ty.clone();
-            Some(Left { name, slot: slot(id), shape: types.shape(&ty), ty })
+            Some(leaves(id, name, held))
         });
+        let vars = known.iter().enumerate().filter(|(_, named)| named.is_var());
+        let vars = vars.map(|(id, named)| leaves(id, Some(named.name.clone()), Held::Var)).collect();
         if let Some(left) = &value {
             left.can_be_kept(activity.span)?;
         }
@@ -367,7 +385,7 @@ impl Prompt {
             .filter(|(_, span)| span.file == file)
             .map(|(input, _)| input as u32)
             .collect();
-        Ok(Drive { known: (0..known.len()).map(slot).collect(), program, value, reads, endless: checked.endless })
+        Ok(Drive { known: (0..known.len()).map(slot).collect(), program, value, vars, reads, endless: checked.endless })
     }
 }
 
@@ -378,6 +396,16 @@ struct Checked {
     mission: usize,
     findings: Vec<Diagnostic>,
     endless: bool,
+}
+
+/// The name whose value a clause changes at once.
+fn assigned(kind: &tree::ClauseKind) -> Option<&str> {
+    let list = match kind {
+        tree::ClauseKind::Assign { name, .. } => return Some(&name.node),
+        tree::ClauseKind::Timed(tree::Timed { action: tree::Action::Expr(e), .. }) => e.list_changed()?,
+        _ => return None,
+    };
+    if let tree::ExprKind::Name(name) = &list.kind { Some(name) } else { None }
 }
 
 /// A value that takes no time.
@@ -426,6 +454,16 @@ fn declared(item: &tree::Item) -> Vec<String> {
         Signal { name, .. } | Scenario { name, .. } | Vehicle { name, .. } => vec![name.node.clone()],
         Fn(f) => vec![f.name.node.clone()],
         Activity(a) => vec![a.name.node.clone()],
-        Test(_) => Vec::new(),
+        Test(test) => vec![format!("test \"{}\"", literal(&test.name))],
     }
+}
+
+/// What a text without holes says.
+fn literal(text: &tree::Expr) -> String {
+    let tree::ExprKind::Text(parts) = &text.kind else { return String::new() };
+    let literals = parts.iter().filter_map(|part| match part {
+        tree::TextPart::Literal(literal) => Some(literal.as_str()),
+        tree::TextPart::Hole(_) => None,
+    });
+    literals.collect()
 }

@@ -147,9 +147,12 @@ impl<'t> Checker<'t> {
                     }
                 };
                 if self.scope.setting == Setting::Body {
+                    let help = match self.known_at_prompt() {
+                        Some(_) => "declare it on a line of its own, before this one",
+                        None => "declare a `memory` of the behavior: it is kept while time goes by",
+                    };
                     self.report(
-                        Diagnostic::error(Code::TimeVar, span, "a `var` lives in instantaneous code only")
-                            .help("declare a `memory` of the behavior: it is kept while time goes by"),
+                        Diagnostic::error(Code::TimeVar, span, "a `var` lives in instantaneous code only").help(help),
                     );
                 }
                 let id = self.declare(name, VarKind::Var, value.ty.clone());
@@ -425,7 +428,7 @@ impl<'t> Checker<'t> {
                 StmtKind::Match(on, arms, otherwise)
             }
             K::Call(callee, args) => match &callee.kind {
-                K::Member(base, member) if matches!(member.node.as_str(), "insert" | "remove" | "clear") => {
+                K::Member(base, member) if e.list_changed().is_some() => {
                     return self.list_change(base, &member.node, args, span);
                 }
                 _ => {

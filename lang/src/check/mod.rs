@@ -43,6 +43,7 @@ pub use table::never_ends;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
 use crate::hir::{self, Hir, Interval};
+use crate::prompt::Known;
 use crate::source::{Source, Span};
 use crate::suggest;
 use crate::syntax::tree;
@@ -69,8 +70,8 @@ pub struct Module {
     pub prelude: bool,
     /// A line of the prompt: the module whose names it knows as its own.
     pub extends: Option<usize>,
-    /// A line of the prompt: names whose values are put in place before its mission begins.
-    pub known: Vec<(String, Type)>,
+    /// A line of statements at the prompt: names whose values are put in place before its mission begins.
+    pub known: Option<Vec<Known>>,
 }
 
 /// What a name of a module stands for.

@@ -8,6 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension;
 use crate::foreign;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
+use crate::prompt::{Held, Known};
 use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree;
@@ -184,6 +185,7 @@ impl<'t> Checker<'t> {
         let finding = self.unknown_name_finding(&name.node, name.span);
         let help = match self.scope.setting {
             _ if name.node == "area" => "the area of a mission has a name: `area op = rectangle(…)`".to_string(),
+            Setting::Body if self.known_at_prompt().is_some() => format!("declare it: `var {} = …`", name.node),
             Setting::Body => {
                 format!(
                     "declare it: `memory {0}: TYPE = …` at the top, or `let {0} = …` here if it never changes",
@@ -282,6 +284,11 @@ impl<'t> Checker<'t> {
         }
     }
 
+    /// The names that a line of statements at the prompt begins with: its first variables.
+    pub(super) fn known_at_prompt(&self) -> Option<&'t [Known]> {
+        self.modules[self.scope.module].known.as_deref()
+    }
+
     /// Whether a variable may be assigned here.
     pub(super) fn assignable(&mut self, name: &tree::Name) -> Option<usize> {
         let Some(id) = self.local(&name.node) else {
@@ -304,6 +311,25 @@ impl<'t> Checker<'t> {
             return None;
         };
         let var = self.scope.vars[id].clone();
+        if var.kind != VarKind::Memory
+            && let Some(known) = self.known_at_prompt().and_then(|known| known.get(id))
+        {
+            let (what, help) = match known.held {
+                Held::Mission => {
+                    ("a name of the mission that is under way", "give a name of your own: `var NAME = …`".to_string())
+                }
+                _ => (
+                    "fixed",
+                    format!(
+                        "`let {0} = …` gives the name to another value, `var {0} = …` to one that can be assigned",
+                        name.node
+                    ),
+                ),
+            };
+            let message = format!("`{}` is {what}: it cannot be assigned", name.node);
+            self.report(Diagnostic::error(Code::NamesAssign, name.span, message).help(help));
+            return None;
+        }
         let (what, help) = match var.kind {
             VarKind::Memory if self.scope.setting == Setting::Function => {
                 ("a memory, and functions are pure", "return the new value")

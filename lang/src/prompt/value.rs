@@ -3,10 +3,38 @@
 use crate::Script;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, VarId};
+use crate::hir::{self, Interval, VarId, VarKind};
 use crate::source::Span;
 use crate::types::{Type, TypeTable};
 use albacore_program::{Program, Shape, Slot};
+
+/// What lines may do with a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Held {
+    /// A `let` of the prompt: it stays as it is until its name is given again.
+    Fixed,
+    /// A `var` of the prompt: it can be assigned, and keeps its type.
+    Var,
+    /// A name of the mission that is under way, which alone changes its value.
+    Mission,
+}
+
+/// What a line needs to know of a value to be checked.
+#[derive(Clone, Debug)]
+pub(crate) struct Known {
+    pub name: String,
+    pub ty: Type,
+    pub held: Held,
+    /// What the value lies in.
+    pub range: Interval,
+}
+
+impl Known {
+    /// As what the name stands in a line. A `var` of the prompt outlasts lines that take time, as a memory does.
+    pub fn kind(&self) -> VarKind {
+        if self.held == Held::Var { VarKind::Memory } else { VarKind::Let }
+    }
+}
 
 /// A value with a name, which lines can use.
 #[derive(Clone, Debug)]
@@ -18,6 +46,19 @@ pub struct Named {
     /// How they are read.
     pub shape: Shape,
     pub(super) ty: Type,
+    pub(super) held: Held,
+    pub(super) range: Interval,
+}
+
+impl Named {
+    pub(super) fn known(&self) -> Known {
+        Known { name: self.name.clone(), ty: self.ty.clone(), held: self.held, range: self.range }
+    }
+
+    /// Whether lines may assign it.
+    pub fn is_var(&self) -> bool {
+        self.held == Held::Var
+    }
 }
 
 /// A value that a line leaves.
@@ -30,12 +71,15 @@ pub struct Left {
     /// How its words are read.
     pub shape: Shape,
     pub(super) ty: Type,
+    pub(super) held: Held,
+    pub(super) range: Interval,
 }
 
 impl Left {
     /// No value: what most statements leave.
     pub fn nothing() -> Self {
-        Left { name: None, slot: 0, shape: Shape::Bool, ty: Type::Unknown }
+        let (held, range) = (Held::Fixed, Interval::ANY);
+        Left { name: None, slot: 0, shape: Shape::Bool, ty: Type::Unknown, held, range }
     }
 
     /// Whether the value means the same when it is used again: texts are of the program that they stand in.
@@ -59,7 +103,7 @@ impl Left {
         let at = self.slot as usize;
         let words = words.get(at..at + self.shape.words() as usize).unwrap_or(&[]).to_vec();
         let name = self.name.clone().unwrap_or_default();
-        Named { name, words, shape: self.shape.clone(), ty: self.ty.clone() }
+        Named { name, words, shape: self.shape.clone(), ty: self.ty.clone(), held: self.held, range: self.range }
     }
 
     /// Whether it is a time, as `run` takes one.
@@ -95,6 +139,8 @@ impl Script {
                     words: words.to_vec(),
                     shape,
                     ty: vars[id].ty.clone(),
+                    held: Held::Mission,
+                    range: vars[id].range,
                 });
             }
         }

@@ -353,6 +353,15 @@ pub struct Expr {
     pub span: Span,
 }
 
+impl Expr {
+    /// The list that this changes: `LIST.insert(x)`, `LIST.remove(x)` and `LIST.clear()` are statements.
+    pub fn list_changed(&self) -> Option<&Expr> {
+        let ExprKind::Call(callee, _) = &self.kind else { return None };
+        let ExprKind::Member(list, change) = &callee.kind else { return None };
+        matches!(change.node.as_str(), "insert" | "remove" | "clear").then_some(list)
+    }
+}
+
 /// What an expression is.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "each variant is what it says")]

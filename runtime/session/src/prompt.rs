@@ -162,8 +162,10 @@ impl Prompt {
             }
         };
         if let Some(task) = &self.now.task
-            && task.left.is_none()
+            && task.left.is_some()
         {
+            task.changed().for_each(&mut add);
+        } else if let Some(task) = &self.now.task {
             let words = &task.machine.state().words;
             for (id, base) in task.machine.frames().into_iter().rev() {
                 let frame = words.get(base as usize..).unwrap_or(&[]);
@@ -222,7 +224,8 @@ impl Prompt {
             Err(what) => return wrong(&what, say),
         };
         let left = drive.value.unwrap_or_else(Left::nothing);
-        self.now.task = Some(Task::new(machine, Some(left), text));
+        self.leave_task();
+        self.now.task = Some(Task::line(machine, left, drive.vars, text));
         self.past.pin(&self.now);
         if drive.endless {
             self.drive(1, interrupted, say);
@@ -246,7 +249,8 @@ impl Prompt {
         let name = program.mission.name.clone();
         match self.machine_for(program) {
             Ok(machine) => {
-                self.now.task = Some(Task::new(machine, None, &name));
+                self.leave_task();
+                self.now.task = Some(Task::mission(machine, &name));
                 self.past.pin(&self.now);
                 say(Say::Text(&format!("{name} begins: `run 5 min` or `step` lets time go by")));
                 Answer::Done
@@ -265,8 +269,15 @@ impl Prompt {
         Some(Answer::Wrong)
     }
 
+    /// Ends what is under way. What it has assigned stays.
+    fn leave_task(&mut self) {
+        if let Some(task) = self.now.task.take() {
+            task.changed().for_each(|changed| self.name(changed));
+        }
+    }
+
     fn stop(&mut self, say: &mut Listener) {
-        self.now.task = None;
+        self.leave_task();
         self.past.pin(&self.now);
         say(Say::Text(&format!("{}  stopped", self.now.place())));
     }
@@ -283,15 +294,13 @@ impl Prompt {
             let ended = match self.now.step(&mut |line| say(Say::Text(line))) {
                 Ok(ended) => ended,
                 Err(error) => {
-                    self.now.task = None;
+                    self.leave_task();
                     return say(Say::Error(&error.to_string(), None));
                 }
             };
             if let Some(end) = ended {
                 self.past.pin(&self.now);
-                if let Some(left) = end.left {
-                    self.name(left);
-                }
+                end.left.into_iter().for_each(|left| self.name(left));
                 break;
             }
             self.past.note(&self.now);
@@ -302,6 +311,9 @@ impl Prompt {
 
     /// Gives a value its name, which may have been another's.
     fn name(&mut self, value: Named) {
+        if let Some(task) = &mut self.now.task {
+            task.leave_alone(&value.name);
+        }
         self.names.retain(|named| named.name != value.name);
         self.names.push(value);
     }

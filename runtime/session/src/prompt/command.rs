@@ -8,6 +8,7 @@ what a script can say:
   goto point(north: 100 m, east: 20 m)   a statement: driven to its end
   steer 90 deg                       one without an end: begun, and goes on with `run`
   let home = position                a name for a value
+  var count = 0                      one that can be assigned: count = count + 1
   with depth 5 m, speed 2 m/s        what holds for all that follows
   use search; fn …; behavior … { }   declarations, known from then on
 and beside it:

@@ -40,6 +40,8 @@ pub struct Task {
     pub machine: Machine,
     /// What a line leaves at its end; none for the script's mission.
     pub left: Option<Left>,
+    /// The `var`s of the prompt that a line may assign, with their values as it began.
+    vars: Vec<(Left, Vec<f64>)>,
     /// The line, or the mission's name.
     pub text: String,
     trace: BehaviorTrace,
@@ -47,15 +49,45 @@ pub struct Task {
 
 /// What came to its end.
 pub struct End {
-    /// The value that it leaves, with its name.
-    pub left: Option<Named>,
+    /// The values that it leaves, with their names.
+    pub left: Vec<Named>,
 }
 
 impl Task {
-    pub fn new(machine: Machine, left: Option<Left>, text: &str) -> Self {
+    /// The mission of the script, called by its name.
+    pub fn mission(machine: Machine, name: &str) -> Self {
+        Task::new(machine, None, Vec::new(), name)
+    }
+
+    /// A line, and the `var`s that it may assign.
+    pub fn line(machine: Machine, left: Left, vars: Vec<Left>, text: &str) -> Self {
+        let words = machine.state().words.as_slice();
+        let vars = vars
+            .into_iter()
+            .map(|var| {
+                let begun = var.taken(words).words;
+                (var, begun)
+            })
+            .collect();
+        Task::new(machine, Some(left), vars, text)
+    }
+
+    /// The `var`s of the prompt that the line has changed.
+    pub fn changed(&self) -> impl Iterator<Item = Named> {
+        let words = &self.machine.state().words;
+        let now = self.vars.iter().map(|(var, before)| (var.taken(words), before));
+        now.filter(|(var, before)| var.words != **before).map(|(var, _)| var)
+    }
+
+    /// From here on a name is no concern of this line: it has been given or assigned anew.
+    pub fn leave_alone(&mut self, name: &str) {
+        self.vars.retain(|(var, _)| var.name.as_deref() != Some(name));
+    }
+
+    fn new(machine: Machine, left: Option<Left>, vars: Vec<(Left, Vec<f64>)>, text: &str) -> Self {
         let header = Header { mission: String::new(), scenario: String::new(), seed: 0, tick_s: TICK_S };
         let trace = BehaviorTrace::new(machine.program(), &header);
-        Task { machine, left, text: text.to_string(), trace }
+        Task { machine, left, vars, text: text.to_string(), trace }
     }
 
     /// What happened in a tick, as lines. That a line of the prompt is a mission is nobody's concern.
@@ -81,7 +113,8 @@ impl Task {
     fn end(&self) -> Option<End> {
         let outcome = self.machine.outcome()?;
         let left = self.left.as_ref().filter(|left| left.name.is_some() && outcome == Outcome::Completed);
-        Some(End { left: left.map(|left| left.taken(&self.machine.state().words)) })
+        let left = left.map(|left| left.taken(&self.machine.state().words));
+        Some(End { left: self.changed().chain(left).collect() })
     }
 }
 
