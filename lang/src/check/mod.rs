@@ -96,6 +96,11 @@ impl Def {
         matches!(self, Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_))
     }
 
+    /// A value may have the same name: one before `(` is looked up among what can be called, any other among values.
+    fn shares_its_name(&self) -> bool {
+        self.can_be_called() || matches!(self, Def::Scenario(_) | Def::Vehicle(_))
+    }
+
     fn what(&self) -> &'static str {
         match self {
             Def::Const(_) => "a constant",

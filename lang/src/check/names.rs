@@ -68,12 +68,7 @@ impl<'t> Checker<'t> {
         if let Some(span) = earlier {
             self.report(finding("something").label(span, "declared here"));
         } else if let Some(def) = self.lookup(self.scope.module, &name.node) {
-            let callable = matches!(
-                def,
-                Def::Fn(_) | Def::Record(_) | Def::Clause(_) | Def::Activity(_) | Def::Scenario(_) | Def::Vehicle(_)
-            );
-            // A name before `(` is looked up among what can be called, any other among values.
-            if !callable {
+            if !def.shares_its_name() {
                 let finding = finding(def.what());
                 self.report(finding);
             }
@@ -297,7 +292,8 @@ impl<'t> Checker<'t> {
                     let what = def.what();
                     let help = match foreign::command(&name.node, "") {
                         Some(help) => help,
-                        None => format!("write `let {} = …` to name a value", name.node),
+                        None if def.shares_its_name() => format!("write `let {} = …` to name a value", name.node),
+                        None => "give the value a name of its own: `let NAME = …`".to_string(),
                     };
                     let message = format!("`{}` is {what} and cannot be assigned", name.node);
                     self.report(Diagnostic::error(Code::NamesAssign, name.span, message).help(help));

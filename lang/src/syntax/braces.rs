@@ -317,7 +317,7 @@ mod tests {
         );
         check(
             "fn f {\n  if a {\n    if b {\n      c\n}}\n",
-            "fn f {\n  if a {\n    if b {\n      c\n}}\n",
+            "fn f {\n  if a {\n    if b {\n      c\n}}}",
             &["a `}` is missing after this"],
         );
     }

@@ -14,6 +14,7 @@ const VERBS: [&str; 5] = ["goto", "follow", "dubins", "steer", "loiter"];
 pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     counted(before, rest)
         .or_else(|| block(before, rest, expected))
+        .or_else(|| arm(before, rest, expected))
         .or_else(|| lambda(before, rest))
         .or_else(|| record(rest, expected))
         .or_else(|| comparison(before, rest))
@@ -122,14 +123,22 @@ pub(super) fn absence(what: &str, rest: &str) -> Option<Habit> {
     is_none.then(|| write(format!("{what} {sign} none"))).flatten()
 }
 
-/// `x => x + 1`, `|x| x + 1` where a value stands.
+/// `sand => 1` in a `match`.
+fn arm(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let names = before.trim();
+    let is_arm = expected == "`{`" && names.split(',').all(|name| name.trim() == word(name.trim()));
+    (is_arm && (rest.starts_with("=>") || rest.starts_with("->"))).then(|| write(format!("{names} {{ … }}"))).flatten()
+}
+
+/// `x => x + 1`, `|x| x + 1`, `lambda x: x + 1`, `fn(x) { x + 1 }` where a value stands.
 fn lambda(before: &str, rest: &str) -> Option<Habit> {
     let open = before.matches('(').count() > before.matches(')').count();
     let first = word(before.trim_start());
     let is_value = first != "fn" && open || ["let", "var", "const", "memory", "signal"].contains(&first);
     let is_arrow = rest.starts_with("=>") || rest.starts_with("->") || before.ends_with('=') && rest.starts_with('>');
     let is_bar = rest.starts_with('|') && before.trim_end().ends_with(['=', '(', ',']);
-    (is_value && (is_arrow || is_bar)).then(|| Habit {
+    let is_word = last_word(before) == "lambda" || word(rest) == "fn";
+    (is_value && (is_arrow || is_bar || is_word)).then(|| Habit {
         message: Some("no function is a value".to_string()),
         help: "declare it with its name, `fn NAME(x: TYPE) -> TYPE { … }`, and call it: `NAME(3 m)`".to_string(),
     })
