@@ -13,7 +13,9 @@ mod mercator;
 mod plane;
 mod rows;
 
-pub use area::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Edge, PLACE_MAX_M, farthest_corner};
+pub use area::{
+    AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Edge, PLACE_MAX_M, farthest_corner,
+};
 pub use ellipsoid::metres_per_radian;
 pub use geodetic::{Geodetic, TangentFrame};
 pub use globe::{goes_round_a_pole, longitude_beside, longitude_within};
