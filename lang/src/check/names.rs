@@ -67,11 +67,11 @@ impl<'t> Checker<'t> {
         };
         if let Some(span) = earlier {
             self.report(finding("something").label(span, "declared here"));
-        } else if let Some(def) = self.lookup(self.scope.module, &name.node) {
-            if !def.shares_its_name() {
-                let finding = finding(def.what());
-                self.report(finding);
-            }
+        } else if let Some(def) = self.lookup(self.scope.module, &name.node)
+            && !def.shares_its_name()
+        {
+            let finding = finding(def.what());
+            self.report(finding);
         }
         self.names_used.declare(name, kind);
         self.declare_hidden(name.node.clone(), kind, ty, name.span)
