@@ -64,10 +64,13 @@ struct Heard {
 }
 
 impl Run {
-    /// Takes in the altitude that has come in this tick, if one has.
-    pub fn sound(&mut self) {
+    /// Takes in the altitude that has come in this tick, if one has, and is an echo.
+    pub fn sound(&mut self, is_echo: bool) {
         let tick = self.state.tick;
         self.state.bottom.way += self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
+        if !is_echo {
+            return;
+        }
         let told = |at: Option<u32>, ticks: f64| {
             let at = at.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
             (tick as f64 - self.get(at + Input::STAMP) <= ticks).then(|| self.get(at + Input::VALUE))

@@ -67,11 +67,13 @@ impl Run {
             self.set(input.at + Input::PEAK, value);
         }
         let tick = self.state.tick as f64;
+        let mut is_echo = true;
         for sample in samples {
-            if sample.is_withheld_of(ALTITUDE) {
+            if sample.is_doubted_of(ALTITUDE) {
                 self.doubt_sounding();
+                is_echo = false;
             }
-            let Some(Some(index)) = wiring.get(sample.channel as usize) else { continue };
+            let Some(Some(index)) = wiring.get(sample.input_channel() as usize) else { continue };
             let input = &program.inputs[*index as usize];
             let width = (input.width as usize).min(sample.reading.len());
             let numbers = &sample.reading[..width];
@@ -90,7 +92,7 @@ impl Run {
             }
             *count += 1.0;
         }
-        self.sound();
+        self.sound(is_echo);
     }
 
     pub fn has_sample(&self, input: &Input) -> bool {

@@ -1,8 +1,10 @@
 //! What of a snapshot is believed, in one place between vehicle and mission: simulated or at the end of a link.
 //!
 //! The watch looks at all that came and steers nothing, with one exception: an altitude that it knows to be stuck is withheld, so
-//! that the limits of the mission take the bottom for lost. So is one that does not follow a dive, or is told of a vehicle that lies on the bottom. The gate withholds what cannot
-//! have happened, until it persists. What is withheld stays in the snapshot, marked, so that a journal holds all that came and all that was believed.
+//! that the limits of the mission take the bottom for lost. The gate withholds what cannot have happened, until it persists. An
+//! altitude that does not follow a dive, or is told of a vehicle that lies on the bottom, is doubted: limits do without it, and inputs
+//! take it, for down a slope a good one looks the same. All of it stays in the snapshot, marked, so that a journal holds what came and
+//! what was believed.
 
 use crate::gate::Gate;
 use crate::sounding::Sounding;
@@ -19,7 +21,7 @@ pub struct Trust {
 }
 
 impl Trust {
-    /// Looks at what came in a tick, `command` being the last that was sent, and withholds what is not believed of it; gives what a
+    /// Looks at what came in a tick, `command` being the last that was sent, and marks what is not believed of it; gives what a
     /// person should hear.
     pub fn look(&mut self, tick: u64, snapshot: &mut Snapshot, command: Option<&Command>) -> Vec<String> {
         let mut told: Vec<String> = Vec::new();
@@ -31,11 +33,12 @@ impl Trust {
             for sample in snapshot.samples.iter_mut().filter(|sample| sources(sample.channel).is_empty() != made) {
                 let believed = !sources(sample.channel).iter().any(|source| doubtful.contains(source))
                     && (!altitude_is_stuck || sample.channel != ALTITUDE)
-                    && self.gate.believes(tick, sample.channel, sample.reading)
-                    && self.sounds(tick, sample, command, snapshot.aground);
+                    && self.gate.believes(tick, sample.channel, sample.reading);
                 if !believed {
                     doubtful.push(sample.channel);
                     sample.withhold();
+                } else if !self.sounds(tick, sample, command, snapshot.aground) {
+                    sample.doubt();
                 }
             }
         }

@@ -163,6 +163,36 @@ fn a_sounder_that_scatters_is_believed() {
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
 }
 
+/// A bottom that falls away as fast as the vehicle dives looks like a sounder that hears nothing. It costs a rise, and no mission:
+/// what is doubted is no late input.
+#[test]
+fn a_dive_down_a_slope_costs_time_and_no_mission() {
+    let requires = "requires { depth, altitude fresh 5 s, else hold for 30 s then abort }";
+    for (fall, hull) in [("1000 m", "fossen"), ("1300 m", "fossen"), ("1000 m", "kinematic")] {
+        let text = format!(
+            "mission dive in bay within 10 min {{
+                area op = rectangle(center: point(north: 0 m, east: 0 m), along: 0 deg, length: 8000 m, width: 8000 m)
+                limits {{ altitude >= 3 m, speed <= 2.5 m/s }}
+                requires {{ position, course, heading fresh 5 s, else abort }}
+                {requires}
+                recovery within 2 min {{ goto op.center }}
+                with depth 30 m, speed 1.5 m/s
+                steer 0 deg for 8 min
+            }}
+            scenario bay {{
+                vehicle({hull}, start: point(north: 0 m, east: 0 m), depth: 1 m)
+                bottom(from: 12 m, to: 210 m, across: {fall}, toward: 0 deg)
+            }}"
+        );
+        let script = load_text(Source { name: "dive.alb".into(), text: text.into() });
+        assert!(script.is_sound(), "{:#?}", script.findings);
+        let plan = Plan::new(&script, "dive.alb", None, None).unwrap();
+        let (outcome, trace, deepest) = run(&plan, 1, Box::new(|_, altitude| altitude));
+        assert_eq!(outcome, Outcome::Completed, "{hull} {fall}\n{trace}");
+        assert!(deepest > 29.0, "{hull} {fall}: {deepest} m\n{trace}");
+    }
+}
+
 /// A dive down a slope that is as steep as itself is stopped; what is found by the rise after it goes on.
 #[test]
 fn a_sounder_that_was_right_is_believed_by_the_next_rise() {

@@ -72,11 +72,28 @@ pub struct Lag {
 
 /// Marks the channel of a sample that is not believed: it is kept for whoever reads the journal, and no input takes it.
 const WITHHELD: u16 = 0x8000;
+/// Marks the channel of an altitude that may be no echo of the bottom: inputs take it, and no limit goes by it.
+const DOUBTED: u16 = 0x4000;
 
 impl Sample {
     /// The same, not to be believed.
     pub fn withhold(&mut self) {
         self.channel |= WITHHELD;
+    }
+
+    /// The same, and no limit is to go by it.
+    pub fn doubt(&mut self) {
+        self.channel |= DOUBTED;
+    }
+
+    /// Whether it is of a channel, and no limit is to go by it.
+    pub fn is_doubted_of(&self, channel: u16) -> bool {
+        self.channel == WITHHELD | channel || self.channel == DOUBTED | channel
+    }
+
+    /// The channel of one that inputs take.
+    pub fn input_channel(&self) -> u16 {
+        self.channel & !DOUBTED
     }
 
     /// Whether it is of a channel and not to be believed.

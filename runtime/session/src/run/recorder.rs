@@ -166,7 +166,7 @@ impl Recorder {
     /// The latest numbers of a channel in a tick.
     fn sensed(&self, snapshot: &Snapshot, channel: &str) -> Option<[f64; 4]> {
         let index = self.channels.iter().position(|c| c.name == channel)?;
-        snapshot.samples.iter().rev().find(|s| usize::from(s.channel) == index).map(|s| s.reading)
+        snapshot.samples.iter().rev().find(|s| usize::from(s.input_channel()) == index).map(|s| s.reading)
     }
 
     /// What the track is coloured by: the innermost behavior of a table, else the outermost activity inside the mission.
