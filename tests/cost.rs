@@ -64,6 +64,19 @@ fn large_scripts_are_checked_in_time() {
                 + &lines(8000, |i| format!("test \"a{i}\" {{ run large in calm seeds 1..1\n expect completed }}")),
         ),
         (
+            "rings",
+            format!(
+                "strategy rings(x: Length, b: Bool) {{ start b0\n{}signal s = {}\n{}{}b19 -> finish on b\n}}\n{alone}",
+                lines(30, |i| format!("signal s{i} = {}x > {i} * x", "x + ".repeat(60))),
+                (0..30).map(|i| format!("s{i}")).collect::<Vec<_>>().join(" and "),
+                lines(20, |i| format!("behavior b{i} {{ steer north }}")),
+                lines(400, |i| match (i / 20, i % 20) {
+                    (from, to) if from < to => format!("b{from} -> b{to} on s or (becomes b)"),
+                    _ => String::new(),
+                }),
+            ),
+        ),
+        (
             "variants",
             format!(
                 "enum Many {{ {} }}\nfn which(e: Many) -> Int {{ match e {{ {} }} }}\n{alone}",

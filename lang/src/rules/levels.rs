@@ -15,6 +15,8 @@ pub struct Signals<'h>(BTreeMap<VarId, &'h Expr>);
 #[derive(Clone, Debug, Default)]
 pub struct Level<'h> {
     parts: Vec<Part<'h>>,
+    /// How much there is to compare.
+    weight: usize,
 }
 
 /// One demand on the state.
@@ -25,6 +27,9 @@ enum Part<'h> {
     /// A condition of another form holds, or does not.
     Truth(&'h Expr, bool),
 }
+
+/// A condition that holds, or does not.
+pub type Way<'h> = (&'h Expr, bool);
 
 /// Two demands at once.
 enum Beside<'h> {
@@ -49,19 +54,29 @@ impl<'h> Signals<'h> {
     /// The levels on which a condition can hold at the entry of a behavior, tick after tick: without those that wait for an
     /// edge, for a time or for the end of a body.
     pub fn levels(&self, condition: &'h Expr) -> Vec<Level<'h>> {
-        self.ways(condition).into_iter().filter_map(|way| self.level(way)).collect()
+        self.ways(condition).into_iter().filter_map(|way| self.level(way, false)).collect()
+    }
+
+    /// Whether a way in which a condition holds, whatever it waited for, leaves room for another condition.
+    pub fn have_room(&self, way: Way<'h>, other: &'h Expr) -> bool {
+        let Some(level) = self.level(way, true) else { return true };
+        let others = self.ways(other);
+        others.is_empty()
+            || others.into_iter().any(|other| self.level(other, true).is_none_or(|other| level.and(&other).is_some()))
     }
 
     /// What `or` joins, also behind the names of signals. None where that is too much.
-    pub fn ways(&self, condition: &'h Expr) -> Vec<&'h Expr> {
+    pub fn ways(&self, condition: &'h Expr) -> Vec<Way<'h>> {
         let mut ways = Vec::new();
-        let mut ahead = vec![condition];
+        let mut ahead = vec![(condition, true)];
         for _ in 0..MOST {
-            let Some(e) = ahead.pop() else { return ways };
+            let Some((e, holds)) = ahead.pop() else { return ways };
             let e = self.meant(e);
             match &e.kind {
-                ExprKind::Do(Builtin::Or, operands) => ahead.extend(operands),
-                _ => ways.push(e),
+                ExprKind::Do(Builtin::Or, operands) if holds => ahead.extend(operands.iter().map(|e| (e, true))),
+                ExprKind::Do(Builtin::And, operands) if !holds => ahead.extend(operands.iter().map(|e| (e, false))),
+                ExprKind::Do(Builtin::Not, operands) => ahead.extend(operands.iter().map(|e| (e, !holds))),
+                _ => ways.push((e, holds)),
             }
         }
         Vec::new()
@@ -115,9 +130,10 @@ impl<'h> Signals<'h> {
         e
     }
 
-    fn level(&self, way: &'h Expr) -> Option<Level<'h>> {
+    /// What a way demands; `at_once` of the moment in which it holds, or else for as long as nothing changes.
+    fn level(&self, way: Way<'h>, at_once: bool) -> Option<Level<'h>> {
         let mut level = Level::default();
-        let mut ahead = vec![(way, true)];
+        let mut ahead = vec![way];
         let mut left = MOST;
         while let Some((e, holds)) = ahead.pop() {
             left = left.checked_sub(1)?;
@@ -128,10 +144,13 @@ impl<'h> Signals<'h> {
                 ExprKind::Do(Builtin::Not, operands) => ahead.extend(operands.iter().map(|e| (e, !holds))),
                 ExprKind::Number(truth) if (*truth != 0.0) == holds => {}
                 ExprKind::Number(_) => return None,
+                ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) if at_once && holds => ahead.push((inner, true)),
+                ExprKind::After(_) | ExprKind::Done | ExprKind::HeldFor(..) | ExprKind::Becomes(_) if at_once => {}
                 _ if !self.is_level(e) => return None,
                 _ => level = level.with(&Part::of(e, holds))?,
             }
         }
+        level.weight = level.parts.iter().map(|part| part.subject().parts()).sum();
         Some(level)
     }
 }
@@ -139,7 +158,13 @@ impl<'h> Signals<'h> {
 impl<'h> Level<'h> {
     /// Both at once; `None` when no state has room for both.
     pub fn and(&self, other: &Level<'h>) -> Option<Self> {
-        other.parts.iter().try_fold(self.clone(), |level, part| level.with(part))
+        let both = other.parts.iter().try_fold(self.clone(), |level, part| level.with(part))?;
+        Some(Level { weight: self.weight + other.weight, ..both })
+    }
+
+    /// How much work it is at most to hold this beside another.
+    pub fn work(&self, other: &Level<'h>) -> usize {
+        1 + self.parts.len() * other.weight + other.parts.len() * self.weight
     }
 
     /// Whether this speaks of all that the other speaks of.
@@ -190,6 +215,7 @@ impl<'h> Part<'h> {
             return Part::Bound(x, numbers(x, side, holds, strict));
         }
         match equated(e) {
+            Some((x, value)) if x.ty == Type::Bool => Part::Truth(x, (value != 0.0) == holds),
             Some((x, value)) if holds => Part::Bound(x, Interval::exactly(value)),
             _ => Part::Truth(e, holds),
         }
@@ -250,7 +276,12 @@ fn room(ty: &Type, a: Interval, b: Interval) -> Option<Interval> {
 fn equated(e: &Expr) -> Option<(&Expr, f64)> {
     let ExprKind::Do(Builtin::Eq, operands) = &e.kind else { return None };
     let (a, b) = (&operands[0], &operands[1]);
-    match (a.range.constant(), b.range.constant()) {
+    // A variant of an enum is a number without a range.
+    let constant = |e: &Expr| match e.kind {
+        ExprKind::Number(value) => Some(value),
+        _ => e.range.constant(),
+    };
+    match (constant(a), constant(b)) {
         (None, Some(value)) => Some((a, value)),
         (Some(value), None) => Some((b, value)),
         _ => None,

@@ -1,17 +1,18 @@
 //! Rules that undo each other: a table that switches to and fro, or round in a ring, on what goes on to hold gets nowhere.
 
 use super::levels::{Level, Signals};
-use super::overlaps::exclude;
 use crate::check::never_ends;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{
-    Action, ActivityId, Block, Body, Builtin, Expr, ExprKind, Hir, Rule, StmtKind, Target, VarId, children, leaving,
+    Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Rule, Stmt, StmtKind, Target, VarId, children, leaving,
 };
 use std::collections::BTreeSet;
 
-/// The most steps that are taken in one table in search of rings: beyond, nothing is said of the rest.
-const STEPS: usize = 1 << 18;
+/// The most work that is done in one table in search of rings, in comparisons: beyond, nothing is said of the rest.
+const WORK: usize = 1 << 23;
+/// ... of which a look at all that is assigned on a ring takes so much.
+const RING_WORK: usize = 1 << 13;
 
 /// The warnings on a switching table.
 pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
@@ -25,6 +26,7 @@ pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
         rules,
         leaving: leaving(rules, behaviors.len()),
         levels: rules.iter().map(|rule| signals.levels(&rule.on)).collect(),
+        aborts: strategy.aborts.iter().flat_map(|(_, on)| signals.levels(on)).collect(),
         signals,
     };
     let comes_again = rules.iter().filter_map(|rule| table.comes_again(rule));
@@ -34,9 +36,13 @@ pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
 /// What a sequence surely ends with: the condition after the `until` of its last statement.
 fn until(hir: &Hir, behavior: ActivityId) -> Option<&Expr> {
     let Body::Sequence(block) = &hir.activities[behavior].body else { return None };
-    let mut last = block.stmts.last()?;
+    // What takes no time comes in the same tick.
+    let takes_time = |stmt: &&Stmt| {
+        !matches!(stmt.kind, StmtKind::Log(_) | StmtKind::Report { .. } | StmtKind::Set(..) | StmtKind::Clear(_))
+    };
+    let mut last = block.stmts.iter().rfind(takes_time)?;
     while let StmtKind::With(_, inner) = &last.kind {
-        last = inner.stmts.last()?;
+        last = inner.stmts.iter().rfind(takes_time)?;
     }
     match &last.kind {
         StmtKind::Timed(timed) if timed.within.is_none() && !matches!(timed.action, Action::Call(..)) => {
@@ -54,6 +60,8 @@ struct Table<'h> {
     leaving: Vec<Vec<usize>>,
     /// Of each rule, the ways in which its guard can go on to hold.
     levels: Vec<Vec<Level<'h>>>,
+    /// The same of what aborts the strategy, which comes before its rules.
+    aborts: Vec<Level<'h>>,
     signals: Signals<'h>,
 }
 
@@ -82,16 +90,14 @@ impl<'h> Table<'h> {
 
     /// Whether a guard may still hold when what it led to is done: it has a way without an edge that neither the end of that
     /// behavior nor what is assigned on the way excludes.
-    fn lasts(&self, guard: &'h Expr, end: Option<&Expr>, way: impl Iterator<Item = (usize, &'h Rule)>) -> bool {
-        let is_over = |end| alternatives(end).into_iter().all(|end| exclude(guard, end));
-        if end.is_some_and(is_over) {
-            return false;
-        }
+    fn lasts(&self, guard: &'h Expr, end: Option<&'h Expr>, way: impl Iterator<Item = (usize, &'h Rule)>) -> bool {
         let assigned = self.assigned(way);
         self.signals.ways(guard).into_iter().any(|way| {
             let mut read = BTreeSet::new();
-            self.signals.reads(way, &mut read);
-            self.signals.outlasts(way) && read.is_disjoint(&assigned)
+            self.signals.reads(way.0, &mut read);
+            self.signals.outlasts(way.0)
+                && read.is_disjoint(&assigned)
+                && end.is_none_or(|end| self.signals.have_room(way, end))
         })
     }
 
@@ -117,7 +123,7 @@ impl<'h> Table<'h> {
     fn rings(&self) -> Vec<Ring> {
         let mut rings: Vec<Ring> = Vec::new();
         let mut told = BTreeSet::new();
-        let mut left = STEPS;
+        let mut left = WORK;
         for (first, rule) in self.rules.iter().enumerate() {
             for &source in &rule.sources {
                 let ring = self.levels[first].iter().find_map(|level| {
@@ -144,14 +150,15 @@ impl<'h> Table<'h> {
             return false;
         }
         if to == way[0].1 {
-            return self.is_undisturbed(way) && way.iter().all(|step| self.is_tried(*step, state));
+            *left = left.saturating_sub(RING_WORK);
+            return *left > 0 && self.is_undisturbed(way) && way.iter().all(|step| self.is_tried(*step, state));
         }
         if way.iter().any(|(_, been)| *been == to) {
             return false;
         }
         for &next in &self.leaving[to] {
             for level in &self.levels[next] {
-                let Some(less) = left.checked_sub(1) else { return false };
+                let Some(less) = left.checked_sub(first.work(level) + state.work(level)) else { return false };
                 *left = less;
                 if !first.covers(level) {
                     continue;
@@ -167,10 +174,11 @@ impl<'h> Table<'h> {
         false
     }
 
-    /// Whether no rule before this one surely leads elsewhere.
+    /// Whether no abort and no rule before this one surely leads elsewhere.
     fn is_tried(&self, (rule, source): (usize, usize), state: &Level<'h>) -> bool {
         let earlier = self.leaving[source].iter().take_while(|other| **other < rule);
-        !earlier.flat_map(|&other| &self.levels[other]).any(|other| state.implies(other))
+        let mut elsewhere = earlier.flat_map(|&other| &self.levels[other]).chain(&self.aborts);
+        !elsewhere.any(|other| state.implies(other))
     }
 
     /// Whether nothing that a ring's rules read is assigned on it.
@@ -197,14 +205,6 @@ impl<'h> Table<'h> {
         finding.help(
             "write `becomes …` in each, or conditions that exclude each other, with room between: `> 4 m` and `< 2 m`",
         )
-    }
-}
-
-/// What `or` joins.
-fn alternatives(e: &Expr) -> Vec<&Expr> {
-    match &e.kind {
-        ExprKind::Do(Builtin::Or, operands) => operands.iter().flat_map(alternatives).collect(),
-        _ => vec![e],
     }
 }
 

@@ -74,7 +74,7 @@ fn same_outcome(a: &Rule, b: &Rule) -> bool {
 }
 
 /// Whether two guards surely never hold at once.
-pub(super) fn exclude(a: &Expr, b: &Expr) -> bool {
+fn exclude(a: &Expr, b: &Expr) -> bool {
     let (parts, others) = (conjuncts(a), conjuncts(b));
     parts.iter().any(|x| others.iter().any(|y| contrary(x, y) || contrary(y, x) || apart(x, y)))
 }
