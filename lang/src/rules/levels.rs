@@ -57,12 +57,15 @@ impl<'h> Signals<'h> {
         self.ways(condition).into_iter().filter_map(|way| self.level(way, false)).collect()
     }
 
-    /// Whether a way in which a condition holds, whatever it waited for, leaves room for another condition.
-    pub fn have_room(&self, way: Way<'h>, other: &'h Expr) -> bool {
-        let Some(level) = self.level(way, true) else { return true };
-        let others = self.ways(other);
-        others.is_empty()
-            || others.into_iter().any(|other| self.level(other, true).is_none_or(|other| level.and(&other).is_some()))
+    /// What a way in which a condition holds demands of the moment, whatever it waited for. None where that is too much to say.
+    pub fn moment(&self, way: Way<'h>) -> Option<Level<'h>> {
+        self.level(way, true)
+    }
+
+    /// The same of each way in which a condition holds.
+    pub fn moments(&self, condition: &'h Expr) -> Option<Vec<Level<'h>>> {
+        let ways = self.ways(condition);
+        if ways.is_empty() { None } else { ways.into_iter().map(|way| self.moment(way)).collect() }
     }
 
     /// What `or` joins, also behind the names of signals. None where that is too much.

@@ -7,27 +7,33 @@ use crate::diagnostic::Diagnostic;
 use crate::hir::{
     Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Rule, Stmt, StmtKind, Target, VarId, children, leaving,
 };
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
-/// The most work that is done in one table in search of rings, in comparisons: beyond, nothing is said of the rest.
+/// The most work that is done in one table, in comparisons: beyond, nothing is said of the rest.
 const WORK: usize = 1 << 23;
-/// ... of which a look at all that is assigned on a ring takes so much.
-const RING_WORK: usize = 1 << 13;
+/// ... of which a look at all that is assigned on a way takes so much.
+const WAY_WORK: usize = 1 << 10;
+/// Rings of more rules are not looked for: whoever reads of one has to find its rules.
+const RING_MAX: usize = 8;
 
 /// The warnings on a switching table.
 pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
     let strategy = &hir.activities[activity];
     let Body::Table { behaviors, rules, .. } = &strategy.body else { return Vec::new() };
     let signals = Signals::of(strategy);
+    let work = Work(Cell::new(WORK));
+    let levels = |on| if work.is_left() { work.counted(signals.levels(on)) } else { Vec::new() };
     let table = Table {
         hir,
         activity,
         behaviors,
         rules,
         leaving: leaving(rules, behaviors.len()),
-        levels: rules.iter().map(|rule| signals.levels(&rule.on)).collect(),
-        aborts: strategy.aborts.iter().flat_map(|(_, on)| signals.levels(on)).collect(),
+        levels: rules.iter().map(|rule| levels(&rule.on)).collect(),
+        aborts: strategy.aborts.iter().flat_map(|(_, on)| levels(on)).collect(),
         signals,
+        work,
     };
     let comes_again = rules.iter().filter_map(|rule| table.comes_again(rule));
     comes_again.chain(table.rings().into_iter().map(|ring| table.undoes(&ring))).collect()
@@ -52,6 +58,27 @@ fn until(hir: &Hir, behavior: ActivityId) -> Option<&Expr> {
     }
 }
 
+/// What is left of the work.
+struct Work(Cell<usize>);
+
+impl Work {
+    fn is_left(&self) -> bool {
+        self.0.get() > 0
+    }
+
+    /// Takes some of it; whether there was so much.
+    fn takes(&self, work: usize) -> bool {
+        self.0.set(self.0.get().saturating_sub(work));
+        self.is_left()
+    }
+
+    /// Levels whose making is counted.
+    fn counted<'h>(&self, levels: Vec<Level<'h>>) -> Vec<Level<'h>> {
+        self.takes(levels.iter().map(|level| level.work(level)).sum());
+        levels
+    }
+}
+
 struct Table<'h> {
     hir: &'h Hir,
     activity: ActivityId,
@@ -63,6 +90,7 @@ struct Table<'h> {
     /// The same of what aborts the strategy, which comes before its rules.
     aborts: Vec<Level<'h>>,
     signals: Signals<'h>,
+    work: Work,
 }
 
 /// Rules that lead from a behavior back to it, each with the behavior that it leaves.
@@ -91,13 +119,21 @@ impl<'h> Table<'h> {
     /// Whether a guard may still hold when what it led to is done: it has a way without an edge that neither the end of that
     /// behavior nor what is assigned on the way excludes.
     fn lasts(&self, guard: &'h Expr, end: Option<&'h Expr>, way: impl Iterator<Item = (usize, &'h Rule)>) -> bool {
+        if !self.work.takes(WAY_WORK) {
+            return false;
+        }
         let assigned = self.assigned(way);
+        let ends = end.and_then(|end| self.signals.moments(end)).map(|ends| self.work.counted(ends));
         self.signals.ways(guard).into_iter().any(|way| {
             let mut read = BTreeSet::new();
             self.signals.reads(way.0, &mut read);
-            self.signals.outlasts(way.0)
-                && read.is_disjoint(&assigned)
-                && end.is_none_or(|end| self.signals.have_room(way, end))
+            let lasts = || match (&ends, self.signals.moment(way)) {
+                (Some(ends), Some(now)) => {
+                    ends.iter().any(|end| self.work.takes(now.work(end)) && now.and(end).is_some())
+                }
+                _ => true,
+            };
+            self.signals.outlasts(way.0) && read.is_disjoint(&assigned) && lasts()
         })
     }
 
@@ -119,16 +155,15 @@ impl<'h> Table<'h> {
         blocks.into_iter().flat_map(Block::assigned).collect()
     }
 
-    /// Rings of rules that hold at once and go on to hold, each once.
+    /// Rings of rules that hold at once and go on to hold, no rule in two of them: the shortest first.
     fn rings(&self) -> Vec<Ring> {
         let mut rings: Vec<Ring> = Vec::new();
         let mut told = BTreeSet::new();
-        let mut left = WORK;
-        for (first, rule) in self.rules.iter().enumerate() {
-            for &source in &rule.sources {
+        for (length, first) in (1..=RING_MAX).flat_map(|length| (0..self.rules.len()).map(move |rule| (length, rule))) {
+            for &source in &self.rules[first].sources {
                 let ring = self.levels[first].iter().find_map(|level| {
                     let mut ring = vec![(first, source)];
-                    self.goes_round(level, level, &mut ring, &mut left).then_some(ring)
+                    self.goes_round(level, level, &mut ring, length).then_some(ring)
                 });
                 let Some(mut ring) = ring else { continue };
                 ring.sort_unstable();
@@ -142,30 +177,32 @@ impl<'h> Table<'h> {
     }
 
     /// Whether others of whose conditions the first speaks lead on from the last rule of a way back to where it began, in a
-    /// state in which all hold.
-    fn goes_round(&self, first: &Level<'h>, state: &Level<'h>, way: &mut Ring, left: &mut usize) -> bool {
+    /// state in which all hold, so many rules at most.
+    fn goes_round(&self, first: &Level<'h>, state: &Level<'h>, way: &mut Ring, most: usize) -> bool {
         let Some(&(rule, _)) = way.last() else { return false };
         let Target::Behavior(to) = self.rules[rule].target else { return false };
         if self.rules[rule].back {
             return false;
         }
         if to == way[0].1 {
-            *left = left.saturating_sub(RING_WORK);
-            return *left > 0 && self.is_undisturbed(way) && way.iter().all(|step| self.is_tried(*step, state));
+            return self.work.takes(WAY_WORK)
+                && self.is_undisturbed(way)
+                && way.iter().all(|step| self.is_tried(*step, state));
         }
-        if way.iter().any(|(_, been)| *been == to) {
+        if way.len() == most || way.iter().any(|(_, been)| *been == to) {
             return false;
         }
         for &next in &self.leaving[to] {
             for level in &self.levels[next] {
-                let Some(less) = left.checked_sub(first.work(level) + state.work(level)) else { return false };
-                *left = less;
+                if !self.work.takes(first.work(level) + state.work(level)) {
+                    return false;
+                }
                 if !first.covers(level) {
                     continue;
                 }
                 let Some(both) = state.and(level) else { continue };
                 way.push((next, to));
-                if self.goes_round(first, &both, way, left) {
+                if self.goes_round(first, &both, way, most) {
                     return true;
                 }
                 way.pop();
