@@ -369,6 +369,7 @@ impl Prompt {
         let slot = |id: VarId| base + slot_of(types, &activity.vars, id);
         let leaves = |id: VarId, name: Option<String>, held: Held| {
             let hir::Var { ty, range, .. } = activity.vars[id].clone();
+            let range = if held == Held::Var { check::range_of_var(&ty, range) } else { range };
             Left { name, slot: slot(id), shape: types.shape(&ty), ty, held, range }
         };
         let value = left.and_then(|(wanted, name, held)| {

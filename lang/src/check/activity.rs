@@ -28,12 +28,7 @@ impl<'t> Checker<'t> {
             let params = c.scope.vars.len();
             for known in c.modules[m].known.iter().flatten() {
                 let id = c.declare_hidden(known.name.clone(), known.kind(), known.ty.clone(), signature.span);
-                let implied = Self::implied_range(&known.ty).filter(|implied| implied.covers(known.range));
-                match known.kind() {
-                    // What is assigned later is held to the range of its type only.
-                    VarKind::Memory => c.scope.vars[id].range = implied.unwrap_or(c.scope.vars[id].range),
-                    _ => c.scope.vars[id].range = known.range,
-                }
+                c.scope.vars[id].range = known.range;
             }
             (c.activity(id, a, None), params)
         });

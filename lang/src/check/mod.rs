@@ -38,6 +38,7 @@ mod written;
 
 pub(crate) use flow::{goes_round, takes_time};
 pub use params::Override;
+pub(crate) use sense::range_of_var;
 pub use table::never_ends;
 
 use crate::diagnostic::Diagnostic;

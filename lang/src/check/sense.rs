@@ -2,6 +2,7 @@
 //! What is known of a value is its range: one that is wholly senseless is refused, one that only may be is not.
 
 use super::Checker;
+use super::constant::of_type;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -17,6 +18,11 @@ pub(super) const QUANTITY_MAX: f64 = 1e12;
 
 /// A turn, and what radians lose in being written as degrees.
 const TURN: f64 = TAU + 1e-9;
+
+/// The range of a `var` of the prompt, by that of the value it is declared with: what is assigned later is held to its type only.
+pub(crate) fn range_of_var(ty: &Type, value: Interval) -> Interval {
+    Checker::implied_range(ty).filter(|implied| implied.covers(value)).unwrap_or_else(|| of_type(ty))
+}
 
 impl<'t> Checker<'t> {
     /// The duration of `for T`, `within T`, `fresh T` and `after T`.

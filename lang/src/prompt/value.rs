@@ -59,6 +59,12 @@ impl Named {
     pub fn is_var(&self) -> bool {
         self.held == Held::Var
     }
+
+    /// Whether this and another are values of one `var`.
+    pub fn is_same_var(&self, other: &Named) -> bool {
+        self.is_var()
+            && (&self.name, &self.ty, self.held, self.range) == (&other.name, &other.ty, other.held, other.range)
+    }
 }
 
 /// A value that a line leaves.
@@ -98,10 +104,15 @@ impl Left {
         }
     }
 
+    /// Its words, of the words of the run.
+    pub fn of<'a>(&self, words: &'a [f64]) -> &'a [f64] {
+        let at = self.slot as usize;
+        words.get(at..at + self.shape.words() as usize).unwrap_or(&[])
+    }
+
     /// The value, taken from the words of the run.
     pub fn taken(&self, words: &[f64]) -> Named {
-        let at = self.slot as usize;
-        let words = words.get(at..at + self.shape.words() as usize).unwrap_or(&[]).to_vec();
+        let words = self.of(words).to_vec();
         let name = self.name.clone().unwrap_or_default();
         Named { name, words, shape: self.shape.clone(), ty: self.ty.clone(), held: self.held, range: self.range }
     }

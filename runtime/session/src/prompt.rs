@@ -59,7 +59,6 @@ pub struct Prompt {
     seed: u64,
     now: Moment,
     past: Past,
-    names: Vec<Named>,
     /// The person has interrupted what was being done.
     stopped: bool,
 }
@@ -143,7 +142,8 @@ impl Prompt {
                         say(Say::Text(&text));
                     } else {
                         say(Say::Text(&format!("{} = {text}", value.name)));
-                        self.name(value);
+                        self.now.name(value);
+                        self.past.pin(&self.now);
                     }
                 }
                 Err(what) => return wrong(&what, say),
@@ -161,18 +161,14 @@ impl Prompt {
                 known.push(named);
             }
         };
-        if let Some(task) = &self.now.task
-            && task.left.is_some()
-        {
-            task.changed().for_each(&mut add);
-        } else if let Some(task) = &self.now.task {
+        if let Some(task) = self.now.task.as_ref().filter(|task| task.left.is_none()) {
             let words = &task.machine.state().words;
             for (id, base) in task.machine.frames().into_iter().rev() {
                 let frame = words.get(base as usize..).unwrap_or(&[]);
                 self.script.names_of(task.machine.program(), id, frame).into_iter().for_each(&mut add);
             }
         }
-        self.names.iter().cloned().for_each(&mut add);
+        self.now.names().iter().cloned().for_each(&mut add);
         known
     }
 
@@ -224,7 +220,6 @@ impl Prompt {
             Err(what) => return wrong(&what, say),
         };
         let left = drive.value.unwrap_or_else(Left::nothing);
-        self.leave_task();
         self.now.task = Some(Task::line(machine, left, drive.vars, text));
         self.past.pin(&self.now);
         if drive.endless {
@@ -249,7 +244,6 @@ impl Prompt {
         let name = program.mission.name.clone();
         match self.machine_for(program) {
             Ok(machine) => {
-                self.leave_task();
                 self.now.task = Some(Task::mission(machine, &name));
                 self.past.pin(&self.now);
                 say(Say::Text(&format!("{name} begins: `run 5 min` or `step` lets time go by")));
@@ -269,15 +263,8 @@ impl Prompt {
         Some(Answer::Wrong)
     }
 
-    /// Ends what is under way. What it has assigned stays.
-    fn leave_task(&mut self) {
-        if let Some(task) = self.now.task.take() {
-            task.changed().for_each(|changed| self.name(changed));
-        }
-    }
-
     fn stop(&mut self, say: &mut Listener) {
-        self.leave_task();
+        self.now.task = None;
         self.past.pin(&self.now);
         say(Say::Text(&format!("{}  stopped", self.now.place())));
     }
@@ -294,13 +281,12 @@ impl Prompt {
             let ended = match self.now.step(&mut |line| say(Say::Text(line))) {
                 Ok(ended) => ended,
                 Err(error) => {
-                    self.leave_task();
+                    self.now.task = None;
                     return say(Say::Error(&error.to_string(), None));
                 }
             };
-            if let Some(end) = ended {
+            if ended {
                 self.past.pin(&self.now);
-                end.left.into_iter().for_each(|left| self.name(left));
                 break;
             }
             self.past.note(&self.now);
@@ -309,19 +295,10 @@ impl Prompt {
         say(Say::Text(&format!("{}{on}", self.now.place())));
     }
 
-    /// Gives a value its name, which may have been another's.
-    fn name(&mut self, value: Named) {
-        if let Some(task) = &mut self.now.task {
-            task.leave_alone(&value.name);
-        }
-        self.names.retain(|named| named.name != value.name);
-        self.names.push(value);
-    }
-
-    /// Goes back in time: to the moment before, and on from there as it was.
+    /// Goes back in time: to the moment before, and on from there as it was. What has got a name since keeps it.
     fn back(&mut self, ticks: u64, say: &mut Listener) -> Answer {
         let to = self.now.tick.saturating_sub(ticks);
-        let Some(moment) = self.past.before(to) else {
+        let Some(mut moment) = self.past.before(to) else {
             let earliest = self.past.earliest();
             let lived = (self.now.tick - earliest) as f64 * TICK_S;
             let most = number::fixed(lived, 1);
@@ -333,12 +310,13 @@ impl Prompt {
             say(Say::Error(&what, Some(&help)));
             return Answer::Wrong;
         };
-        self.now = moment;
-        while self.now.tick < to {
-            if let Err(error) = self.now.step(&mut |_| {}) {
+        while moment.tick < to {
+            if let Err(error) = moment.step(&mut |_| {}) {
                 return wrong(&error.to_string(), say);
             }
         }
+        moment.keep_names(self.now.names().to_vec());
+        self.now = moment;
         self.past.forget_after(to);
         let under_way = self.now.task.as_ref().map_or("", |_| "  under way again: `run` lets it go on");
         say(Say::Text(&format!("{}{under_way}", self.now.place())));

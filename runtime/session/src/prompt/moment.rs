@@ -26,6 +26,8 @@ pub struct Moment {
     /// The tick of the snapshot.
     pub tick: u64,
     pub task: Option<Task>,
+    /// The values that have got a name by `let` and `var`.
+    names: Vec<Named>,
     recent: VecDeque<(u64, Vec<Sample>)>,
     /// What the vehicle was last told.
     command: Option<Command>,
@@ -40,17 +42,11 @@ pub struct Task {
     pub machine: Machine,
     /// What a line leaves at its end; none for the script's mission.
     pub left: Option<Left>,
-    /// The `var`s of the prompt that a line may assign, with their values as it began.
-    vars: Vec<(Left, Vec<f64>)>,
+    /// Where a line has the `var`s of the prompt, which it reads and assigns.
+    vars: Vec<Left>,
     /// The line, or the mission's name.
     pub text: String,
     trace: BehaviorTrace,
-}
-
-/// What came to its end.
-pub struct End {
-    /// The values that it leaves, with their names.
-    pub left: Vec<Named>,
 }
 
 impl Task {
@@ -61,30 +57,32 @@ impl Task {
 
     /// A line, and the `var`s that it may assign.
     pub fn line(machine: Machine, left: Left, vars: Vec<Left>, text: &str) -> Self {
-        let words = machine.state().words.as_slice();
-        let vars = vars
-            .into_iter()
-            .map(|var| {
-                let begun = var.taken(words).words;
-                (var, begun)
-            })
-            .collect();
         Task::new(machine, Some(left), vars, text)
     }
 
-    /// The `var`s of the prompt that the line has changed.
-    pub fn changed(&self) -> impl Iterator<Item = Named> {
-        let words = &self.machine.state().words;
-        let now = self.vars.iter().map(|(var, before)| (var.taken(words), before));
-        now.filter(|(var, before)| var.words != **before).map(|(var, _)| var)
+    /// A `var` has been assigned at the prompt.
+    fn put(&mut self, assigned: &Named) {
+        if let Some(var) = self.vars.iter().find(|var| var.name.as_ref() == Some(&assigned.name)) {
+            self.machine.put(var.slot, &assigned.words);
+        }
     }
 
-    /// From here on a name is no concern of this line: it has been given or assigned anew.
-    pub fn leave_alone(&mut self, name: &str) {
-        self.vars.retain(|(var, _)| var.name.as_deref() != Some(name));
+    /// What the line has made of the `var`s.
+    fn assign(&self, names: &mut [Named]) {
+        for var in &self.vars {
+            if let Some(named) = names.iter_mut().find(|named| var.name.as_ref() == Some(&named.name)) {
+                named.words.clear();
+                named.words.extend_from_slice(var.of(&self.machine.state().words));
+            }
+        }
     }
 
-    fn new(machine: Machine, left: Option<Left>, vars: Vec<(Left, Vec<f64>)>, text: &str) -> Self {
+    /// From here on a name is no concern of this line: it is another value's.
+    fn leave_alone(&mut self, name: &str) {
+        self.vars.retain(|var| var.name.as_deref() != Some(name));
+    }
+
+    fn new(machine: Machine, left: Option<Left>, vars: Vec<Left>, text: &str) -> Self {
         let header = Header { mission: String::new(), scenario: String::new(), seed: 0, tick_s: TICK_S };
         let trace = BehaviorTrace::new(machine.program(), &header);
         Task { machine, left, vars, text: text.to_string(), trace }
@@ -110,11 +108,11 @@ impl Task {
         self.trace.since(told).for_each(say);
     }
 
-    fn end(&self) -> Option<End> {
-        let outcome = self.machine.outcome()?;
-        let left = self.left.as_ref().filter(|left| left.name.is_some() && outcome == Outcome::Completed);
-        let left = left.map(|left| left.taken(&self.machine.state().words));
-        Some(End { left: self.changed().chain(left).collect() })
+    /// The value that a line leaves under a name, now that it has come to its end.
+    fn left(&self) -> Option<Named> {
+        let left = self.left.as_ref().filter(|left| left.name.is_some());
+        left.filter(|_| self.machine.outcome() == Some(Outcome::Completed))
+            .map(|left| left.taken(&self.machine.state().words))
     }
 }
 
@@ -129,6 +127,7 @@ impl Moment {
             snapshot,
             tick: 0,
             task: None,
+            names: Vec::new(),
             recent: VecDeque::new(),
             command: None,
             trust: Trust::default(),
@@ -162,8 +161,34 @@ impl Moment {
         self.recent.iter().map(|(tick, samples)| (*tick, samples.as_slice()))
     }
 
+    /// What has got a name at the prompt.
+    pub fn names(&self) -> &[Named] {
+        &self.names
+    }
+
+    /// Gives a value its name, which may have been another's. A `var` is one value: the line that is under way has it too.
+    pub fn name(&mut self, value: Named) {
+        let is_assigned = self.names.iter().any(|named| named.is_same_var(&value));
+        match &mut self.task {
+            Some(task) if is_assigned => task.put(&value),
+            Some(task) => task.leave_alone(&value.name),
+            None => {}
+        }
+        self.names.retain(|named| named.name != value.name);
+        self.names.push(value);
+    }
+
+    /// Takes over the names of a later moment. A `var` that is here already keeps the value that it has here.
+    pub fn keep_names(&mut self, later: Vec<Named>) {
+        for named in later {
+            if !self.names.iter().any(|here| here.is_same_var(&named)) {
+                self.name(named);
+            }
+        }
+    }
+
     /// Lets a tick go by; or, when what is under way ends in it, tells so: the tick then belongs to what comes next.
-    pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Option<End>, VehicleError> {
+    pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<bool, VehicleError> {
         for (tick, notice) in self.notices.drain(..) {
             say(&format!("{}  vehicle  {notice}", number::seconds(tick)));
         }
@@ -171,9 +196,12 @@ impl Moment {
         if let Some(task) = &mut self.task {
             command = task.machine.step(&self.snapshot);
             task.tell(self.tick, say);
-            if let Some(end) = task.end() {
+            task.assign(&mut self.names);
+            if task.machine.outcome().is_some() {
+                let left = task.left();
                 self.task = None;
-                return Ok(Some(end));
+                left.into_iter().for_each(|left| self.name(left));
+                return Ok(true);
             }
         }
         // One that has taken control back, for a leak, does as it likes.
@@ -183,7 +211,7 @@ impl Moment {
             self.command = Some(command);
         }
         self.sense()?;
-        Ok(None)
+        Ok(false)
     }
 
     /// Nothing to do: neither ahead nor up nor down.

@@ -80,8 +80,8 @@ impl Prompt {
         let now = Moment::first(vehicle(&scenario, opening.seed)?)
             .map_err(|error| OpenError::Asked(error.to_string(), None))?;
         let past = Past::beginning_with(&now);
-        let (seed, names) = (opening.seed, Vec::new());
-        Ok(Prompt { files, lines, script, mission, scenario_name, scenario, seed, now, past, names, stopped: false })
+        let seed = opening.seed;
+        Ok(Prompt { files, lines, script, mission, scenario_name, scenario, seed, now, past, stopped: false })
     }
 }
 
