@@ -44,7 +44,15 @@ fn until(hir: &Hir, behavior: ActivityId) -> Option<&Expr> {
     let Body::Sequence(block) = &hir.activities[behavior].body else { return None };
     // What takes no time comes in the same tick.
     let takes_time = |stmt: &&Stmt| {
-        !matches!(stmt.kind, StmtKind::Log(_) | StmtKind::Report { .. } | StmtKind::Set(..) | StmtKind::Clear(_))
+        !matches!(
+            stmt.kind,
+            StmtKind::Log(_)
+                | StmtKind::Report { .. }
+                | StmtKind::Set(..)
+                | StmtKind::Insert(..)
+                | StmtKind::Remove(..)
+                | StmtKind::Clear(_)
+        )
     };
     let mut last = block.stmts.iter().rfind(takes_time)?;
     while let StmtKind::With(_, inner) = &last.kind {
