@@ -78,6 +78,15 @@ impl<'t> Checker<'t> {
             format!("{what} is {}, this is {}", article(&wants), article(&has)),
         )
         .here(format!("`{has}`"));
+        let variable = match value.kind {
+            ExprKind::Var(id) => Some(&self.scope.vars[id].name),
+            _ => None,
+        };
+        // What has a name is declared as what it is counted from.
+        let counted = |name: &str, origin: &str| {
+            let declared = variable.map_or(String::new(), |variable| format!("declare it `{variable}: {wants}`, or "));
+            format!("{} is counted from the {origin}: {declared}write `{name} + LENGTH` or a constant", article(&wants))
+        };
         let finding = match (&value.ty, wanted) {
             (Type::Optional(inner), w) if **inner == *w && Self::is_quotient(value) => finding.help(
                 "when the divisor is zero there is no quotient: write `… else VALUE`, or test it with `if` before",
@@ -91,11 +100,9 @@ impl<'t> Checker<'t> {
             (Type::Heading, Type::Quantity(d)) if *d == Dimension::ANGLE => {
                 finding.help("an angle lies between two headings: write `HEADING - HEADING`")
             }
-            (Type::Quantity(d), Type::Depth) if *d == Dimension::LENGTH => {
-                finding.help("a depth is counted from the surface: write `depth + LENGTH`, or a constant")
-            }
+            (Type::Quantity(d), Type::Depth) if *d == Dimension::LENGTH => finding.help(counted("depth", "surface")),
             (Type::Quantity(d), Type::Altitude) if *d == Dimension::LENGTH => {
-                finding.help("an altitude is counted from the bottom: write `altitude + LENGTH`, or a constant")
+                finding.help(counted("altitude", "bottom"))
             }
             (Type::Int | Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::NONE) => {
                 match constant {
