@@ -67,6 +67,13 @@ fn several_statements_of_a_line_are_done_in_order() {
 }
 
 #[test]
+fn edges_belong_to_their_area() {
+    let (code, answers) = answers("edges", &[]);
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(0));
+}
+
+#[test]
 fn bytes_that_are_no_text_are_left_out() {
     let out = out("bytes");
     let mut child = session(&[], &out).spawn().unwrap();

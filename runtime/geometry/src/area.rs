@@ -18,6 +18,13 @@ pub const AREA_WIDTH_MIN_M: f64 = 1.0;
 /// No place lies farther from the origin of its frame, north or east, than this, m: more than twice round the Earth.
 pub const PLACE_MAX_M: f64 = 1e8;
 
+/// What is no farther from an edge than this, m, lies on it. It is more than rounding moves a computed point, even [`PLACE_MAX_M`] out,
+/// and less than anyone knows a place to.
+const ON_EDGE_M: f64 = 1e-6;
+
+/// A ray that goes out by no more than this, m, on the length of an edge goes along it.
+const ALONG_EDGE_M: f64 = 1e-7;
+
 /// Corners closer together than this, in metres, are one corner.
 const CORNER_SEPARATION_M: f64 = 1e-3;
 
@@ -48,8 +55,8 @@ pub enum AreaError {
     TooManyCorners,
     /// The polygon has a dent or crosses itself.
     NotConvex,
-    /// A coordinate is not a number.
-    NotFinite,
+    /// A coordinate is not a number, or more than twice [`PLACE_MAX_M`].
+    TooFar,
 }
 
 impl std::fmt::Display for AreaError {
@@ -58,7 +65,7 @@ impl std::fmt::Display for AreaError {
             AreaError::TooFewCorners => write!(f, "an area needs at least three distinct corners"),
             AreaError::TooManyCorners => write!(f, "an area has at most {AREA_CORNERS_MAX} corners"),
             AreaError::NotConvex => write!(f, "the corners do not make a convex polygon"),
-            AreaError::NotFinite => write!(f, "a corner has no finite position"),
+            AreaError::TooFar => write!(f, "a corner lies nowhere on Earth"),
         }
     }
 }
@@ -78,8 +85,19 @@ pub fn farthest_corner(corners: &[Point], heading: Heading, near: Point) -> Poin
 }
 
 impl Edge {
-    /// Metres from the edge's line, positive inside the area and negative outside.
+    /// Metres from the edge's line, positive inside the area and negative outside; 0 on it, whatever rounding makes of a point there.
     pub fn gap(self, p: Point) -> f64 {
+        let gap = self.exact_gap(p);
+        if gap.abs() < ON_EDGE_M { 0.0 } else { gap }
+    }
+
+    /// How far a ray goes from a point inside the area, m, until it leaves over this edge; none where it goes inward or along.
+    pub fn run(self, from: Point, ray: Vector) -> Option<f64> {
+        let outward = ray.dot(self.normal);
+        (outward * self.line.length() > ALONG_EDGE_M).then(|| self.exact_gap(from).max(0.0) / outward)
+    }
+
+    fn exact_gap(self, p: Point) -> f64 {
         (self.line.start - p).dot(self.normal)
     }
 
@@ -93,8 +111,9 @@ impl Edge {
 impl Area {
     /// The convex polygon with these corners, given either way round.
     pub fn polygon(corners: &[Point]) -> Result<Self, AreaError> {
-        if corners.iter().any(|c| !c.north.is_finite() || !c.east.is_finite()) {
-            return Err(AreaError::NotFinite);
+        let is_near = |x: f64| x.abs() <= 2.0 * PLACE_MAX_M;
+        if !corners.iter().all(|c| is_near(c.north) && is_near(c.east)) {
+            return Err(AreaError::TooFar);
         }
         if corners.len() < 3 {
             return Err(AreaError::TooFewCorners);
@@ -107,19 +126,17 @@ impl Area {
         if (0..n).any(|i| side(i).length() < CORNER_SEPARATION_M) {
             return Err(AreaError::TooFewCorners);
         }
-        // Convex: every turn the same way, and one turn in all (a star turns twice).
-        let turns: Vec<f64> = (0..n).map(|i| side((i + 1) % n).toward() - side(i).toward()).collect();
-        let total: f64 = turns.iter().sum();
-        let clockwise = total > 0.0;
-        let bends_one_way = turns.iter().all(|&turn| if clockwise { turn >= -1e-9 } else { turn <= 1e-9 });
-        if !bends_one_way || (total.abs() - 2.0 * PI).abs() > 1e-6 {
-            return Err(AreaError::NotConvex);
+        let turned: f64 = (0..n).map(|i| side((i + 1) % n).toward() - side(i).toward()).sum();
+        let mut area = Area { corners: corners.to_vec() };
+        if turned < 0.0 {
+            area.corners.reverse();
         }
-        let mut corners = corners.to_vec();
-        if !clockwise {
-            corners.reverse();
+        // Convex: no corner lies beyond an edge, and the sides turn once in all (those of a triangle gone round twice do twice).
+        let has_dent = area.edges().any(|edge| area.corners.iter().any(|&corner| edge.gap(corner) < 0.0));
+        match has_dent || (turned.abs() - 2.0 * PI).abs() > 1e-6 {
+            true => Err(AreaError::NotConvex),
+            false => Ok(area),
         }
-        Ok(Area { corners })
     }
 
     /// The rectangle of a given length along a direction and width across it, in metres. There is always one: a side shorter than
@@ -239,7 +256,8 @@ mod tests {
         assert_eq!(Area::polygon(&star), Err(AreaError::NotConvex));
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
-        assert_eq!(Area::polygon(&[p(0.0, f64::NAN), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::NotFinite));
+        assert_eq!(Area::polygon(&[p(0.0, f64::NAN), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFar));
+        assert_eq!(Area::polygon(&[p(0.0, 1e9), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFar));
     }
 
     #[test]

@@ -79,13 +79,7 @@ impl Run {
     }
 
     pub fn gap(&self, area: Slot, p: Point) -> f64 {
-        let corners = self.slice(area + 1, AREA_CORNER_WORDS * self.corners(area));
-        let gaps = corners.chunks_exact(AREA_CORNER_WORDS as usize).map(|words| match *words {
-            [north, east, normal_north, normal_east] => {
-                (Point::new(north, east) - p).dot(Vector::new(normal_north, normal_east))
-            }
-            _ => f64::INFINITY,
-        });
+        let gaps = (0..self.corners(area)).map(|i| self.edge_of(area, i).gap(p));
         bounded(gaps.fold(f64::INFINITY, f64::min))
     }
 
@@ -112,13 +106,10 @@ impl Run {
         let mut run = f64::INFINITY;
         for i in 0..self.corners(area) {
             let edge = self.edge_of(area, i);
-            let (gap, outward) = (edge.gap(from), ray.dot(edge.normal));
-            if gap < 0.0 {
+            if edge.gap(from) < 0.0 {
                 return from;
             }
-            if outward > 0.0 {
-                run = run.min(gap / outward);
-            }
+            run = edge.run(from, ray).map_or(run, |of_edge| run.min(of_edge));
         }
         if run.is_finite() { from + run * ray } else { from }
     }

@@ -9,7 +9,7 @@ use albacore_arithmetic::{
     Abs, Add, AddInt, Ceil, Cos, Div, Dot, Floor, Length, Max, Min, Mul, MulInt, Neg, Operation, Pow, Round, Sin, Sqrt,
     Sub, SubInt, Ticks, WrapAngle, WrapHeading, bounded,
 };
-use albacore_geometry::Vector;
+use albacore_geometry::{Edge, Line, Point, Vector};
 use albacore_program::{ABSOLUTE, AREA_CORNER_WORDS, Op, Slot, header};
 
 /// The words of a run, as code with a frame's base sees them.
@@ -62,6 +62,10 @@ impl Frame<'_> {
             let (to, from) = (self.at(to), self.at(from));
             self.words.copy_within(from..from + words as usize, to);
         }
+    }
+
+    fn point(&self, slot: Slot) -> Point {
+        Point::ORIGIN + self.vector(slot)
     }
 
     #[inline]
@@ -160,8 +164,9 @@ pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -
                 f.copy(to + 4, here + 2, 2);
             }
             Op::EdgeGap { to, edge, point } => {
-                let gap = dot(f.vector(edge) - f.vector(point), f.vector(edge + 4));
-                f.set(to, gap);
+                let line = Line { start: f.point(edge), end: f.point(edge + 2) };
+                let gap = Edge { line, normal: f.vector(edge + 4) }.gap(f.point(point));
+                f.set(to, bounded(gap));
             }
 
             Op::HeldFor { to, x, since, ticks, owner } => {

@@ -331,8 +331,7 @@ fn exit(edges: &[Edge], from: Point, heading: Heading) -> Point {
     if edges.iter().any(|edge| edge.gap(from) < 0.0) {
         return from;
     }
-    let runs = edges.iter().filter(|edge| heading.unit().dot(edge.normal) > 0.0);
-    let run = runs.map(|edge| edge.gap(from) / heading.unit().dot(edge.normal)).fold(f64::INFINITY, f64::min);
+    let run = edges.iter().filter_map(|edge| edge.run(from, heading.unit())).fold(f64::INFINITY, f64::min);
     if run.is_finite() { from + run * heading.unit() } else { from }
 }
 
