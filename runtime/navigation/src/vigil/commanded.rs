@@ -5,9 +5,11 @@ use albacore_geometry::Heading;
 use albacore_geometry::math::PI;
 use albacore_vehicle::{Command, Vertical};
 
-/// The heading may be so far from the one commanded, rad, and further for so many ticks: 20 s. A slow hull lags behind in a spiral.
+/// The heading may be so far from the one commanded, rad, and further for so many ticks, 20 s, in which it turns towards that by no
+/// more than this. A slow hull lags behind in a spiral, and takes its time to turn right about.
 const HEADING_MAX: f64 = 60.0 * PI / 180.0;
 const HEADING_TICKS: u64 = 200;
+const HEADING_TURNS: f64 = 15.0 * PI / 180.0;
 /// It stands still for so many ticks while another is commanded: 10 s.
 const HEADING_SAME: u64 = 100;
 /// Below this speed a vehicle cannot steer, m/s.
@@ -33,12 +35,22 @@ const HELD: f64 = 0.5;
 /// What is remembered of how commands are followed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Commanded {
-    /// For how many ticks the heading has been far off.
-    astray: u64,
+    astray: Option<Astray>,
     goal: Option<Goal>,
     depth: Depth,
     /// That when the altitude was first told that is still told.
     depth_then: Option<Depth>,
+}
+
+/// A heading that is far off.
+#[derive(Clone, Copy, Debug)]
+struct Astray {
+    /// What was told last, and which way from there the one commanded is the nearer.
+    heading: Heading,
+    is_clockwise: bool,
+    /// For how many ticks it has not turned there enough, and by how much it has, rad.
+    ticks: u64,
+    turned: f64,
 }
 
 /// The depth that was told last, and its mean, m.
@@ -89,17 +101,31 @@ impl Commanded {
             return;
         };
         if let Some(told) = heard.heading {
-            let off = (Heading::from_radians(told.reading[0]) - command.heading).abs();
-            let astray = off > HEADING_MAX && speed > SPEED_MIN && command.speed > SPEED_MIN;
-            self.astray = if astray { self.astray + 1 } else { 0 };
-            if self.astray > HEADING_TICKS {
-                sights.see(Sight::HeadingNotAsCommanded);
-            }
-            if self.astray.min(told.same) > HEADING_SAME {
-                sights.see(Sight::Stuck(Kind::Heading));
-            }
+            self.look_at_heading(told, command, speed, sights);
         }
         self.look_at_goal(heard, command.vertical, sights);
+    }
+
+    /// Is it far off, and does not turn to where it should?
+    fn look_at_heading(&mut self, told: Told, command: &Command, speed: f64, sights: &mut Sights) {
+        let heading = Heading::from_radians(told.reading[0]);
+        let off = command.heading - heading;
+        if off.abs() <= HEADING_MAX || speed.min(command.speed) <= SPEED_MIN {
+            self.astray = None;
+            return;
+        }
+        let is_clockwise = off > 0.0;
+        let before = self.astray.unwrap_or(Astray { heading, is_clockwise, ticks: 0, turned: 0.0 });
+        let clockwise = heading - before.heading;
+        let turned = before.turned + if before.is_clockwise { clockwise } else { -clockwise };
+        let (ticks, turned) = if turned > HEADING_TURNS { (0, 0.0) } else { (before.ticks + 1, turned) };
+        self.astray = Some(Astray { heading, is_clockwise, ticks, turned });
+        if ticks > HEADING_TICKS {
+            sights.see(Sight::HeadingNotAsCommanded);
+        }
+        if ticks.min(told.same) > HEADING_SAME {
+            sights.see(Sight::Stuck(Kind::Heading));
+        }
     }
 
     /// Every 30 s: is it nearer?
@@ -128,7 +154,7 @@ impl Commanded {
         if goal.missed {
             sights.see(sight);
             let is_depth = matches!(vertical, Vertical::Depth(_));
-            if is_depth && told.same > DEPTH_SAME {
+            if is_depth && told.same > DEPTH_SAME && self.depth.last >= SURFACE {
                 sights.see(Sight::Stuck(Kind::Depth));
             }
         }

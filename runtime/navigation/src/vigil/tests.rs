@@ -160,3 +160,34 @@ fn garbage_is_no_noise_by_which_a_rest_is_stuck() {
         assert!(sighted.iter().all(|told| told.sight != Sight::Stuck(Kind::Altitude)), "{tick}: {sighted:?}");
     }
 }
+
+/// What is told of a vehicle that is to turn right about after 10 s, and heads as a function of the tick and of its last heading.
+fn heads(mut heading: impl FnMut(u64, Heading) -> Heading) -> Vec<String> {
+    let (mut vigil, mut told, mut at) = (Vigil::default(), Vec::new(), Heading::from_degrees(0.0));
+    for tick in 0..1_500 {
+        at = heading(tick, at);
+        let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
+        snapshot.push(HEADING, &[at.radians()]);
+        snapshot.push(SPEED, &[2.0]);
+        // No course is commanded to turn faster than 10 deg/s.
+        let commanded = Heading::from_degrees((tick.saturating_sub(100) as f64).min(180.0));
+        let command = Command { heading: commanded, speed: 2.0, vertical: Vertical::Depth(3.0) };
+        told.extend(vigil.look(tick, &snapshot, Some(&command)).iter().map(ToString::to_string));
+    }
+    told
+}
+
+#[test]
+fn a_hull_that_turns_slowly_follows_and_one_that_circles_does_not() {
+    let turns = |tick: u64, at: Heading, rate: f64| {
+        let step = if tick < 100 { 0.0 } else { TICK_S * rate };
+        Heading::from_degrees((at.degrees() + step).min(180.0))
+    };
+    for rate in [1.0, 2.0, 4.0, 10.0] {
+        assert_eq!(heads(|tick, at| turns(tick, at, rate)), [""; 0], "{rate} deg/s");
+    }
+    for rate in [-10.0, -4.0, 0.01, 4.0, 10.0] {
+        let circles = |tick: u64, _: Heading| Heading::from_degrees(TICK_S * rate * tick as f64);
+        assert!(heads(circles).contains(&"detected: heading not as commanded".into()), "{rate} deg/s");
+    }
+}
