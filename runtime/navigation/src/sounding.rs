@@ -3,7 +3,8 @@
 //! A sounder that tells the same however deep the vehicle is hears nothing, or itself, or a layer that moves with it; what it tells
 //! scatters all the same. While the vehicle is told to go deeper and does, an altitude that hardly becomes less is not believed any
 //! more, until it has grown with a rise. Over a bottom that falls away as fast as the vehicle dives it is true all the same, and
-//! the next rise shows it. What a vehicle keeps, by altitude or by the limit of one, may well stay the same: nothing is said of it.
+//! the next rise shows it. So it does of an echo that comes after a silence in which the vehicle dived: it may be late by as much, and
+//! follows the dive all the same. What a vehicle keeps, by altitude or by the limit of one, may well stay the same: nothing is said of it.
 //!
 //! Echoes scatter, so none is compared with another: a line is laid through all of a dive ([`Line`]), and its slope is the share of
 //! the dive that the altitude follows: 1 over level ground, 0 of what hears itself, and over a bottom that falls away at 1 in 4
@@ -36,6 +37,11 @@ const SLOW_TICKS: u64 = 600;
 const KEEPS_M: f64 = 0.5;
 /// ... by the altitudes of about so many ticks: 1 s.
 const SMOOTH_TICKS: f64 = 10.0;
+/// Without an echo a vehicle dives no deeper than this, m, or the next one has to follow a rise; but for a sounder that is no slower
+/// than before by this factor, which forgets a slow spell by so much with each echo.
+const UNHEARD_M: f64 = 1.0;
+const SLOWER: f64 = 3.0;
+const FORGETS: f64 = 0.9;
 /// A sounder sits no higher above the bottom than this, m, when the vehicle lies on it.
 const LYING_M: f64 = 1.0;
 
@@ -43,12 +49,22 @@ const LYING_M: f64 = 1.0;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sounding {
     depth: Option<f64>,
+    echo: Option<Echo>,
     /// The altitude without most of its scatter, m, and when it was taken.
     smooth: Option<(f64, u64)>,
     dive: Option<Dive>,
     /// While it is not believed, what it tells of a rise.
     disbelieved: Option<Line>,
     told: Option<Told>,
+}
+
+/// The last echo: when and how deep the vehicle was, and how deep it has been since, m; and the ticks from one echo to the next.
+#[derive(Clone, Copy, Debug)]
+struct Echo {
+    tick: u64,
+    depth: f64,
+    deepest: f64,
+    period: Option<f64>,
 }
 
 /// A dive under way: what is told in all of it, and since it was looked at last.
@@ -62,6 +78,7 @@ struct Dive {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Told {
     NoLess(f64),
+    Unheard(f64),
     Lying(f64),
     Follows(f64),
 }
@@ -70,15 +87,21 @@ impl Sounding {
     /// Takes in a depth that is believed.
     pub fn dive(&mut self, depth: f64) {
         self.depth = Some(depth);
+        if let Some(echo) = &mut self.echo {
+            echo.deepest = echo.deepest.max(depth);
+        }
     }
 
     /// Whether an altitude can be an echo, `command` being what the vehicle follows, which may lie on the bottom.
     pub fn believes(&mut self, tick: u64, altitude: f64, command: Option<&Command>, aground: bool) -> bool {
         let Some(depth) = self.depth.filter(|_| altitude.is_finite()) else { return true };
+        let unheard = self.hear(tick, depth);
         let told = if let Some(line) = &mut self.disbelieved {
             line.rise(tick, depth, altitude).then_some(Told::Follows(line.from - depth))
         } else if aground && altitude > LYING_M {
             Some(Told::Lying(altitude))
+        } else if let Some(dived) = unheard {
+            Some(Told::Unheard(dived))
         } else {
             let dives = self.dives(tick, depth, altitude, command);
             self.dive = self.dive.filter(|_| dives);
@@ -91,6 +114,18 @@ impl Sounding {
             None => {}
         }
         self.disbelieved.is_none()
+    }
+
+    /// Takes in that there is an echo, and gives how far the vehicle has dived without one, if that was long.
+    fn hear(&mut self, tick: u64, depth: f64) -> Option<f64> {
+        let now = Echo { tick, depth, deepest: depth, period: None };
+        let before = self.echo.replace(now)?;
+        let gap = tick.saturating_sub(before.tick) as f64;
+        let dived = before.deepest - before.depth;
+        let is_slower = before.period.is_some_and(|period| gap > SLOWER * period);
+        let period = before.period.map_or(gap, |period| if is_slower { period } else { gap.max(FORGETS * period) });
+        self.echo = Some(Echo { period: Some(period), ..now });
+        (is_slower && dived > UNHEARD_M).then_some(dived)
     }
 
     /// Whether the vehicle is told to go deeper than it is.
@@ -129,6 +164,7 @@ impl Sounding {
     pub fn take_told(&mut self) -> Option<String> {
         self.told.take().map(|told| match told {
             Told::NoLess(dived) => format!("rejected: altitude, no less after a dive of {dived:.1} m"),
+            Told::Unheard(dived) => format!("rejected: altitude, silent in a dive of {dived:.1} m"),
             Told::Lying(altitude) => format!("rejected: altitude, {altitude:.1} m of a vehicle on the bottom"),
             Told::Follows(risen) => format!("believed: altitude, grows in a rise of {risen:.1} m"),
         })
