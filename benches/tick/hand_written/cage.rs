@@ -1,6 +1,6 @@
 //! `safety.cage`: what keeps the vehicle inside.
 
-use albacore_geometry::{Area, Edge, Heading, Point, Vector};
+use albacore_geometry::{Area, Edge, Heading, Point, Vector, gap, nearest_edge};
 
 const BAND: f64 = 5.0;
 const BEYOND: f64 = 30.0;
@@ -18,8 +18,7 @@ impl Cage {
 
     /// Far outside.
     pub fn left(&self, position: Point) -> bool {
-        let gap = self.edges.iter().map(|edge| edge.gap(position)).fold(f64::INFINITY, f64::min);
-        gap < -BEYOND
+        gap(self.edges.iter().copied(), position) < -BEYOND
     }
 
     /// The course that does not lead out.
@@ -40,17 +39,9 @@ impl Cage {
         } else if go.length() > 0.01 {
             go.toward()
         } else {
-            nearest(&self.edges, position).map_or(asked, |edge| edge.tangent(heading))
+            nearest_edge(self.edges.iter().copied(), position).map_or(asked, |edge| edge.tangent(heading))
         }
     }
-}
-
-/// The edge whose line is nearest; of equals the first.
-pub fn nearest(edges: &[Edge], position: Point) -> Option<Edge> {
-    edges
-        .iter()
-        .copied()
-        .reduce(|nearest, edge| if edge.gap(position) < nearest.gap(position) { edge } else { nearest })
 }
 
 /// The corner that lies farthest along a heading; of those equally far the nearest.

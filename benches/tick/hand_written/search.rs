@@ -1,8 +1,7 @@
 //! `search.find`: across the flow from edge to edge.
 
-use super::cage::nearest;
 use albacore_geometry::math::radians;
-use albacore_geometry::{Area, Edge, Heading, Point};
+use albacore_geometry::{Area, Edge, Heading, Point, nearest_edge};
 
 const TURN: f64 = 6.0;
 
@@ -43,7 +42,8 @@ impl Find {
             match self.reflected(position, down) {
                 Some(next) => self.leg = next,
                 None => {
-                    self.leg = nearest(&self.edges, position).map_or(self.leg, |edge| edge.tangent(self.met));
+                    self.leg = nearest_edge(self.edges.iter().copied(), position)
+                        .map_or(self.leg, |edge| edge.tangent(self.met));
                     self.along_edge = true;
                 }
             }

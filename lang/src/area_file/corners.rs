@@ -4,7 +4,7 @@ use super::{Position, fault};
 use crate::FileFault;
 use crate::diagnostic::distance;
 use albacore_geometry::{
-    AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, Geodetic, Point, TangentFrame, Vector,
+    AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Geodetic, Point, TangentFrame, Vector,
     goes_round_a_pole, longitude_beside,
 };
 
@@ -95,10 +95,9 @@ fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
                 "look for a sign or a digit that is wrong in its corners, or cut it into smaller areas",
             ));
         }
-        Ok(area) if area.width() < AREA_WIDTH_MIN_M => {
+        Err(AreaError::TooThin(width)) => {
             let message = format!(
-                "{what} is {:.2} m wide where it is thinnest, and no area is thinner than {AREA_WIDTH_MIN_M} m",
-                area.width()
+                "{what} is {width:.2} m wide where it is thinnest, and no area is thinner than {AREA_WIDTH_MIN_M} m",
             );
             return Some(fault(message, "look for corners that are nearly in one place or on one line"));
         }

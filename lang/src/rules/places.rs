@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, distance};
 use crate::hir::{Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
 use crate::source::Span;
 use albacore_geometry::{
-    AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, Geodetic, Heading, Point, TangentFrame, goes_round_a_pole,
+    AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Geodetic, Heading, Point, TangentFrame, goes_round_a_pole,
 };
 use albacore_program::Guide;
 use std::collections::BTreeSet;
@@ -38,7 +38,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         };
         let (_, value) = clause.args.iter().find(|(name, _)| name == "area")?;
         let ClauseArg::Value(e) = value else { return None };
-        let out = area.beyond(&self::area(e, frame)?);
+        let out = area.distance(&self::area(e, frame)?);
         let mut far = (out > FAR_M).then(|| finding(&activity.name, written, e.span, what, out))?;
         if frame.is_some_and(|frame| swapped::would_be_near(e, &[frame.origin])) {
             far.help = Some(swapped::HELP.into());
@@ -64,7 +64,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
 /// An area of constants in which no mission can be planned: round a pole, too thin to work in, or reaching farther than a plane can
 /// be taken for the sea.
 pub(super) fn unusable(hir: &Hir, mission: usize) -> Option<Diagnostic> {
-    let (area, written, _) = of_mission(hir, mission)?;
+    let (area, written, frame) = of_mission(hir, mission)?;
     if goes_round_a_pole(&longitudes(written_area(hir, mission)?)) {
         return Some(
             Diagnostic::error(
@@ -75,8 +75,8 @@ pub(super) fn unusable(hir: &Hir, mission: usize) -> Option<Diagnostic> {
             .help("cut it into areas that have no pole in them, or give corners in metres"),
         );
     }
-    if area.width() < AREA_WIDTH_MIN_M {
-        let message = format!("this area is {:.3} m wide where it is thinnest", area.width());
+    if let Some(width) = too_thin(written_area(hir, mission)?, frame) {
+        let message = format!("this area is {width:.3} m wide where it is thinnest");
         return Some(Diagnostic::error(Code::AreasSmall, written, message).help(format!(
             "no area is thinner than {AREA_WIDTH_MIN_M} m: look for a unit, and for corners that are nearly on one line"
         )));
@@ -180,17 +180,29 @@ pub(super) fn area(e: &Expr, frame: Option<TangentFrame>) -> Option<Area> {
             let [along, length, width] = [along, length, width].map(|e| e.range.constant());
             Some(Area::rectangle(point(center, frame)?, Heading::from_radians(along?), length?, width?))
         }
-        ExprKind::Do(Builtin::Polygon, operands) => match operands.as_slice() {
-            [Expr { kind: ExprKind::List(corners), .. }] => {
-                let corners: Option<Vec<Point>> = corners.iter().map(|corner| point(corner, frame)).collect();
-                Area::polygon(&corners?).ok()
-            }
-            _ => None,
-        },
+        ExprKind::Do(Builtin::Polygon, operands) => polygon(operands, frame)?.ok(),
         // `area_file(…)`
         ExprKind::Unwrap(inner) => area(inner, frame),
         // `polygon(…) else rectangle(…)`
         ExprKind::Else(first, second) => area(first, frame).or_else(|| area(second, frame)),
+        _ => None,
+    }
+}
+
+fn polygon(operands: &[Expr], frame: Option<TangentFrame>) -> Option<Result<Area, AreaError>> {
+    let [Expr { kind: ExprKind::List(corners), .. }] = operands else { return None };
+    let corners: Option<Vec<Point>> = corners.iter().map(|corner| point(corner, frame)).collect();
+    Some(Area::polygon(&corners?))
+}
+
+/// How wide a polygon of constants is that is too thin for an area, m.
+fn too_thin(area: &Expr, frame: Option<TangentFrame>) -> Option<f64> {
+    match &area.kind {
+        ExprKind::Unwrap(inner) | ExprKind::Else(inner, _) => too_thin(inner, frame),
+        ExprKind::Do(Builtin::Polygon, operands) => match polygon(operands, frame)? {
+            Err(AreaError::TooThin(width)) => Some(width),
+            _ => None,
+        },
         _ => None,
     }
 }

@@ -47,7 +47,7 @@ pub struct Edge {
 }
 
 /// Why a polygon is not an area.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AreaError {
     /// Fewer than three distinct corners.
     TooFewCorners,
@@ -55,6 +55,8 @@ pub enum AreaError {
     TooManyCorners,
     /// The polygon has a dent or crosses itself.
     NotConvex,
+    /// It is so wide where it is thinnest, m: less than [`AREA_WIDTH_MIN_M`].
+    TooThin(f64),
     /// A coordinate is not a number, or more than twice [`PLACE_MAX_M`].
     TooFar,
 }
@@ -65,6 +67,12 @@ impl std::fmt::Display for AreaError {
             AreaError::TooFewCorners => write!(f, "an area needs at least three distinct corners"),
             AreaError::TooManyCorners => write!(f, "an area has at most {AREA_CORNERS_MAX} corners"),
             AreaError::NotConvex => write!(f, "the corners do not make a convex polygon"),
+            AreaError::TooThin(width) => {
+                write!(
+                    f,
+                    "it is {width:.2} m wide where it is thinnest, and no area is thinner than {AREA_WIDTH_MIN_M} m"
+                )
+            }
             AreaError::TooFar => write!(f, "a corner lies nowhere on Earth"),
         }
     }
@@ -84,11 +92,43 @@ pub fn farthest_corner(corners: &[Point], heading: Heading, near: Point) -> Poin
     best.unwrap_or(near)
 }
 
+/// Metres from a point to the nearest edge of an area, positive inside and negative outside. Outside a corner that is farther than
+/// any line through an edge.
+pub fn gap(edges: impl Iterator<Item = Edge> + Clone, p: Point) -> f64 {
+    let inside = edges.clone().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min);
+    match inside < 0.0 {
+        true => -edges.filter(|edge| edge.gap(p) < 0.0).map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min),
+        false => inside,
+    }
+}
+
+/// The edge of an area that is nearest to a point; outside a corner, of its two the one whose line is farther off. Of equals the first.
+pub fn nearest_edge(edges: impl Iterator<Item = Edge>, p: Point) -> Option<Edge> {
+    let away = |edge: &Edge| (edge.distance(p), edge.gap(p));
+    edges
+        .map(|edge| (away(&edge), edge))
+        .reduce(|best, next| if next.0 < best.0 { next } else { best })
+        .map(|(_, edge)| edge)
+}
+
 impl Edge {
     /// Metres from the edge's line, positive inside the area and negative outside; 0 on it, whatever rounding makes of a point there.
     pub fn gap(self, p: Point) -> f64 {
         let gap = self.exact_gap(p);
         if gap.abs() < ON_EDGE_M { 0.0 } else { gap }
+    }
+
+    /// Metres to the edge itself: beside it to its line, past an end to that corner.
+    pub fn distance(self, p: Point) -> f64 {
+        let (side, there) = (self.line.end - self.line.start, p - self.line.start);
+        let along = there.dot(side);
+        if along < 0.0 {
+            there.length()
+        } else if along > side.dot(side) {
+            p.distance(self.line.end)
+        } else {
+            self.gap(p).abs()
+        }
     }
 
     /// How far a ray goes from a point inside the area, m, until it leaves over this edge; none where it goes inward or along.
@@ -133,9 +173,13 @@ impl Area {
         }
         // Convex: no corner lies beyond an edge, and the sides turn once in all (those of a triangle gone round twice do twice).
         let has_dent = area.edges().any(|edge| area.corners.iter().any(|&corner| edge.gap(corner) < 0.0));
-        match has_dent || (turned.abs() - 2.0 * PI).abs() > 1e-6 {
-            true => Err(AreaError::NotConvex),
-            false => Ok(area),
+        if has_dent || (turned.abs() - 2.0 * PI).abs() > 1e-6 {
+            return Err(AreaError::NotConvex);
+        }
+        match area.width() {
+            // A rectangle of that width is none the less an area for being turned.
+            width if width < AREA_WIDTH_MIN_M - ON_EDGE_M => Err(AreaError::TooThin(width)),
+            _ => Ok(area),
         }
     }
 
@@ -156,7 +200,7 @@ impl Area {
     }
 
     /// The sides, clockwise, beginning at the first corner.
-    pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + Clone + '_ {
         let n = self.corners.len();
         (0..n).map(move |i| {
             let line = Line { start: self.corners[i], end: self.corners[(i + 1) % n] };
@@ -174,7 +218,7 @@ impl Area {
 
     /// Metres to the nearest edge, positive inside and negative outside.
     pub fn gap(&self, p: Point) -> f64 {
-        self.edges().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min)
+        gap(self.edges(), p)
     }
 
     /// The distance from the middle to the farthest corner, m.
@@ -189,10 +233,14 @@ impl Area {
         self.edges().map(across).fold(f64::INFINITY, f64::min)
     }
 
-    /// How far another area lies wholly beyond an edge of this one, m; negative where none of its edges parts them.
-    pub fn beyond(&self, other: &Area) -> f64 {
-        let of_edge = |edge: Edge| other.corners.iter().map(|&c| -edge.gap(c)).fold(f64::INFINITY, f64::min);
-        self.edges().map(of_edge).fold(f64::NEG_INFINITY, f64::max)
+    /// How far another area is from this one, m; 0 where they meet.
+    pub fn distance(&self, other: &Area) -> f64 {
+        if self.overlaps(other) {
+            return 0.0;
+        }
+        // Of two polygons that do not overlap the nearest places are a corner of one and a place on the other's edges.
+        let from_corners = |of: &Area, to: &Area| of.corners.iter().map(|&c| -to.gap(c)).fold(f64::INFINITY, f64::min);
+        from_corners(self, other).min(from_corners(other, self)).max(0.0)
     }
 
     /// Whether two areas have more than edges in common. Of convex polygons that have not, one lies wholly beyond an edge of the
@@ -213,8 +261,8 @@ mod tests {
         let of = |length, width| Area::rectangle(Point::ORIGIN, Heading::from_degrees(30.0), length, width);
         assert!((of(200.0, 40.0).width() - 40.0).abs() < 1e-9 && (of(3.0, 40.0).width() - 3.0).abs() < 1e-9);
         let corner = |north, east| Point::new(north, east);
-        let sliver = Area::polygon(&[corner(0.0, 0.0), corner(0.0, 100.0), corner(0.5, 50.0)]).unwrap();
-        assert!((sliver.width() - 0.5).abs() < 1e-4);
+        let wedge = Area::polygon(&[corner(0.0, 0.0), corner(0.0, 100.0), corner(1.5, 50.0)]).unwrap();
+        assert!((wedge.width() - 1.5).abs() < 1e-4);
     }
 
     #[test]
@@ -257,6 +305,12 @@ mod tests {
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
         assert_eq!(Area::polygon(&[p(0.0, f64::NAN), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFar));
+        assert_eq!(Area::polygon(&[p(0.0, 0.0), p(0.0, 9.0), p(0.0, 18.0)]), Err(AreaError::TooThin(0.0)));
+        assert_eq!(Area::polygon(&[p(0.0, 0.0), p(1e-9, 9.0), p(0.0, 18.0)]), Err(AreaError::TooThin(0.0)));
+        let sliver = Area::polygon(&[p(0.0, 0.0), p(0.0, 100.0), p(0.5, 50.0)]);
+        assert!(matches!(sliver, Err(AreaError::TooThin(width)) if (width - 0.5).abs() < 1e-4), "{sliver:?}");
+        let thinnest = Area::rectangle(p(1e6, -1e6), Heading::from_degrees(33.0), AREA_WIDTH_MIN_M, 1e5);
+        assert!(Area::polygon(thinnest.corners()).is_ok());
         assert_eq!(Area::polygon(&[p(0.0, 1e9), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFar));
     }
 

@@ -14,7 +14,8 @@ mod plane;
 mod rows;
 
 pub use area::{
-    AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Edge, PLACE_MAX_M, farthest_corner,
+    AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Edge, PLACE_MAX_M, farthest_corner, gap,
+    nearest_edge,
 };
 pub use ellipsoid::metres_per_radian;
 pub use geodetic::{Geodetic, TangentFrame};

@@ -1,7 +1,7 @@
 //! Edges belong to an area: on random rectangles and polygons, of every size and far from the origin too.
 
 use albacore_geometry::math::{TAU, cos, exp, ln, sin};
-use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, Area, Heading, Line, PLACE_MAX_M, Point};
+use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, Area, Heading, Line, PLACE_MAX_M, Point, nearest_edge};
 
 const AREAS: u32 = 20_000;
 
@@ -115,4 +115,49 @@ fn a_ray_along_an_edge_leaves_the_area_at_its_end() {
             assert!(area.gap(from + run * ray) >= 0.0, "{run} of {edge:?} of {area:?}");
         }
     }
+}
+
+/// By halving: the place on a line that is nearest to a point.
+fn nearest_place(line: Line, to: Point) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..200 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if on(line, a).distance(to) < on(line, b).distance(to) { high = b } else { low = a }
+    }
+    on(line, low).distance(to)
+}
+
+#[test]
+fn the_gap_is_the_distance_to_the_nearest_place_of_all_edges() {
+    let mut random = Random { state: 4, far: 1e4 };
+    for _ in 0..AREAS / 10 {
+        let area = random.area();
+        let corner = area.corners()[0];
+        let beside = |random: &mut Random, place: Point| place + random.size(0.1, 1e5) * random.heading().unit();
+        for point in [beside(&mut random, corner), beside(&mut random, area.center()), random.place()] {
+            let distance = area.edges().map(|edge| nearest_place(edge.line, point)).fold(f64::INFINITY, f64::min);
+            let gap = area.gap(point);
+            assert!((gap.abs() - distance).abs() < 1e-3, "{gap} is not {distance}, from {point:?} to {area:?}");
+            assert_eq!(gap < 0.0, area.edges().any(|edge| edge.gap(point) < 0.0), "{point:?} of {area:?}");
+            let nearest = nearest_edge(area.edges(), point).unwrap();
+            assert!((nearest.distance(point) - gap.abs()).abs() < 1e-6, "{point:?} of {area:?}");
+        }
+    }
+}
+
+#[test]
+fn two_areas_are_as_far_apart_as_their_nearest_places() {
+    let square = |north, east| Area::rectangle(Point::new(north, east), Heading::NORTH, 10.0, 10.0);
+    for (north, east, apart) in
+        [(13.0, 14.0, 5.0), (0.0, 14.0, 4.0), (-13.0, 14.0, 5.0), (10.0, 0.0, 0.0), (3.0, 3.0, 0.0)]
+    {
+        let (here, there) = (square(0.0, 0.0), square(north, east));
+        for found in [here.distance(&there), there.distance(&here)] {
+            assert!((found - apart).abs() < 1e-9, "{found} of {north} {east}");
+        }
+    }
+    // Across a corner no line of an edge is as far as the areas are.
+    let turned = Area::rectangle(Point::new(30.0, 40.0), Heading::from_degrees(45.0), 10.0, 10.0);
+    let corners = Point::new(5.0, 5.0).distance(Point::new(30.0, 40.0 - 5.0 * 2f64.sqrt()));
+    assert!((square(0.0, 0.0).distance(&turned) - corners).abs() < 1e-9);
 }

@@ -2,7 +2,7 @@
 
 use crate::state::Run;
 use albacore_arithmetic::bounded;
-use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector, farthest_corner, row};
+use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector, farthest_corner, gap, nearest_edge, row};
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Slot};
 
 impl Run {
@@ -79,19 +79,12 @@ impl Run {
     }
 
     pub fn gap(&self, area: Slot, p: Point) -> f64 {
-        let gaps = (0..self.corners(area)).map(|i| self.edge_of(area, i).gap(p));
-        bounded(gaps.fold(f64::INFINITY, f64::min))
+        bounded(gap((0..self.corners(area)).map(|i| self.edge_of(area, i)), p))
     }
 
     pub fn nearest_edge(&self, area: Slot, p: Point) -> Edge {
-        let mut nearest = self.edge_of(area, 0);
-        for i in 1..self.corners(area) {
-            let edge = self.edge_of(area, i);
-            if edge.gap(p) < nearest.gap(p) {
-                nearest = edge;
-            }
-        }
-        nearest
+        let edges = (0..self.corners(area)).map(|i| self.edge_of(area, i));
+        nearest_edge(edges, p).unwrap_or_else(|| self.edge_of(area, 0))
     }
 
     /// The corner that lies farthest along a heading; of those equally far the one nearest to a point.

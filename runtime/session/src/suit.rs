@@ -53,7 +53,7 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
             format!("`{name}` lies {:.0} km from the area of the mission `{mission}`", apart / 1000.0)
         }
         (None, Some(region)) if !region.overlaps(&area) => {
-            let away = distance(area.beyond(region).max(region.beyond(&area)).max(0.0));
+            let away = distance(area.distance(region));
             format!("the region of `{name}` does not meet the area of the mission `{mission}`: it lies {away} away")
         }
         _ if start > FAR_M => {
@@ -84,7 +84,7 @@ fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
         return Vec::new();
     };
     let far = |zone: &NoGo| {
-        let out = area.beyond(&zone.area);
+        let out = area.distance(&zone.area);
         let what = format!("the no-go zone \"{}\" of `{scenario}`", zone.name);
         let message = format!("{what} is {} outside the area of the mission `{mission}`", distance(out));
         let help = "look for minutes exchanged in its corners, and for north and east";

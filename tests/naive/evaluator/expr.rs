@@ -309,12 +309,15 @@ fn center(edges: &[Edge]) -> Point {
 }
 
 fn gap(edges: &[Edge], p: Point) -> f64 {
-    edges.iter().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min)
+    let outside = edges.iter().filter(|edge| edge.gap(p) < 0.0).map(|edge| edge.distance(p)).reduce(f64::min);
+    outside.map_or_else(|| edges.iter().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min), |distance| -distance)
 }
 
 fn nearest_edge(edges: &[Edge], p: Point) -> Edge {
+    let least = edges.iter().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
+    let nearest = edges.iter().filter(|edge| edge.distance(p) == least);
     let nearer = |best: Edge, edge: &Edge| if edge.gap(p) < best.gap(p) { *edge } else { best };
-    edges[1..].iter().fold(edges[0], nearer)
+    nearest.fold(None, |best, edge| Some(best.map_or(*edge, |best| nearer(best, edge)))).unwrap_or(edges[0])
 }
 
 /// The corner farthest along a heading; of those equally far, to 1 m, the one nearest to a point.
