@@ -19,7 +19,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Between two ends. `name` is what the file calls the axis.
+    /// Between two ends, as the head of a CSV file gives them. `name` is what the file calls the axis.
     pub(crate) fn between(name: &str, first: f64, last: f64, count: u64) -> Result<Axis, Fault> {
         let name = &shortened(name);
         if count < 2 {
@@ -36,7 +36,8 @@ impl Axis {
         }
         if first >= last {
             let message = format!("{}: it must ascend", runs());
-            return Err(Fault::new(message, turn_round(name)));
+            let mend = "give the smaller end first: rows run from south to north, the cells of a row from west to east";
+            return Err(Fault::new(message, mend));
         }
         Ok(Axis { first, last, count })
     }
@@ -50,7 +51,8 @@ impl Axis {
         if let Some(i) = (1..places.len()).find(|&i| places[i] <= places[i - 1]) {
             let message =
                 format!("`{short}({i})` is {} after {}: it must ascend", told(places[i]), told(places[i - 1]));
-            return Err(Fault::new(message, turn_round(short)));
+            let mend = "turn it round, rows and all";
+            return Err(Fault::new(message, format!("{mend}: `ncpdq -a -{short} IN.nc OUT.nc`")));
         }
         let ends = places.first().zip(places.last());
         let (first, last) = ends.map_or((0.0, 0.0), |(first, last)| (*first, *last));
@@ -82,8 +84,4 @@ impl Axis {
     pub(crate) fn times(self, factor: f64) -> Axis {
         Axis { first: self.first * factor, last: self.last * factor, ..self }
     }
-}
-
-fn turn_round(name: &str) -> String {
-    format!("turn it round, rows and all: `ncpdq -a -{name} IN.nc OUT.nc`, or write the rows in the other order")
 }

@@ -109,7 +109,8 @@ impl Survey {
     }
 }
 
-/// Longitudes, degrees, whose count begins anew on the way eastward, at 180 or at 360, as going on.
+/// Longitudes, degrees, whose count begins anew on the way eastward, at 180 or at 360, as going on. Those that go on beyond 360 are
+/// counted from 0 there.
 pub(crate) fn going_on(longitudes: &mut [f64]) {
     let mut turned = 0.0;
     for i in 1..longitudes.len() {
@@ -119,7 +120,8 @@ pub(crate) fn going_on(longitudes: &mut [f64]) {
         }
         longitudes[i] += turned;
     }
-    if turned > 0.0 && longitudes.last().is_some_and(|last| *last > 360.0) {
+    let ends = longitudes.first().copied().zip(longitudes.last().copied());
+    if ends.is_some_and(|(first, last)| first < 360.0 && last > 360.0 && last - first <= 360.0) {
         longitudes.iter_mut().for_each(|longitude| *longitude -= 360.0);
     }
 }

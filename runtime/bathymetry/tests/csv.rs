@@ -137,6 +137,13 @@ fn a_lone_mark_in_a_real_grid_is_known_by_its_neighbours() {
     assert_eq!(read(with(19, 31, "-9999").as_bytes()).unwrap().depths[17 * 60 + 30], 9_999.0);
 }
 
+#[test]
+fn an_axis_that_descends_is_mended_in_the_head() {
+    let found = faults(&SMALL.replace("0..20", "20..0"));
+    let mend = "give the smaller end first: rows run from south to north, the cells of a row from west to east";
+    assert_eq!(found.iter().map(|fault| fault.help.as_str()).collect::<Vec<_>>(), [mend]);
+}
+
 /// A file that is one long word gets a message of a line.
 #[test]
 fn messages_do_not_grow_with_the_file() {

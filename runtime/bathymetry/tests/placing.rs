@@ -63,6 +63,7 @@ fn a_survey_lies_on_both_sides_of_the_180th_meridian() {
     let across = survey("179..-179").unwrap();
     assert_eq!(across, survey("179..181").unwrap());
     assert_eq!(survey("359..1").unwrap(), survey("-1..1").unwrap());
+    assert_eq!(survey("359..361").unwrap(), survey("-1..1").unwrap());
     for longitude in [179.9, -179.9] {
         let frame = TangentFrame { origin: Geodetic::from_degrees(11.0, longitude) };
         let extent = across.extent(&Placing { at: None, ..MIDDLE }, Some(frame)).unwrap();
