@@ -145,12 +145,18 @@ fn source(name: &str, shown: &str, bytes: Vec<u8>) -> Result<Source, FileError> 
     }
 }
 
-/// What bytes are that begin with the mark of UTF-16, or of which a fourth is zero: in UTF-16 that is one byte of every letter of
-/// the language, always the first or always the second. A stray zero in a text is told at its place.
+/// What bytes are that begin with the mark of UTF-32 or UTF-16, or of which a fourth is zero: in UTF-16 that is one byte of every
+/// letter of the language, always the first or always the second; in UTF-32 two bytes of four are in every text. A stray zero in a text
+/// is told at its place.
 fn no_text(bytes: &[u8]) -> Option<&'static str> {
-    let zeros = |odd: usize| bytes.iter().skip(odd).step_by(2).filter(|&&byte| byte == 0).count();
-    let (even, odd) = (zeros(0), zeros(1));
-    let is_many = even + odd > bytes.len() / 4;
+    let [a, b, c, d] = [0, 1, 2, 3].map(|at| bytes.iter().skip(at).step_by(4).filter(|&&byte| byte == 0).count());
+    let letters = bytes.len() / 4;
+    let is_four = |upper: usize, lowest: usize| upper >= 2 * letters && lowest * 4 < letters;
+    if is_four(a + b, d) || is_four(c + d, a) {
+        return Some("is UTF-32");
+    }
+    let (even, odd) = (a + c, b + d);
+    let is_many = even + odd > letters;
     let is_wide = is_many && even.min(odd) * 4 < even.max(odd);
     if is_wide || bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
         return Some("is UTF-16");
