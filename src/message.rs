@@ -1,6 +1,6 @@
 //! Messages on standard error: findings with their source, and plain errors with their help.
 
-use albacore_session::seen::{masked, one_line, shown};
+use albacore_session::seen::{masked, one_line, shortened, shown};
 use albacore_session::{Diagnostic, FileId, Severity, Sources, Span};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource};
 use std::collections::BTreeSet;
@@ -46,7 +46,7 @@ impl<'a> Shown<'a> {
                 source: NamedSource::new(one_line(&source.name), masked(&source.text)),
                 labels: labels.map(|(i, label)| drawn(i == 0, label)).collect(),
                 related: Vec::new(),
-                message: one_line(message),
+                message: words(message),
                 is_part: frame.is_some(),
             }
         };
@@ -58,7 +58,7 @@ impl<'a> Shown<'a> {
 
 /// The frame is headed by the line and column of the mistake, not of the first label in the file.
 fn drawn(is_mistake: bool, (span, text): &(Span, String)) -> LabeledSpan {
-    let text = if text.is_empty() { None } else { Some(one_line(text)) };
+    let text = if text.is_empty() { None } else { Some(words(text)) };
     let place = (span.start as usize, (span.end - span.start) as usize);
     if is_mistake { LabeledSpan::new_primary_with_span(text, place) } else { LabeledSpan::new_with_span(text, place) }
 }
@@ -93,7 +93,7 @@ impl miette::Diagnostic for Shown<'_> {
 
     fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
         let help = self.finding.help.as_ref().filter(|_| !self.is_part)?;
-        Some(Box::new(one_line(help)))
+        Some(Box::new(words(help)))
     }
 
     fn source_code(&self) -> Option<&dyn miette::SourceCode> {
@@ -193,7 +193,12 @@ pub fn error_text(message: &str, help: Option<&str>) -> String {
 
 /// A line of a message, which stays one.
 pub fn line(text: &str) -> String {
-    one_line(text) + "\n"
+    words(text) + "\n"
+}
+
+/// What a message says, on one line, however long the names are that it quotes.
+fn words(text: &str) -> String {
+    one_line(&shortened(text))
 }
 
 /// Writes for a person: what cannot be seen is written out, for texts of scripts, vehicles and files are in it.

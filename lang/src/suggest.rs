@@ -1,7 +1,13 @@
 //! "Did you mean": the nearest of the names that exist.
 
+/// A longer name, in bytes, is no slip of another, and comparing takes as long as the product of two lengths.
+const COMPARED_MAX: usize = 255;
+
 /// The candidate nearest to a misspelt name, when it is near enough to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > COMPARED_MAX {
+        return None;
+    }
     let name = name.to_lowercase();
     let allowed = match name.chars().count() {
         0..=5 => 1,

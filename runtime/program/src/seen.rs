@@ -21,6 +21,36 @@ pub fn one_line(text: &str) -> String {
     escaped(text, |c| matches!(c, '\n' | '\r' | '\t').then_some(' '))
 }
 
+/// No name of a file is longer, in bytes; a longer word is nobody's to read.
+const WORD_MAX: usize = 255;
+/// No path of a file is longer, in bytes, with something said of it.
+const TEXT_MAX: usize = 5_000;
+
+/// A text of a message in which words that are too long to be read are shortened, and which ends where none is read to its end.
+pub fn shortened(text: &str) -> String {
+    let is_of_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut out = String::with_capacity(text.len().min(TEXT_MAX));
+    let mut rest = text;
+    while !rest.is_empty() && out.len() < TEXT_MAX {
+        let end = rest.find(|c| !is_of_word(c)).unwrap_or(rest.len());
+        let (word, after) = rest.split_at(end);
+        match word.len() {
+            0..=WORD_MAX => out.push_str(word),
+            _ => {
+                out.extend(word.chars().take(40));
+                out.push('…');
+            }
+        }
+        let sign = after.chars().next();
+        out.extend(sign);
+        rest = &after[sign.map_or(0, char::len_utf8)..];
+    }
+    if !rest.is_empty() {
+        out.push('…');
+    }
+    out
+}
+
 /// The same text with something to be seen for all that is not, each as many bytes long as what it stands for: places in the
 /// text stay where they are.
 pub fn masked(text: &str) -> String {
@@ -66,6 +96,16 @@ mod tests {
         assert_eq!(shown(evil), "a\\u{1b}[2Jb\\u{9b}31m\\u{202e}c\\u{7f}\\u{d}\n\td\\u{e0041}");
         assert_eq!(one_line(evil), "a\\u{1b}[2Jb\\u{9b}31m\\u{202e}c\\u{7f}  \u{20}d\\u{e0041}");
         assert_eq!(shown("36°10.8'N é µ … → 水"), "36°10.8'N é µ … → 水");
+    }
+
+    #[test]
+    fn what_is_too_long_to_be_read_is_shortened() {
+        let name = "é_1".repeat(40_000);
+        assert_eq!(shortened(&format!("no `{name}` here: {name}")), format!("no `{0}…` here: {0}…", &name[..54]));
+        let path = format!("`{}`", "/ab c".repeat(800));
+        assert_eq!(shortened(&path), path);
+        assert!(shortened(&"/ab c".repeat(10_000)).len() < 5_010);
+        assert_eq!(shortened(""), "");
     }
 
     #[test]
