@@ -35,18 +35,37 @@ fn told(path: &Path, options: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+/// Names that nobody can read to their end are shortened, wherever they are quoted.
+#[test]
+fn long_names_make_no_long_messages() {
+    let [a, b, c] = ["a", "b", "c"].map(|letter| letter.repeat(100_000));
+    let script = format!("behavior {a}() {{\n    goto {b}\n    {c}()\n    wait for 1 {c}\n}}\nuse {a}\n");
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("long_names.alb");
+    std::fs::write(&path, script).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_albacore")).arg("check").arg(&path).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("nothing is named `bbbbbbbb") && said.contains("`cccccccc"), "{said}");
+    assert!(said.lines().all(|line| line.chars().count() < 300), "{said}");
+}
+
 /// A file in another encoding is one mistake, not one for each of its bytes.
 #[test]
 fn what_is_no_text_is_told_once() {
     let script = "// Tiefe 3 m, öffnet nichts.\nconst shoal: Depth = 3 m\n";
     let wide = |order: fn(u16) -> [u8; 2]| script.encode_utf16().flat_map(order).collect::<Vec<u8>>();
     let marked = |mark: [u8; 2], bytes: Vec<u8>| [mark.to_vec(), bytes].concat();
+    let four = |order: fn(u32) -> [u8; 4]| script.chars().map(u32::from).flat_map(order).collect::<Vec<u8>>();
+    let utf32 = "is UTF-32\n  help: save it as UTF-8\n";
     let utf16 = "is UTF-16\n  help: save it as UTF-8\n";
     let cases = [
         ("little", wide(u16::to_le_bytes), utf16),
         ("big", wide(u16::to_be_bytes), utf16),
         ("little-marked", marked([0xFF, 0xFE], wide(u16::to_le_bytes)), utf16),
         ("big-marked", marked([0xFE, 0xFF], wide(u16::to_be_bytes)), utf16),
+        ("four-little", four(u32::to_le_bytes), utf32),
+        ("four-big", four(u32::to_be_bytes), utf32),
+        ("four-little-marked", [vec![0xFF, 0xFE, 0, 0], four(u32::to_le_bytes)].concat(), utf32),
+        ("four-big-marked", [vec![0, 0, 0xFE, 0xFF], four(u32::to_be_bytes)].concat(), utf32),
         ("zeros", vec![0; 4096], "is no text: it is full of bytes that are zero\n  help: save it as UTF-8\n"),
     ];
     for (name, bytes, expected) in cases {

@@ -6,7 +6,7 @@ use crate::dimension::Dimension;
 use crate::hir::Expr;
 use crate::suggest;
 use crate::syntax::tree::Binary;
-use crate::types::Type;
+use crate::types::{RecordInfo, Type};
 
 /// A number that has no unit, and needs one.
 pub(super) fn unit_help(constant: Option<f64>, unit: &str) -> String {
@@ -108,7 +108,12 @@ impl Checker<'_> {
             Type::Line => "a line is asked for: `line(start, end)`",
             Type::Edge => "an edge is asked for: one of `area.edges`, or `area.nearest_edge(point)`",
             Type::Quantity(d) => return Some(quantity(*d)),
-            Type::Record(id) => return Some(format!("make one: `{}(…)`", self.types.records[*id].name)),
+            Type::Record(id) => {
+                let RecordInfo { name, module, .. } = &self.types.records[*id];
+                let is_own = *module == self.modules[self.scope.module].name;
+                let made = if is_own { name.clone() } else { format!("{module}.{name}") };
+                return Some(format!("make one: `{made}(…)`"));
+            }
             Type::Enum(id) => {
                 let variants: Vec<&str> = self.types.enums[*id].variants.iter().map(String::as_str).collect();
                 return Some(format!("there is {}", suggest::listed(&variants)));

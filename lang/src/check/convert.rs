@@ -78,6 +78,11 @@ impl<'t> Checker<'t> {
             format!("{what} is {}, this is {}", article(&wants), article(&has)),
         )
         .here(format!("`{has}`"));
+        if has == wants {
+            let message = format!("{what} is of one `{wants}`, and this of another that is declared under that name");
+            let finding = Diagnostic::error(Code::TypesMismatch, value.span, message);
+            return self.report(finding.help("give one of the two types another name"));
+        }
         let variable = match value.kind {
             ExprKind::Var(id) => Some(&self.scope.vars[id].name),
             _ => None,

@@ -10,7 +10,9 @@ use crate::types::Type;
 /// What to say of arguments among which latitude and longitude are two numbers: one mistake, and one finding.
 pub(super) fn two_numbers(what: &str, params: &[ParamInfo], args: &[Arg]) -> Option<Diagnostic> {
     if let ("point", [north, east]) = (what, args) {
-        let finding = pair(&north.value, &east.value)?;
+        // Two counts too: a point has no other numbers.
+        let (latitude, longitude) = (degrees(&north.value)?, degrees(&east.value)?);
+        let finding = written(north.value.span.to(east.value.span), latitude, longitude)?;
         let (Some(x), Some(y)) = (bare(&north.value), bare(&east.value)) else {
             let has_degrees = in_degrees(&north.value) && in_degrees(&east.value);
             return has_degrees.then_some(finding);
@@ -33,18 +35,17 @@ pub(super) fn two_numbers(what: &str, params: &[ParamInfo], args: &[Arg]) -> Opt
     })
 }
 
+/// Two numbers side by side, unless both are counts.
 fn pair(north: &Expr, east: &Expr) -> Option<Diagnostic> {
-    written(north.span.to(east.span), degrees(north)?, degrees(east)?)
+    let (latitude, longitude) = (degrees(north)?, degrees(east)?);
+    let is_count = |degrees: f64| degrees.fract() == 0.0 && degrees >= 0.0;
+    let are_counts = is_count(latitude) && is_count(longitude);
+    if are_counts { None } else { written(north.span.to(east.span), latitude, longitude) }
 }
 
 fn written(span: Span, latitude_deg: f64, longitude_deg: f64) -> Option<Diagnostic> {
     let half = |degrees: f64, letters: [char; 2]| format!("{}°{}", degrees.abs(), letters[usize::from(degrees < 0.0)]);
     let (north, east) = (half(latitude_deg, ['N', 'S']), half(longitude_deg, ['E', 'W']));
-    // Two counts are no position.
-    let is_count = |degrees: f64| degrees.fract() == 0.0 && degrees >= 0.0;
-    if is_count(latitude_deg) && is_count(longitude_deg) {
-        return None;
-    }
     (latitude_deg.abs() <= 90.0 && longitude_deg.abs() <= 180.0).then(|| {
         Diagnostic::error(Code::TypesMismatch, span, "a position on the globe is one value, not two numbers")
             .help(format!("if this is a latitude and a longitude write `{north} {east}`"))

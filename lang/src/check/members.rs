@@ -221,10 +221,17 @@ impl<'t> Checker<'t> {
 
     fn no_such_member(&mut self, value: &Expr, member: &tree::Name) {
         let ty = self.type_name(&value.ty);
+        let names = member_names(self, &value.ty);
+        if names.contains(&member.node) {
+            let brackets = if member.node == "clear" { "()" } else { "(…)" };
+            let message = format!("`{}` of {} is called", member.node, article(&ty));
+            let finding =
+                Diagnostic::error(Code::NamesMember, member.span, message).label(value.span, format!("`{ty}`"));
+            return self.report(finding.help(format!("write it with brackets: `.{}{brackets}`", member.node)));
+        }
         let finding =
             Diagnostic::error(Code::NamesMember, member.span, format!("{} has no `{}`", article(&ty), member.node))
                 .label(value.span, format!("`{ty}`"));
-        let names = member_names(self, &value.ty);
         let finding = match self.suggestion(&member.node, names.iter().map(String::as_str)) {
             Some(help) => finding.help(help),
             None => finding,

@@ -207,7 +207,7 @@ impl<'t> Checker<'t> {
             finding.help(format!("did you mean `{near}`?"))
         } else if let Some((known, rest)) = self.run_together(name) {
             finding.help(format!("a sign is missing between `{known}` and `{rest}`, if these are two"))
-        } else if let Some(module) = self.module_that_has(name) {
+        } else if let Some(module) = self.import_with(self.scope.module, name, |_| true) {
             finding.help(format!("the module `{module}` has one: write `{module}.{name}`"))
         } else {
             finding
@@ -222,9 +222,10 @@ impl<'t> Checker<'t> {
         ends.into_iter().rev().find(known).map(|at| name.split_at(at)).filter(|(_, rest)| !rest.starts_with('_'))
     }
 
-    fn module_that_has(&self, name: &str) -> Option<&str> {
-        let imports = &self.modules[self.scope.module].imports;
-        imports.iter().find(|(_, i)| self.names[**i].contains_key(name)).map(|(module, _)| module.as_str())
+    /// The import of a module under whose name such a definition is found.
+    pub(super) fn import_with(&self, m: usize, name: &str, is_such: impl Fn(&Def) -> bool) -> Option<&'t str> {
+        let has = |i: usize| self.names[i].get(name).is_some_and(&is_such);
+        self.modules[m].imports.iter().find(|(_, i)| has(**i)).map(|(module, _)| module.as_str())
     }
 
     fn known_names(&self) -> impl Iterator<Item = &str> {

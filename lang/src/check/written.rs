@@ -139,7 +139,9 @@ impl<'t> Checker<'t> {
                 let declared = self.names[m].iter().filter(|(_, d)| matches!(d, Def::Record(_) | Def::Enum(_)));
                 known.extend(declared.map(|(n, _)| n.as_str()));
                 let finding = Diagnostic::error(Code::TypesUnknown, path.span, format!("there is no type `{name}`"));
+                let elsewhere = self.import_with(m, &name, |def| matches!(def, Def::Record(_) | Def::Enum(_)));
                 let finding = match self.nearest(&name, known) {
+                    _ if let Some(module) = elsewhere => finding.help(format!("write `{module}.{name}`")),
                     Some(near) => finding.help(format!("did you mean `{near}`?")),
                     None => finding.help("types are Length, Duration, Speed, Angle, Heading, Depth, Altitude, Point, Vector, Int, Bool, … and the records and enums declared"),
                 };

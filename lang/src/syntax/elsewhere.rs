@@ -22,6 +22,7 @@ pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habi
         .or_else(|| label(before, rest))
         .or_else(|| text(before, rest))
         .or_else(|| head(before, rest))
+        .or_else(|| valueless(before, rest))
         .or_else(|| operator(before, rest))
 }
 
@@ -123,8 +124,27 @@ pub(super) fn absence(what: &str, rest: &str) -> Option<Habit> {
     is_none.then(|| write(format!("{what} {sign} none"))).flatten()
 }
 
-/// `sand => 1` in a `match`.
+/// `var q: Int`, `var q: Int?`.
+fn valueless(before: &str, rest: &str) -> Option<Habit> {
+    let declaration = before.trim();
+    let kind = ["var", "let"].into_iter().find(|kind| word(declaration) == *kind)?;
+    let (name, ty) = declaration[kind.len()..].split_once(':')?;
+    let optional = rest.strip_prefix('?');
+    let ends = line_end(optional.unwrap_or(rest)).is_empty() && !ty.contains('=');
+    let value = if optional.is_some() { "? = none" } else { " = …" };
+    ends.then(|| Habit {
+        message: Some(format!("`{}` has no value", name.trim())),
+        help: format!("write `{declaration}{value}`"),
+    })
+}
+
+/// `sand => 1`, `true -> 1` in a `match`.
 fn arm(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let truth = word(rest);
+    let after = rest[truth.len()..].trim_start();
+    if matches!(truth, "true" | "false" | "else") && ["=>", "->", ":"].iter().any(|sign| after.starts_with(sign)) {
+        return write(format!("{truth} {{ … }}"));
+    }
     let names = before.trim();
     let is_arm = expected == "`{`" && names.split(',').all(|name| name.trim() == word(name.trim()));
     (is_arm && (rest.starts_with("=>") || rest.starts_with("->"))).then(|| write(format!("{names} {{ … }}"))).flatten()
