@@ -290,6 +290,7 @@ impl<'t> Checker<'t> {
             (Depth | Altitude, t) if *t == LENGTH => b.range.constant().is_some(),
             (t, Depth | Altitude) if *t == LENGTH => a.range.constant().is_some(),
             (Heading, t) if *t == ANGLE && equality => b.range.constant().is_some(),
+            (t, Heading) if *t == ANGLE && equality => a.range.constant().is_some(),
             (Optional(x), y) | (y, Optional(x)) if **x == *y && equality => true,
             (Optional(_), None) | (None, Optional(_)) if equality => true,
             (x, y) => matches!((x.dimension(), y.dimension()), (Some(d), Some(e)) if d == e),
@@ -308,6 +309,12 @@ impl<'t> Checker<'t> {
         if !comparable {
             return self.no_such(op, &a, &b, span);
         }
+        // A constant angle beside a heading is a heading as it is elsewhere: -90 deg points where 270 deg does.
+        let (a, b) = match (&a.ty, &b.ty) {
+            (Heading, Quantity(_)) => (a, self.coerce(b, &Heading, "the other side")),
+            (Quantity(_), Heading) => (self.coerce(a, &Heading, "the other side"), b),
+            _ => (a, b),
+        };
         // Texts are for people: two that read the same may be made of different parts.
         let of_texts = |e: &Expr| !matches!(e.ty, None) && self.types.shape(&e.ty).has_text();
         let is_presence = matches!((&a.ty, &b.ty), (Optional(_), None) | (None, Optional(_)));
