@@ -3,6 +3,7 @@
 use super::overlaps::{Side, compared, contrary};
 use crate::hir::{Activity, Builtin, Decl, Expr, ExprKind, Interval, VarId, children, same_condition};
 use crate::types::Type;
+use albacore_arithmetic::{Operation, Ticks};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The most parts of a condition that are looked at, and the most ways in which it can hold: what is larger counts as unknown.
@@ -148,6 +149,10 @@ impl<'h> Signals<'h> {
                 ExprKind::Number(truth) if (*truth != 0.0) == holds => {}
                 ExprKind::Number(_) => return None,
                 ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) if at_once && holds => ahead.push((inner, true)),
+                // One tick has passed since the entry whenever a rule is tried.
+                ExprKind::After(time) if is_one_tick(time) && holds => {}
+                ExprKind::After(time) if is_one_tick(time) => return None,
+                ExprKind::HeldFor(inner, time) if is_one_tick(time) && holds => ahead.push((inner, true)),
                 ExprKind::After(_) | ExprKind::Done | ExprKind::HeldFor(..) | ExprKind::Becomes(_) if at_once => {}
                 _ if !self.is_level(e) => return None,
                 _ => level = level.with(&Part::of(e, holds))?,
@@ -299,6 +304,11 @@ fn meet(a: &Expr, b: &Expr) -> bool {
         }
         _ => false,
     }
+}
+
+/// Whether a time is over after a tick.
+fn is_one_tick(time: &Expr) -> bool {
+    Ticks::rule([time.range]).high <= 1.0
 }
 
 fn same(a: &Expr, b: &Expr) -> bool {

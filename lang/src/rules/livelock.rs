@@ -247,10 +247,18 @@ impl<'h> Table<'h> {
         let finding = Diagnostic::warning(Code::RulesLivelock, last, message);
         let finding =
             others.iter().fold(finding, |finding, other| finding.label(on(other), "which can hold at the same time"));
-        finding.help(
-            "write `becomes …` in each, or conditions that exclude each other, with room between: `> 4 m` and `< 2 m`",
-        )
+        finding.help(if ring.iter().any(|(rule, _)| is_timed(&self.rules[*rule].on)) {
+            "a time of one tick, 0.1 s, is over whenever a rule is tried: write a longer one"
+        } else {
+            "write `becomes …` in each, or conditions that exclude each other, with room between: `> 4 m` and `< 2 m`"
+        })
     }
+}
+
+fn is_timed(e: &Expr) -> bool {
+    let mut found = matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..));
+    children(e, &mut |child| found |= is_timed(child));
+    found
 }
 
 fn mentions_after(e: &Expr) -> bool {
