@@ -227,7 +227,9 @@ fn say(line: &str) {
 /// A failed expectation as a person reads it, in lines.
 fn told(failure: &Failure) -> Vec<String> {
     let (held, runs) = failure.held;
-    let wanted = failure.wanted.filter(|w| *w < 100.0).map(|w| format!(", {w:.0} % wanted")).unwrap_or_default();
+    // Without the last bits of a product.
+    let digits = |w: f64| (w * 1e12).round() / 1e12;
+    let wanted = failure.wanted.filter(|w| *w < 100.0).map(|w| format!(", {} % wanted", digits(w))).unwrap_or_default();
     let mut lines = vec![
         format!("        {}  {}", failure.place, failure.text),
         format!("        held in {held} of {runs} runs{wanted}"),

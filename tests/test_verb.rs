@@ -278,3 +278,17 @@ fn the_snapshot_of_a_test_that_fails_is_not_accepted() {
     assert_eq!(code, Some(1), "{said}");
     assert_eq!((project.snapshot().is_some(), project.snapshot()), (true, accepted));
 }
+
+#[test]
+fn a_share_of_the_runs_is_of_one_at_least() {
+    let project = Project::new("share", "10 s", "10 cm");
+    let file = project.0.join("north.alb");
+    for (share, told) in [("1e-9", "0.000000001"), ("0.001", "0.001"), ("7", "7"), ("33.3", "33.3")] {
+        project.write("10 s", "10 cm");
+        let text = std::fs::read_to_string(&file).unwrap();
+        std::fs::write(&file, text.replace("in 75 %", &format!("in {share} %"))).unwrap();
+        let (code, said) = project.test(&["--accept"]);
+        let held = format!("held in 0 of 4 runs, {told} % wanted");
+        assert_eq!((code, said.contains(&held), project.snapshot()), (Some(1), true, None), "{said}");
+    }
+}

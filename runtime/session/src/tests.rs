@@ -59,8 +59,8 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
         let broken: Vec<&Judged> = runs.iter().filter(|r| r.breaches[i].is_some()).collect();
         let held = runs.len() - broken.len();
         let enough = match expect.share {
-            // A share of whole runs: no run is missing for the last bits of a product.
-            Some(share) => held as f64 >= share * runs.len() as f64 - 1e-6,
+            // A share of whole runs, of one at least: no run is missing for the last bits of a product.
+            Some(share) => held > 0 && held as f64 >= share * runs.len() as f64 - 1e-6,
             None => broken.is_empty(),
         };
         if !enough {
