@@ -3,6 +3,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]
 
+mod shell;
+
 use albacore_trace::Digest;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -449,12 +451,8 @@ fn a_disk_that_is_full_leaves_rows_that_can_be_gone_on_with() {
     let whole = table(BOX, "1..100", &folder.join("whole.csv"), &[]);
     for blocks in [3, 4, 5] {
         let out = folder.join(format!("table-{blocks}.csv"));
-        // A file that may grow no further fails as a full disk does.
-        let limited = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
-        let campaign = command(BOX, "1..100", &out, &[]);
-        let mut shell = Command::new("sh");
-        shell.args(["-c", &limited]).arg(campaign.get_program()).args(campaign.get_args());
-        let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+        let limit = format!("trap '' XFSZ; ulimit -f {blocks}");
+        let output = shell::behind(&limit, &command(BOX, "1..100", &out, &[])).output().unwrap();
         let said = stderr(&output);
         assert_eq!(output.status.code(), Some(4), "{said}");
         assert_eq!(said.matches("error: ").count(), 1, "{said}");

@@ -9,6 +9,7 @@
 mod link {
     pub mod far_end;
 }
+mod shell;
 
 use albacore_trace::journal::{Ending, Journal};
 use link::far_end::*;
@@ -136,10 +137,8 @@ fn a_limit_of_a_file_ends_nothing() {
     let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
     let out = folder.join("run");
     let run = vehicle.mission(&["--out", &out.display().to_string()]);
-    let mut shell = std::process::Command::new("sh");
-    shell.args(["-c", "ulimit -f 12; exec \"$0\" \"$@\""]).arg(run.get_program()).args(run.get_args());
-    let run =
-        shell.current_dir(env!("CARGO_MANIFEST_DIR")).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut limited = shell::behind("ulimit -f 12", &run);
+    let run = limited.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     vehicle.says("override taken");
     send("-XFSZ", &run);
     let output = run.wait_with_output().unwrap();

@@ -3,6 +3,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]
 
+mod shell;
+
 use albacore_trace::journal::{Ending, Journal};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -115,15 +117,10 @@ fn who_kills_a_run_has_a_valid_prefix() {
 
 #[test]
 fn a_full_disk_is_said_once_and_the_mission_goes_on() {
-    // A file that may grow no further fails as a full disk does; the journal is the only one as long as this. The signal that comes
-    // with it ends nothing either.
-    for signal in ["", "trap '' XFSZ;"] {
+    // The journal is the only file as long as this. The signal that comes with a limit ends nothing either.
+    for limit in ["ulimit -f 200", "trap '' XFSZ; ulimit -f 200"] {
         let out = empty("full");
-        let limited = format!("{signal} ulimit -f 200; exec \"$0\" \"$@\"");
-        let run = albacore(BOX, &out);
-        let mut shell = Command::new("sh");
-        shell.args(["-c", &limited]).arg(run.get_program()).args(run.get_args());
-        let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+        let output = shell::behind(limit, &albacore(BOX, &out)).output().unwrap();
         let said = stderr(&output);
         assert_eq!(output.status.code(), Some(4), "{said}");
         assert_eq!(said.matches("error: ").count(), 1, "{said}");
@@ -141,10 +138,7 @@ fn a_record_tells_what_could_not_be_written() {
     assert!(lost(&out, "completed").is_empty());
     // A file may grow to 8 KiB: only the journal needs more.
     let out = empty("lost-full");
-    let run = albacore(BOX, &out);
-    let mut shell = Command::new("sh");
-    shell.args(["-c", "ulimit -f 16; exec \"$0\" \"$@\""]).arg(run.get_program()).args(run.get_args());
-    let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let output = shell::behind("ulimit -f 16", &albacore(BOX, &out)).output().unwrap();
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert_eq!(lost(&out, "completed"), ["journal"]);
     let out = empty("lost-picture");

@@ -3,6 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]
 
+mod shell;
+
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -170,15 +172,12 @@ fn permissions_stay_and_what_is_read_only_is_refused() {
 fn a_disk_that_is_full_leaves_nothing_behind() {
     let folder = empty("full");
     sources(&folder);
-    // A file that may not grow fails as a full disk does; who does not ignore the signal that tells it has the same.
-    for signal in ["", "trap '' XFSZ;"] {
-        let limited = format!("{signal} ulimit -f 0; exec \"$0\" \"$@\"");
+    // Who does not ignore the signal that comes with a limit has the same.
+    for limit in ["ulimit -f 0", "trap '' XFSZ; ulimit -f 0"] {
         let verbs = ["fmt plan.alb", "fmt plan.alb -", "new reef", "test box.alb --accept"];
         for words in VERBS[1..].iter().chain(&verbs).copied() {
-            let verb = command(&folder, words);
-            let mut shell = Command::new("sh");
-            shell.args(["-c", &limited]).arg(verb.get_program()).args(verb.get_args()).current_dir(&folder);
-            let (code, said) = said(&shell.stdin(Stdio::null()).stdout(Stdio::null()).output().unwrap());
+            let mut limited = shell::behind(limit, &command(&folder, words));
+            let (code, said) = said(&limited.stdin(Stdio::null()).stdout(Stdio::null()).output().unwrap());
             if words.starts_with("test") {
                 std::fs::remove_dir(folder.join("snapshots")).unwrap();
             } else {
