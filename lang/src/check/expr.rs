@@ -97,7 +97,9 @@ impl<'t> Checker<'t> {
         if unit.is_none() && value.abs() > INT_MAX {
             self.report(
                 Diagnostic::error(Code::TypesNumber, span, "this whole number is too large to be counted exactly")
-                    .help(format!("whole numbers go to {INT_MAX}")),
+                    .help(format!(
+                        "whole numbers go to {INT_MAX}; a quantity has a unit, and large ones a large unit: `3 km`"
+                    )),
             );
             return self.unknown(span);
         }

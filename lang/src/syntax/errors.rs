@@ -1,7 +1,7 @@
 //! What to say of text that the grammar cannot read: what was found, what was expected, in the language's own terms.
 
 use super::build::{Bad, Place};
-use super::habits::{habit, untyped_memory};
+use super::habits::{habit, untyped_memory, valueless};
 use super::{Grammar, Rule, elsewhere, places, slips};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -50,8 +50,13 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
         Place::Clause => (Rule::clause_only, &CLAUSE_WORDS[..]),
         Place::TestClause => (Rule::test_clause_only, &TEST_WORDS[..]),
     };
+    // A word of the language is the worse mistake.
+    let nameable = |(end, habit)| {
+        let name = stretch[..end].rsplit([' ', '\t']).next().unwrap_or_default();
+        (!is_reserved(name)).then_some((end, habit))
+    };
     let word: String = stretch.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-    if let Some((end, habit)) = untyped_memory(stretch) {
+    if let Some((end, habit)) = untyped_memory(stretch).or_else(|| nameable(valueless(stretch)?)) {
         let span = Span { file, start: start as u32, end: (start + end) as u32 };
         return Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or_default()).help(habit.help);
     }

@@ -133,6 +133,18 @@ pub(super) fn untyped_memory(clause: &str) -> Option<(usize, Habit)> {
     })
 }
 
+/// `var q`, `let q`: where its name ends, and what to say.
+pub(super) fn valueless(clause: &str) -> Option<(usize, Habit)> {
+    let kind = ["var", "let"].into_iter().find(|kind| word(clause) == *kind)?;
+    let after = clause[kind.len()..].trim_start_matches([' ', '\t']);
+    let name = word(after);
+    let end = clause.len() - after.len() + name.len();
+    (!name.is_empty() && line_end(after) == name).then(|| {
+        let message = Some(format!("`{name}` has no value"));
+        (end, Habit { message, help: format!("write `{kind} {name} = …`") })
+    })
+}
+
 /// Two numbers in a row, or a number of another base.
 fn number(before: &str, rest: &str) -> Option<Habit> {
     let last = before.split_whitespace().next_back()?;
