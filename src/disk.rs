@@ -2,6 +2,7 @@
 //! nobody chose: it overwrites nothing, and follows no link. `tests/writers.rs` keeps every other writer out.
 
 use crate::interruption::{self, Held};
+use crate::made::{Made, is_as_made};
 use std::fs::{self, File, Metadata, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -14,27 +15,39 @@ pub fn whole(path: &Path, text: &str) -> io::Result<()> {
     replace(path, text.as_bytes()).map(drop)
 }
 
-/// The same in the place of what was made so before, and of no file that somebody else wrote: what is in it tells.
-pub fn remake(path: &Path, text: &str, is_ours: impl Fn(&[u8]) -> bool) -> io::Result<()> {
-    spare(path, is_ours)?;
-    whole(path, text)
+/// The same for what was made, in the place of what was made before and is as it was made: all others stay.
+pub fn remake(path: &Path, made: &Made) -> io::Result<()> {
+    spare(path)?;
+    whole(path, made.text())
 }
 
-/// An error if somebody else's file is at a path.
-pub fn spare(path: &Path, is_ours: impl Fn(&[u8]) -> bool) -> io::Result<()> {
-    if fs::symlink_metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0) {
-        let mut bytes = Vec::new();
-        File::open(path)?.take(OURS_BYTES_MAX).read_to_end(&mut bytes)?;
-        if !is_ours(&bytes) {
-            return Err(io::Error::new(ErrorKind::AlreadyExists, "it is there already, and was not made so"));
-        }
+/// An error if a file is at a path that somebody else wrote or edited.
+pub fn spare(path: &Path) -> io::Result<()> {
+    if fs::symlink_metadata(path).is_ok_and(|there| there.is_file() && !is_remakable(path, there.len())) {
+        let why = "it is there already, and is not as Albacore made it";
+        return Err(io::Error::new(ErrorKind::AlreadyExists, why));
     }
     Ok(())
 }
 
-/// Whether bytes begin as a text does: with the same word.
-pub fn begins_as(bytes: &[u8], text: &str) -> bool {
-    text.split_whitespace().next().is_some_and(|word| bytes.starts_with(word.as_bytes()))
+fn is_remakable(path: &Path, bytes: u64) -> bool {
+    bytes == 0 || read(path, MADE_BYTES_MAX).is_ok_and(|there| is_as_made(&there))
+}
+
+/// The first bytes of a file, so many at most.
+pub fn read(path: &Path, bytes_max: u64) -> io::Result<Vec<u8>> {
+    let mut there = Vec::new();
+    File::open(path)?.take(bytes_max).read_to_end(&mut there).map(|_| there)
+}
+
+/// What was made, where nothing is yet.
+pub fn make(path: &Path, made: &Made) -> io::Result<()> {
+    let folder = folder_of(path);
+    let _held = interruption::held();
+    let part = filled(folder, made.text().as_bytes(), None)?;
+    part.persist_noclobber(path).map_err(|failed| failed.error)?;
+    sync_folder(folder);
+    Ok(())
 }
 
 /// The same, to be gone on with at its end: the file is locked before anybody else can open it.
@@ -43,12 +56,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<File> {
     let folder = folder_of(path);
     // Who interrupts finds whole files and no temporary ones.
     let _held = interruption::held();
-    let part = part(folder)?;
-    part.as_file().write_all(bytes)?;
-    if let Some(there) = there {
-        alike(part.as_file(), &there)?;
-    }
-    part.as_file().sync_all()?;
+    let part = filled(folder, bytes, there)?;
     // Nobody else knows it yet; where a disk knows no locks there are none.
     let _ = part.as_file().try_lock();
     let file = part.persist(path).map_err(|failed| failed.error)?;
@@ -181,8 +189,8 @@ impl PartFolder {
     }
 }
 
-/// Of a file that is there so much is looked at.
-const OURS_BYTES_MAX: u64 = 64 << 20;
+/// What was made has fewer bytes.
+const MADE_BYTES_MAX: u64 = 64 << 20;
 
 const PREFIX: &str = ".albacore-";
 const SUFFIX: &str = ".part";
@@ -193,6 +201,17 @@ fn part(folder: &Path) -> io::Result<NamedTempFile> {
     builder.prefix(PREFIX).suffix(SUFFIX);
     readable(&mut builder, 0o666);
     builder.tempfile_in(folder).map_err(plain)
+}
+
+/// One that holds these bytes, with the owner and the permissions of what it replaces.
+fn filled(folder: &Path, bytes: &[u8], there: Option<Metadata>) -> io::Result<NamedTempFile> {
+    let part = part(folder)?;
+    part.as_file().write_all(bytes)?;
+    if let Some(there) = there {
+        alike(part.as_file(), &there)?;
+    }
+    part.as_file().sync_all()?;
+    Ok(part)
 }
 
 /// Who may read what is new is the user's mask to say; temporary files are private otherwise.

@@ -5,6 +5,7 @@ mod markdown;
 mod names;
 
 use crate::exit::Exit;
+use crate::made::{Comment, Made};
 use crate::{disk, message, output, plan};
 use albacore_session::diagram::{self, Diagram};
 use albacore_session::doc::{Page, page};
@@ -14,9 +15,6 @@ use std::path::{Path, PathBuf};
 
 /// The page that leads to the others.
 const INDEX: &str = "index";
-
-/// The end of every page that is written into a file: it tells that we may write it again.
-const MARK: &str = "\n<!-- Made by `albacore doc`. -->\n";
 
 /// Make reference pages of scripts, from their declarations and comments.
 #[derive(clap::Args)]
@@ -91,11 +89,12 @@ impl Doc {
         let index = (INDEX, self.dressed("Modules", &markdown::index(&modules), None, &names));
         let named = modules.iter().map(|module| module.name.as_str()).zip(pages);
         let file = |name: &str| folder.join(format!("{name}.{}", self.format.ending()));
-        let files: Vec<_> = named.chain([index]).map(|(name, text)| (file(name), text + MARK)).collect();
+        // A page ends with an empty line, so that its mark is no part of a list.
+        let page = |(name, text): (&str, String)| (file(name), Made::new(text + "\n", Comment::Markup));
+        let pages: Vec<_> = named.chain([index]).map(page).collect();
         // A README of somebody's own may be called as a script is.
-        let is_ours = |there: &[u8]| there.ends_with(MARK.as_bytes());
-        files.iter().try_for_each(|(path, _)| disk::spare(path, is_ours).map_err(|error| unwritable(path, error)))?;
-        files.iter().try_for_each(|(path, text)| disk::whole(path, text).map_err(|error| unwritable(path, error)))?;
+        pages.iter().try_for_each(|(path, _)| disk::spare(path).map_err(|error| unwritable(path, error)))?;
+        pages.iter().try_for_each(|(path, page)| disk::remake(path, page).map_err(|error| unwritable(path, error)))?;
         Ok(Exit::Well)
     }
 

@@ -1,6 +1,7 @@
 //! `albacore graph`: the switching diagram of a strategy.
 
 use crate::exit::Exit;
+use crate::made::{Comment, Made};
 use crate::{disk, message, output, plan};
 use albacore_session::diagram::{self, Diagram};
 use std::path::PathBuf;
@@ -40,7 +41,7 @@ impl Graph {
             Err(exit) => return exit,
         };
         match script.diagram(self.name.as_deref()) {
-            Ok(diagram) => self.write(&self.format.of(&diagram)),
+            Ok(diagram) => self.write(self.format.of(&diagram)),
             Err(none) => {
                 message::error(&none.message, none.help.as_deref());
                 Exit::Usage
@@ -48,12 +49,12 @@ impl Graph {
         }
     }
 
-    fn write(&self, text: &str) -> Exit {
+    fn write(&self, text: String) -> Exit {
         let Some(path) = &self.out else {
-            output::print_raw(text);
+            output::print_raw(&text);
             return Exit::Well;
         };
-        match disk::remake(path, text, |there| disk::begins_as(there, text)) {
+        match disk::remake(path, &Made::new(text, self.format.comment())) {
             Ok(()) => Exit::Well,
             Err(error) => {
                 let help = "choose another file with `--out`";
@@ -70,6 +71,14 @@ impl Format {
             Format::Svg => diagram::svg(diagram),
             Format::Dot => diagram::dot(diagram),
             Format::Mermaid => diagram::mermaid(diagram),
+        }
+    }
+
+    fn comment(self) -> Comment {
+        match self {
+            Format::Svg => Comment::Markup,
+            Format::Dot => Comment::Slashes,
+            Format::Mermaid => Comment::Percents,
         }
     }
 }

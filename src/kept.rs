@@ -4,8 +4,9 @@ mod folder;
 mod record;
 
 use crate::clock::Utc;
-use crate::disk::whole;
+use crate::disk;
 use crate::exit::Exit;
+use crate::made::{Comment, Made};
 use crate::message;
 use albacore_session::{Run, Summary};
 pub use folder::Place;
@@ -106,8 +107,9 @@ impl Kept {
         let begun = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.write(&text));
         let (is_there, mut troubles) = (folder.is_there(), Vec::new());
         if is_there {
-            for (name, text) in [(TRACE, run.trace().to_string()), (PICTURE, run.svg())] {
-                match whole(&path.join(name), &text) {
+            let trace = Made::new(run.trace().to_string(), Comment::Line);
+            for (name, made) in [(TRACE, trace), (PICTURE, Made::new(run.svg(), Comment::Markup))] {
+                match disk::make(&path.join(name), &made) {
                     Ok(()) => record.has(name),
                     Err(error) => {
                         record.loses(name, &error);

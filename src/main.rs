@@ -13,6 +13,7 @@ mod graph;
 mod interruption;
 mod kept;
 mod live;
+mod made;
 mod message;
 mod new;
 mod output;

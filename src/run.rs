@@ -71,6 +71,21 @@ impl Run {
         };
         let telling = Telling { json: self.json, on_link: self.link.is_some(), started };
         let interrupted = interruption::flag();
+        // A vehicle that never answers costs nobody the run that was there.
+        if self.replace && self.link.is_some() {
+            let help = format!("the run in `{}` was kept", self.out.as_deref().unwrap_or(Path::new("")).display());
+            match run.hear(&interrupted) {
+                Ok(true) => {}
+                Ok(false) => {
+                    message::error("interrupted before the vehicle was heard", Some(&help));
+                    return Exit::NotWell;
+                }
+                Err(error) => {
+                    message::error(&error.to_string(), Some(&help));
+                    return Exit::Failed;
+                }
+            }
+        }
         let mut kept = match self.kept(&plan) {
             Ok(kept) => kept,
             Err(exit) => return exit,

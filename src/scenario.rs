@@ -1,6 +1,7 @@
 //! `albacore scenario show`: a scenario laid open.
 
 use crate::exit::Exit;
+use crate::made::{Comment, Made};
 use crate::output::Lines;
 use crate::plan::{refused, scenario_script};
 use crate::{disk, message};
@@ -71,7 +72,8 @@ impl Show {
         // A folder that somebody names is there, or mistyped.
         let folder = if self.out.is_none() { path.parent() } else { None };
         let made = folder.map_or(Ok(()), std::fs::create_dir_all);
-        match made.and_then(|()| disk::remake(&path, &shown.svg, |there| disk::begins_as(there, &shown.svg))) {
+        let picture = Made::new(shown.svg.clone(), Comment::Markup);
+        match made.and_then(|()| disk::remake(&path, &picture)) {
             Ok(()) => {
                 let mut lines = Lines::default();
                 lines.add(&format!("picture {}", path.display()));

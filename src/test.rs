@@ -157,12 +157,16 @@ impl Test {
             Err(error) if !self.accept => {
                 return vec![format!("        `{}` cannot be read: {error}", file.display())];
             }
-            Err(_) => None,
+            Err(error) => return vec![format!("        `{}` is there already, and {error}", file.display())],
         };
         if stored.as_deref() == Some(trace) {
             return Vec::new();
         }
         if self.accept {
+            // What somebody else wrote is no old snapshot.
+            if stored.as_deref().is_some_and(|stored| !is_trace(stored)) {
+                return vec![format!("        `{}` is there already, and is no trace", file.display())];
+            }
             let written = file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
             return match written {
                 Ok(()) => {
@@ -198,6 +202,12 @@ fn stored(file: &Path, trace: &str) -> Result<Option<String>, String> {
         Err(Unread::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// Whether a text has the first line of a trace, or nothing in it.
+fn is_trace(text: &str) -> bool {
+    let head = text.lines().next().unwrap_or_default();
+    text.is_empty() || head.starts_with("mission ") && head.contains("  scenario ") && head.contains("  seed ")
 }
 
 /// The first lines in which two texts differ.

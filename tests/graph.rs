@@ -128,7 +128,7 @@ fn the_strategy_of_2005_for_mermaid() {
 #[test]
 fn the_picture_in_the_documents_is_the_one_that_is_drawn() {
     let kept = include_str!("../docs/cpt_2005.svg");
-    assert!(drawn(&["cpt", "cpt_2005"]) == kept, "look at it: albacore graph cpt cpt_2005 --out docs/cpt_2005.svg");
+    assert!(drawn(&["cpt", "cpt_2005"]) == kept, "look at it: albacore graph cpt cpt_2005 > docs/cpt_2005.svg");
 }
 
 /// The texts of a picture that stand one beneath the other, joined.
@@ -193,7 +193,9 @@ fn a_file_is_written_where_it_is_asked_for() {
     let (code, printed, _) = graph_in(&folder, &["edges.alb", "edges", "--out", "edges.svg"]);
     assert_eq!((code, printed.as_str()), (Some(0), ""));
     let (_, printed, _) = graph_in(&folder, &["edges.alb"]);
-    assert_eq!(std::fs::read_to_string(folder.join("edges.svg")).unwrap(), printed);
+    let written = std::fs::read_to_string(folder.join("edges.svg")).unwrap();
+    let mark = written.strip_prefix(printed.as_str()).unwrap();
+    assert!(mark.starts_with("<!-- Made by Albacore: ") && mark.ends_with(" -->\n"), "{mark}");
     let (code, said) = refused(&folder, &["edges.alb", "--out", "no/such/folder.svg"]);
     assert_eq!(code, Some(4));
     assert!(said.contains("`no/such/folder.svg` cannot be written"), "{said}");

@@ -139,15 +139,18 @@ fn a_folder_that_holds_a_run_is_refused() {
         assert!(code == Some(2) && said.contains("holds a run already") && said.contains("--replace"), "{said}");
         assert_eq!(bytes(&out), before, "{words}");
     }
-    // What is left of a run is a run too, and a link is one that leads elsewhere.
+    // What no run left so stays, and a link does.
     for name in ["journal", "run.json", "trace.txt", "run.svg"] {
         let out = project.join(format!("only-{name}"));
         std::fs::create_dir(&out).unwrap();
         std::os::unix::fs::symlink("../out/notes.txt", out.join(name)).unwrap();
         let words = format!("box.alb --out only-{name}");
-        assert_eq!(ran(&project, &words).0, Some(2), "{name}");
-        assert_eq!(ran(&project, &format!("{words} --replace")).0, Some(0), "{name}");
-        assert!(is_whole(&out) && !out.join(name).is_symlink(), "{name}");
+        for words in [&words, &format!("{words} --replace")] {
+            let (code, _, said) = ran(&project, words);
+            let why = format!("`only-{name}/{name}` is there already, and is not as a run left it");
+            assert!(code == Some(2) && said.contains(&why), "{words}: {said}");
+            assert!(names(&out) == [name] && out.join(name).is_symlink(), "{words}");
+        }
     }
     assert_eq!(bytes(&out), before);
     let (code, _, said) = ran(&project, "box.alb --replace");
@@ -166,6 +169,48 @@ fn who_replaces_a_run_removes_only_its_files() {
     assert_eq!(std::fs::read_to_string(out.join("notes.txt")).unwrap(), "mine");
     assert!(is_whole(&out) && bytes(&out)["journal"] != before["journal"]);
     assert_eq!(record(&out)["seed"], 2);
+}
+
+/// A file of a run's name that no run wrote, alone or beside a run, and what was edited since.
+#[test]
+fn who_replaces_a_run_removes_nothing_that_no_run_made() {
+    let project = project("theirs");
+    for name in ["journal", "run.json", "trace.txt", "run.svg"] {
+        for is_alone in [true, false] {
+            let out = project.join(format!("{name}-{is_alone}"));
+            std::fs::create_dir(&out).unwrap();
+            let words = format!("box.alb --out {name}-{is_alone}");
+            if !is_alone {
+                assert_eq!(ran(&project, &words).0, Some(0));
+            }
+            std::fs::write(out.join(name), "my notes").unwrap();
+            let before = bytes(&out);
+            let (code, _, said) = ran(&project, &format!("{words} --replace"));
+            let why = format!("{name}` is there already, and is not as a run left it");
+            assert!(code == Some(2) && said.contains(&why), "{words}: {said}");
+            assert!(bytes(&out) == before, "{words}");
+        }
+    }
+    let out = project.join("edited");
+    for name in ["trace.txt", "run.svg"] {
+        assert_eq!(ran(&project, "box.alb --out edited --replace").0, Some(0));
+        let made = std::fs::read_to_string(out.join(name)).unwrap();
+        std::fs::write(out.join(name), made.replacen("box", "fox", 1)).unwrap();
+        assert_eq!(ran(&project, "box.alb --out edited --replace").0, Some(2), "{name}");
+        std::fs::write(out.join(name), made).unwrap();
+    }
+}
+
+/// What somebody puts into a run's folder while it goes on is no file of the run.
+#[test]
+fn a_run_replaces_nothing_that_came_while_it_went_on() {
+    let project = project("came");
+    let (out, child) = (project.join("out"), long_run(&project, "out"));
+    std::fs::write(out.join("trace.txt"), "my notes").unwrap();
+    let (code, _, said) = ended(child);
+    assert!(code == Some(4) && said.contains("`out/trace.txt` cannot be written: "), "{code:?} {said}");
+    assert_eq!(std::fs::read_to_string(out.join("trace.txt")).unwrap(), "my notes");
+    assert!(out.join("run.svg").exists() && record(&out)["lost"]["trace.txt"].is_string());
 }
 
 #[test]
@@ -271,7 +316,10 @@ fn a_run_that_cannot_be_replaced_is_left_as_it_is() {
     let before = bytes(&out);
     std::fs::create_dir(out.join("run.json")).unwrap();
     let (code, _, said) = ran(&project, "box.alb --out out --replace");
-    assert!(code == Some(2) && said.contains("`out/run.json` is a folder"), "{code:?} {said}");
+    assert!(
+        code == Some(2) && said.contains("`out/run.json` is there already, and is not as a run left it"),
+        "{code:?} {said}"
+    );
     std::fs::remove_dir(out.join("run.json")).unwrap();
     assert_eq!(bytes(&out), before);
 }
@@ -325,4 +373,17 @@ fn a_run_that_hears_nothing_costs_no_other_run() {
     let _ = child.wait_with_output().unwrap();
     assert_eq!(names(&runs).len(), 2);
     assert_eq!(bytes(&first), before);
+    // Nor the one that it was to replace.
+    let replacing = format!("{link} --replace --out {}", first.display());
+    for is_interrupted in [true, false] {
+        let (code, _, said) = if is_interrupted {
+            let child = run(&project, &replacing).spawn().unwrap();
+            std::thread::sleep(Duration::from_secs(1));
+            ended(child)
+        } else {
+            ran(&project, &replacing)
+        };
+        assert_eq!(code, Some(if is_interrupted { 1 } else { 4 }), "{said}");
+        assert!(said.contains("was kept") && bytes(&first) == before, "{said}");
+    }
 }

@@ -72,6 +72,9 @@ fn a_snapshot_that_cannot_be_read_is_said() {
     std::fs::write(&file, b"\xff\xfe").unwrap();
     let (code, said) = project.test(&[]);
     assert!(code == Some(1) && said.contains("cannot be read: it is no text in UTF-8"), "{said}");
+    let (code, said) = project.test(&["--accept"]);
+    assert!(code == Some(1) && said.contains("is there already, and it is no text in UTF-8"), "{said}");
+    assert_eq!(std::fs::read(&file).unwrap(), b"\xff\xfe");
     std::fs::remove_file(&file).unwrap();
     assert!(Command::new("mkfifo").arg(&file).status().unwrap().success());
     let (code, said) = project.test(&[]);
@@ -92,6 +95,18 @@ fn what_was_accepted_passes() {
     let (code, said) = project.test(&[]);
     assert_eq!(code, Some(0), "{said}");
     assert!(said.contains("1 passed, 0 failed"), "{said}");
+}
+
+/// What has the name of a snapshot and is none is somebody's own.
+#[test]
+fn what_is_no_trace_is_not_written_over() {
+    let project = Project::new("theirs", "10 s", "5 m");
+    std::fs::create_dir(project.0.join("snapshots")).unwrap();
+    let file = project.0.join("snapshots/north-goes_north-2.trace");
+    std::fs::write(&file, "my notes").unwrap();
+    let (code, said) = project.test(&["--accept"]);
+    assert!(code == Some(1) && said.contains("is there already, and is no trace"), "{said}");
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "my notes");
 }
 
 #[test]

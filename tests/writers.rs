@@ -240,7 +240,7 @@ fn what_somebody_else_wrote_is_not_replaced() {
     ] {
         let (code, said) = albacore(&folder, words);
         assert!(
-            code == Some(4) && said.contains("it is there already, and was not made so"),
+            code == Some(4) && said.contains("it is there already, and is not as Albacore made it"),
             "{words}: {code:?} {said}"
         );
     }
@@ -256,6 +256,36 @@ fn what_somebody_else_wrote_is_not_replaced() {
     let (code, said) = albacore(&folder, "doc out --out list");
     assert!(code == Some(2) && said.contains("`index.alb` can have no page"), "{code:?} {said}");
     assert!(!folder.join("list").exists());
+}
+
+/// What looks like what is made, and what was made and edited since, is somebody's own.
+#[test]
+fn what_was_edited_is_not_replaced() {
+    let folder = empty("edited");
+    std::fs::copy("missions/box.alb", folder.join("box.alb")).unwrap();
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><path d=\"M0 0\"/></svg>\n";
+    for (words, file, own) in [
+        ("graph cpt cpt_2005 --out g.svg", "g.svg", svg),
+        ("graph cpt cpt_2005 --format dot --out g.dot", "g.dot", "digraph thesis {\n  a -> b;\n}\n"),
+        ("graph cpt cpt_2005 --format mermaid --out g.mmd", "g.mmd", "flowchart TD\n    mine --> yours\n"),
+        ("scenario show calm --out s.svg", "s.svg", svg),
+        ("scenario show calm", "albacore-runs/calm-1/scenario.svg", svg),
+        ("doc cpt --out out", "out/cpt.md", "# cpt\n\n<!-- Made by `albacore doc`. -->\n"),
+        ("doc cpt --format html --out out", "out/cpt.html", "<!DOCTYPE html>\n<html></html>\n"),
+    ] {
+        let path = folder.join(file);
+        assert_eq!(albacore(&folder, words).0, Some(0), "{words}");
+        let made = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(albacore(&folder, words).0, Some(0), "{words}: what was made is made again");
+        let half = made.char_indices().nth(made.chars().count() / 2).unwrap().0;
+        let edited = [&made[..half], " ", &made[half..]].concat();
+        for theirs in [own, &edited, &made[..half], &format!("{made}{own}"), &format!("{own}{made}")] {
+            std::fs::write(&path, theirs).unwrap();
+            let (code, said) = albacore(&folder, words);
+            assert!(code == Some(4) && said.contains("is not as Albacore made it"), "{words}: {code:?} {said}");
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), theirs, "{words}");
+        }
+    }
 }
 
 /// Nothing else in the program opens a file to write it, moves it or removes it.

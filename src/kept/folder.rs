@@ -1,8 +1,10 @@
 //! The folder of one run: whoever creates the journal in it has it, and has it alone.
 
+use super::record::is_record;
 use crate::clock::Utc;
 use crate::disk::{self, Reserved};
 use crate::exit::Exit;
+use albacore_session::is_journal;
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -72,7 +74,7 @@ impl Folder {
                 (folder.clone(), is_new)
             }
         };
-        let claimed = begun(&path).and_then(|journal| match recorded(remove, &path, record) {
+        let claimed = begun(&path).and_then(|journal| match Reserved::new(&path.join(RECORD), record, RECORD_MORE) {
             Ok(record) => Ok(Folder { path: path.clone(), journal, record }),
             Err(error) => {
                 let _ = disk::remove(&path.join(JOURNAL));
@@ -97,45 +99,49 @@ impl Folder {
     }
 }
 
-/// Sees to it that a folder holds no journal: with `replace` an earlier run is removed.
+/// Sees to it that a folder holds none of a run's files: with `replace` an earlier run is removed, and nothing that no run left so.
 fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal> {
-    let there =
-        FILES.map(|name| folder.join(name)).into_iter().filter_map(|path| Some((path.symlink_metadata().ok()?, path)));
-    let there: Vec<_> = there.collect();
-    if there.is_empty() {
-        return Ok(());
+    let is_there = |name: &&str| folder.join(name).symlink_metadata().is_ok();
+    match FILES.iter().find(|name| is_there(name)) {
+        None => return Ok(()),
+        // Whoever begins a run creates its journal first, and whoever replaces one removes that last.
+        Some(&name) if name != JOURNAL => return Err(foreign(&folder.join(name))),
+        Some(_) => {}
+    }
+    let path = folder.join(JOURNAL);
+    if !path.is_file() || path.is_symlink() {
+        return Err(foreign(&path));
+    }
+    let mut journal = match disk::old_file(&path) {
+        // Another has removed it since: whoever creates the next one has the folder.
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        journal => journal.map_err(|error| unwritable(&path, &error))?,
+    };
+    if !is_journal(&mut journal) {
+        return Err(foreign(&path));
     }
     if !replace {
         return Err(taken(folder));
     }
-    // What cannot be removed is said before anything is.
-    if let Some((_, path)) = there.iter().find(|(found, _)| found.is_dir()) {
-        let message = format!("`{}` is a folder, and no file of a run", path.display());
-        return Err(Refusal(message, "choose another folder with `--out`", Exit::Usage));
+    own(&journal, folder)?;
+    // What is not to be removed is said before anything is.
+    if let Some(name) = [RECORD, TRACE, PICTURE].iter().find(|name| is_there(name) && !is_left(&folder.join(name))) {
+        return Err(foreign(&folder.join(name)));
     }
-    match there.first() {
-        Some((found, path)) if path.ends_with(JOURNAL) => {
-            let removed = |error| unwritable(path, &error);
-            if !found.is_file() {
-                return remove(path).map_err(removed);
-            }
-            let journal = match disk::old_file(path) {
-                // Another has removed it since: whoever creates the next one has the folder.
-                Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
-                journal => journal.map_err(removed)?,
-            };
-            own(&journal, folder)?;
-            // Whoever ends this in between finds no record beside another journal, and no picture beside another record.
-            let done = [RECORD, TRACE, PICTURE, JOURNAL].iter().try_for_each(|name| {
-                let path = folder.join(name);
-                remove(&path).map_err(|error| unwritable(&path, &error))
-            });
-            // Locked until it is gone: what has its name from then on is another's.
-            drop(journal);
-            done
-        }
-        _ => Ok(()),
-    }
+    // Whoever ends this in between finds no record beside another journal, and no picture beside another record.
+    let done = [RECORD, TRACE, PICTURE, JOURNAL].iter().try_for_each(|name| {
+        let path = folder.join(name);
+        remove(&path).map_err(|error| unwritable(&path, &error))
+    });
+    // Locked until it is gone: what has its name from then on is another's.
+    drop(journal);
+    done
+}
+
+/// Whether a file beside a journal is as a run has left it.
+fn is_left(path: &Path) -> bool {
+    let is_file = path.symlink_metadata().is_ok_and(|there| there.is_file());
+    is_file && if path.ends_with(RECORD) { is_record(path) } else { disk::spare(path).is_ok() }
 }
 
 /// Creates the journal: of several runs that do so at once, one succeeds.
@@ -148,12 +154,6 @@ fn begun(folder: &Path) -> Result<File, Refusal> {
     };
     own(&journal, folder)?;
     Ok(journal)
-}
-
-/// Removes what is left of an earlier run that has no journal, and begins the record.
-fn recorded(remove: Remove, folder: &Path, record: &str) -> io::Result<Reserved> {
-    [RECORD, TRACE, PICTURE].iter().try_for_each(|name| remove(&folder.join(name)))?;
-    Reserved::new(&folder.join(RECORD), record, RECORD_MORE)
 }
 
 /// Locks a journal: who has the lock on what is the folder's journal by then has the folder. It ends with its process, however
@@ -173,6 +173,11 @@ fn taken(folder: &Path) -> Refusal {
     Refusal(message, "choose another folder with `--out`, or give `--replace` to remove that run's files", Exit::Usage)
 }
 
+fn foreign(path: &Path) -> Refusal {
+    let message = format!("`{}` is there already, and is not as a run left it", path.display());
+    Refusal(message, "move it away, or choose another folder with `--out`", Exit::Usage)
+}
+
 /// The disk will not have it.
 pub fn unwritable(path: &Path, error: &io::Error) -> Refusal {
     let message = format!("`{}` cannot be written: {error}", path.display());
@@ -186,14 +191,14 @@ mod tests {
     /// Whoever is killed while he replaces a run leaves nothing of it beside another journal, and its record only beside all of it.
     #[test]
     fn a_run_is_replaced_from_its_record_to_its_journal() {
-        for allowed in 0..=4 {
+        for allowed in 0..4 {
             let folder = tempfile::tempdir().unwrap();
-            FILES.iter().for_each(|name| std::fs::write(folder.path().join(name), "old").unwrap());
+            // As they are when they have just been created.
+            FILES.iter().for_each(|name| std::fs::write(folder.path().join(name), "").unwrap());
             let mut removed = 0;
             let mut remove = |path: &Path| {
-                let is_old = |name: &&str| std::fs::read(folder.path().join(name)).is_ok_and(|text| text == b"old");
-                let old: Vec<&str> = FILES.into_iter().filter(|name| is_old(name)).collect();
-                assert!(old.is_empty() || old.contains(&JOURNAL), "after {removed}: {old:?}");
+                let old: Vec<&str> = FILES.into_iter().filter(|name| folder.path().join(name).exists()).collect();
+                assert!(old.contains(&JOURNAL), "after {removed}: {old:?}");
                 assert!(old.len() == FILES.len() || !old.contains(&RECORD), "after {removed}: {old:?}");
                 removed += 1;
                 if removed > allowed { Err(ErrorKind::PermissionDenied.into()) } else { disk::remove(path) }

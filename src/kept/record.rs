@@ -4,10 +4,11 @@
 use crate::clock::Utc;
 use crate::output;
 use crate::plan::{ScriptDigest, scripts};
-use albacore_session::{Plan, Summary};
+use albacore_session::{Plan, SOURCE_BYTES_MAX, Summary, read_file};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
+use std::path::Path;
 
 /// The record of a run. It is written when the run begins and when it has ended: one that has no end was killed, or goes on.
 #[derive(Serialize)]
@@ -34,6 +35,15 @@ pub struct Record {
     digest: Option<String>,
     /// The files that are not whole, or not there, and why.
     lost: BTreeMap<&'static str, String>,
+}
+
+/// Whether a file is the record of a run, as far as its own words tell.
+pub fn is_record(path: &Path) -> bool {
+    let bytes = read_file(path, SOURCE_BYTES_MAX as u64).unwrap_or_else(|_| vec![b'?']);
+    let has =
+        |record: &serde_json::Value| ["albacore", "mission", "outcome"].iter().all(|word| record[word].is_string());
+    // One that has just been created is empty.
+    bytes.is_empty() || serde_json::from_slice(&bytes).is_ok_and(|record| has(&record))
 }
 
 /// What the command line asked for.

@@ -1,11 +1,17 @@
 //! The journal of a run under way: kept as long as it can be written, and given up without harm to the run.
 
 use crate::run::{Ending, Step, TickRecord};
-use albacore_trace::journal::{Closing, Gap, JournalHeader, Writer};
-use std::io;
+use albacore_trace::journal::{Closing, Gap, JournalHeader, Writer, is_beginning};
+use std::io::{self, Read};
 
 /// Where a journal's bytes go.
 pub type Sink = Box<dyn io::Write + Send>;
+
+/// Whether a file is a journal: one that has just been created is empty.
+pub fn is_journal(file: impl Read) -> bool {
+    let mut bytes = Vec::new();
+    file.take(16).read_to_end(&mut bytes).is_ok() && is_beginning(&bytes)
+}
 
 /// A journal, or what became of it.
 #[derive(Default)]

@@ -34,7 +34,7 @@ pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{Dialect, Faulty, LinkError, LinkFault, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_program::seen;
-pub use albacore_trace::{Difference, first_difference, same_behavior};
+pub use albacore_trace::{Difference, Digest, first_difference, same_behavior};
 pub use bounded::{Unread, read_all, read_file};
 pub use check::{findings, findings_in};
 pub use faults::{Faults, load_faults};
@@ -42,7 +42,7 @@ pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read, read_input,
     standard_modules,
 };
-pub use journal::Sink;
+pub use journal::{Sink, is_journal};
 pub use link::{Called, call};
 pub use link_faults::{link_faults, load_link_faults};
 pub use plan::{Plan, PlanError};

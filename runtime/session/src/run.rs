@@ -21,11 +21,12 @@ use albacore_program::PROGRAM_VERSION;
 use albacore_sim::Simulator;
 use albacore_trace::journal::JournalHeader;
 use albacore_trace::{BehaviorTrace, Depths, Picture};
-use albacore_vehicle::{TICK_S, Vehicle};
+use albacore_vehicle::{TICK_S, Vehicle, VehicleError};
 use driver::Driver;
 use recorder::Recorder;
 use report::Reports;
 use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 pub use live::{Lived, Means, Told, WAITING_BYTES};
 pub use record::{Ending, Step, TickRecord};
@@ -167,6 +168,16 @@ impl Run {
                 return running;
             }
         }
+    }
+
+    /// Waits before the first tick until the vehicle is heard, which nothing is asked of yet. `false`: it was interrupted.
+    pub fn hear(&mut self, interrupted: &AtomicBool) -> Result<bool, VehicleError> {
+        while !interrupted.load(Ordering::Relaxed) {
+            if self.driver.is_heard()? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Runs to the end.

@@ -16,7 +16,7 @@ mod read;
 mod snapshot;
 mod write;
 
-pub use read::Reader;
+pub use read::{Reader, is_beginning};
 pub use write::Writer;
 
 use albacore_machine::{Event, Outcome, State};

@@ -85,6 +85,11 @@ impl Driver {
         &self.digest
     }
 
+    /// Whether the vehicle's time has come to the next tick; on a link it waits some hundredths of a second for that.
+    pub fn is_heard(&mut self) -> Result<bool, VehicleError> {
+        self.vehicle.port().ready()
+    }
+
     /// The tick that comes next.
     pub fn tick(&self) -> u64 {
         self.machine.state().tick

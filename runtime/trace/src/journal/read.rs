@@ -14,6 +14,11 @@ pub struct Reader<'a> {
     ending: Option<Ending>,
 }
 
+/// Whether bytes begin as a journal does, as far as they go.
+pub fn is_beginning(bytes: &[u8]) -> bool {
+    bytes.iter().zip(MAGIC).all(|(byte, known)| *byte == known)
+}
+
 /// What stands at a place instead of a record.
 enum Fault {
     Short(String),
@@ -24,8 +29,7 @@ impl<'a> Reader<'a> {
     /// Reads how a journal begins.
     pub fn new(bytes: &'a [u8]) -> Result<Self, Unreadable> {
         let flaw = |at: usize, expected: &str| Flaw { at, expected: expected.to_string() };
-        let known = bytes.len().min(MAGIC.len());
-        if bytes[..known] != MAGIC[..known] {
+        if !is_beginning(bytes) {
             return Err(Unreadable::Damaged(flaw(0, "the beginning of a journal")));
         }
         let Some(version) = word(bytes, MAGIC.len()) else {
