@@ -1,5 +1,6 @@
 //! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
 
+mod growing;
 mod origin;
 mod seeds;
 mod sums;
@@ -93,14 +94,8 @@ impl Campaign {
         } else {
             Table::begin(&self.out, columns, &origin)?
         };
-        if !table.changed().is_empty() {
-            let (path, lines) = (self.out.display(), listed(table.changed()));
-            let told = format!("warning: `{path}` or its `.sums` was changed since it was written: {lines}");
-            message::write(
-                &(message::line(&told)
-                    + "  help: nothing to be done: their seeds are run again, which gives the rows that were there\n"),
-            );
-        }
+        let known = table.changed().len();
+        self.warn(table.changed());
         let bar = self.bar(table.rows());
         let mut trouble = None;
         let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |row| {
@@ -129,8 +124,24 @@ impl Campaign {
             }
         }
         let tally = table.tally(columns)?;
+        // A line that was taken for one that was being written may have been another's.
+        if table.changed().len() > known {
+            self.warn(table.changed());
+        }
         self.sum_up(plan, &tally);
         Ok(Exit::Well)
+    }
+
+    /// Says which lines were changed, if any were.
+    fn warn(&self, changed: &[usize]) {
+        if changed.is_empty() {
+            return;
+        }
+        let (path, lines) = (self.out.display(), listed(changed));
+        let told = format!("warning: `{path}` or its `.sums` was changed since it was written: {lines}");
+        let help = "  help: nothing to be done: their seeds are run again, which gives the rows that were there; what is no row \
+                    is taken out\n";
+        message::write(&(message::line(&told) + help));
     }
 
     fn sum_up(&self, plan: &Plan, tally: &Tally) {
@@ -156,6 +167,20 @@ impl Campaign {
             Trouble::Asked(what, help) => {
                 message::error(&what, Some(&help));
                 Exit::Usage
+            }
+            Trouble::Gone(path) => {
+                let what = format!("`{}` is not this campaign's any more: it was removed or replaced", path.display());
+                let help = "what has its name now is left as it is: with the file back in its place, the same command with \
+                            `--resume` goes on";
+                message::error(&what, Some(help));
+                Exit::Failed
+            }
+            Trouble::Changed(path) => {
+                let what = format!("`{}` was changed by another program while the campaign went on", path.display());
+                let help = "the same command with `--resume` keeps the rows that are as they were written, and runs the \
+                            others again";
+                message::error(&what, Some(help));
+                Exit::Failed
             }
             Trouble::Disk(error) => {
                 let help =

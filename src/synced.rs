@@ -22,6 +22,11 @@ impl Synced {
         Synced { file, due: now() + STEP, is_new: false }
     }
 
+    /// The file.
+    pub fn file(&self) -> &File {
+        &self.file
+    }
+
     /// Writes a piece whole or not at all. A disk that takes no more lets a file be cut.
     pub fn write_whole(&mut self, piece: &[u8]) -> io::Result<()> {
         let before = self.file.metadata()?.len();

@@ -361,6 +361,115 @@ fn what_is_left_of_another_table_stays() {
     }
 }
 
+/// What lies beside a table that is gone, or empty, is overwritten only where a campaign left it.
+#[test]
+fn nothing_of_somebody_else_is_taken_for_what_a_campaign_left() {
+    let folder = empty("theirs");
+    let whole = folder.join("whole.csv");
+    table(BOX, "1..2", &whole, &[]);
+    for (name, head, beside, taken) in [
+        ("sums", None, &[(".sums", "mine")][..], "t.csv.sums` is there already"),
+        ("origin", None, &[(".origin", "mine")], "t.csv.origin`, which tells"),
+        ("empty", Some(""), &[(".origin", "mine")], "t.csv.origin`, which tells"),
+        ("empty-sums", Some(""), &[(".sums", "mine")], "t.csv.sums` is there already"),
+        ("ours-sums", None, &[(".origin", ""), (".sums", "mine")], "t.csv.sums` is there already"),
+        ("text", Some("my notes"), &[(".origin", ""), (".sums", "")], "is damaged"),
+        ("torn-sums", Some("mission"), &[(".origin", ""), (".sums", "mine")], "is damaged"),
+        ("head-sums", Some("mission,HEAD"), &[(".origin", ""), (".sums", "mine, all of it")], "is damaged"),
+    ] {
+        let folder = empty(&format!("theirs-{name}"));
+        let out = folder.join("t.csv");
+        let first = std::fs::read_to_string(&whole).unwrap().lines().next().unwrap().to_string() + "\n";
+        head.iter().for_each(|head| {
+            std::fs::write(&out, if head.ends_with("HEAD") { first.as_str() } else { *head }).unwrap();
+        });
+        for (suffix, text) in beside {
+            let at = folder.join(format!("t.csv{suffix}"));
+            if text.is_empty() {
+                std::fs::copy(folder.join(format!("../theirs/whole.csv{suffix}")), at).unwrap();
+            } else {
+                std::fs::write(at, text).unwrap();
+            }
+        }
+        refused(BOX, "1..2", &out, &["--resume"], 2, taken);
+        for (suffix, text) in beside.iter().filter(|(_, text)| !text.is_empty()) {
+            let left = std::fs::read_to_string(folder.join(format!("t.csv{suffix}"))).unwrap();
+            assert_eq!(left, *text, "{name}");
+        }
+    }
+}
+
+/// A table that others write into, move away or empty, while it grows, is no table of this campaign any more.
+#[test]
+fn a_table_that_is_changed_under_way_is_said() {
+    let append = |path: &Path, text: &str| {
+        let text = std::fs::read_to_string(path).unwrap() + text;
+        let mut file = std::fs::OpenOptions::new().write(true).open(path).unwrap();
+        std::io::Write::write_all(&mut file, text.as_bytes()).unwrap();
+    };
+    let swap = |path: &Path| {
+        std::fs::rename(path, path.with_extension("away")).unwrap();
+        std::fs::write(path, "user\n").unwrap();
+    };
+    let gone = "is not this campaign's any more: it was removed or replaced";
+    let changed = "was changed by another program while the campaign went on";
+    for (name, file, change, why) in [
+        ("swapped", "t.csv", &swap as &dyn Fn(&Path), gone),
+        ("removed", "t.csv", &|path: &Path| std::fs::remove_file(path).unwrap(), gone),
+        ("emptied", "t.csv", &|path: &Path| std::fs::write(path, "").unwrap(), changed),
+        ("added", "t.csv", &|path: &Path| append(path, "my,note\n"), changed),
+        ("sums-swapped", "t.csv.sums", &swap, gone),
+        ("sums-emptied", "t.csv.sums", &|path: &Path| std::fs::write(path, "").unwrap(), changed),
+    ] {
+        let folder = empty(&format!("under-way-{name}"));
+        let child = under_way(&folder.join("t.csv"), 3);
+        change(&folder.join(file));
+        let output = child.wait_with_output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(4), "{name}: {said}");
+        assert!(said.contains(why) && said.contains("--resume") && !said.contains("room"), "{name}: {said}");
+        assert!(output.stdout.is_empty(), "{name}: a summary of what is no table");
+        if why == gone && name != "removed" {
+            assert_eq!(std::fs::read_to_string(folder.join(file)).unwrap(), "user\n", "{name}");
+        }
+    }
+}
+
+/// Of one line behind the others nobody knows before whether it is a row without its checksum, or another's.
+#[test]
+fn a_line_that_was_added_is_told() {
+    let folder = empty("added");
+    let whole = table(BOX, "1..6", &folder.join("whole.csv"), &[]);
+    let four: String = whole.split_inclusive('\n').take(5).collect();
+    let sixth = whole.lines().nth(6).unwrap();
+    let out = folder.join("t.csv");
+    table(BOX, "1..4", &out, &[]);
+    for (added, more) in
+        [("5,mine\n", "1..4"), ("5,mine\n", "1..6"), ("mine", "1..6"), (sixth, "1..6"), ("a\nb\n", "1..6")]
+    {
+        std::fs::write(&out, format!("{four}{added}")).unwrap();
+        std::fs::write(out.with_extension("csv.sums"), "").unwrap();
+        sums(&out);
+        let written = std::fs::read(out.with_extension("csv.sums")).unwrap();
+        std::fs::write(out.with_extension("csv.sums"), &written[..5 * 17]).unwrap();
+        let output = command(BOX, more, &out, &["--resume"]).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "{added}: {said}");
+        assert!(said.contains("was changed since it was written: line") && said.contains('6'), "{added}: {said}");
+    }
+    // A row that was being written when its campaign ended is none.
+    let fifth = whole.split_inclusive('\n').nth(5).unwrap();
+    for end in [1, fifth.len() / 2, fifth.len()] {
+        std::fs::write(&out, format!("{four}{}", &fifth[..end])).unwrap();
+        sums(&out);
+        let written = std::fs::read(out.with_extension("csv.sums")).unwrap();
+        std::fs::write(out.with_extension("csv.sums"), &written[..5 * 17]).unwrap();
+        let output = command(BOX, "1..6", &out, &["--resume"]).output().unwrap();
+        assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""), "{end}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
+    }
+}
+
 #[test]
 fn two_campaigns_do_not_write_one_table() {
     let out = empty("two").join("box.csv");

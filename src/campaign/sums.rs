@@ -3,10 +3,11 @@
 //! Each line of the table, the first too, has a record of 17 bytes: the digest of its bytes, as 16 hexadecimal digits, and
 //! a line end. It is written after the line, so that a line without one was not finished.
 
+use super::growing::Growing;
 use super::origin::{Unread, beside, read_beside};
 use super::seeds::RUNS_MAX;
+use super::table::Trouble;
 use crate::disk;
-use crate::synced::Synced;
 use albacore_trace::Digest;
 use std::collections::BTreeMap;
 use std::io;
@@ -14,20 +15,29 @@ use std::path::{Path, PathBuf};
 
 /// Bytes of a record.
 const RECORD: usize = 17;
+/// A record for each run that a campaign can have, and for the first line.
+const BYTES_MAX: u64 = RECORD as u64 * (RUNS_MAX + 2);
 
 /// Where a table's checksums go.
-pub struct Sums(Synced);
+pub struct Sums(Growing);
 
 impl Sums {
     /// Begins with these lines.
     pub fn begin<'a>(table: &Path, lines: impl Iterator<Item = &'a [u8]>) -> io::Result<Self> {
         let text: String = lines.map(record).collect();
-        disk::replace(&path(table), text.as_bytes()).map(|file| Sums(Synced::new(file)))
+        let path = path(table);
+        let file = disk::replace(&path, text.as_bytes())?;
+        Ok(Sums(Growing::new(file, path, text.as_bytes())))
     }
 
     /// Adds a line.
-    pub fn add(&mut self, line: &[u8]) -> io::Result<()> {
-        self.0.write_whole(record(line).as_bytes())
+    pub fn add(&mut self, line: &[u8]) -> Result<(), Trouble> {
+        self.0.add(record(line).as_bytes())
+    }
+
+    /// An error if they are not as they were written.
+    pub fn is_whole(&mut self) -> Result<(), Trouble> {
+        self.0.text().map(drop)
     }
 }
 
@@ -38,19 +48,36 @@ pub struct Kept<'a> {
     pub lines: Vec<Option<&'a [u8]>>,
     /// The numbers, from 1, of lines that were written and are otherwise now.
     pub changed: Vec<usize>,
+    /// What stands behind as many lines as have records: the beginning of a line whose record was not written yet, or another's.
+    pub tail: &'a [u8],
+    /// The number of the line that it begins.
+    pub tail_line: usize,
+}
+
+/// Whether the file beside a table holds checksums, whatever they are of, or nothing: one that holds else is somebody's own.
+pub fn are_sums(table: &Path) -> bool {
+    let is_sum = |record: &[u8]| {
+        let (sum, end) = record.split_at(record.len().min(RECORD - 1));
+        sum.iter().all(u8::is_ascii_hexdigit) && matches!(end, b"" | b"\n")
+    };
+    match read_beside(table, ".sums", BYTES_MAX) {
+        Ok(sums) => sums.chunks(RECORD).all(is_sum),
+        Err(Unread::Missing) => true,
+        Err(Unread::Wrong(_)) => false,
+    }
 }
 
 /// Reads the checksums of a table, and holds its text against them.
 pub fn kept<'a>(table: &Path, text: &'a [u8]) -> Result<Kept<'a>, Unread> {
-    // A record for each run that a campaign can have, and for the first line.
-    let sums = read_beside(table, ".sums", RECORD as u64 * (RUNS_MAX + 2))?;
+    let sums = read_beside(table, ".sums", BYTES_MAX)?;
     Ok(held_against(text, &sums))
 }
 
 /// A line is found by its digest wherever it stands: a line end that was changed, or a line that was moved, takes no others
 /// with it.
 fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
-    let whole = text.split_inclusive(|b| *b == b'\n').filter(|line| line.ends_with(b"\n"));
+    let pieces = text.split_inclusive(|b| *b == b'\n');
+    let whole = pieces.clone().filter(|line| line.ends_with(b"\n"));
     let by_sum: BTreeMap<String, &[u8]> = whole.clone().map(|line| (record(line), line)).collect();
     let found = |sum: &[u8]| std::str::from_utf8(sum).ok().and_then(|sum| by_sum.get(sum).copied());
     let records = sums.chunks_exact(RECORD);
@@ -58,10 +85,13 @@ fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
     let mut changed: Vec<usize> = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(n, _)| n).collect();
     // Of one line more its record may not have been written.
     changed.extend((lines.len() + 1..=whole.count()).skip(1));
+    // The first line is known without a record.
+    let tail_line = lines.len().max(1) + 1;
+    let before: usize = pieces.take(tail_line - 1).map(<[u8]>::len).sum();
     while lines.last().is_some_and(Option::is_none) {
         lines.pop();
     }
-    Kept { lines, changed }
+    Kept { lines, changed, tail: &text[before..], tail_line }
 }
 
 fn record(line: &[u8]) -> String {

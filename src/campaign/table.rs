@@ -4,14 +4,14 @@
 //! rows that are as they were written, runs the seeds of the others again, and goes on: the bytes are the same as without
 //! the interruption, and whatever the disk did.
 
+use super::growing::Growing;
 use super::origin::{Origin, Unread, beside};
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
 use crate::disk;
-use crate::synced::Synced;
 use albacore_session::campaign::{Columns, Row, Tally, plain};
 use std::fs::{File, TryLockError};
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// A table that rows can be added to.
@@ -23,13 +23,15 @@ pub struct Table {
     known: Option<Vec<u8>>,
     /// Lines that were changed on the disk, by their numbers.
     changed: Vec<usize>,
+    /// What stood behind its last line, with the row that it should be.
+    tail: Option<(u64, Vec<u8>)>,
 }
 
 enum State {
     /// Rows are added at the end.
-    Adding(Synced, Sums),
+    Adding(Growing, Sums),
     /// Rows in the middle are run again first. The file is left as it is until all of them are known, and locked.
-    Mending(File, Lines),
+    Mending(Growing, Lines),
 }
 
 /// What is known of a table's lines, the first too.
@@ -42,6 +44,10 @@ pub enum Trouble {
     Asked(String, String),
     /// The disk will not have it.
     Disk(io::Error),
+    /// A file was removed or replaced while it was written.
+    Gone(PathBuf),
+    /// Somebody else wrote into it.
+    Changed(PathBuf),
 }
 
 impl From<io::Error> for Trouble {
@@ -54,12 +60,10 @@ impl Table {
     /// Begins a table, where there is none yet.
     pub fn begin(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
         // What lies beside a table that is gone is of that one, and may be all that is left of it.
-        let left = neighbours(path).into_iter().find(|left| !path.exists() && left.symlink_metadata().is_ok());
-        if let Some(left) = left {
-            let message = format!("`{}` is there already, and belongs to another table", left.display());
-            return Err(Trouble::Asked(message, "move it away, or choose another file with `--out`".to_string()));
+        match neighbours(path).iter().find(|left| !path.exists() && is_there(left)) {
+            Some(left) => Err(another(left)),
+            None => Table::create(path, columns, origin),
         }
-        Table::create(path, columns, origin)
     }
 
     fn create(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
@@ -74,23 +78,25 @@ impl Table {
         }
         let file = created?;
         lock(&file, path)?;
+        let made: Vec<PathBuf> = neighbours(path).into_iter().filter(|left| !is_there(left)).collect();
         let table = Table::headed(path, file, columns, origin);
         if table.is_err() {
-            // Nothing was there before, and nothing of it is worth keeping.
-            neighbours(path).iter().map(PathBuf::as_path).chain([path]).for_each(|left| drop(disk::remove(left)));
+            // Of what was not there before nothing is worth keeping.
+            made.iter().map(PathBuf::as_path).chain([path]).for_each(|left| drop(disk::remove(left)));
         }
-        Ok(table?)
+        table
     }
 
     /// Writes where it comes from, and then the first line: a table with a line always has its origin beside it.
-    fn headed(path: &Path, mut file: File, columns: &Columns, origin: &Origin) -> io::Result<Self> {
+    fn headed(path: &Path, file: File, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
         let head = line(columns.names());
         origin.write(path)?;
         let mut sums = Sums::begin(path, std::iter::empty())?;
-        file.write_all(&head)?;
+        let mut file = Growing::new(file, path.to_path_buf(), &[]);
+        file.add(&head)?;
         sums.add(&head)?;
-        let state = State::Adding(Synced::new(file), sums);
-        Ok(Table { path: path.to_path_buf(), state, rows: 0, known: None, changed: Vec::new() })
+        let state = State::Adding(file, sums);
+        Ok(Table { path: path.to_path_buf(), state, rows: 0, known: None, changed: Vec::new(), tail: None })
     }
 
     /// Goes on with a table, or begins it if there is none.
@@ -98,9 +104,7 @@ impl Table {
         match std::fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 // A table that is gone is made again, and no other in its place.
-                if beside(path, ".origin").symlink_metadata().is_ok() {
-                    belongs(path, origin, false)?;
-                }
+                left_by(path, origin)?;
                 return Table::create(path, columns, origin);
             }
             Err(error) => return Err(error.into()),
@@ -117,30 +121,30 @@ impl Table {
         lock(&file, path)?;
         let mut text = Vec::new();
         file.read_to_end(&mut text)?;
-        belongs(path, origin, text.is_empty())?;
+        let head = line(columns.names());
+        if text.is_empty() {
+            left_by(path, origin)?;
+        } else {
+            belongs(path, origin)?;
+        }
         if !text.contains(&b'\n') {
             // Not even its first line was written.
+            if !head.starts_with(&text) || !sums::are_sums(path) {
+                return Err(damaged(path));
+            }
             file.set_len(0)?;
-            return Ok(Table::headed(path, file, columns, origin)?);
+            return Table::headed(path, file, columns, origin);
         }
         let kept = sums::kept(path, &text)
             .map_err(|unread| silent(path, ".sums", "which tells whether its rows are whole", unread))?;
-        let head = line(columns.names());
         let mut lines: Vec<Option<Vec<u8>>> = kept.lines.iter().map(|line| line.map(<[u8]>::to_vec)).collect();
         match lines.first_mut() {
             // What it was is known without it.
             Some(first @ None) => *first = Some(head),
             Some(Some(first)) if *first == head => {}
-            None if text.starts_with(&head) => lines.push(Some(head)),
+            None if text.starts_with(&head) && sums::are_sums(path) => lines.push(Some(head)),
             // Whatever its columns are, the first line that was written is not here, or its sum is not.
-            first if first.is_none() || text.starts_with(&head) => {
-                let message =
-                    format!("`{}` or its `.sums` is damaged: the first line is not as it was written", path.display());
-                return Err(Trouble::Asked(
-                    message,
-                    "put both back as they were, or begin anew with another `--out`".to_string(),
-                ));
-            }
+            first if first.is_none() || text.starts_with(&head) => return Err(damaged(path)),
             _ => {
                 let help = "give the `--reports` that it was begun with, or choose another file with `--out`";
                 let message = format!("`{}` has other columns than this campaign", path.display());
@@ -150,26 +154,39 @@ impl Table {
         matching(path, &lines[1..], columns, seeds)?;
         let rows = lines.len() as u64 - 1;
         let known = if rows > 0 { lines.last().cloned().flatten() } else { None };
-        let mut table =
-            Table { path: path.clone(), state: State::Mending(file, lines), rows, known, changed: kept.changed };
-        table.mended(&text)?;
+        let state = State::Mending(Growing::new(file, path.clone(), &text), lines);
+        let mut table = Table { path: path.clone(), state, rows, known, changed: kept.changed, tail: None };
+        let row = kept.tail_line as u64 - 2;
+        match kept.tail {
+            b"" => {}
+            // Whether it is the row that was being written is known when that is run again.
+            tail if row < seeds.count() => table.tail = Some((row, tail.to_vec())),
+            _ => table.changes(row),
+        }
+        table.mended()?;
         Ok(table)
     }
 
-    /// Goes on adding rows if all lines are known. `text` is what the file holds.
-    fn mended(&mut self, text: &[u8]) -> io::Result<()> {
+    /// Goes on adding rows if all lines are known.
+    fn mended(&mut self) -> Result<(), Trouble> {
         let State::Mending(file, lines) = &mut self.state else { return Ok(()) };
         let Some(known) = lines.iter().map(Option::as_deref).collect::<Option<Vec<&[u8]>>>() else { return Ok(()) };
         let written = known.concat();
-        let file = if text.starts_with(&written) {
-            file.set_len(written.len() as u64)?;
-            file.try_clone()?
+        let file = if file.text()?.starts_with(&written) {
+            file.file().set_len(written.len() as u64)?;
+            file.file().try_clone()?
         } else {
             disk::replace(&self.path, &written)?
         };
         let sums = Sums::begin(&self.path, known.into_iter())?;
-        self.state = State::Adding(Synced::new(file), sums);
+        self.state = State::Adding(Growing::new(file, self.path.clone(), &written), sums);
         Ok(())
+    }
+
+    /// The line of a row is not as it was written.
+    fn changes(&mut self, row: u64) {
+        self.changed.push(row as usize + 2);
+        self.changed.sort_unstable();
     }
 
     /// The seeds that are still to be run. The last one of the table is run again: if its row comes out otherwise, this
@@ -208,9 +225,15 @@ impl Table {
                 "the interpreter is another one, or the row was changed by hand: begin anew with another `--out`";
             return Err(Trouble::Asked(message, help.to_string()));
         }
+        if self.tail.as_ref().is_some_and(|(at, _)| seeds.first + at == row.seed)
+            && let Some((at, tail)) = self.tail.take()
+            && !line.starts_with(&tail)
+        {
+            self.changes(at);
+        }
         match &mut self.state {
             State::Adding(file, sums) => {
-                file.write_whole(&line)?;
+                file.add(&line)?;
                 sums.add(&line)?;
                 self.rows += 1;
             }
@@ -219,15 +242,22 @@ impl Table {
                 if let Some(missing) = lines.get_mut(at) {
                     *missing = Some(line);
                 }
-                self.mended(&[])?;
+                self.mended()?;
             }
         }
         Ok(())
     }
 
-    /// What the rows come to.
-    pub fn tally(&self, columns: &Columns) -> Result<Tally, Trouble> {
-        let mut reader = csv::Reader::from_path(&self.path).map_err(io::Error::from)?;
+    /// What the rows come to, when all are written.
+    pub fn tally(&mut self, columns: &Columns) -> Result<Tally, Trouble> {
+        let text = match &mut self.state {
+            State::Adding(file, sums) => {
+                sums.is_whole()?;
+                file.text()?
+            }
+            State::Mending(file, _) => file.text()?,
+        };
+        let mut reader = csv::Reader::from_reader(&text[..]);
         let mut tally = Tally::default();
         for row in reader.records() {
             let row = row.map_err(io::Error::from)?;
@@ -240,6 +270,29 @@ impl Table {
 /// The files that lie beside a table.
 fn neighbours(table: &Path) -> [PathBuf; 2] {
     [".origin", ".sums"].map(|suffix| beside(table, suffix))
+}
+
+fn is_there(path: &Path) -> bool {
+    path.symlink_metadata().is_ok()
+}
+
+fn another(left: &Path) -> Trouble {
+    let message = format!("`{}` is there already, and belongs to another table", left.display());
+    Trouble::Asked(message, "move it away, or choose another file with `--out`".to_string())
+}
+
+fn damaged(path: &Path) -> Trouble {
+    let message = format!("`{}` or its `.sums` is damaged: the first line is not as it was written", path.display());
+    Trouble::Asked(message, "put both back as they were, or begin anew with another `--out`".to_string())
+}
+
+/// A table that is gone, or empty, is made again where what lies beside it is its own, and no other in its place.
+fn left_by(path: &Path, origin: &Origin) -> Result<(), Trouble> {
+    let [of, sums] = neighbours(path);
+    if is_there(&of) {
+        belongs(path, origin)?;
+    }
+    if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(another(&sums)) } else { Ok(()) }
 }
 
 /// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
@@ -262,10 +315,9 @@ fn silent(table: &Path, suffix: &str, what: &str, unread: Unread) -> Trouble {
     Trouble::Asked(message, "put that back as it was, or begin anew with another `--out`".to_string())
 }
 
-/// Whether this campaign is the one that the table was begun by. An empty file belongs to every campaign.
-fn belongs(path: &Path, origin: &Origin, is_empty: bool) -> Result<(), Trouble> {
+/// Whether this campaign is the one that the table was begun by.
+fn belongs(path: &Path, origin: &Origin) -> Result<(), Trouble> {
     let problem = match Origin::read(path) {
-        _ if is_empty => None,
         Err(unread) => return Err(silent(path, ".origin", "which tells what it was made from", unread)),
         Ok(then) => then.difference(origin),
     };

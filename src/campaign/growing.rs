@@ -1,0 +1,70 @@
+//! A file that a campaign adds to, and that nobody else may have changed or replaced in the meantime.
+
+use super::table::Trouble;
+use crate::disk;
+use crate::synced::Synced;
+use albacore_session::Digest;
+use std::fs::File;
+use std::io;
+use std::path::PathBuf;
+
+/// A file with a length and a digest of all that was written to it.
+pub struct Growing {
+    file: Synced,
+    path: PathBuf,
+    bytes: u64,
+    digest: Digest,
+}
+
+impl Growing {
+    /// A file that holds this text, whole lines.
+    pub fn new(file: File, path: PathBuf, text: &[u8]) -> Self {
+        let mut growing = Growing { file: Synced::new(file), path, bytes: 0, digest: Digest::new() };
+        growing.takes(text);
+        growing
+    }
+
+    fn takes(&mut self, text: &[u8]) {
+        self.bytes += text.len() as u64;
+        self.digest = digest(self.digest, text);
+    }
+
+    /// The file itself.
+    pub fn file(&self) -> &File {
+        self.file.file()
+    }
+
+    /// Adds a line, whole or not at all.
+    pub fn add(&mut self, line: &[u8]) -> Result<(), Trouble> {
+        if !disk::is_at(self.file(), &self.path).unwrap_or(false) {
+            return Err(Trouble::Gone(self.path.clone()));
+        }
+        if self.file().metadata()?.len() != self.bytes {
+            return Err(Trouble::Changed(self.path.clone()));
+        }
+        self.file.write_whole(line)?;
+        self.takes(line);
+        Ok(())
+    }
+
+    /// What it holds: what was written.
+    pub fn text(&mut self) -> Result<Vec<u8>, Trouble> {
+        let read = || -> io::Result<Option<Vec<u8>>> {
+            let is_there = disk::is_at(self.file(), &self.path)?;
+            is_there.then(|| disk::read(&self.path, self.bytes + 1)).transpose()
+        };
+        match read() {
+            Ok(Some(text)) if digest(Digest::new(), &text) == self.digest => Ok(text),
+            Ok(Some(_)) => Err(Trouble::Changed(self.path.clone())),
+            Ok(None) => Err(Trouble::Gone(self.path.clone())),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(Trouble::Gone(self.path.clone())),
+            Err(error) => Err(error.into()),
+        }
+    }
+}
+
+/// A digest with the lines of a text taken in.
+fn digest(mut digest: Digest, text: &[u8]) -> Digest {
+    text.split_inclusive(|b| *b == b'\n').for_each(|line| digest.bytes(line));
+    digest
+}
