@@ -13,8 +13,8 @@ use albacore_geometry::{AREA_CORNERS_MAX, ROWS_MAX};
 use std::collections::BTreeMap;
 
 const CORNERS: u64 = AREA_CORNERS_MAX as u64;
-/// So many words are copied in the time of a step.
-const WORDS_A_STEP: u64 = 64;
+/// So many words are copied in the 10 ns that a million steps to a tick leave room for ten times over.
+const WORDS_A_STEP: u64 = 8;
 
 /// A loop that goes round within a tick.
 #[derive(Clone, Debug, PartialEq)]
