@@ -176,11 +176,19 @@ impl<'t> Checker<'t> {
             Type::Optional(_) | Type::None => self.make(ExprKind::IsPresent(Box::new(value)), Type::Bool, span),
             other => {
                 let name = self.type_name(other);
-                self.report(
-                    Diagnostic::error(Code::TypesCondition, span, format!("this is {}, no condition", article(&name)))
-                        .here(format!("`{name}`"))
-                        .help("compare it with something, such as `x > 0 m`"),
-                );
+                let finding = match &value.kind {
+                    ExprKind::Unwrap(_) => {
+                        let message = format!("this is known to be present here: it is {}", article(&name));
+                        Diagnostic::error(Code::TypesCondition, span, message)
+                            .help("leave the test out, or compare it with something")
+                    }
+                    _ => {
+                        let message = format!("this is {}, no condition", article(&name));
+                        Diagnostic::error(Code::TypesCondition, span, message)
+                            .help("compare it with something, such as `x > 0 m`")
+                    }
+                };
+                self.report(finding.here(format!("`{name}`")));
                 self.unknown(span)
             }
         }
