@@ -157,7 +157,7 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     // A mission is looked at as a whole when its parts are sound: half-understood parts would be found wanting twice.
     let broken = Broken::of(modules, &errors, &checked.hir);
     for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(*id)) {
-        findings.extend(rules::check(&checked.hir, *id));
+        findings.extend(rules::check(&checked.hir, &checked.types, *id));
     }
     let tables = (0..checked.hir.activities.len()).filter(|id| checked.hir.activities[*id].span.file == ENTRY);
     for id in tables.filter(|id| !broken.reaches(*id)) {

@@ -337,7 +337,7 @@ impl Prompt {
         if !has_error(&findings) {
             // What a line reads and has not come is told when it is driven.
             let meant = |f: &Diagnostic| f.severity == Severity::Error && f.code.group() != "missions";
-            findings.extend(rules::check(&hir, mission).into_iter().filter(meant));
+            findings.extend(rules::check(&hir, &types, mission).into_iter().filter(meant));
         }
         if let Some(place) = rules::first_watch(&hir, mission) {
             findings.push(

@@ -27,9 +27,10 @@ pub use inputs::read as inputs_read;
 
 use crate::diagnostic::Diagnostic;
 use crate::hir::Hir;
+use crate::types::TypeTable;
 
 /// The findings of a mission with all that it calls.
-pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
+pub fn check(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnostic> {
     let mut findings = channels::check(hir, mission);
     findings.extend(control::check(hir, mission));
     findings.extend(inputs::check(hir, mission));
@@ -37,7 +38,7 @@ pub fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     findings.extend(places::unusable(hir, mission));
     match swapped::check(hir, mission) {
         Some(swapped) => findings.push(swapped),
-        None => findings.extend(places::goals(hir, mission)),
+        None => findings.extend(places::goals(hir, types, mission)),
     }
     findings
 }

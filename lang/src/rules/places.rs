@@ -7,6 +7,7 @@ use crate::code::Code;
 use crate::diagnostic::{Diagnostic, distance};
 use crate::hir::{Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
 use crate::source::Span;
+use crate::types::TypeTable;
 use albacore_geometry::{
     AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Geodetic, Heading, Point, TangentFrame, goes_round_a_pole,
 };
@@ -92,10 +93,10 @@ pub(super) fn unusable(hir: &Hir, mission: usize) -> Option<Diagnostic> {
 }
 
 /// Goals of a mission and of what it calls that are made of constants and lie outside its area.
-pub(super) fn goals(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
+pub(super) fn goals(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
     let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
-    let mut fixed = Fixed::of(hir, mission, frame);
+    let mut fixed = Fixed::of(hir, types, mission, frame);
     let mut outside: Vec<(Span, f64, Span)> = Vec::new();
     for id in hir.called_from(mission) {
         let unit = fixed.unit(id);
