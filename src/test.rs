@@ -6,10 +6,13 @@ use crate::message;
 use crate::output::Lines;
 use crate::plan::Faults;
 use albacore_session::{
-    Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, Unread, first_difference, read_file, run_test,
+    Digest, Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, Unread, first_difference, read_file, run_test,
     same_behavior,
 };
 use std::path::{Path, PathBuf};
+
+/// A snapshot's name has so many bytes at most, without its ending: systems take 255 and less.
+const NAME_BYTES_MAX: usize = 200;
 
 /// Run the tests of scripts.
 #[derive(clap::Args)]
@@ -224,7 +227,19 @@ fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
 /// `missions/snapshots/duck_single-one_source-1.trace`.
 pub fn snapshot_file(script: &Path, test: &TestResult, seed: u64) -> PathBuf {
     let stem = script.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    script.with_file_name("snapshots").join(format!("{stem}-{}-{seed}.trace", test.file_name))
+    let name = short(format!("{stem}-{}-{seed}", test.file_name));
+    script.with_file_name("snapshots").join(format!("{name}.trace"))
+}
+
+/// A name that a file can have: of one that is too long the end is a digest of it.
+fn short(name: String) -> String {
+    if name.len() <= NAME_BYTES_MAX {
+        return name;
+    }
+    let mut digest = Digest::new();
+    digest.text(&name);
+    let kept = (0..=NAME_BYTES_MAX - 17).rev().find(|end| name.is_char_boundary(*end)).unwrap_or_default();
+    format!("{}-{digest}", &name[..kept])
 }
 
 /// Says a line.

@@ -97,6 +97,26 @@ fn what_was_accepted_passes() {
     assert!(said.contains("1 passed, 0 failed"), "{said}");
 }
 
+/// A file's name cannot be as long as a test's may be.
+#[test]
+fn a_test_with_a_long_name_has_its_snapshot() {
+    let project = Project::new("long", "10 s", "5 m");
+    for (first, second, script) in [("a", "b", "north.alb"), ("c", "d", "LONG.alb")] {
+        let long = "a very long name ".repeat(20);
+        let text = SCRIPT.replace("SECONDS", "10 s").replace("METRES", "5 m");
+        let (head, test) = text.split_once("test \"goes north\"").unwrap();
+        let both = format!("{head}test \"{long}{first}\"{test}");
+        let both = format!("{both}\ntest \"{long}{second}\"{test}");
+        let _ = std::fs::remove_dir_all(project.0.join("snapshots"));
+        std::fs::remove_file(project.0.join("north.alb")).unwrap_or_default();
+        std::fs::write(project.0.join(script.replace("LONG", &"ö".repeat(120))), both).unwrap();
+        let (code, said) = project.test(&["--accept"]);
+        assert!(code == Some(0) && said.contains("2 passed"), "{said}");
+        assert_eq!(std::fs::read_dir(project.0.join("snapshots")).unwrap().count(), 2);
+        assert_eq!(project.test(&[]).0, Some(0));
+    }
+}
+
 /// What has the name of a snapshot and is none is somebody's own.
 #[test]
 fn what_is_no_trace_is_not_written_over() {
