@@ -35,7 +35,7 @@ fn is_remakable(path: &Path, bytes: u64) -> bool {
 }
 
 /// The first bytes of a file, so many at most.
-pub fn read(path: &Path, bytes_max: u64) -> io::Result<Vec<u8>> {
+fn read(path: &Path, bytes_max: u64) -> io::Result<Vec<u8>> {
     let mut there = Vec::new();
     File::open(path)?.take(bytes_max).read_to_end(&mut there).map(|_| there)
 }
@@ -76,13 +76,15 @@ pub fn new_file(path: &Path) -> io::Result<File> {
 pub struct Reserved {
     file: File,
     room: usize,
+    /// What it holds where nobody else has written into it; `None` after a failure.
+    held: Option<Vec<u8>>,
 }
 
 impl Reserved {
     /// A file that is not there yet, with room for more than its first text. Where there is none for both, there is no file.
     pub fn new(path: &Path, text: &str, more: usize) -> io::Result<Self> {
-        let file = OpenOptions::new().write(true).create_new(true).open(path)?;
-        let mut reserved = Reserved { file, room: text.len() + more };
+        let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
+        let mut reserved = Reserved { file, room: text.len() + more, held: Some(Vec::new()) };
         if let Err(error) = reserved.write(text) {
             let _ = remove(path);
             return Err(error);
@@ -105,15 +107,31 @@ impl Reserved {
     pub fn finish(&mut self, text: &str) -> io::Result<()> {
         self.write(text)?;
         self.file.set_len(text.len() as u64)?;
+        self.held = Some(text.as_bytes().to_vec());
         self.file.sync_all()
     }
 
     /// A text over the one that was there, with blanks as far as the room goes: the file grows only once.
     pub fn write(&mut self, text: &str) -> io::Result<()> {
         let blanks = self.room.checked_sub(text.len()).ok_or(ErrorKind::FileTooLarge)?;
+        let text = (text.to_string() + &" ".repeat(blanks)).into_bytes();
+        if let Some(held) = self.held.take()
+            && !self.holds(&held)?
+        {
+            self.held = Some(held);
+            return Err(io::Error::other("another program has written into it, and that is left as it is"));
+        }
         self.file.rewind()?;
-        self.file.write_all((text.to_string() + &" ".repeat(blanks)).as_bytes())?;
+        self.file.write_all(&text)?;
+        self.held = Some(text);
         self.file.sync_all()
+    }
+
+    fn holds(&mut self, held: &[u8]) -> io::Result<bool> {
+        let mut there = Vec::new();
+        self.file.rewind()?;
+        (&self.file).take(held.len() as u64 + 1).read_to_end(&mut there)?;
+        Ok(there == held)
     }
 }
 

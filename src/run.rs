@@ -90,7 +90,7 @@ impl Run {
             Ok(kept) => kept,
             Err(exit) => return exit,
         };
-        let journal = kept.journal().map(|file| (Box::new(Synced::new(file)) as Sink, self.changes()));
+        let journal = kept.journal().map(|file| (Box::new(Synced::new(file, 0)) as Sink, self.changes()));
         if self.link.is_some() {
             let bar = self.bar(&plan.program.mission.name);
             return Live { bar, journal, interrupted, kept, telling }.run(run);

@@ -11,15 +11,22 @@ const STEP: Duration = Duration::from_secs(1);
 /// Writes at once, and lets the disk have it in steps. Who writes waits for the disk: no control loop should.
 pub struct Synced {
     file: File,
+    /// So long it is where nobody else writes into it.
+    bytes: u64,
     due: Duration,
     /// Whether anything was written since the disk had all of it.
     is_new: bool,
 }
 
 impl Synced {
-    /// Of an open file.
-    pub fn new(file: File) -> Self {
-        Synced { file, due: now() + STEP, is_new: false }
+    /// Of an open file that holds so many bytes.
+    pub fn new(file: File, bytes: u64) -> Self {
+        Synced { file, bytes, due: now() + STEP, is_new: false }
+    }
+
+    /// Whether it is as long as it was left.
+    pub fn is_as_left(&self) -> io::Result<bool> {
+        Ok(self.file.metadata()?.len() == self.bytes)
     }
 
     /// The file.
@@ -29,8 +36,12 @@ impl Synced {
 
     /// Writes a piece whole or not at all. A disk that takes no more lets a file be cut.
     pub fn write_whole(&mut self, piece: &[u8]) -> io::Result<()> {
-        let before = self.file.metadata()?.len();
-        self.write_all(piece).inspect_err(|_| drop(self.file.set_len(before)))
+        let before = self.bytes;
+        self.write_all(piece).inspect_err(|_| {
+            if self.bytes > before && self.file.set_len(before).is_ok() {
+                self.bytes = before;
+            }
+        })
     }
 
     fn sync(&mut self) -> io::Result<()> {
@@ -49,7 +60,11 @@ impl Synced {
 
 impl Write for Synced {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if !self.is_as_left()? {
+            return Err(io::Error::other("another program has written into it"));
+        }
         let written = self.file.write(bytes)?;
+        self.bytes += written as u64;
         self.is_new = true;
         if now() >= self.due {
             self.sync()?;

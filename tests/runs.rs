@@ -294,6 +294,31 @@ fn a_record_that_was_replaced_is_told_and_left_alone() {
     }
 }
 
+/// An editor that writes into the very file, and a shell that empties it.
+#[test]
+fn what_others_write_into_the_files_of_a_run_is_told() {
+    let project = project("written-into");
+    let (out, child) = (project.join("record"), long_run(&project, "record"));
+    std::fs::write(out.join("run.json"), "my notes").unwrap();
+    let (code, _, said) = ended(child);
+    assert!(
+        code == Some(4) && said.contains("`record/run.json` cannot be written: another program"),
+        "{code:?} {said}"
+    );
+    assert!(said.contains("the run ended: interrupted"), "{said}");
+    assert_eq!(std::fs::read_to_string(out.join("run.json")).unwrap(), "my notes");
+    for text in ["", "my notes"] {
+        let (out, child) = (project.join("journal"), long_run(&project, "journal"));
+        std::fs::write(out.join("journal"), text).unwrap();
+        std::thread::sleep(Duration::from_millis(100));
+        let (code, _, said) = ended(child);
+        assert!(code == Some(4) && said.contains("`journal/journal` cannot be written: another program"), "{said}");
+        assert_eq!(std::fs::read_to_string(out.join("journal")).unwrap(), text);
+        assert!(record(&out)["lost"]["journal"].is_string());
+        std::fs::remove_dir_all(&out).unwrap();
+    }
+}
+
 #[test]
 fn a_journal_that_was_removed_is_told() {
     let project = project("journal-gone");

@@ -8,25 +8,17 @@ use std::fs::File;
 use std::io;
 use std::path::PathBuf;
 
-/// A file with a length and a digest of all that was written to it.
+/// A file with a digest of all that was written to it.
 pub struct Growing {
     file: Synced,
     path: PathBuf,
-    bytes: u64,
     digest: Digest,
 }
 
 impl Growing {
     /// A file that holds this text, whole lines.
     pub fn new(file: File, path: PathBuf, text: &[u8]) -> Self {
-        let mut growing = Growing { file: Synced::new(file), path, bytes: 0, digest: Digest::new() };
-        growing.takes(text);
-        growing
-    }
-
-    fn takes(&mut self, text: &[u8]) {
-        self.bytes += text.len() as u64;
-        self.digest = digest(self.digest, text);
+        Growing { file: Synced::new(file, text.len() as u64), path, digest: digest(Digest::new(), text) }
     }
 
     /// The file itself.
@@ -39,19 +31,22 @@ impl Growing {
         if !disk::is_at(self.file(), &self.path).unwrap_or(false) {
             return Err(Trouble::Gone(self.path.clone()));
         }
-        if self.file().metadata()?.len() != self.bytes {
+        if !self.file.is_as_left()? {
             return Err(Trouble::Changed(self.path.clone()));
         }
         self.file.write_whole(line)?;
-        self.takes(line);
+        self.digest = digest(self.digest, line);
         Ok(())
     }
 
     /// What it holds: what was written.
     pub fn text(&mut self) -> Result<Vec<u8>, Trouble> {
+        if !self.file.is_as_left()? {
+            return Err(Trouble::Changed(self.path.clone()));
+        }
         let read = || -> io::Result<Option<Vec<u8>>> {
             let is_there = disk::is_at(self.file(), &self.path)?;
-            is_there.then(|| disk::read(&self.path, self.bytes + 1)).transpose()
+            is_there.then(|| std::fs::read(&self.path)).transpose()
         };
         match read() {
             Ok(Some(text)) if digest(Digest::new(), &text) == self.digest => Ok(text),
