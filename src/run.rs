@@ -73,7 +73,8 @@ impl Run {
         let interrupted = interruption::flag();
         // A vehicle that never answers costs nobody the run that was there.
         if self.replace && self.link.is_some() {
-            let help = format!("the run in `{}` was kept", self.out.as_deref().unwrap_or(Path::new("")).display());
+            let folder = self.out.as_deref().unwrap_or(Path::new(""));
+            let help = format!("nothing in `{}` was touched", folder.display());
             match run.hear(&interrupted) {
                 Ok(true) => {}
                 Ok(false) => {

@@ -48,6 +48,32 @@ fn long_names_make_no_long_messages() {
     assert!(said.lines().all(|line| line.chars().count() < 300), "{said}");
 }
 
+/// What a goal is made of is followed through names and functions, as far as any stack holds.
+#[cfg(unix)]
+#[test]
+fn a_goal_behind_a_long_chain_of_names_ends_no_check() {
+    let lets: String = (0..3000).map(|i| format!("    let p{} = p{i} + 1 m toward north\n", i + 1)).collect();
+    let sum = " + 1 m toward north".repeat(30);
+    let fns: String = (0..100).map(|i| format!("fn f{}(p: Point) -> Point {{ f{i}(p{sum}){sum} }}\n", i + 1)).collect();
+    let script = format!(
+        "mission deep in calm within 1 h {{
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 500 m, width: 500 m)
+    limits {{ altitude >= 2 m, speed <= 2 m/s }}
+    requires {{ position, course, heading fresh 5 s, else abort }}
+    recovery within 1 min {{ goto op.center }}
+    with depth 3 m, speed 1 m/s
+    let p0 = op.center\n{lets}    goto p3000\n    goto f100(op.center)\n}}\nfn f0(p: Point) -> Point {{ p }}\n{fns}"
+    );
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("long_chain.alb");
+    std::fs::write(&path, script).unwrap();
+    let limited = "ulimit -s 2048; exec \"$0\" check \"$1\"";
+    let mut shell = Command::new("sh");
+    shell.args(["-c", limited, env!("CARGO_BIN_EXE_albacore")]).arg(&path);
+    let output = shell.stdin(Stdio::null()).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(0) && said.contains("no errors"), "{said}");
+}
+
 /// A file in another encoding is one mistake, not one for each of its bytes.
 #[test]
 fn what_is_no_text_is_told_once() {

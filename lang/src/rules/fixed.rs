@@ -17,6 +17,9 @@ const VALUES_MAX: usize = 64;
 /// Functions are gone into so many times at most: each may call others twice.
 const CALLS_MAX: usize = 1_000;
 
+/// What a value is made of is followed so deep at most, through names and functions: any stack holds that.
+const DEPTH_MAX: usize = 128;
+
 /// What has variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Unit {
@@ -69,14 +72,15 @@ pub(super) struct Fixed<'h> {
     /// The functions that were looked through.
     looked: BTreeSet<FnId>,
     calls_left: usize,
+    depth: usize,
 }
 
 impl<'h> Fixed<'h> {
     /// Those of a mission, in the frame of its area.
     pub(super) fn of(hir: &'h Hir, types: &'h TypeTable, mission: usize, frame: Option<TangentFrame>) -> Self {
         let (set, tested, changed) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
-        let (known, looked, calls_left) = (BTreeMap::new(), BTreeSet::new(), CALLS_MAX);
-        let mut fixed = Fixed { hir, types, frame, set, tested, changed, known, looked, calls_left };
+        let (known, looked, calls_left, depth) = (BTreeMap::new(), BTreeSet::new(), CALLS_MAX, 0);
+        let mut fixed = Fixed { hir, types, frame, set, tested, changed, known, looked, calls_left, depth };
         let defaults = hir.activities[mission].defaults.iter().enumerate();
         for (param, default) in defaults.filter_map(|(param, default)| Some((param, default.as_ref()?))) {
             let mission = Unit::Activity(mission);
@@ -192,6 +196,16 @@ impl<'h> Fixed<'h> {
     }
 
     fn values(&mut self, unit: Unit, e: &'h Expr) -> Vec<Written> {
+        if self.depth == DEPTH_MAX {
+            return Vec::new();
+        }
+        self.depth += 1;
+        let values = self.values_within(unit, e);
+        self.depth -= 1;
+        values
+    }
+
+    fn values_within(&mut self, unit: Unit, e: &'h Expr) -> Vec<Written> {
         if let Some(x) = e.range.constant() {
             return vec![(e.span, Value::Number(x))];
         }
