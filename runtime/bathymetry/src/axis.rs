@@ -34,6 +34,10 @@ impl Axis {
         if !(first.is_finite() && last.is_finite()) {
             return Err(Fault::new(runs(), "give finite numbers"));
         }
+        if first == last {
+            let mend = "give the places of the first cell and of the last: rows run from south to north, cells from west to east";
+            return Err(Fault::new(format!("{}: these are one place", runs()), mend));
+        }
         if first >= last {
             let message = format!("{}: it must ascend", runs());
             let mend = "give the smaller end first: rows run from south to north, the cells of a row from west to east";
@@ -51,8 +55,11 @@ impl Axis {
         if let Some(i) = (1..places.len()).find(|&i| places[i] <= places[i - 1]) {
             let message =
                 format!("`{short}({i})` is {} after {}: it must ascend", told(places[i]), told(places[i - 1]));
-            let mend = "turn it round, rows and all";
-            return Err(Fault::new(message, format!("{mend}: `ncpdq -a -{short} IN.nc OUT.nc`")));
+            let mend = match places.windows(2).all(|pair| pair[1] < pair[0]) {
+                true => format!("turn it round, rows and all: `ncpdq -a -{short} IN.nc OUT.nc`"),
+                false => "give each place once, in their order, with its row".to_string(),
+            };
+            return Err(Fault::new(message, mend));
         }
         let ends = places.first().zip(places.last());
         let (first, last) = ends.map_or((0.0, 0.0), |(first, last)| (*first, *last));

@@ -10,7 +10,7 @@ use crate::axis::Axis;
 use crate::classic::{Classic, Variable};
 use crate::fault::{Fault, Faults, listed, shortened, told};
 use crate::marks;
-use crate::survey::{Kind, Survey, check_size, going_on, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
 use packing::Packing;
 
 /// Names of variables that hold the bottom, where a file has several over two dimensions.
@@ -201,5 +201,7 @@ fn depths(file: &Classic, bottom: &Variable, columns: u32, faults: &mut Faults) 
             );
         }
     }
+    let turned = format!("give the variable `positive = \"{}\"`", if down { "up" } else { "down" });
+    check_water(&depths, down, &turned, faults);
     (faults.count() == before).then_some(depths)
 }

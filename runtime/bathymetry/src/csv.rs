@@ -14,7 +14,7 @@
 use crate::axis::Axis;
 use crate::fault::{Fault, Faults, counted, shortened};
 use crate::marks;
-use crate::survey::{Kind, Survey, check_size, going_on, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
 
 /// What a head line looks like, for who has none.
 const HEAD: &str = "begin it with a line such as `# lon 140.0..144.9 n=60 lat 10.0..14.0 n=49 metres`, or with \
@@ -125,6 +125,11 @@ pub(crate) fn read(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
         faults.add(message, "give a row for each place from south to north, or correct the head's `n=`");
     }
     head.check_marks(&cells, east.count, faults);
+    let turned = match head.is_depth {
+        true => "write `metres` alone in the head, without `depth`",
+        false => "write `depth in metres` in the head",
+    };
+    check_water(&cells.depths, head.is_depth, turned, faults);
     Some(Survey { kind, north, east, depths: cells.depths })
 }
 

@@ -66,14 +66,7 @@ fn read_into(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
         faults.add(format!("this is {what}: only CSV and NetCDF classic are read"), *mend);
         return None;
     }
-    let is_netcdf = bytes.starts_with(b"CDF");
-    let survey = if is_netcdf { conventions::read(bytes, faults) } else { csv::read(bytes, faults) }?;
-    if faults.count() == 0 && survey.depths.iter().all(|depth| *depth <= 0.0) {
-        let so =
-            if is_netcdf { "give the variable `positive = \"down\"`" } else { "write `depth in metres` in the head" };
-        faults.add("no cell lies under water", format!("elevations are negative there: if these are depths, {so}"));
-    }
-    Some(survey)
+    if bytes.starts_with(b"CDF") { conventions::read(bytes, faults) } else { csv::read(bytes, faults) }
 }
 
 /// Whether a file begins so, in letters of either case.

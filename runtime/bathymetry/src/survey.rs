@@ -126,6 +126,17 @@ pub(crate) fn going_on(longitudes: &mut [f64]) {
     }
 }
 
+/// Whether any cell is water; `turned` tells how a file says that its numbers count the other way.
+pub(crate) fn check_water(depths: &[f64], are_depths: bool, turned: &str, faults: &mut Faults) {
+    if faults.count() == 0 && depths.iter().all(|depth| *depth <= 0.0) {
+        let help = match are_depths {
+            true => format!("depths are positive there: if these are elevations, {turned}"),
+            false => format!("elevations are negative there: if these are depths, {turned}"),
+        };
+        faults.add("no cell lies under water", help);
+    }
+}
+
 /// The axes of a geodetic survey from those in degrees.
 pub(crate) fn on_the_globe(latitude: Axis, longitude: Axis, faults: &mut Faults) -> Option<(Axis, Axis)> {
     let (north, east) = (latitude.times(PI / 180.0), longitude.times(PI / 180.0));

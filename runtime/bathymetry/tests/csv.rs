@@ -263,3 +263,24 @@ fn a_text_with_any_byte_changed_is_read_or_refused_without_harm() {
         }
     }
 }
+
+/// The mend that is offered, applied, mends.
+#[test]
+fn a_bottom_that_is_all_land_is_turned_round() {
+    for (head, cells, mend, mended) in [
+        ("metres", "1,2\n3,4", "`depth in metres`", "depth in metres"),
+        ("depth in metres", "-1,-2\n-3,-4", "`metres` alone", "metres"),
+    ] {
+        let text = |head: &str| format!("# east 0..1 n=2 north 0..1 n=2 {head}\n{cells}\n");
+        wrong(&text(head), "no cell lies under water");
+        assert!(faults(&text(head))[0].help.contains(mend), "{head}");
+        assert_eq!(read(text(mended).as_bytes()).unwrap().depths, [1.0, 2.0, 3.0, 4.0]);
+    }
+}
+
+#[test]
+fn ends_of_an_axis_are_two_places() {
+    let text = "# lon -75.75..-75.75 n=2 lat 10..12 n=2 metres\n-1,-2\n-3,-4\n";
+    wrong(text, "`lon` runs from -75.75 to -75.75: these are one place");
+    assert!(faults(text)[0].help.contains("of the first cell and of the last"));
+}

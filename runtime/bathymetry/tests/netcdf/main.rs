@@ -275,6 +275,11 @@ fn a_single_row_and_a_bottom_without_water_are_told_as_what_they_are() {
     let dry = numbers(Doubles(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), &[]);
     assert!(faults(&dry)[0].help.contains("`positive = \"down\"`"));
     wrong(dry, "no cell lies under water");
+    let below = Doubles(vec![-1.0, -2.0, -3.0, -4.0, -5.0, -6.0]);
+    let down = numbers(below.clone(), &[("positive", Text("down"))]);
+    assert!(faults(&down)[0].help.contains("`positive = \"up\"`"));
+    wrong(down, "no cell lies under water");
+    assert!(read(&numbers(below, &[("positive", Text("up"))]).bytes(1)).is_ok());
     let far = File::small().with("y", |v| v.values = Doubles(vec![0.0, 3e9]));
     wrong(far, "the survey runs northward from 0 to 3000000000 metres");
 }
