@@ -6,12 +6,19 @@ mod kml;
 
 use crate::FileFault;
 use crate::suggest::{listed, nearest};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::rc::Rc;
 
 /// A file larger than this, in bytes, is refused: an area has few corners.
 pub const BYTES_MAX: u64 = 4_000_000;
+
+/// The mend of polygons of one name, or of several in one feature.
+const APART: &str = "give each polygon a feature and a name of its own";
+
+/// The mend of an area in two parts, on both sides of 180 degrees.
+const JOIN: &str = "they were cut at 180 degrees: join them in one polygon without the corners there; one longitude may be 179.9 and \
+     the next -179.9";
 
 /// So many names are listed in a message at most.
 const LISTED_MAX: usize = 12;
@@ -147,9 +154,13 @@ fn choose<'c>(path: &str, contents: &'c Contents, named: Option<&str>) -> Result
             [only] => Ok(only),
             _ => Err(fault(
                 format!("there are {} polygons in it{}", polygons.len(), in_all(&names)),
-                match names.iter().find(|name| is_short(name)) {
+                match only_once(&names) {
+                    _ if are_halves(polygons.iter()) => JOIN.to_string(),
                     Some(name) => format!("say which by its name: `area_file(\"{path}\", named: \"{name}\")`"),
-                    None => "give each a `name`, and say which is meant: `area_file(…, named: \"…\")`".to_string(),
+                    None if names.is_empty() => {
+                        "give each a `name`, and say which is meant: `area_file(…, named: \"…\")`".to_string()
+                    }
+                    None => format!("{APART}, and say which is meant: `area_file(…, named: \"…\")`"),
                 },
             )),
         };
@@ -171,10 +182,29 @@ fn choose<'c>(path: &str, contents: &'c Contents, named: Option<&str>) -> Result
             let places = places[..places.len().min(LISTED_MAX)].join(", ");
             Err(fault(
                 format!("{} polygons are named `{named}`: {places}", several.len()),
-                "give each polygon a feature and a name of its own",
+                if are_halves(several.iter().copied()) { JOIN } else { APART },
             ))
         }
     }
+}
+
+/// A name that one polygon has and no other, short enough for a message.
+fn only_once<'n>(names: &[&'n str]) -> Option<&'n str> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    names.iter().for_each(|name| *counts.entry(name).or_default() += 1);
+    names.iter().copied().find(|name| is_short(name) && counts.get(name) == Some(&1))
+}
+
+/// Whether polygons are what was one, cut at 180 degrees as RFC 7946 (section 3.1.9) wants it: all touch that meridian, from both sides.
+fn are_halves<'p>(polygons: impl Iterator<Item = &'p Polygon>) -> bool {
+    let (mut sides, mut all) = ([false; 2], true);
+    for polygon in polygons {
+        let touches = |at: f64| polygon.corners.iter().any(|corner| corner.longitude_deg == at);
+        let touched = [touches(-180.0), touches(180.0)];
+        all &= touched != [false; 2];
+        sides = [sides[0] || touched[0], sides[1] || touched[1]];
+    }
+    all && sides == [true; 2]
 }
 
 /// The names that there are.

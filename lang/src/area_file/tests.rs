@@ -364,3 +364,35 @@ fn a_hole_lies_within_its_outline() {
     refused(&dented, 0.05, 0.05, 1);
     refused(&dented, 0.0, 0.0995, 2);
 }
+
+#[test]
+fn no_name_is_offered_that_several_polygons_have() {
+    let twice = kml(&[placemark("a", KML_SQUARE), placemark("a", KML_SQUARE)].join("\n"));
+    let help = "give each polygon a feature and a name of its own, and say which is meant";
+    refused("a.kml", &twice, None, "there are 2 polygons in it: `a` and `a`", help);
+    let third = kml(&[placemark("a", KML_SQUARE), placemark("a", KML_SQUARE), placemark("b", KML_SQUARE)].join("\n"));
+    let help = "`area_file(\"a.kml\", named: \"b\")`";
+    refused("a.kml", &third, None, "there are 3 polygons in it: `a`, `a` and `b`", help);
+}
+
+/// RFC 7946, section 3.1.9: an area across 180 degrees is written in two parts.
+#[test]
+fn an_area_that_was_cut_at_180_degrees_is_joined() {
+    let half = |from: f64, to: f64| format!("[[[{from}, 1], [{to}, 1], [{to}, 1.1], [{from}, 1.1], [{from}, 1]]]");
+    let multi = |second: &str| {
+        let both = [half(179.9, 180.0), second.to_string()].join(", ");
+        let geometry = format!(r#"{{"type": "MultiPolygon", "coordinates": [{both}]}}"#);
+        geojson(&[(r#"{"name": "box"}"#, geometry.as_str())])
+    };
+    let cut = multi(&half(-180.0, -179.9));
+    refused("a.json", &cut, None, "there are 2 polygons in it: `box` and `box`", "join them in one polygon");
+    let places = "`features[0].geometry.coordinates[0]`, `features[0].geometry.coordinates[1]`";
+    let named = format!("2 polygons are named `box`: {places}");
+    refused("a.json", &cut, Some("box"), &named, "join them in one polygon");
+    let joined = outline(&[(179.9, 1.0), (-179.9, 1.0), (-179.9, 1.1), (179.9, 1.1), (179.9, 1.0)]);
+    assert_eq!(read("a.json", &geojson(&[("{}", &joined)]), None).unwrap().len(), 4);
+    // Two that lie apart, on one side or both, are two.
+    for apart in [half(178.0, 180.0), half(-179.9, -179.8)] {
+        refused("a.json", &multi(&apart), Some("box"), &named, "a name of its own");
+    }
+}
