@@ -190,3 +190,14 @@ fn a_mission_runs_across_the_180th_meridian() {
     assert!(longitude(0) < -179.99 && longitude(1) > 179.99, "{json}");
     assert!(json["reports"][0]["latitude_deg"].as_f64().unwrap() < -16.99);
 }
+
+/// Where a start lies that is too far away, not where the region does.
+#[test]
+fn a_start_far_away_is_told_with_its_place() {
+    let folder = project("far-start");
+    edit(&folder, FILES[0], "36°10.74'N", "37°10.74'N");
+    let region = "region(rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 900 m, width: 900 m))";
+    edit(&folder, FILES[0], "    no_go(", &format!("    {region}\n    no_go("));
+    let (_, told) = albacore(&folder, &["check", FILES[0]]);
+    assert!(told.contains("the start about 37°10.740'N"), "{told}");
+}

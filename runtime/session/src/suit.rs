@@ -1,7 +1,7 @@
 //! Whether a world has what a mission needs that runs in it: a place near its area, sensors for what it requires, and anything
 //! known of its area.
 
-use albacore_geometry::{Area, Geodetic, Point};
+use albacore_geometry::{Area, Geodetic, Point, TangentFrame};
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::{Diagnostic, distance};
 use albacore_lang::source::Span;
@@ -44,28 +44,34 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
     let nearest = held.origin.and_then(|here| {
         held.places.iter().map(|there| (there.great_circle(here), *there, here)).min_by(|a, b| a.0.total_cmp(&b.0))
     });
-    let apart = nearest.map(|(apart, ..)| apart).filter(|apart| *apart > SAME_PLANE_M);
     let start = -area.gap(world.vehicle.start);
     // A record is its own region, and `uncovered` says more of it.
     let region = world.region.as_ref().filter(|_| world.recording.is_none());
-    let message = match (apart, region) {
-        (Some(apart), _) => {
-            format!("`{name}` lies {:.0} km from the area of the mission `{mission}`", apart / 1000.0)
+    let on_globe = |point| held.origin.map(|origin| TangentFrame { origin }.to_geodetic(point));
+    let (message, what, there) = match (nearest.filter(|(apart, ..)| *apart > SAME_PLANE_M), region) {
+        (Some((apart, there, _)), _) => {
+            let message = format!("`{name}` lies {:.0} km from the area of the mission `{mission}`", apart / 1000.0);
+            (message, format!("`{name}`"), Some(there))
         }
         (None, Some(region)) if !region.overlaps(&area) => {
             let away = distance(area.distance(region));
-            format!("the region of `{name}` does not meet the area of the mission `{mission}`: it lies {away} away")
+            let message = format!(
+                "the region of `{name}` does not meet the area of the mission `{mission}`: it lies {away} away"
+            );
+            (message, "the region".to_string(), on_globe(region.center()))
         }
         _ if start > FAR_M => {
-            format!("the vehicle of `{name}` starts {} from the area of the mission `{mission}`", distance(start))
+            let message =
+                format!("the vehicle of `{name}` starts {} from the area of the mission `{mission}`", distance(start));
+            (message, "the start".to_string(), on_globe(world.vehicle.start))
         }
         _ => return None,
     };
     if let Some(swapped) = script.swapped_area(mission, held.places) {
         return Some(swapped);
     }
-    let places = match nearest {
-        Some((_, there, here)) => format!("the area lies about {here}, `{name}` about {there}"),
+    let places = match nearest.and_then(|(_, _, here)| Some((here, there?))) {
+        Some((here, there)) => format!("the area lies about {here}, {what} about {there}"),
         None => "both are in metres from one origin".to_string(),
     };
     let own = script.missions().find(|info| info.name == mission).and_then(|info| info.scenario.as_deref());
