@@ -2,7 +2,7 @@
 
 mod growing;
 mod origin;
-mod seeds;
+pub mod seeds;
 mod sums;
 mod table;
 mod told;
@@ -40,7 +40,7 @@ pub struct Campaign {
     #[command(flatten)]
     faults: Faults,
     /// The seeds: `1..100` with both ends, `1..<100` without the last, or one.
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     seeds: Seeds,
     /// The table. What it was made from is kept beside it, in `FILE.csv.origin`, and a
     /// checksum of each line in `FILE.csv.sums`.

@@ -1,5 +1,6 @@
 //! `albacore repl`: a simulated vehicle that does what is typed.
 
+use crate::campaign::seeds;
 use crate::exit::Exit;
 use crate::interruption;
 use crate::message;
@@ -34,7 +35,7 @@ pub struct Repl {
     #[command(flatten)]
     faults: Faults,
     /// The seed of all that is random.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::one, allow_negative_numbers = true)]
     seed: u64,
 }
 

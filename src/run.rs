@@ -1,5 +1,6 @@
 //! `albacore run`: checks a mission and runs it.
 
+use crate::campaign::seeds;
 use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
 use crate::kept::{Asked, Kept, Place, Record};
@@ -32,14 +33,14 @@ pub struct Run {
     #[command(flatten)]
     faults: Faults,
     /// The seed of all that is random.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::one, allow_negative_numbers = true)]
     seed: u64,
     /// Drive a vehicle at the end of a link instead of a simulated one: `serial:/dev/ttyUSB0?dialect=recon`,
     /// `udp:HOST:PORT?dialect=recon`. `dialect` may be left out where the vehicle of the mission's scenario says it.
     #[arg(long, value_name = "URL", conflicts_with_all = ["scenario", "texts"])]
     link: Option<String>,
     /// How many times faster than real time; else a simulation runs as fast as it can, and a vehicle in real time.
-    #[arg(long, value_name = "N", value_parser = clock::rate)]
+    #[arg(long, value_name = "N", value_parser = clock::rate, allow_negative_numbers = true)]
     rate: Option<f64>,
     /// The folder for `run.json`, the journal, the trace and the picture; else a new one below `albacore-runs/MISSION`, named by
     /// the time of the start.

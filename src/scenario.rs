@@ -1,5 +1,6 @@
 //! `albacore scenario show`: a scenario laid open.
 
+use crate::campaign::seeds;
 use crate::exit::Exit;
 use crate::made::{Comment, Made};
 use crate::output::Lines;
@@ -27,7 +28,7 @@ struct Show {
     #[arg(value_name = "SCENARIO | SCRIPT.alb[#SCENARIO]")]
     scenario: String,
     /// The seed of the picture.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::one, allow_negative_numbers = true)]
     seed: u64,
     /// Change a parameter: `duck_2003.step=2s`.
     #[arg(long = "set", value_name = "NAME=VALUE")]

@@ -1,5 +1,6 @@
 //! `albacore vehicle`: serves a simulated vehicle at the far end of a link.
 
+use crate::campaign::seeds;
 use crate::clock::{self, Pace};
 use crate::exit::Exit;
 use crate::plan::{Faults, refused, scenario_script, sound};
@@ -24,14 +25,14 @@ pub struct Vehicle {
     #[arg(long, value_name = "URL")]
     link: String,
     /// How many times faster than real time; give `run --link` the same.
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clock::rate)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clock::rate, allow_negative_numbers = true)]
     rate: f64,
     /// The vehicle's own mission: rows from where it starts, along its heading, each to the right of the last [default: the
     /// mission of the scenario, else 200x30x6].
     #[arg(long, value_name = "LENGTHxSPACINGxCOUNT")]
     rows: Option<Rows>,
     /// The seed of all that is random.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::one, allow_negative_numbers = true)]
     seed: u64,
     #[command(flatten)]
     faults: Faults,

@@ -145,3 +145,24 @@ fn a_result_that_cannot_be_written_is_said_and_a_failure() {
         assert_eq!(stderr(&output).matches("cannot be written to standard output").count(), 1, "{args:?}");
     }
 }
+
+/// What is no seed and no rate is told as such, a negative number too.
+#[test]
+fn seeds_and_rates_say_what_they_are() {
+    let seed = "a seed is a whole number from 0 on, such as `7`";
+    for (args, expected) in [
+        (["--seed", "-1"], seed),
+        (["--seed", "1.5"], seed),
+        (["--seed", "-1.5"], seed),
+        (["--rate", "-1"], "write a number from 0.1 to 1000"),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_albacore"))
+            .args(["run", "missions/duck_single.alb"])
+            .args(args)
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && told.contains(expected), "{args:?}: {told}");
+    }
+}

@@ -54,11 +54,20 @@ impl FromStr for Seeds {
 }
 
 fn seed(text: &str) -> Result<u64, String> {
+    number(text, "seeds are whole numbers from 0 on: `7`, `1..100`, or `1..<100` without the last")
+}
+
+/// The seed of one run, as `--seed` has it.
+pub fn one(text: &str) -> Result<u64, String> {
+    number(text, "a seed is a whole number from 0 on, such as `7`")
+}
+
+fn number(text: &str, form: &str) -> Result<u64, String> {
     let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     match text.parse() {
         Ok(seed) if digits => Ok(seed),
         _ if digits => Err(format!("a seed is {} at most", u64::MAX)),
-        _ => Err("seeds are whole numbers: `7`, `1..100`, or `1..<100` without the last".to_string()),
+        _ => Err(form.to_string()),
     }
 }
 
