@@ -47,7 +47,65 @@ pub fn help(word: &str) -> Option<&'static str> {
         "exit" | "quit" => {
             "`finish` ends a behavior or a mission; `abort \"why\"` ends the mission and begins its recovery"
         }
-        _ => return maneuver(word),
+        _ => return maneuver(word).or_else(|| compass(word)),
+    })
+}
+
+/// Functions of other languages, and how ours says what they give.
+pub fn called(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "atan2" | "bearing" | "azimuth" | "heading_to" => {
+            "the heading from one point to another is `(TO - FROM).toward`, that of a vector `VECTOR.toward`"
+        }
+        "dist" | "distance_to" | "range_to" => "write `distance(FROM, TO)`",
+        "hypot" | "norm" | "magnitude" => "the length of a vector is `VECTOR.length`",
+        "mean" | "average" | "avg" | "sum" => {
+            "add up in a loop: `var total = 0 m`, then `for x in LIST { total = total + x }`; the mean is `total / LIST.count else 0 m`"
+        }
+        "str" | "string" | "to_string" | "format" | "sprintf" => {
+            "a value stands in a text between `{` and `}`: `\"depth {depth}\"`"
+        }
+        "pow" | "power" => "write `x^2`",
+        _ => return None,
+    })
+}
+
+/// What others call what a scenario says, and how ours says it.
+pub fn clause(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "current" | "currents" | "stream" => "write `flow(0.1 m/s toward 90 deg)`",
+        "temperature" | "salinity" | "thermocline" | "density" => {
+            "the water's are those of `stratification(surface: 10 degC, bottom: 10 degC)`; `ctd()` measures them"
+        }
+        "depth" | "seabed" | "seafloor" | "water_depth" => "write `bottom(from: 20 m, to: 20 m)`",
+        "bathymetry" | "survey" => "write `bottom_grid(\"FILE.csv\")`",
+        "wind" => "write what it makes: `waves(height: 50 cm)`, `flow(0.1 m/s toward 90 deg)`",
+        "start" | "position" | "location" | "origin" => "write it with the vehicle: `vehicle(kinematic, start: POINT)`",
+        _ => return None,
+    })
+}
+
+/// How the end of a run is called elsewhere.
+pub fn end_of_run(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "outcome" | "status" | "result" | "success" | "succeeded" | "finished" => "write `expect completed`",
+        "aborted" | "failed" | "failure" => "write `expect not completed`",
+        _ => return None,
+    })
+}
+
+/// Directions of the compass that have no name here, or a longer one.
+fn compass(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "N" => "if this is a direction write `north`",
+        "E" => "if this is a direction write `east`",
+        "S" => "if this is a direction write `south`",
+        "W" => "if this is a direction write `west`",
+        "NE" | "northeast" | "north_east" => "write `45 deg`: only `north`, `east`, `south` and `west` have names",
+        "SE" | "southeast" | "south_east" => "write `135 deg`: only `north`, `east`, `south` and `west` have names",
+        "SW" | "southwest" | "south_west" => "write `225 deg`: only `north`, `east`, `south` and `west` have names",
+        "NW" | "northwest" | "north_west" => "write `315 deg`: only `north`, `east`, `south` and `west` have names",
+        _ => return None,
     })
 }
 

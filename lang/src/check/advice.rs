@@ -3,7 +3,7 @@
 use super::Checker;
 use super::expr::article;
 use crate::dimension::Dimension;
-use crate::hir::Expr;
+use crate::hir::{Builtin, Expr, ExprKind, InputPart};
 use crate::suggest;
 use crate::syntax::tree::Binary;
 use crate::types::{RecordInfo, Type};
@@ -89,7 +89,43 @@ pub(super) fn partner(op: Binary, a: &Type, b: &Type) -> Option<&'static str> {
     }
 }
 
+/// Whether a vector is written as a length toward a heading.
+pub(super) fn is_toward(vector: &Expr) -> bool {
+    match &vector.kind {
+        ExprKind::Do(Builtin::Toward, _) => true,
+        ExprKind::Do(Builtin::AddVector | Builtin::SubVector, parts) => parts.iter().any(is_toward),
+        _ => false,
+    }
+}
+
 impl Checker<'_> {
+    /// How a value is called in a mend: by its name, where it has one.
+    fn called<'a>(&'a self, value: &Expr, otherwise: &'a str) -> &'a str {
+        match value.kind {
+            ExprKind::Input(id, InputPart::Value) => &self.hir.inputs[id].name,
+            ExprKind::Var(id) => &self.scope.vars[id].name,
+            _ => otherwise,
+        }
+    }
+
+    /// A vector that an angle was to turn.
+    pub(super) fn turned(&self, op: Binary, vector: &Expr) -> String {
+        let name = self.called(vector, "VECTOR");
+        format!("an angle turns the direction of a vector: `{name}.toward {} ANGLE`", op.symbol())
+    }
+
+    /// What was compared with `none`, and always has a value.
+    pub(super) fn never_absent(&self, value: &Expr) -> String {
+        let help = "it is never absent: leave the test out";
+        match value.kind {
+            ExprKind::Input(..) => {
+                let name = self.called(value, "INPUT");
+                format!("{help}, or ask how old the last sample is: `{name}.age > 5 s`")
+            }
+            _ => help.to_string(),
+        }
+    }
+
     /// What a value of a type looks like.
     pub(super) fn example(&self, ty: &Type) -> Option<String> {
         let example = match ty {

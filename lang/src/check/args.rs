@@ -13,6 +13,9 @@ use crate::{foreign, suggest};
 use albacore_arithmetic::{Operation, Sqrt};
 use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 
+/// What is said of an area that is meant to be round.
+const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";
+
 /// Verbs whose setpoints are told after `at`, not among their arguments.
 const GUIDANCE: [&str; 5] = ["goto", "follow", "dubins", "loiter", "steer"];
 
@@ -309,7 +312,10 @@ impl<'t> Checker<'t> {
                 let finding =
                     Diagnostic::error(Code::NamesUnknown, name_span, format!("nothing named `{name}` can be called"));
                 let known = BUILTINS.iter().copied().chain(self.callable_names());
-                let finding = match (foreign::help(name), self.nearest(name, known)) {
+                // No area is round, and elsewhere `circle` is driven.
+                let round = (name == "circle" && expected == Some(&Type::Area)).then_some(ROUND);
+                let foreign = round.or_else(|| foreign::called(name)).or_else(|| foreign::help(name));
+                let finding = match (foreign, self.nearest(name, known)) {
                     (Some(help), _) => finding.help(help),
                     (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
                     (None, None) => finding
@@ -377,11 +383,12 @@ impl<'t> Checker<'t> {
             _ => 2,
         };
         if args.len() != wanted {
-            self.report(Diagnostic::error(
-                Code::ArgsMany,
-                span,
-                format!("`{name}` takes {}, not {}", count(wanted), args.len()),
-            ));
+            let message = format!("`{name}` takes {}, not {}", count(wanted), args.len());
+            self.report(Diagnostic::error(Code::ArgsMany, span, message).help(match name {
+                "abs" => "write `abs(x)`".to_string(),
+                "clamp" => "write `clamp(x, LOW, HIGH)`".to_string(),
+                _ => format!("write `{name}(a, b)`, of three `{name}(a, {name}(b, c))`"),
+            }));
             return self.unknown(span);
         }
         self.unlabelled(name, args);

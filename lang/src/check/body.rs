@@ -162,7 +162,8 @@ impl<'t> Checker<'t> {
                 StmtKind::Set(id, value)
             }
             ClauseKind::Assign { name, value } => {
-                let id = self.assignable(name);
+                // What can only be walked has no name: that is the mistake, whatever stands before it.
+                let id = if is_walked(value) { None } else { self.assignable(name) };
                 let ty = id.map_or(Type::Unknown, |id| self.scope.vars[id].ty.clone());
                 let value = self.expr_as(value, &ty, &format!("`{}`", name.node));
                 let id = id?;
@@ -465,6 +466,17 @@ fn begins_with_sign(e: &tree::Expr) -> bool {
     match &e.kind {
         tree::ExprKind::Unary(op, _) => matches!(op.node, tree::Unary::Pos | tree::Unary::Neg),
         tree::ExprKind::Binary(_, left, _) => begins_with_sign(left),
+        _ => false,
+    }
+}
+
+/// `op.rows(20 m)` and `op.edges`.
+fn is_walked(value: &tree::Expr) -> bool {
+    match &value.kind {
+        tree::ExprKind::Call(callee, _) => {
+            matches!(&callee.kind, tree::ExprKind::Member(_, member) if member.node == "rows")
+        }
+        tree::ExprKind::Member(_, member) => member.node == "edges",
         _ => false,
     }
 }

@@ -68,6 +68,11 @@ fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
     names
 }
 
+/// Whether samples of a type reach a limit, or not.
+fn has_order(ty: &Type) -> bool {
+    matches!(ty, Type::Quantity(_) | Type::Int | Type::Depth | Type::Altitude)
+}
+
 impl<'t> Checker<'t> {
     pub(super) fn member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Expr {
         if let Some(value) = self.test_member(base, member, span) {
@@ -222,6 +227,11 @@ impl<'t> Checker<'t> {
     fn no_such_member(&mut self, value: &Expr, member: &tree::Name) {
         let ty = self.type_name(&value.ty);
         let names = member_names(self, &value.ty);
+        if member.node == "hits" && matches!(value.kind, ExprKind::Input(_, InputPart::Value)) && has_order(&value.ty) {
+            let message = "`hits` of an input is called: it counts the samples of the last few that reach a limit";
+            let finding = Diagnostic::error(Code::NamesMember, member.span, message);
+            return self.report(finding.help("write the limit and how many samples: `.hits(LIMIT, of: 10)`"));
+        }
         if names.contains(&member.node) {
             let brackets = if member.node == "clear" { "()" } else { "(…)" };
             let message = format!("`{}` of {} is called", member.node, article(&ty));
@@ -285,8 +295,8 @@ impl<'t> Checker<'t> {
             }
             return value;
         }
-        let has_order = matches!(value.ty, Type::Quantity(_) | Type::Int | Type::Depth | Type::Altitude);
-        if let (ExprKind::Input(id, InputPart::Value), "hits", true) = (&value.kind, member.node.as_str(), has_order) {
+        let ordered = has_order(&value.ty);
+        if let (ExprKind::Input(id, InputPart::Value), "hits", true) = (&value.kind, member.node.as_str(), ordered) {
             return self.hits(*id, &value.ty.clone(), args, span);
         }
         if let Some(method) = methods(&value.ty).into_iter().find(|m| m.name == member.node) {

@@ -199,6 +199,8 @@ impl<'t> Checker<'t> {
         if self.modules[self.scope.module].imports.contains_key(name) {
             Diagnostic::error(Code::NamesModule, span, format!("`{name}` is a module, no value"))
                 .help(format!("write `{name}.NAME`"))
+        } else if let Some(help) = self.test.as_ref().and_then(|_| foreign::end_of_run(name)) {
+            finding.help(help)
         } else if let Some(help) = foreign::help(name) {
             finding.help(help)
         } else if dimension::unit(name, &|_| None).is_some() {

@@ -1,7 +1,7 @@
 //! Operators between two operands: the whole table of what can be calculated with what.
 
 use super::Checker;
-use super::advice::{partner, sides_help};
+use super::advice::{is_toward, partner, sides_help};
 use super::expr::article;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -417,7 +417,7 @@ impl<'t> Checker<'t> {
             {
                 "give the number a unit: `deg`".into()
             }
-            (_, None, _) | (_, _, None) if op.compares() => "it is never absent: leave the test out".into(),
+            (_, None, _) | (_, _, None) if op.compares() => self.never_absent(if a.ty == None { b } else { a }),
             (_, Heading, _) | (_, _, Heading) if op.compares() => {
                 "a heading is a direction: compare the angle between two, `abs(heading - north) < 3 deg`".into()
             }
@@ -441,6 +441,7 @@ impl<'t> Checker<'t> {
                 "a direction alone has no length: give the number before `toward` a unit, such as `8 m toward north`"
                     .into()
             }
+            (Binary::Add | Binary::Sub, Vector(_), t) if *t == ANGLE && !is_toward(a) => self.turned(op, a),
             (Binary::Add | Binary::Sub, Point | Vector(_), t) if *t == ANGLE => {
                 "`toward` holds tighter than `+` and `-`: write `LENGTH toward (HEADING + ANGLE)`".into()
             }

@@ -11,27 +11,32 @@ impl<'t> Checker<'t> {
     /// Reports what calls itself, each circle once; tells whether there is one.
     pub(super) fn recursion(&mut self) -> bool {
         let activities: Vec<Vec<usize>> = self.hir.activities.iter().map(|a| a.calls()).collect();
+        const OF_ACTIVITIES: &str = "what can be active must be known before launch: use `loop` or `while`";
+        const OF_FNS: &str = "a function goes round in a `for` with a bound: `for i in 1..10 { … }`";
         let of_activities = circles(&activities).into_iter().map(|circle| {
-            circle.iter().map(|&id| (self.hir.activities[id].name.clone(), self.hir.activities[id].span)).collect()
+            circle
+                .iter()
+                .map(|&id| (self.hir.activities[id].name.clone(), self.hir.activities[id].span))
+                .collect::<Vec<_>>()
         });
         let fns: Vec<Vec<usize>> = self.hir.fns.iter().map(|f| calls_in(&f.body)).collect();
         let of_fns = circles(&fns).into_iter().map(|circle| {
-            circle.iter().map(|&id| (self.hir.fns[id].name.clone(), self.fn_signatures[id].span)).collect()
+            circle.iter().map(|&id| (self.hir.fns[id].name.clone(), self.fn_signatures[id].span)).collect::<Vec<_>>()
         });
-        let circles: Vec<Vec<(String, Span)>> = of_activities.chain(of_fns).collect();
-        for circle in &circles {
-            self.report(finding(circle));
-        }
-        !circles.is_empty()
+        let of_activities = of_activities.map(|circle| finding(&circle, OF_ACTIVITIES));
+        let findings: Vec<Diagnostic> = of_activities.chain(of_fns.map(|circle| finding(&circle, OF_FNS))).collect();
+        let found = !findings.is_empty();
+        findings.into_iter().for_each(|finding| self.report(finding));
+        found
     }
 }
 
-fn finding(circle: &[(String, Span)]) -> Diagnostic {
+fn finding(circle: &[(String, Span)], help: &str) -> Diagnostic {
     let (first, span) = &circle[0];
     let others: Vec<String> = circle[1..].iter().map(|(name, _)| format!("`{name}`")).collect();
     let through = if others.is_empty() { String::new() } else { format!(" through {}", others.join(", ")) };
-    let mut finding = Diagnostic::error(Code::FlowRecursion, *span, format!("`{first}` calls itself{through}"))
-        .help("what can be active must be known before launch: use `loop` or `while`");
+    let mut finding =
+        Diagnostic::error(Code::FlowRecursion, *span, format!("`{first}` calls itself{through}")).help(help);
     for (i, (_, span)) in circle.iter().enumerate().skip(1) {
         finding = finding.label(*span, format!("is called by `{}`", circle[i - 1].0));
     }

@@ -7,9 +7,9 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{ClauseArg, ClauseUse};
-use crate::suggest;
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
+use crate::{foreign, suggest};
 
 /// Where a clause stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -175,7 +175,8 @@ impl<'t> Checker<'t> {
             );
             let may_stand = |kind: Option<&String>| kind.is_some() == as_value || self.is_line_of(standing, kind);
             let known = self.clauses.iter().filter(|c| may_stand(c.kind.as_ref()));
-            let finding = match self.suggestion(&name, known.map(|c| c.signature.name.as_str())) {
+            let foreign = foreign::clause(&name).map(str::to_string);
+            let finding = match foreign.or_else(|| self.suggestion(&name, known.map(|c| c.signature.name.as_str()))) {
                 Some(help) => finding.help(help),
                 None => finding,
             };
@@ -192,6 +193,7 @@ impl<'t> Checker<'t> {
             let takes =
                 self.clauses.iter().find(|c| c.nested.iter().any(|nested| nested.is_some() && nested.as_ref() == kind));
             let help = match takes {
+                _ if let Some(help) = foreign::clause(&name).filter(|_| !as_value) => help.to_string(),
                 Some(clause) => format!("it is a value of another clause: `{}({name}…)`", clause.signature.name),
                 None => "it stands on a line of its own".to_string(),
             };

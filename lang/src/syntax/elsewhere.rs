@@ -1,6 +1,6 @@
 //! Whole statements as other languages, and other crews, write them.
 
-use super::habits::{Habit, line_end, word};
+use super::habits::{Habit, line_end, quantity, word};
 
 /// Words that a block follows.
 const BEFORE_BLOCK: [&str; 16] = [
@@ -13,15 +13,18 @@ const VERBS: [&str; 5] = ["goto", "follow", "dubins", "steer", "loiter"];
 /// The habit behind a statement that could be read up to a place; `expected` tells what the grammar would have taken.
 pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     counted(before, rest)
+        .or_else(|| result(before, rest, expected))
         .or_else(|| block(before, rest, expected))
         .or_else(|| arm(before, rest, expected))
         .or_else(|| lambda(before, rest))
         .or_else(|| record(rest, expected))
         .or_else(|| comparison(before, rest))
         .or_else(|| decimals(before, rest))
+        .or_else(|| direction(before, rest))
         .or_else(|| label(before, rest))
         .or_else(|| text(before, rest))
-        .or_else(|| head(before, rest))
+        .or_else(|| format(before, rest, expected))
+        .or_else(|| head(before, rest, expected))
         .or_else(|| valueless(before, rest))
         .or_else(|| operator(before, rest))
 }
@@ -57,6 +60,28 @@ fn counted(before: &str, rest: &str) -> Option<Habit> {
         _ if rest.starts_with('=') => write(format!("for {name} in 1..10 {{ … }}")),
         _ => None,
     }
+}
+
+/// `fn half(x: Length): Length {`, `fn half(x: Length) Length {`, `fn half(x: Length) {`.
+fn result(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let head = before.trim();
+    let first = word(head);
+    if !["fn", "behavior", "strategy"].contains(&first) || !head.ends_with(')') || rest.starts_with(['-', '=']) {
+        return None;
+    }
+    let ty = rest.strip_prefix(':');
+    if ty.is_none() && expected != "`->`" {
+        return None;
+    }
+    let ty = match line_end(ty.unwrap_or(rest)) {
+        "" => "TYPE",
+        ty => ty,
+    };
+    let message = match first {
+        "fn" => "a function says of what type its result is, after `->`",
+        _ => "the type of a result stands after `->`",
+    };
+    Some(Habit { message: Some(message.to_string()), help: format!("write `{head} -> {ty} {{`") })
 }
 
 /// A block without its braces: `if x:`, `if x log "…"`, `recovery: …`.
@@ -121,7 +146,10 @@ pub(super) fn absence(what: &str, rest: &str) -> Option<Habit> {
         asked => ("==", asked),
     };
     let is_none = matches!(asked, "none" | "None" | "null" | "nil" | "absent");
-    is_none.then(|| write(format!("{what} {sign} none"))).flatten()
+    let help = format!(
+        "write `{what} {sign} none` of what may be absent; an input never is: its age tells, `INPUT.age > 5 s`"
+    );
+    is_none.then_some(Habit { message: None, help })
 }
 
 /// `var q: Int`, `var q: Int?`.
@@ -237,14 +265,9 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
         let help = "its arguments stand before `for`, `until`, `within` and `at`: `loiter P, radius: 20 m for 5 min`";
         return rest.starts_with(',').then(|| Habit { message: None, help: help.to_string() });
     }
-    if matches!(word(rest), "radius" | "turns" | "clockwise" | "north" | "south" | "east" | "west") {
-        return match word(rest) {
-            way @ ("north" | "south" | "east" | "west") => write(format!("{} toward {way}", last_quantity(before))),
-            name => {
-                let value = value[name.len()..].trim_start_matches([':', '=', ' ']);
-                write(format!(", {name}: {value}"))
-            }
-        };
+    if let name @ ("radius" | "turns" | "clockwise") = word(rest) {
+        let value = value[name.len()..].trim_start_matches([':', '=', ' ']);
+        return write(format!(", {name}: {value}"));
     }
     if !rest.starts_with(|c: char| c.is_ascii_digit()) || last == verb {
         return None;
@@ -260,14 +283,12 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
     }
 }
 
-/// The number and unit with which a text ends, or dots.
-fn last_quantity(before: &str) -> String {
-    let words: Vec<&str> = before.split_whitespace().collect();
-    match words.as_slice() {
-        [.., number, unit] if number.starts_with(|c: char| c.is_ascii_digit()) => format!("{number} {unit}"),
-        [.., quantity] if quantity.starts_with(|c: char| c.is_ascii_digit()) => (*quantity).to_string(),
-        _ => "…".to_string(),
-    }
+/// `op.center + 50 m north`.
+fn direction(before: &str, rest: &str) -> Option<Habit> {
+    let way = Some(word(rest)).filter(|way| ["north", "south", "east", "west"].contains(way))?;
+    let (number, unit) = quantity(before).filter(|(_, unit)| !unit.is_empty() && *unit != "%")?;
+    let is_label = rest[way.len()..].trim_start().starts_with(':');
+    (before.ends_with(' ') && !is_label).then(|| write(format!("{number} {unit} toward {way}"))).flatten()
 }
 
 /// What should be a text, or follow one.
@@ -275,6 +296,9 @@ fn text(before: &str, rest: &str) -> Option<Habit> {
     let first = word(before.trim_start());
     if first == "abort" {
         if before.trim() == "abort" {
+            if let Some(why) = rest.strip_prefix('(').and_then(quoted) {
+                return write(format!("abort {why}"));
+            }
             let condition = line_end(rest).trim_start_matches(|c: char| c.is_alphabetic()).trim();
             return match condition {
                 "" => write("abort \"why\""),
@@ -292,6 +316,13 @@ fn text(before: &str, rest: &str) -> Option<Habit> {
         let value = after.trim_start_matches([',', ' ', '=']);
         return write(format!("report \"{name}\": {}", if value.is_empty() { "position" } else { value }));
     }
+    if first == "report"
+        && let Some(name) = rest.strip_prefix('(').and_then(quoted)
+    {
+        let value = rest[1..].trim_start()[name.len()..].trim_start_matches([',', ' ', ':']);
+        let value = line_end(value).trim_end_matches(')');
+        return write(format!("report {name}: {}", if value.is_empty() { "position" } else { value }));
+    }
     if first == "log" && rest.starts_with([',', '+']) {
         let value = line_end(&rest[1..]);
         return Some(Habit { message: None, help: format!("one text holds it all: `log \"… {{{value}}}\"`") });
@@ -299,9 +330,35 @@ fn text(before: &str, rest: &str) -> Option<Habit> {
     None
 }
 
-/// The head of a mission, its limits and what it requires.
-fn head(before: &str, rest: &str) -> Option<Habit> {
+/// The text on one line with which something begins, with its quotes.
+fn quoted(text: &str) -> Option<&str> {
+    let text = text.trim_start();
+    let inside = text.strip_prefix('"')?;
+    let end = inside.find(['"', '\n']).filter(|end| inside[*end..].starts_with('"'))?;
+    Some(&text[..end + 2])
+}
+
+/// `"{d:.2f}"`: how a value is printed is said where other languages say it.
+fn format(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let (format, after) = rest.strip_prefix(':')?.split_once('}')?;
+    let is_format = format.chars().all(|c| c.is_ascii_alphanumeric() || "<>^=+-_.,% ".contains(c));
+    (expected == "`else`" && is_format && after.contains('"')).then(|| Habit {
+        message: Some("no format follows a value".to_string()),
+        help: format!("write `{{{}}}`: quantities are printed with their unit, rounded for people", before.trim()),
+    })
+}
+
+/// The head of a mission, its limits, what it requires, and the head of a test.
+fn head(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let first = word(before.trim_start());
+    if expected == "`fresh`" {
+        let message = Some("how old may these samples be?".to_string());
+        return Some(Habit { message, help: format!("write `{} fresh 5 s, else abort`", before.trim()) });
+    }
+    if before.trim() == "test" && expected == "a text" && !word(rest).is_empty() {
+        let message = Some("a test has a name, which is a text".to_string());
+        return Some(Habit { message, help: format!("write `test \"{}\" {{`", line_end(rest)) });
+    }
     if first == "mission" {
         return match word(rest) {
             "for" | "in" if before.contains("within") || word(rest) == "for" => {
@@ -332,6 +389,11 @@ fn operator(before: &str, rest: &str) -> Option<Habit> {
         _ if rest.starts_with('~') => write("not"),
         _ if rest.starts_with('*') && before.trim_end().ends_with('*') => write("^"),
         _ if rest.starts_with('?') => write("if X { A } else { B }"),
+        _ if before.ends_with('.') && rest.starts_with('.') => {
+            let (first, last) = (last_word(before.trim_end_matches('.')), word(rest.trim_start_matches(['.', '<'])));
+            let message = Some("a range is no value: it stands in `for`".to_string());
+            Some(Habit { message, help: format!("write `for n in {first}..{last} {{ … }}`") })
+        }
         _ if rest.starts_with('.') && rest[1..].starts_with(|c: char| c.is_ascii_digit()) => {
             write(format!("0{}", line_end(rest).split([' ', ')', ',']).next().unwrap_or("")))
         }

@@ -1,7 +1,7 @@
 //! What to say of text that the grammar cannot read: what was found, what was expected, in the language's own terms.
 
 use super::build::{Bad, Place};
-use super::habits::{habit, untyped_memory, valueless};
+use super::habits::{self, habit, line_end, untyped_memory, valueless};
 use super::{Grammar, Rule, elsewhere, places, slips};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -10,6 +10,7 @@ use crate::source::{FileId, Span};
 use crate::suggest;
 use pest::Parser;
 use pest::error::{Error, ErrorVariant, InputLocation};
+use std::collections::BTreeSet;
 
 /// Words that may begin an item.
 const ITEM_WORDS: [&str; 16] = [
@@ -35,14 +36,26 @@ pub(super) const CLAUSE_WORDS: [&str; 32] = [
     "steer", "keep", "hold", "loiter", "wait", "watch", "override",
 ];
 
+/// What begins the declaration of something that is called.
+const CALLABLE: [&str; 4] = ["behavior", "strategy", "fn", "record"];
+
 /// Words that stand between two operands, and between a statement and its modifiers.
 const OPERATOR_WORDS: [&str; 10] = ["and", "or", "toward", "on", "do", "then", "until", "within", "at", "in"];
 
 /// Words that may begin a clause of a test.
 const TEST_WORDS: [&str; 3] = ["run", "expect", "snapshot"];
 
+/// The names that a text declares, of what is called as a statement or as a value.
+pub(super) fn callable(text: &str) -> BTreeSet<&str> {
+    let heads = text.lines().filter_map(|line| {
+        let (kind, name) = line.trim_start().split_once(' ')?;
+        CALLABLE.contains(&kind).then(|| habits::word(name.trim_start()))
+    });
+    heads.collect()
+}
+
 /// Looks again at a stretch that was passed over, with the rule that belongs there, for the exact place.
-pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic {
+pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>, bad: &Bad) -> Diagnostic {
     let (start, end) = (bad.span.start as usize, bad.span.end as usize);
     let stretch = &text[start..end];
     let (rule, words) = match bad.place {
@@ -94,6 +107,10 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, bad: &Bad) -> Diagnostic 
         }
         if after_word.starts_with(":=") {
             return finding.help(format!("write `let {word} = …`, or `{word} = …` for a `memory`"));
+        }
+        if callable.contains(word.as_str()) {
+            let given = if after_word.starts_with(['(', ':', '=']) { "…" } else { line_end(after_word) };
+            return finding.help(format!("what is called has its arguments in brackets: `{word}({given})`"));
         }
         return match suggest::nearest(&word, words.iter().copied()) {
             Some(near) => finding.help(format!("did you mean `{near}`?")),

@@ -25,6 +25,7 @@ use grammar::Grammar;
 pub(crate) use grammar::Rule;
 use pest::Parser;
 use scan::Scanned;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// What the grammar's file becomes.
@@ -168,8 +169,9 @@ fn read<T>(
     findings.append(&mut builder.refused);
     // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
     let told = Told::of(&findings, source);
-    let unread = builder.bad.iter().filter(|bad| !told.touches(bad.span));
-    findings.extend(unread.map(|bad| errors::of_bad_stretch(file, &scanned.text, bad)));
+    let unread: Vec<_> = builder.bad.iter().filter(|bad| !told.touches(bad.span)).collect();
+    let callable = if unread.is_empty() { BTreeSet::new() } else { errors::callable(&scanned.text) };
+    findings.extend(unread.into_iter().map(|bad| errors::of_bad_stretch(file, &scanned.text, &callable, bad)));
     (built, findings, scanned.comments)
 }
 
