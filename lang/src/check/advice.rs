@@ -89,6 +89,14 @@ pub(super) fn partner(op: Binary, a: &Type, b: &Type) -> Option<&'static str> {
     }
 }
 
+/// A number that was meant in metres.
+pub(super) fn in_metres(side: &str, number: &Expr) -> String {
+    match number.range.constant() {
+        Some(x) => format!("give the number on the {side} a unit: `{x} m`"),
+        None => format!("give the number on the {side} a unit, such as `m`"),
+    }
+}
+
 /// Whether a vector is written as a length toward a heading.
 pub(super) fn is_toward(vector: &Expr) -> bool {
     match &vector.kind {
@@ -105,6 +113,14 @@ impl Checker<'_> {
             ExprKind::Input(id, InputPart::Value) => &self.hir.inputs[id].name,
             ExprKind::Var(id) => &self.scope.vars[id].name,
             _ => otherwise,
+        }
+    }
+
+    /// Two types of one name.
+    pub(super) fn namesakes(&self) -> &'static str {
+        match self.known_at_prompt() {
+            Some(_) => "the type was declared again since: make the older value anew",
+            None => "give one of the two types another name",
         }
     }
 

@@ -362,9 +362,11 @@ impl<'t> Checker<'t> {
     /// A value whose type is settled: `none` alone is of every optional type.
     fn definite(&mut self, value: Expr, name: &str) -> Expr {
         if value.ty == Type::None {
+            // What the prompt calls the value of a line is no name: it can only be given one.
+            let named = if name.contains(' ') { "let NAME" } else { name };
             self.report(
                 Diagnostic::error(Code::TypesNone, value.span, format!("of what type is `{name}` when it is present?"))
-                    .help(format!("write it: `{name}: Point? = none`")),
+                    .help(format!("write it: `{named}: Point? = none`")),
             );
             return Expr { ty: Type::Unknown, ..value };
         }

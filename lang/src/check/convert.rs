@@ -81,7 +81,7 @@ impl<'t> Checker<'t> {
         if has == wants {
             let message = format!("{what} is of one `{wants}`, and this of another that is declared under that name");
             let finding = Diagnostic::error(Code::TypesMismatch, value.span, message);
-            return self.report(finding.help("give one of the two types another name"));
+            return self.report(finding.help(self.namesakes()));
         }
         let variable = match value.kind {
             ExprKind::Var(id) => Some(&self.scope.vars[id].name),

@@ -1,7 +1,7 @@
 //! Operators between two operands: the whole table of what can be calculated with what.
 
 use super::Checker;
-use super::advice::{is_toward, partner, sides_help};
+use super::advice::{in_metres, is_toward, partner, sides_help};
 use super::expr::article;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -398,11 +398,14 @@ impl<'t> Checker<'t> {
             .here(format!("`{symbol}`"))
             .label(a.span, format!("`{left}`"))
             .label(b.span, format!("`{right}`"));
-        let finding = match self.operator_help(op.node, a, b) {
+        let help = match left == right && a.ty != b.ty {
+            true => Some(self.namesakes().to_string()),
+            false => self.operator_help(op.node, a, b),
+        };
+        self.report(match help {
             Some(help) => finding.help(help),
             None => finding,
-        };
-        self.report(finding);
+        });
         self.unknown(span)
     }
 
@@ -487,13 +490,5 @@ impl<'t> Checker<'t> {
             }
             (op, x, y) => return partner(op, x, y).map(str::to_string),
         })
-    }
-}
-
-/// A number that was meant in metres.
-fn in_metres(side: &str, number: &Expr) -> String {
-    match number.range.constant() {
-        Some(x) => format!("give the number on the {side} a unit: `{x} m`"),
-        None => format!("give the number on the {side} a unit, such as `m`"),
     }
 }

@@ -133,15 +133,21 @@ pub(super) fn untyped_memory(clause: &str) -> Option<(usize, Habit)> {
     })
 }
 
-/// `var q`, `let q`: where its name ends, and what to say.
+/// `var q`, `let q`, `var q: [Point; 3]`: where its name ends, and what to say.
 pub(super) fn valueless(clause: &str) -> Option<(usize, Habit)> {
     let kind = ["var", "let"].into_iter().find(|kind| word(clause) == *kind)?;
     let after = clause[kind.len()..].trim_start_matches([' ', '\t']);
     let name = word(after);
     let end = clause.len() - after.len() + name.len();
-    (!name.is_empty() && line_end(after) == name).then(|| {
+    let is_list = |ty: &str| ty.starts_with('[') && ty.ends_with("]") && ty.contains(';') && !ty.contains('=');
+    let listed = after[name.len()..].trim_start().strip_prefix(':').map(str::trim).filter(|ty| is_list(ty));
+    (!name.is_empty() && (line_end(after) == name || listed.is_some())).then(|| {
         let message = Some(format!("`{name}` has no value"));
-        (end, Habit { message, help: format!("write `{kind} {name} = …`") })
+        let help = match listed {
+            Some(ty) => format!("write `{kind} {name}: {ty} = []`"),
+            None => format!("write `{kind} {name} = …`"),
+        };
+        (end, Habit { message, help })
     })
 }
 
