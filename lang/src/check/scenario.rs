@@ -175,7 +175,7 @@ impl<'t> Checker<'t> {
             );
             let may_stand = |kind: Option<&String>| kind.is_some() == as_value || self.is_line_of(standing, kind);
             let known = self.clauses.iter().filter(|c| may_stand(c.kind.as_ref()));
-            let foreign = foreign::clause(&name).map(str::to_string);
+            let foreign = foreign_clause(&name, standing).map(str::to_string);
             let finding = match foreign.or_else(|| self.suggestion(&name, known.map(|c| c.signature.name.as_str()))) {
                 Some(help) => finding.help(help),
                 None => finding,
@@ -193,7 +193,7 @@ impl<'t> Checker<'t> {
             let takes =
                 self.clauses.iter().find(|c| c.nested.iter().any(|nested| nested.is_some() && nested.as_ref() == kind));
             let help = match takes {
-                _ if let Some(help) = foreign::clause(&name).filter(|_| !as_value) => help.to_string(),
+                _ if let Some(help) = foreign_clause(&name, standing) => help.to_string(),
                 Some(clause) => format!("it is a value of another clause: `{}({name}…)`", clause.signature.name),
                 None => "it stands on a line of its own".to_string(),
             };
@@ -351,4 +351,9 @@ impl<'t> Checker<'t> {
         let nearest = near.and_then(|near| fitting.clone().find(|c| c.signature.name == near)?.kind.clone());
         nearest.or_else(|| kinds.first().map(|kind| (*kind).clone()))
     }
+}
+
+/// What others call a clause of a scenario: a vehicle has none of these.
+fn foreign_clause(name: &str, standing: Standing) -> Option<&'static str> {
+    foreign::clause(name).filter(|_| standing == Standing::Line)
 }
