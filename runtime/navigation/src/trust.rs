@@ -2,7 +2,7 @@
 //!
 //! The watch looks at all that came and steers nothing, with one exception: an altitude that it knows to be stuck is withheld, so
 //! that the limits of the mission take the bottom for lost. The gate withholds what cannot have happened, until it persists. An
-//! altitude that does not follow a dive, or is told of a vehicle that lies on the bottom, is doubted: limits do without it, and inputs
+//! altitude that does not follow a dive, or is told of a vehicle that lies on the bottom or has a stuck depth, is doubted: limits do without it, and inputs
 //! take it, for down a slope a good one looks the same. All of it stays in the snapshot, marked, so that a journal holds what came and
 //! what was believed.
 
@@ -26,6 +26,8 @@ impl Trust {
     pub fn look(&mut self, tick: u64, snapshot: &mut Snapshot, command: Option<&Command>) -> Vec<String> {
         let mut told: Vec<String> = Vec::new();
         told.extend(self.vigil.look(tick, snapshot, command).iter().map(ToString::to_string));
+        // Depth and altitude tell of one another: with a depth that stands still nothing is known of the bottom.
+        let depth_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Depth));
         // What is made of others is doubtful with them, and so it is looked at after them.
         let altitude_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Altitude));
         let mut doubtful: Vec<u16> = altitude_is_stuck.then_some(ALTITUDE).into_iter().collect();
@@ -37,7 +39,9 @@ impl Trust {
                 if !believed {
                     doubtful.push(sample.channel);
                     sample.withhold();
-                } else if !self.sounds(tick, sample, command, snapshot.aground) {
+                } else if !self.sounds(tick, sample, command, snapshot.aground)
+                    || depth_is_stuck && sample.channel == ALTITUDE
+                {
                     sample.doubt();
                 }
             }

@@ -169,6 +169,6 @@ fn an_area_that_was_not_surveyed_is_told() {
     };
     // The area is 400 m wide, about the origin; the survey at a scale of 100 half as wide.
     assert_eq!(told(200), []);
-    let beyond = "the area of the mission `north` reaches 100 m beyond the survey of `w`".to_string();
+    let beyond = "the area of the mission `north` reaches 141 m beyond the survey of `w`".to_string();
     assert_eq!(told(100), [(Severity::Warning, beyond)]);
 }

@@ -275,3 +275,26 @@ fn a_silence_in_a_dive_costs_a_rise() {
     );
     assert!(deepest > 14.0, "{deepest}\n{trace}");
 }
+
+/// The depth tells of no dive then, and the altitude that stands still too was believed.
+#[test]
+fn a_depth_that_is_known_to_be_stuck_leads_up() {
+    let plan = of("mission dive in bay within 20 min {
+            area op = rectangle(center: point(north: 0 m, east: 0 m), along: 0 deg, length: 3000 m, width: 3000 m)
+            limits { altitude >= 3 m, speed <= 2.5 m/s }
+            requires { position, course, heading fresh 5 s, else abort }
+            recovery within 2 min { goto op.center at depth 1 m, speed 1.5 m/s }
+            steer 0 deg for 60 s at depth 10 m, speed 1.5 m/s
+            steer 0 deg for 60 s at depth 2 m, speed 1.5 m/s
+            steer 0 deg for 45 s at depth 30 m, speed 1.5 m/s
+            steer 180 deg for 60 s at depth 3 m, speed 1.5 m/s
+        }
+        scenario bay {
+            bottom(from: 20 m, to: 20 m)
+            vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 2 m)
+            fault(depth, stuck, from: 50 s)
+            fault(altitude, stuck, from: 115 s)
+        }");
+    let (_, trace, _) = run(&plan, 1, Box::new(|_, altitude| altitude));
+    assert!(trace.contains("detected: depth stuck") && !trace.contains("grounded"), "{trace}");
+}

@@ -53,17 +53,19 @@ struct Astray {
     turned: f64,
 }
 
-/// The depth that was told last, and its mean, m.
+/// The depth that was told last, when, and its mean, m.
 #[derive(Clone, Copy, Debug, Default)]
 struct Depth {
+    tick: u64,
     last: f64,
     mean: Option<f64>,
 }
 
 impl Depth {
-    fn hear(&mut self, depth: f64) {
+    fn hear(&mut self, tick: u64, depth: f64) {
         let mean = self.mean.unwrap_or(depth);
-        (self.last, self.mean) = (depth, Some(mean + (depth - mean) / DEPTH_MEAN_TICKS));
+        let share = (tick.saturating_sub(self.tick) as f64 / DEPTH_MEAN_TICKS).min(1.0);
+        *self = Depth { tick, last: depth, mean: Some(mean + share * (depth - mean)) };
     }
 
     /// How far from a depth it is, by itself and by its mean: waves are not the vehicle's.
@@ -93,7 +95,7 @@ struct Goal {
 impl Commanded {
     pub fn look(&mut self, heard: &Heard, command: Option<&Command>, speed: f64, sights: &mut Sights) {
         if let Some(told) = heard.depth {
-            self.depth.hear(told.reading[0]);
+            self.depth.hear(heard.tick, told.reading[0]);
         }
         self.look_at_altitude(heard.altitude, command, sights);
         let Some(command) = command else {
