@@ -95,7 +95,7 @@ impl Campaign {
             Table::begin(&self.out, columns, &origin)?
         };
         let known = table.changed().len();
-        self.warn(table.changed());
+        self.warn(&table);
         let bar = self.bar(table.rows());
         let mut trouble = None;
         let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |row| {
@@ -126,22 +126,24 @@ impl Campaign {
         let tally = table.tally(columns)?;
         // A line that was taken for one that was being written may have been another's.
         if table.changed().len() > known {
-            self.warn(table.changed());
+            self.warn(&table);
         }
         self.sum_up(plan, &tally);
         Ok(Exit::Well)
     }
 
     /// Says which lines were changed, if any were.
-    fn warn(&self, changed: &[usize]) {
-        if changed.is_empty() {
+    fn warn(&self, table: &Table) {
+        if table.changed().is_empty() {
             return;
         }
-        let (path, lines) = (self.out.display(), listed(changed));
+        let (path, lines) = (self.out.display(), listed(table.changed()));
         let told = format!("warning: `{path}` or its `.sums` was changed since it was written: {lines}");
-        let help = "  help: nothing to be done: their seeds are run again, which gives the rows that were there; what is no row \
-                    is taken out\n";
-        message::write(&(message::line(&told) + help));
+        let mut help = "  help: rows that were changed are run again, and what is no row is taken out".to_string();
+        if let Some(found) = table.found() {
+            help += &format!("; the table as it was found is kept in `{}`", found.display());
+        }
+        message::write(&(message::line(&told) + &message::line(&help)));
     }
 
     fn sum_up(&self, plan: &Plan, tally: &Tally) {

@@ -42,9 +42,14 @@ fn read(path: &Path, bytes_max: u64) -> io::Result<Vec<u8>> {
 
 /// What was made, where nothing is yet.
 pub fn make(path: &Path, made: &Made) -> io::Result<()> {
+    keep(path, made.text().as_bytes())
+}
+
+/// A whole file, where nothing is yet.
+pub fn keep(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = folder_of(path);
     let _held = interruption::held();
-    let part = filled(folder, made.text().as_bytes(), None)?;
+    let part = filled(folder, bytes, None)?;
     part.persist_noclobber(path).map_err(|failed| failed.error)?;
     sync_folder(folder);
     Ok(())

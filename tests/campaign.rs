@@ -435,6 +435,26 @@ fn a_table_that_is_changed_under_way_is_said() {
     }
 }
 
+/// What somebody wrote into a table is taken out of it, and not lost.
+#[test]
+fn a_table_that_was_changed_is_kept_as_it_was_found() {
+    let folder = empty("found");
+    let out = folder.join("t.csv");
+    let whole = table(BOX, "1..3", &out, &[]);
+    for (text, lines, found) in [
+        (format!("n1\nn2\n{whole}"), "lines 1..2", "t.csv.found"),
+        (whole.replacen('\n', "\n# mine\n", 1), "line 2", "t.csv.found-2"),
+    ] {
+        std::fs::write(&out, &text).unwrap();
+        let output = command(BOX, "1..3", &out, &["--resume"]).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.contains(&format!("since it was written: {lines}\n")) && said.contains(found), "{said}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
+        assert_eq!(std::fs::read_to_string(folder.join(found)).unwrap(), text);
+    }
+}
+
 /// Of one line behind the others nobody knows before whether it is a row without its checksum, or another's.
 #[test]
 fn a_line_that_was_added_is_told() {

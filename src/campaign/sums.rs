@@ -9,7 +9,7 @@ use super::seeds::RUNS_MAX;
 use super::table::Trouble;
 use crate::disk;
 use albacore_trace::Digest;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ impl Sums {
 pub struct Kept<'a> {
     /// Its lines as they were written, the first too; `None` where one is otherwise now. The last is never `None`.
     pub lines: Vec<Option<&'a [u8]>>,
-    /// The numbers, from 1, of lines that were written and are otherwise now.
+    /// The numbers, from 1, of lines that were written and are otherwise now, and of those that nobody wrote.
     pub changed: Vec<usize>,
     /// What stands behind as many lines as have records: the beginning of a line whose record was not written yet, or another's.
     pub tail: &'a [u8],
@@ -82,16 +82,21 @@ fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
     let found = |sum: &[u8]| std::str::from_utf8(sum).ok().and_then(|sum| by_sum.get(sum).copied());
     let records = sums.chunks_exact(RECORD);
     let mut lines: Vec<Option<&[u8]>> = records.map(found).collect();
-    let mut changed: Vec<usize> = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(n, _)| n).collect();
-    // Of one line more its record may not have been written.
-    changed.extend((lines.len() + 1..=whole.count()).skip(1));
     // The first line is known without a record.
     let tail_line = lines.len().max(1) + 1;
+    let sums: BTreeSet<&[u8]> = sums.chunks_exact(RECORD).collect();
+    let is_foreign = |line: &[u8]| !sums.contains(record(line).as_bytes());
+    let last = whole.clone().count();
+    // Of one line more at the end its record may not have been written.
+    let foreign =
+        (1..).zip(whole).filter(|(n, line)| is_foreign(line) && (*n, *n) != (tail_line, last)).map(|(n, _)| n);
+    let gone = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(n, _)| n);
+    let changed: BTreeSet<usize> = gone.chain(foreign).collect();
     let before: usize = pieces.take(tail_line - 1).map(<[u8]>::len).sum();
     while lines.last().is_some_and(Option::is_none) {
         lines.pop();
     }
-    Kept { lines, changed, tail: &text[before..], tail_line }
+    Kept { lines, changed: changed.into_iter().collect(), tail: &text[before..], tail_line }
 }
 
 fn record(line: &[u8]) -> String {

@@ -23,6 +23,8 @@ pub struct Table {
     known: Option<Vec<u8>>,
     /// Lines that were changed on the disk, by their numbers.
     changed: Vec<usize>,
+    /// Where the table is kept as it was found, if any were.
+    found: Option<PathBuf>,
     /// What stood behind its last line, with the row that it should be.
     tail: Option<(u64, Vec<u8>)>,
 }
@@ -96,7 +98,15 @@ impl Table {
         file.add(&head)?;
         sums.add(&head)?;
         let state = State::Adding(file, sums);
-        Ok(Table { path: path.to_path_buf(), state, rows: 0, known: None, changed: Vec::new(), tail: None })
+        Ok(Table {
+            path: path.to_path_buf(),
+            state,
+            rows: 0,
+            known: None,
+            changed: Vec::new(),
+            found: None,
+            tail: None,
+        })
     }
 
     /// Goes on with a table, or begins it if there is none.
@@ -155,13 +165,21 @@ impl Table {
         let rows = lines.len() as u64 - 1;
         let known = if rows > 0 { lines.last().cloned().flatten() } else { None };
         let state = State::Mending(Growing::new(file, path.clone(), &text), lines);
-        let mut table = Table { path: path.clone(), state, rows, known, changed: kept.changed, tail: None };
+        let mut table =
+            Table { path: path.clone(), state, rows, known, changed: kept.changed, found: None, tail: None };
         let row = kept.tail_line as u64 - 2;
         match kept.tail {
             b"" => {}
             // Whether it is the row that was being written is known when that is run again.
-            tail if row < seeds.count() => table.tail = Some((row, tail.to_vec())),
-            _ => table.changes(row),
+            tail if row < seeds.count() && may_be_row(tail, seeds.first + row, columns) => {
+                table.tail = Some((row, tail.to_vec()));
+            }
+            _ if table.changed.is_empty() => table.changes(row),
+            // Lines that were moved there, or are told already.
+            _ => {}
+        }
+        if !table.changed.is_empty() {
+            table.found = Some(keep(path, &text)?);
         }
         table.mended()?;
         Ok(table)
@@ -187,6 +205,7 @@ impl Table {
     fn changes(&mut self, row: u64) {
         self.changed.push(row as usize + 2);
         self.changed.sort_unstable();
+        self.changed.dedup();
     }
 
     /// The seeds that are still to be run. The last one of the table is run again: if its row comes out otherwise, this
@@ -211,6 +230,11 @@ impl Table {
     /// The numbers of lines that were changed on the disk since they were written: their seeds are run again.
     pub fn changed(&self) -> &[usize] {
         &self.changed
+    }
+
+    /// Where the table is kept as it was before they were run again.
+    pub fn found(&self) -> Option<&Path> {
+        self.found.as_deref()
     }
 
     /// Adds a row.
@@ -344,6 +368,24 @@ fn matching(path: &Path, rows: &[Option<Vec<u8>>], columns: &Columns, seeds: See
         }
     }
     Ok(())
+}
+
+/// Whether the end of a table may be the row of a seed, or the beginning of that.
+fn may_be_row(tail: &[u8], seed: u64, columns: &Columns) -> bool {
+    !tail.contains(&b'\n') || seed_of(tail, columns) == Some(seed.to_string())
+}
+
+/// Keeps a table as it was found, beside it: who wrote into it may want that back.
+fn keep(table: &Path, text: &[u8]) -> io::Result<PathBuf> {
+    let mut number = 1;
+    loop {
+        let suffix = if number == 1 { ".found".to_string() } else { format!(".found-{number}") };
+        let copy = beside(table, &suffix);
+        match disk::keep(&copy, text) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
+            kept => return kept.map(|()| copy),
+        }
+    }
 }
 
 /// The seed of a row that has all columns.
