@@ -21,13 +21,16 @@ pub fn remake(path: &Path, made: &Made) -> io::Result<()> {
     whole(path, made.text())
 }
 
-/// An error if a file is at a path that somebody else wrote or edited.
+/// An error if a link is at a path, or a file that somebody else wrote or edited.
 pub fn spare(path: &Path) -> io::Result<()> {
-    if fs::symlink_metadata(path).is_ok_and(|there| there.is_file() && !is_remakable(path, there.len())) {
-        let why = "it is there already, and is not as Albacore made it";
-        return Err(io::Error::new(ErrorKind::AlreadyExists, why));
+    let refused = |why| Err(io::Error::new(ErrorKind::AlreadyExists, why));
+    match fs::symlink_metadata(path) {
+        Ok(there) if there.is_symlink() => refused("it is a link, which is left as it is"),
+        Ok(there) if there.is_file() && !is_remakable(path, there.len()) => {
+            refused("it is there already, and is not as Albacore made it")
+        }
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 fn is_remakable(path: &Path, bytes: u64) -> bool {

@@ -192,13 +192,22 @@ fn who_replaces_a_run_removes_nothing_that_no_run_made() {
         }
     }
     let out = project.join("edited");
-    for name in ["trace.txt", "run.svg"] {
+    for name in ["trace.txt", "run.svg", "run.json", "journal"] {
         assert_eq!(ran(&project, "box.alb --out edited --replace").0, Some(0));
-        let made = std::fs::read_to_string(out.join(name)).unwrap();
-        std::fs::write(out.join(name), made.replacen("box", "fox", 1)).unwrap();
-        assert_eq!(ran(&project, "box.alb --out edited --replace").0, Some(2), "{name}");
+        let made = std::fs::read(out.join(name)).unwrap();
+        let at = made.windows(3).position(|word| word == b"box").unwrap();
+        let edited = [&made[..at], b"f", &made[at + 1..]].concat();
+        for theirs in [edited, [&made[..], b"my notes"].concat()] {
+            std::fs::write(out.join(name), &theirs).unwrap();
+            assert_eq!(ran(&project, "box.alb --out edited --replace").0, Some(2), "{name}");
+            assert!(std::fs::read(out.join(name)).unwrap() == theirs);
+        }
         std::fs::write(out.join(name), made).unwrap();
     }
+    // What a run that was killed leaves is its own.
+    let journal = std::fs::read(out.join("journal")).unwrap();
+    std::fs::write(out.join("journal"), &journal[..journal.len() / 2]).unwrap();
+    assert_eq!(ran(&project, "box.alb --out edited --replace").0, Some(0));
 }
 
 /// What somebody puts into a run's folder while it goes on is no file of the run.

@@ -109,11 +109,12 @@ fn what_a_link_leads_to_is_left_alone() {
         symlink(folder.join("mine"), folder.join(name)).unwrap();
     }
     for words in [VERBS[1], VERBS[4], VERBS[5]] {
-        assert_eq!(albacore(&folder, words).0, Some(0), "{words}");
+        let (code, said) = albacore(&folder, words);
+        assert!(code == Some(4) && said.contains("it is a link, which is left as it is"), "{words}: {code:?} {said}");
     }
     assert_eq!(std::fs::read_to_string(folder.join("mine")).unwrap(), "mine");
     for name in targets {
-        assert!(!folder.join(name).is_symlink(), "{name}");
+        assert!(folder.join(name).is_symlink(), "{name}");
     }
     // Only the script that a link stands for is meant when the link is named.
     symlink("plan.alb", folder.join("link.alb")).unwrap();
@@ -285,6 +286,11 @@ fn what_was_edited_is_not_replaced() {
             assert!(code == Some(4) && said.contains("is not as Albacore made it"), "{words}: {code:?} {said}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), theirs, "{words}");
         }
+        std::fs::rename(&path, folder.join("elsewhere")).unwrap();
+        std::os::unix::fs::symlink(folder.join("elsewhere"), &path).unwrap();
+        let (code, said) = albacore(&folder, words);
+        assert!(code == Some(4) && said.contains("it is a link"), "{words}: {code:?} {said}");
+        assert!(path.is_symlink());
     }
 }
 

@@ -4,9 +4,9 @@ use super::record::is_record;
 use crate::clock::Utc;
 use crate::disk::{self, Reserved};
 use crate::exit::Exit;
-use albacore_session::is_journal;
+use albacore_session::{is_journal, is_journal_as_left};
 use std::fs::{File, TryLockError};
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Seek};
 use std::path::{Path, PathBuf};
 
 /// All that a run leaves.
@@ -124,6 +124,9 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
         return Err(taken(folder));
     }
     own(&journal, folder)?;
+    if journal.rewind().is_err() || !is_journal_as_left(&journal) {
+        return Err(foreign(&path));
+    }
     // What is not to be removed is said before anything is.
     if let Some(name) = [RECORD, TRACE, PICTURE].iter().find(|name| is_there(name) && !is_left(&folder.join(name))) {
         return Err(foreign(&folder.join(name)));

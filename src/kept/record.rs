@@ -4,7 +4,7 @@
 use crate::clock::Utc;
 use crate::output;
 use crate::plan::{ScriptDigest, scripts};
-use albacore_session::{Plan, SOURCE_BYTES_MAX, Summary, read_file};
+use albacore_session::{Digest, Plan, SOURCE_BYTES_MAX, Summary, read_file};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -35,15 +35,29 @@ pub struct Record {
     digest: Option<String>,
     /// The files that are not whole, or not there, and why.
     lost: BTreeMap<&'static str, String>,
+    /// The digest of all before it.
+    sum: &'static str,
 }
 
-/// Whether a file is the record of a run, as far as its own words tell.
+/// Where the sum stands, without it: the last of the record.
+const SUM: &str = "\"sum\": \"";
+
+/// Whether a file is the record of a run, as that has left it.
 pub fn is_record(path: &Path) -> bool {
-    let bytes = read_file(path, SOURCE_BYTES_MAX as u64).unwrap_or_else(|_| vec![b'?']);
-    let has =
-        |record: &serde_json::Value| ["albacore", "mission", "outcome"].iter().all(|word| record[word].is_string());
+    let Ok(bytes) = read_file(path, SOURCE_BYTES_MAX as u64) else { return false };
+    let is_as_left = |text: &str| {
+        let (before, _) = text.rsplit_once(SUM)?;
+        Some(summed(before) == text.trim_end_matches(' '))
+    };
     // One that has just been created is empty.
-    bytes.is_empty() || serde_json::from_slice(&bytes).is_ok_and(|record| has(&record))
+    bytes.is_empty() || std::str::from_utf8(&bytes).is_ok_and(|text| is_as_left(text) == Some(true))
+}
+
+/// A record with the sum of what stands before that.
+fn summed(before: &str) -> String {
+    let mut digest = Digest::new();
+    digest.bytes(before.as_bytes());
+    format!("{before}{SUM}{digest}\"\n}}\n")
 }
 
 /// What the command line asked for.
@@ -81,6 +95,7 @@ impl Record {
             ticks: None,
             digest: None,
             lost: BTreeMap::new(),
+            sum: "",
         }
     }
 
@@ -93,6 +108,7 @@ impl Record {
     pub fn json(&mut self, room: usize) -> serde_json::Result<String> {
         loop {
             let text = output::json(self)?;
+            let text = text.rsplit_once(SUM).map_or_else(String::new, |(before, _)| summed(before));
             let (kept, length) = (self.reason.chars().count() / 2, text.len());
             if length <= room || kept == 0 {
                 return Ok(text);
@@ -153,6 +169,7 @@ mod tests {
             ticks: None,
             digest: None,
             lost: BTreeMap::new(),
+            sum: "",
         };
         let text = record.json(4096).unwrap();
         assert!(text.len() <= 4096 && text.contains("\\u202ewhy") && text.contains('…'), "{text}");

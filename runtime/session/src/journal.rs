@@ -1,7 +1,7 @@
 //! The journal of a run under way: kept as long as it can be written, and given up without harm to the run.
 
 use crate::run::{Ending, Step, TickRecord};
-use albacore_trace::journal::{Closing, Gap, JournalHeader, Writer, is_beginning};
+use albacore_trace::journal::{self, Closing, Gap, JournalHeader, Reader, Unreadable, Writer, is_beginning};
 use std::io::{self, Read};
 
 /// Where a journal's bytes go.
@@ -11,6 +11,19 @@ pub type Sink = Box<dyn io::Write + Send>;
 pub fn is_journal(file: impl Read) -> bool {
     let mut bytes = Vec::new();
     file.take(16).read_to_end(&mut bytes).is_ok() && is_beginning(&bytes)
+}
+
+/// Whether it is one as a run leaves it, whole or cut short: nobody else has written into it. One of another version is taken for that.
+pub fn is_journal_as_left(mut file: impl Read) -> bool {
+    let mut bytes = Vec::new();
+    if file.read_to_end(&mut bytes).is_err() {
+        return false;
+    }
+    bytes.is_empty()
+        || match Reader::new(&bytes) {
+            Ok(reader) => !matches!(reader.into_ending(), journal::Ending::Damaged(_)),
+            Err(unreadable) => !matches!(unreadable, Unreadable::Damaged(_)),
+        }
 }
 
 /// A journal, or what became of it.

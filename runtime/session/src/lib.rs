@@ -42,7 +42,7 @@ pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read, read_input,
     standard_modules,
 };
-pub use journal::{Sink, is_journal};
+pub use journal::{Sink, is_journal, is_journal_as_left};
 pub use link::{Called, call};
 pub use link_faults::{link_faults, load_link_faults};
 pub use plan::{Plan, PlanError};
