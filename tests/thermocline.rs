@@ -17,8 +17,9 @@ fn run(arguments: &[&str]) -> Output {
 /// The depth that the mission reports, m.
 fn found(thermocline: u32, seed: u32) -> f64 {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("thermocline");
+    let _ = std::fs::remove_dir_all(&folder);
     let (set, seed, out) = (format!("thermocline={thermocline}m"), seed.to_string(), folder.to_str().unwrap());
-    let output = run(&["--set", "lasting=1min", "--set", &set, "--seed", &seed, "--out", out, "--replace"]);
+    let output = run(&["--set", "lasting=1min", "--set", &set, "--seed", &seed, "--out", out]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let trace = std::fs::read_to_string(folder.join("trace.txt")).unwrap();
     let report = trace.lines().find(|line| line.contains("report   thermocline")).unwrap();
