@@ -84,13 +84,14 @@ fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
     let mut lines: Vec<Option<&[u8]>> = records.map(found).collect();
     // The first line is known without a record.
     let tail_line = lines.len().max(1) + 1;
-    let sums: BTreeSet<&[u8]> = sums.chunks_exact(RECORD).collect();
-    let is_foreign = |line: &[u8]| !sums.contains(record(line).as_bytes());
-    let last = whole.clone().count();
+    let written: BTreeSet<&[u8]> = sums.chunks_exact(RECORD).collect();
+    let last_line = whole.clone().count();
     // Of one line more at the end its record may not have been written.
-    let foreign =
-        (1..).zip(whole).filter(|(n, line)| is_foreign(line) && (*n, *n) != (tail_line, last)).map(|(n, _)| n);
-    let gone = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(n, _)| n);
+    let is_foreign = |number: usize, line: &[u8]| {
+        !written.contains(record(line).as_bytes()) && !(number == tail_line && number == last_line)
+    };
+    let gone = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(number, _)| number);
+    let foreign = (1..).zip(whole).filter(|(number, line)| is_foreign(*number, line)).map(|(number, _)| number);
     let changed: BTreeSet<usize> = gone.chain(foreign).collect();
     let before: usize = pieces.take(tail_line - 1).map(<[u8]>::len).sum();
     while lines.last().is_some_and(Option::is_none) {

@@ -45,12 +45,10 @@ const SUM: &str = "\"sum\": \"";
 /// Whether a file is the record of a run, as that has left it.
 pub fn is_record(path: &Path) -> bool {
     let Ok(bytes) = read_file(path, SOURCE_BYTES_MAX as u64) else { return false };
-    let is_as_left = |text: &str| {
-        let (before, _) = text.rsplit_once(SUM)?;
-        Some(summed(before) == text.trim_end_matches(' '))
-    };
+    let is_as_left =
+        |text: &str| text.rsplit_once(SUM).is_some_and(|(before, _)| summed(before) == text.trim_end_matches(' '));
     // One that has just been created is empty.
-    bytes.is_empty() || std::str::from_utf8(&bytes).is_ok_and(|text| is_as_left(text) == Some(true))
+    bytes.is_empty() || std::str::from_utf8(&bytes).is_ok_and(is_as_left)
 }
 
 /// A record with the sum of what stands before that.

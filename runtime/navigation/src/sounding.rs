@@ -37,10 +37,11 @@ const SLOW_TICKS: u64 = 600;
 const KEEPS_M: f64 = 0.5;
 /// ... by the altitudes of about so many ticks: 1 s.
 const SMOOTH_TICKS: f64 = 10.0;
-/// Without an echo a vehicle dives no deeper than this, m, or the next one has to follow a rise; but for a sounder that is no slower
-/// than before by this factor, which forgets a slow spell by so much with each echo.
+/// An echo that comes after a dive of more metres than this without any, and after more than so many of the sounder's periods, has to
+/// follow a rise.
 const UNHEARD_M: f64 = 1.0;
-const SLOWER: f64 = 3.0;
+const SILENT_PERIODS: f64 = 3.0;
+/// The period is the longest of late: with each echo it counts for this share of what it did.
 const FORGETS: f64 = 0.9;
 /// A sounder sits no higher above the bottom than this, m, when the vehicle lies on it.
 const LYING_M: f64 = 1.0;
@@ -122,10 +123,10 @@ impl Sounding {
         let before = self.echo.replace(now)?;
         let gap = tick.saturating_sub(before.tick) as f64;
         let dived = before.deepest - before.depth;
-        let is_slower = before.period.is_some_and(|period| gap > SLOWER * period);
-        let period = before.period.map_or(gap, |period| if is_slower { period } else { gap.max(FORGETS * period) });
+        let was_silent = before.period.is_some_and(|period| gap > SILENT_PERIODS * period);
+        let period = before.period.map_or(gap, |period| if was_silent { period } else { gap.max(FORGETS * period) });
         self.echo = Some(Echo { period: Some(period), ..now });
-        (is_slower && dived > UNHEARD_M).then_some(dived)
+        (was_silent && dived > UNHEARD_M).then_some(dived)
     }
 
     /// Whether the vehicle is told to go deeper than it is.
