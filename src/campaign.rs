@@ -123,7 +123,7 @@ impl Campaign {
                 return Ok(Exit::Failed);
             }
         }
-        let tally = table.tally(columns)?;
+        let tally = table.tally(columns, &origin)?;
         // A line that was taken for one that was being written may have been another's.
         if table.changed().len() > known {
             self.warn(&table);

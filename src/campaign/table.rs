@@ -25,8 +25,16 @@ pub struct Table {
     changed: Vec<usize>,
     /// Where the table is kept as it was found, if any were.
     found: Option<PathBuf>,
-    /// What stood behind its last line, with the row that it should be.
-    tail: Option<(u64, Vec<u8>)>,
+    /// What stood behind its last line, if that may be a row that was being written.
+    tail: Option<Tail>,
+}
+
+/// The end of a table, which is known for a row or for another's when that row is run again.
+struct Tail {
+    row: u64,
+    /// The table as it was found, and where in it this begins.
+    found: Vec<u8>,
+    at: usize,
 }
 
 enum State {
@@ -75,7 +83,10 @@ impl Table {
         }
         let created = disk::new_file(path);
         if created.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::AlreadyExists) {
-            let help = "go on with it by `--resume`, or choose another file with `--out`";
+            let help = match neighbours(path).iter().any(|beside| is_there(beside)) {
+                true => "go on with it by `--resume`, or choose another file with `--out`",
+                false => "choose another file with `--out`",
+            };
             return Err(Trouble::Asked(format!("`{}` is there already", path.display()), help.to_string()));
         }
         let file = created?;
@@ -172,7 +183,7 @@ impl Table {
             b"" => {}
             // Whether it is the row that was being written is known when that is run again.
             tail if row < seeds.count() && may_be_row(tail, seeds.first + row, columns) => {
-                table.tail = Some((row, tail.to_vec()));
+                table.tail = Some(Tail { row, at: text.len() - tail.len(), found: text.clone() });
             }
             _ if table.changed.is_empty() => table.changes(row),
             // Lines that were moved there, or are told already.
@@ -249,11 +260,13 @@ impl Table {
                 "the interpreter is another one, or the row was changed by hand: begin anew with another `--out`";
             return Err(Trouble::Asked(message, help.to_string()));
         }
-        if self.tail.as_ref().is_some_and(|(at, _)| seeds.first + at == row.seed)
-            && let Some((at, tail)) = self.tail.take()
-            && !line.starts_with(&tail)
+        if let Some(tail) = self.tail.take_if(|tail| seeds.first + tail.row == row.seed)
+            && !line.starts_with(&tail.found[tail.at..])
         {
-            self.changes(at);
+            self.changes(tail.row);
+            if self.found.is_none() {
+                self.found = Some(keep(&self.path, &tail.found)?);
+            }
         }
         match &mut self.state {
             State::Adding(file, sums) => {
@@ -273,7 +286,12 @@ impl Table {
     }
 
     /// What the rows come to, when all are written.
-    pub fn tally(&mut self, columns: &Columns) -> Result<Tally, Trouble> {
+    pub fn tally(&mut self, columns: &Columns, origin: &Origin) -> Result<Tally, Trouble> {
+        match Origin::read(&self.path) {
+            // Nobody else could put it back.
+            Err(Unread::Missing) => origin.write(&self.path)?,
+            _ => belongs(&self.path, origin)?,
+        }
         let text = match &mut self.state {
             State::Adding(file, sums) => {
                 sums.is_whole()?;

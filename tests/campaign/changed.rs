@@ -1,0 +1,315 @@
+//! Tables that are not as they were written: torn, damaged on the disk, or written into by somebody else. What a campaign wrote is mended,
+//! and what it did not write is told and kept.
+
+use crate::{ABORTING, BOX, FOREVER, REPORTING, command, empty, refused, script, stderr, table, under_way};
+use albacore_trace::Digest;
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn a_torn_last_line_is_made_whole() {
+    let folder = empty("torn");
+    let out = folder.join("box.csv");
+    let whole = table(BOX, "1..4", &out, &[]);
+    let header = whole.find('\n').unwrap();
+    for end in [0, 5, header, header + 1, header + 10, whole.len() - 1, whole.len()] {
+        std::fs::write(&out, &whole[..end]).unwrap();
+        assert_eq!(table(BOX, "1..4", &out, &["--resume"]), whole, "cut at {end}");
+    }
+    std::fs::remove_file(&out).unwrap();
+    assert_eq!(table(BOX, "1..4", &out, &["--resume"]), whole);
+}
+
+/// Writes the checksums of a table as if it had been written so.
+fn sums(out: &Path) {
+    let text = std::fs::read_to_string(out).unwrap();
+    let sum = |line: &str| {
+        let mut digest = Digest::new();
+        digest.text(line);
+        format!("{digest}\n")
+    };
+    let sums: String = text.split_inclusive('\n').map(sum).collect();
+    std::fs::write(out.with_extension("csv.sums"), sums).unwrap();
+}
+
+#[test]
+fn a_row_that_comes_out_otherwise_is_said() {
+    let out = empty("otherwise").join("box.csv");
+    let whole = table(BOX, "1..2", &out, &[]);
+    sums(&out);
+    refused(BOX, "1..5", &out, &[], 2, "--resume");
+    std::fs::write(&out, whole.replace(",578.0,", ",577.0,").replace(",577.9,", ",576.9,")).unwrap();
+    sums(&out);
+    refused(BOX, "1..5", &out, &["--resume"], 2, "seed 2 gives another row today");
+    std::fs::write(&out, whole.replace(",completed,", ",")).unwrap();
+    sums(&out);
+    refused(BOX, "1..5", &out, &["--resume"], 2, "line 2: this is no row");
+    std::fs::remove_file(out.with_extension("csv.sums")).unwrap();
+    refused(BOX, "1..5", &out, &["--resume"], 2, "no `.sums` beside it");
+}
+
+/// A disk that forgets bits, at forty places of a table and its checksums: each is told with its line, and mended.
+#[test]
+fn a_bit_that_changed_on_the_disk_is_told_and_mended() {
+    let folder = empty("bits");
+    let mission = script(&folder, "aborting.alb", ABORTING);
+    let (out, beside) = (folder.join("t.csv"), folder.join("t.csv.sums"));
+    let resumed = table(&mission, "1..12", &folder.join("whole.csv"), &[]);
+    table(&mission, "1..8", &out, &[]);
+    let files = [out.clone(), beside.clone()];
+    let before = files.clone().map(|file| std::fs::read(file).unwrap());
+    for round in 0..40 {
+        for (file, bytes) in files.iter().zip(&before) {
+            std::fs::write(file, bytes).unwrap();
+        }
+        let of = usize::from(round % 4 == 3);
+        let (mut bytes, at) = (before[of].clone(), (round * 7919 + 13) % before[of].len());
+        bytes[at] ^= 1 << (round % 8);
+        std::fs::write(&files[of], &bytes).unwrap();
+        let line = before[of][..at].iter().filter(|b| **b == b'\n').count() + 1;
+        let output = command(&mission, "1..12", &out, &["--resume"]).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "byte {at} of {of}: {said}");
+        assert!(said.contains("was changed since it was written: line"), "byte {at} of {of}: {said}");
+        let told = said.split("written: line").nth(1).unwrap().lines().next().unwrap();
+        let numbers = told.split(|c: char| !c.is_ascii_digit()).filter_map(|n| n.parse().ok());
+        assert!(numbers.collect::<Vec<usize>>().contains(&line), "byte {at} of {of} is in line {line}: {said}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), resumed, "byte {at} of {of}");
+        // Then all is well.
+        if round % 10 == 0 {
+            let output = command(&mission, "1..12", &out, &["--resume"]).output().unwrap();
+            assert!(!stderr(&output).contains("changed"), "{}", stderr(&output));
+        }
+    }
+}
+
+/// Several rows at once, one of them gone; a campaign that is interrupted in between loses nothing.
+#[test]
+fn rows_that_were_changed_are_run_again() {
+    let folder = empty("mended");
+    let mission = script(&folder, "reporting.alb", REPORTING);
+    let out = folder.join("t.csv");
+    let whole = table(&mission, "1..9", &out, &[]);
+    let mut lines: Vec<&str> = whole.split_inclusive('\n').collect();
+    let changed = lines[2].replace("completed", "Completed");
+    lines[2] = &changed;
+    lines.remove(5);
+    lines.swap(5, 6);
+    std::fs::write(&out, lines.concat()).unwrap();
+    let output = command(&mission, "1..9", &out, &["--resume"]).output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("lines 3, 6") && said.contains("run again"), "{said}");
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
+}
+
+/// What lies beside a table is read with a bound, and only from ordinary files.
+#[test]
+fn a_neighbour_of_a_table_that_is_no_file_is_said() {
+    let out = empty("neighbours").join("t.csv");
+    table(BOX, "1..2", &out, &[]);
+    for (suffix, bytes) in [(".origin", "csv.origin"), (".sums", "csv.sums")] {
+        let beside = out.with_extension(bytes);
+        let whole = std::fs::read(&beside).unwrap();
+        std::fs::remove_file(&beside).unwrap();
+        assert!(Command::new("mkfifo").arg(&beside).status().unwrap().success());
+        refused(BOX, "1..3", &out, &["--resume"], 2, &format!("t.csv{suffix}`, which tells"));
+        std::fs::remove_file(&beside).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", &beside).unwrap();
+        refused(BOX, "1..3", &out, &["--resume"], 2, "cannot be read: it is no ordinary file");
+        std::fs::remove_file(&beside).unwrap();
+        std::fs::write(&beside, whole).unwrap();
+    }
+    // What is damaged is not taken for another campaign.
+    let sums = std::fs::read(out.with_extension("csv.sums")).unwrap();
+    for damaged in [&b"nothing"[..], &sums[17..]] {
+        std::fs::write(out.with_extension("csv.sums"), damaged).unwrap();
+        let output = command(BOX, "1..2", &out, &["--resume"]).output().unwrap();
+        assert!(!stderr(&output).contains("other columns"), "{}", stderr(&output));
+    }
+}
+
+/// All that may be left of a table is not overwritten by the next.
+#[test]
+fn what_is_left_of_another_table_stays() {
+    let folder = empty("left");
+    let out = folder.join("t.csv");
+    table(BOX, "1..2", &out, &[]);
+    std::fs::remove_file(&out).unwrap();
+    let origin = std::fs::read(out.with_extension("csv.origin")).unwrap();
+    refused(BOX, "1..3", &out, &["--set", "round.patience=9min"], 2, "t.csv.origin` is there already");
+    refused(BOX, "1..2", &out, &[], 2, "belongs to another table");
+    refused(BOX, "1..3", &out, &["--resume", "--set", "round.patience=9min"], 2, "was begun with `no --set`");
+    assert_eq!(std::fs::read(out.with_extension("csv.origin")).unwrap(), origin);
+    let link = folder.join("link.csv");
+    std::os::unix::fs::symlink("nowhere.csv", &link).unwrap();
+    for more in [&[][..], &["--resume"]] {
+        refused(BOX, "1..3", &link, more, 2, "link.csv` is there already: a link that leads nowhere");
+    }
+}
+
+/// What lies beside a table that is gone, or empty, is overwritten only where a campaign left it.
+#[test]
+fn nothing_of_somebody_else_is_taken_for_what_a_campaign_left() {
+    let folder = empty("theirs");
+    let whole = folder.join("whole.csv");
+    table(BOX, "1..2", &whole, &[]);
+    for (name, head, beside, taken) in [
+        ("sums", None, &[(".sums", "mine")][..], "t.csv.sums` is there already"),
+        ("origin", None, &[(".origin", "mine")], "t.csv.origin`, which tells"),
+        ("empty", Some(""), &[(".origin", "mine")], "t.csv.origin`, which tells"),
+        ("empty-sums", Some(""), &[(".sums", "mine")], "t.csv.sums` is there already"),
+        ("ours-sums", None, &[(".origin", ""), (".sums", "mine")], "t.csv.sums` is there already"),
+        ("text", Some("my notes"), &[(".origin", ""), (".sums", "")], "is damaged"),
+        ("torn-sums", Some("mission"), &[(".origin", ""), (".sums", "mine")], "is damaged"),
+        ("head-sums", Some("mission,HEAD"), &[(".origin", ""), (".sums", "mine, all of it")], "is damaged"),
+    ] {
+        let folder = empty(&format!("theirs-{name}"));
+        let out = folder.join("t.csv");
+        let first = std::fs::read_to_string(&whole).unwrap().lines().next().unwrap().to_string() + "\n";
+        head.iter().for_each(|head| {
+            std::fs::write(&out, if head.ends_with("HEAD") { first.as_str() } else { *head }).unwrap();
+        });
+        for (suffix, text) in beside {
+            let at = folder.join(format!("t.csv{suffix}"));
+            if text.is_empty() {
+                std::fs::copy(folder.join(format!("../theirs/whole.csv{suffix}")), at).unwrap();
+            } else {
+                std::fs::write(at, text).unwrap();
+            }
+        }
+        refused(BOX, "1..2", &out, &["--resume"], 2, taken);
+        for (suffix, text) in beside.iter().filter(|(_, text)| !text.is_empty()) {
+            let left = std::fs::read_to_string(folder.join(format!("t.csv{suffix}"))).unwrap();
+            assert_eq!(left, *text, "{name}");
+        }
+    }
+}
+
+/// A table that others write into, move away or empty, while it grows, is no table of this campaign any more.
+#[test]
+fn a_table_that_is_changed_under_way_is_said() {
+    let append = |path: &Path, text: &str| {
+        let text = std::fs::read_to_string(path).unwrap() + text;
+        let mut file = std::fs::OpenOptions::new().write(true).open(path).unwrap();
+        std::io::Write::write_all(&mut file, text.as_bytes()).unwrap();
+    };
+    let swap = |path: &Path| {
+        std::fs::rename(path, path.with_extension("away")).unwrap();
+        std::fs::write(path, "user\n").unwrap();
+    };
+    let gone = "is not this campaign's any more: it was removed or replaced";
+    let changed = "was changed by another program while the campaign went on";
+    for (name, file, change, why) in [
+        ("swapped", "t.csv", &swap as &dyn Fn(&Path), gone),
+        ("removed", "t.csv", &|path: &Path| std::fs::remove_file(path).unwrap(), gone),
+        ("emptied", "t.csv", &|path: &Path| std::fs::write(path, "").unwrap(), changed),
+        ("added", "t.csv", &|path: &Path| append(path, "my,note\n"), changed),
+        ("sums-swapped", "t.csv.sums", &swap, gone),
+        ("sums-emptied", "t.csv.sums", &|path: &Path| std::fs::write(path, "").unwrap(), changed),
+    ] {
+        let folder = empty(&format!("under-way-{name}"));
+        let child = under_way(&folder.join("t.csv"), FOREVER, 3);
+        change(&folder.join(file));
+        let output = child.wait_with_output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(4), "{name}: {said}");
+        assert!(said.contains(why) && said.contains("--resume") && !said.contains("room"), "{name}: {said}");
+        assert!(output.stdout.is_empty(), "{name}: a summary of what is no table");
+        if why == gone && name != "removed" {
+            assert_eq!(std::fs::read_to_string(folder.join(file)).unwrap(), "user\n", "{name}");
+        }
+    }
+}
+
+/// Without it nobody could go on with the table, or read what it was of.
+#[test]
+fn an_origin_that_is_removed_under_way_is_written_again() {
+    // A campaign that ends before the file is removed shows nothing: then one of more runs.
+    for seeds in ["1..60", "1..600", "1..6000"] {
+        let out = empty("under-way-origin").join("t.csv");
+        let origin = out.with_extension("csv.origin");
+        let mut child = under_way(&out, seeds, 0);
+        let written = std::fs::read(&origin).unwrap();
+        std::fs::remove_file(&origin).unwrap();
+        let early = child.try_wait().unwrap().is_none();
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        if early {
+            assert_eq!(std::fs::read(&origin).unwrap(), written);
+            table(BOX, seeds, &out, &["--resume"]);
+            return;
+        }
+    }
+    panic!("no campaign was under way when its origin was removed");
+}
+
+/// Who gives the name of another file by mistake is not led to go on with it.
+#[test]
+fn what_no_campaign_wrote_is_not_offered_to_go_on_with() {
+    let out = empty("no-table").join("notes.csv");
+    std::fs::write(&out, "my,notes\n").unwrap();
+    let output = command(BOX, "1..3", &out, &[]).output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("is there already") && !said.contains("--resume"), "{said}");
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), "my,notes\n");
+}
+
+/// What somebody wrote into a table is taken out of it, and not lost.
+#[test]
+fn a_table_that_was_changed_is_kept_as_it_was_found() {
+    let folder = empty("found");
+    let out = folder.join("t.csv");
+    let whole = table(BOX, "1..3", &out, &[]);
+    for (text, lines, found) in [
+        (format!("n1\nn2\n{whole}"), "lines 1..2", "t.csv.found"),
+        (whole.replacen('\n', "\n# mine\n", 1), "line 2", "t.csv.found-2"),
+    ] {
+        std::fs::write(&out, &text).unwrap();
+        let output = command(BOX, "1..3", &out, &["--resume"]).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.contains(&format!("since it was written: {lines}\n")) && said.contains(found), "{said}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
+        assert_eq!(std::fs::read_to_string(folder.join(found)).unwrap(), text);
+    }
+}
+
+/// Of one line behind the others nobody knows before whether it is a row without its checksum, or another's.
+#[test]
+fn a_line_that_was_added_is_told() {
+    let folder = empty("added");
+    let whole = table(BOX, "1..6", &folder.join("whole.csv"), &[]);
+    let four: String = whole.split_inclusive('\n').take(5).collect();
+    let sixth = whole.lines().nth(6).unwrap();
+    let out = folder.join("t.csv");
+    table(BOX, "1..4", &out, &[]);
+    for (added, more) in
+        [("5,mine\n", "1..4"), ("5,mine\n", "1..6"), ("mine", "1..6"), (sixth, "1..6"), ("a\nb\n", "1..6")]
+    {
+        std::fs::write(&out, format!("{four}{added}")).unwrap();
+        std::fs::write(out.with_extension("csv.sums"), "").unwrap();
+        sums(&out);
+        let written = std::fs::read(out.with_extension("csv.sums")).unwrap();
+        std::fs::write(out.with_extension("csv.sums"), &written[..5 * 17]).unwrap();
+        let output = command(BOX, more, &out, &["--resume"]).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "{added}: {said}");
+        assert!(said.contains("was changed since it was written: line") && said.contains('6'), "{added}: {said}");
+        let found = folder.join("t.csv.found");
+        assert_eq!(std::fs::read_to_string(&found).unwrap(), format!("{four}{added}"));
+        std::fs::remove_file(found).unwrap();
+    }
+    // A row that was being written when its campaign ended is none.
+    let fifth = whole.split_inclusive('\n').nth(5).unwrap();
+    for end in [1, fifth.len() / 2, fifth.len()] {
+        std::fs::write(&out, format!("{four}{}", &fifth[..end])).unwrap();
+        sums(&out);
+        let written = std::fs::read(out.with_extension("csv.sums")).unwrap();
+        std::fs::write(out.with_extension("csv.sums"), &written[..5 * 17]).unwrap();
+        let output = command(BOX, "1..6", &out, &["--resume"]).output().unwrap();
+        assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""), "{end}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
+    }
+}
