@@ -87,9 +87,8 @@ fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
     let written: BTreeSet<&[u8]> = sums.chunks_exact(RECORD).collect();
     let last_line = whole.clone().count();
     // Of one line more at the end its record may not have been written.
-    let is_foreign = |number: usize, line: &[u8]| {
-        !written.contains(record(line).as_bytes()) && !(number == tail_line && number == last_line)
-    };
+    let may_lack_it = |number: usize| number == tail_line && number == last_line;
+    let is_foreign = |number, line: &[u8]| !written.contains(record(line).as_bytes()) && !may_lack_it(number);
     let gone = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(number, _)| number);
     let foreign = (1..).zip(whole).filter(|(number, line)| is_foreign(*number, line)).map(|(number, _)| number);
     let changed: BTreeSet<usize> = gone.chain(foreign).collect();
