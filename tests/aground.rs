@@ -70,6 +70,26 @@ fn a_mission_that_waits_stays_where_it_began_to() {
     assert!(trace.contains("`flow` has never come") && !trace.contains("grounded at"), "{trace}");
 }
 
+/// Below its steerage way a light hull swam down nose first, whatever depth was commanded, and no limit could lead it up.
+#[test]
+fn no_slow_way_leads_a_light_hull_aground() {
+    let mut ways = Vec::new();
+    for speed in ["0.3 m/s", "0.6 m/s", "0.8 m/s", "1 m/s"] {
+        for (fast_for, slow_for) in [("10 s", "10 s"), ("10 s", "30 s"), ("30 s", "60 s")] {
+            let set = [("slow_at", speed), ("fast_for", fast_for), ("slow_for", slow_for)];
+            let set = set.map(|(name, value)| format!("{name}={value}"));
+            let script = load(Path::new("tests/aground/slow.alb"), None, &set).unwrap();
+            assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+            let mut run = Run::new(&Plan::new(&script, "slow.alb", None, None).unwrap(), 1).unwrap();
+            let outcome = run.to_end();
+            if outcome != Outcome::TimedOut || run.trace().to_string().contains("grounded at") {
+                ways.push(format!("{set:?}: {outcome:?}"));
+            }
+        }
+    }
+    assert!(ways.is_empty(), "{}", ways.join("\n"));
+}
+
 /// What is wrong for a moment aborts nothing: a first sample too has others to follow it.
 #[test]
 fn one_wrong_sample_aborts_nothing() {

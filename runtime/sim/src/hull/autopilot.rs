@@ -30,6 +30,8 @@ pub struct Gains {
     pub depth: f64,
     /// Pitch for an error of depth that lasts, rad/(m s).
     pub depth_integral: f64,
+    /// Steerage way: at this speed the stern plane lifts the nose out of any pitch, m/s.
+    pub steerage: f64,
 }
 
 impl Gains {
@@ -43,6 +45,7 @@ impl Gains {
         righting: 1.6,
         depth: 0.1,
         depth_integral: 0.006,
+        steerage: 1.2,
     };
     /// For the plant after Prestero, which is unstable without.
     pub const PRESTERO: Gains = Gains {
@@ -54,6 +57,7 @@ impl Gains {
         righting: 0.95,
         depth: 0.1,
         depth_integral: 0.01,
+        steerage: 1.2,
     };
 }
 
@@ -77,6 +81,11 @@ const BOTTOM_TIME: f64 = 1.0;
 const FALL_MAX: f64 = 0.5;
 /// Less deep than this a hull is at the surface, m.
 const AT_SURFACE: f64 = 0.1;
+/// A hull this much too deep, in m, has stalled where its stern plane can do no more and its nose is still this much too low,
+/// in rad: the light one after Prestero sinks so, nose down, at 0.8 m/s. It has recovered when it is no more than this too deep.
+const STALLED: f64 = 0.2;
+const STALLED_PITCH: f64 = 5.0 * PI / 180.0;
+const RECOVERED: f64 = 0.1;
 /// The speed at which turns and speed are compared, m/s.
 const MAP_SPEED: f64 = 2.0;
 
@@ -113,6 +122,8 @@ pub struct Autopilot {
     rudder_trim: f64,
     pitch_trim: f64,
     speed_trim: f64,
+    /// Whether it sinks against its fins for want of way.
+    stalled: bool,
 }
 
 impl Autopilot {
@@ -129,6 +140,7 @@ impl Autopilot {
             rudder_trim: 0.0,
             pitch_trim: 0.0,
             speed_trim: 0.0,
+            stalled: false,
         }
     }
 
@@ -144,16 +156,23 @@ impl Autopilot {
             Vertical::Depth(depth) => (depth, 0.0),
             Vertical::Altitude(altitude) => (sensed.water_depth - altitude, self.bottom_falls),
         };
+        let stern = self.stern(wanted_depth.max(0.0) - sensed.depth, sinking / speed, sensed, speed);
+        // A hull that is to make no way keeps none: what it has of buoyancy takes it up.
+        let way = match self.stalled && command.speed > 0.0 {
+            true => command.speed.max(self.gains.steerage),
+            false => command.speed,
+        };
         Controls {
             rudder: self.rudder(command.heading - sensed.heading, sensed.yaw_rate, speed),
-            stern: self.stern(wanted_depth.max(0.0) - sensed.depth, sinking / speed, sensed, speed),
-            rpm: self.rpm(command.speed.clamp(0.0, self.speed_max), sensed.speed),
+            stern,
+            rpm: self.rpm(way.clamp(0.0, self.speed_max), sensed.speed),
         }
     }
 
     /// Forgets what errors have lasted: of what held the hull meanwhile nothing is to be held against it.
     pub fn start_afresh(&mut self) {
         (self.rudder_trim, self.pitch_trim, self.speed_trim) = (0.0, 0.0, 0.0);
+        self.stalled = false;
     }
 
     fn rudder(&mut self, error: f64, rate: f64, speed: f64) -> f64 {
@@ -182,6 +201,10 @@ impl Autopilot {
         let hold = gains.righting / (speed * speed) * sin(down);
         let asked = hold + gains.pitch * (down + sensed.pitch) + gains.pitch_rate / speed * sensed.pitch_rate;
         let stern = asked.clamp(-self.fin_max, self.fin_max);
+        self.stalled = match self.stalled {
+            true => error < -RECOVERED,
+            false => error < -STALLED && asked < -self.fin_max && down + sensed.pitch < -STALLED_PITCH,
+        };
         // At its limit the trim may only help it back.
         let helps = stern == asked || (asked > 0.0) != (error > 0.0);
         // At the surface it can rise no further.
