@@ -204,7 +204,7 @@ impl<'a> Scanner<'a> {
         let in_brackets = matches!(self.open.last(), Some(Open { bracket: '(' | '[', .. }));
         let goes_on = in_brackets
             || (self.last == Last::Goes && !self.next_begins())
-            || self.next_word_is("else")
+            || self.next_goes_on()
             || self.block_on_next_line();
         if goes_on {
             self.blank(self.at, self.at + 1);
@@ -268,9 +268,14 @@ impl<'a> Scanner<'a> {
             || (at_margin && begins_item(&next[..length]) && next[length..].starts_with(' '))
     }
 
-    fn next_word_is(&mut self, word: &str) -> bool {
-        let after = self.next().strip_prefix(word);
-        after.is_some_and(|after| !after.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    /// `else` goes on with the line before, but for a field of that name, which follows no block: `else: Side`.
+    fn next_goes_on(&mut self) -> bool {
+        let after_block = self.source[..self.at].trim_end().ends_with('}');
+        let after = self.next().strip_prefix("else");
+        after.is_some_and(|after| {
+            let is_word = !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+            is_word && (after_block || !after.trim_start().starts_with(':'))
+        })
     }
 
     /// A `{` on a line of its own belongs to the line before: told once, and read as if it stood there.
