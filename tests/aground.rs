@@ -80,7 +80,7 @@ fn no_slow_way_leads_a_light_hull_aground() {
             let set = set.map(|(name, value)| format!("{name}={value}"));
             let script = load(Path::new("tests/aground/slow.alb"), None, &set).unwrap();
             assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
-            let mut run = Run::new(&Plan::new(&script, "slow.alb", None, None).unwrap(), 1).unwrap();
+            let mut run = Run::new(&Plan::new(&script, "slow.alb", Some("slow"), None).unwrap(), 1).unwrap();
             let outcome = run.to_end();
             if outcome != Outcome::TimedOut || run.trace().to_string().contains("grounded at") {
                 ways.push(format!("{set:?}: {outcome:?}"));
@@ -88,6 +88,26 @@ fn no_slow_way_leads_a_light_hull_aground() {
         }
     }
     assert!(ways.is_empty(), "{}", ways.join("\n"));
+}
+
+/// A vehicle without way obeys no depth: one that has sunk below where its limits let it is given way, as much as they allow.
+#[test]
+fn a_vehicle_that_waits_does_not_sink_to_the_bottom() {
+    for (most, way) in [("2 m/s", "makes way, 1.50 m/s"), ("1 m/s", "makes way, 1.00 m/s")] {
+        let set = [format!("most={most}")];
+        let script = load(Path::new("tests/aground/slow.alb"), Some("waits"), &set).unwrap();
+        assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+        let mut lifted = 0;
+        for seed in 1..=8 {
+            let mut run = Run::new(&Plan::new(&script, "slow.alb", Some("waits"), None).unwrap(), seed).unwrap();
+            assert_eq!(run.to_end(), Outcome::TimedOut, "{}", run.trace());
+            let trace = run.trace().to_string();
+            assert!(!trace.contains("grounded at"), "{trace}");
+            // By other waves it rises.
+            lifted += u32::from(trace.contains(way) && trace.contains("risen"));
+        }
+        assert!(lifted >= 3, "{most}: {lifted}");
+    }
 }
 
 /// What is wrong for a moment aborts nothing: a first sample too has others to follow it.

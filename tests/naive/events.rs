@@ -56,6 +56,8 @@ fn line(p: &Program, event: &Event) -> String {
         Event::Silenced => "silenced".to_string(),
         Event::Unwritten(lines) => format!("unwritten {lines}"),
         Event::BottomLost(deepest) => format!("bottom lost {deepest:?}"),
+        Event::Sinks(speed) => format!("sinks {speed:?}"),
+        Event::Risen => "risen".to_string(),
         Event::BottomFound => "bottom found".to_string(),
         Event::Ended(outcome) => format!("end {}", outcome.name()),
     }

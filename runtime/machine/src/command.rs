@@ -28,18 +28,20 @@ impl Run {
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
-        let vertical = self.limit_vertical(p, asked.vertical);
+        let floor = self.floor(p);
+        let vertical = self.limit_vertical(p, asked.vertical, floor);
         let mut filter = Filter::new(self.state.filtered);
         let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;
         // Flow compensation may ask for more speed through the water than the mission allows.
         let speed_max = self.state.limits.speed.1;
-        let command = if over_ground && speed > 0.0 {
+        let (heading, speed) = if over_ground && speed > 0.0 {
             let water = through_water(course, speed, self.flow(), speed_max);
-            Command { heading: water.heading, speed: water.speed, vertical }
+            (water.heading, water.speed)
         } else {
-            Command { heading: course, speed: speed.max(0.0), vertical }
+            (course, speed.max(0.0))
         };
+        let command = Command { heading, speed: self.lift(speed, floor), vertical };
         self.state.command = Some(command);
         command
     }

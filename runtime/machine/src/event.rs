@@ -70,6 +70,10 @@ pub enum Event {
     BottomLost(f64),
     /// It is known again.
     BottomFound,
+    /// The vehicle is deeper than its limits allow and does not rise: from here on it makes at least so much way, m/s.
+    Sinks(f64),
+    /// It has risen.
+    Risen,
 }
 
 /// How a mission ended.

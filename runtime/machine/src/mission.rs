@@ -5,6 +5,7 @@ use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::inputs::{MissingInput, senses, wiring};
+use crate::lift::Lift;
 use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State, Wish};
 use crate::trig::Trig;
 use crate::{Event, Outcome};
@@ -42,6 +43,7 @@ impl Run {
             limits: Limits::NONE,
             declared: Declared::default(),
             bottom: Bottom::default(),
+            lift: Lift::default(),
             aground: Aground::default(),
             stands: false,
             limited: [false; 3],

@@ -4,6 +4,7 @@ use crate::Outcome;
 use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
+use crate::lift::Lift;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MAX;
@@ -34,6 +35,8 @@ pub struct State {
     pub(crate) limits: Limits,
     /// What is known of the water below.
     pub(crate) bottom: Bottom,
+    /// The vehicle deeper than it may be.
+    pub(crate) lift: Lift,
     /// The vehicle on the bottom.
     pub(crate) aground: Aground,
     /// Whether the heading and the depth of the very start have been taken.

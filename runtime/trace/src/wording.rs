@@ -120,6 +120,10 @@ impl Wording {
             Event::BottomLost(deepest) => {
                 ("limit", format!("altitude unknown: no deeper than {}", number::metres(*deepest)))
             }
+            Event::Sinks(speed) => {
+                ("limit", format!("too deep and does not rise: makes way, {}", number::metres_per_second(*speed)))
+            }
+            Event::Risen => ("limit", "risen".to_string()),
             Event::BottomFound => ("limit", "altitude known again".to_string()),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),
         })

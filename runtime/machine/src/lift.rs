@@ -1,0 +1,62 @@
+//! Way for a vehicle that is deeper than its limits allow and does not rise: fins lift nothing that stands still, or creeps.
+
+use crate::Event;
+use crate::state::Run;
+use albacore_program::{Input, LIMIT_FRESH_S};
+use albacore_vehicle::TICK_S;
+use serde::{Deserialize, Serialize};
+
+/// A vehicle sinks that is deeper than it may be by so much, m, and has not risen by so much in so long, s.
+const SUNK_M: f64 = 1.0;
+const RISEN_M: f64 = 0.5;
+const PATIENCE_S: f64 = 5.0;
+/// It is lifted until it is no deeper than this below where it may be, m.
+const LIFTED_M: f64 = 0.2;
+/// The speed through the water at which fins lift a hull, m/s.
+const LIFT_SPEED: f64 = 1.5;
+
+/// What is known of a vehicle that is deeper than it may be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Lift {
+    /// It is not, or not by much.
+    #[default]
+    Clear,
+    /// Its depth, m, and the tick from which it has to rise.
+    Deep { depth: f64, since: u64 },
+    /// It did not: it makes way.
+    Lifted,
+}
+
+impl Run {
+    /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than `floor`, m, and
+    /// does not rise; as far as the limit of speed lets it.
+    pub fn lift(&mut self, asked: f64, floor: f64) -> f64 {
+        let fresh = |stamp: f64| stamp >= 0.0 && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
+        let is_told = self.senses.depth.is_some_and(|at| fresh(self.get(at + Input::STAMP)));
+        let before = self.state.lift;
+        if is_told {
+            self.state.lift = before.after(self.state.tick, self.depth(), floor);
+        }
+        let lifted = self.state.lift == Lift::Lifted;
+        let speed = LIFT_SPEED.min(self.state.limits.speed.1);
+        if lifted != (before == Lift::Lifted) {
+            self.events.push(if lifted { Event::Sinks(speed) } else { Event::Risen });
+        }
+        if lifted { asked.max(speed) } else { asked }
+    }
+}
+
+impl Lift {
+    fn after(self, tick: u64, depth: f64, deepest: f64) -> Lift {
+        let too_deep = depth - deepest;
+        match self {
+            Lift::Lifted if too_deep > LIFTED_M => Lift::Lifted,
+            Lift::Deep { depth: from, since } if too_deep > SUNK_M && depth > from - RISEN_M => {
+                let lasts = tick.saturating_sub(since) as f64 * TICK_S;
+                if lasts > PATIENCE_S { Lift::Lifted } else { self }
+            }
+            _ if too_deep > SUNK_M => Lift::Deep { depth, since: tick },
+            _ => Lift::Clear,
+        }
+    }
+}
