@@ -158,7 +158,7 @@ pub fn command(word: &str, rest: &str) -> Option<String> {
             )
         }
         "heading" => format!("write `steer heading: {value} for 1 min`"),
-        "course" => format!("write `steer {value} for 1 min`"),
+        "course" => format!("write `steer {value} for 1 min`, or `goto {value}` if that is a point"),
         _ => return None,
     })
 }

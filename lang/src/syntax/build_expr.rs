@@ -235,6 +235,15 @@ fn nothing(b: &Builder) -> Expr {
     Expr { kind: ExprKind::None, span: Span { file: b.file, start: 0, end: 0 } }
 }
 
+/// A number as it is written. A whole one that is not held exactly is the next larger, so that it is found to be too large.
+fn value(text: &str) -> f64 {
+    let value: f64 = text.parse().unwrap_or(0.0);
+    match text.parse::<u64>() {
+        Ok(whole) if value as u64 != whole => value.next_up(),
+        _ => value,
+    }
+}
+
 fn primary(b: &mut Builder, pair: P) -> Expr {
     let span = b.span(&pair);
     let kind = match pair.as_rule() {
@@ -246,7 +255,7 @@ fn primary(b: &mut Builder, pair: P) -> Expr {
                 return Expr { kind: ExprKind::Name(String::new()), span };
             }
             let mut inner = pair.into_inner();
-            let value = inner.next().and_then(|n| n.as_str().parse().ok()).unwrap_or(0.0);
+            let value = inner.next().map_or(0.0, |n| value(n.as_str()));
             ExprKind::Number { value, unit: inner.next().map(|u| name(b, u)) }
         }
         Rule::geodetic => {

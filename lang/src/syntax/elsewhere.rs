@@ -88,6 +88,15 @@ fn result(before: &str, rest: &str, expected: &str) -> Option<Habit> {
 fn block(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let head = before.rsplit('}').next().unwrap_or(before);
     let first = word(head.trim_start());
+    if first == "with" && rest.starts_with('{') {
+        return Some(Habit {
+            message: Some("`with` has no block of its own".to_string()),
+            help: format!(
+                "it holds to the end of the block that it stands in; for one statement write `steer north for 1 min at {}`",
+                head.trim().trim_start_matches("with").trim()
+            ),
+        });
+    }
     if !BEFORE_BLOCK.contains(&first) || matches!(first, "requires" | "limits") && before.contains('{') {
         return None;
     }
@@ -302,6 +311,7 @@ fn text(before: &str, rest: &str) -> Option<Habit> {
             let condition = line_end(rest).trim_start_matches(|c: char| c.is_alphabetic()).trim();
             return match condition {
                 "" => write("abort \"why\""),
+                why if quoted(why).is_some() => write(format!("abort {why}")),
                 condition => write(format!("abort \"why\" on {condition}")),
             };
         }
