@@ -7,6 +7,7 @@ mod sums;
 mod table;
 mod told;
 
+use crate::disk::not_written;
 use crate::exit::Exit;
 use crate::plan::{Choice, Faults, refused};
 use crate::{interruption, message, output};
@@ -188,7 +189,7 @@ impl Campaign {
                 let help =
                     "the rows it has are whole: when there is room again, the same command with `--resume` goes on";
                 let help = if self.out.is_file() { help } else { "choose another file with `--out`" };
-                message::error(&format!("`{}` cannot be written: {error}", self.out.display()), Some(help));
+                message::error(&not_written(&self.out, &error), Some(help));
                 Exit::Failed
             }
         }

@@ -21,6 +21,25 @@ pub fn remake(path: &Path, made: &Made) -> io::Result<()> {
     whole(path, made.text())
 }
 
+/// Says that a path cannot be written, and why.
+pub fn not_written(path: &Path, error: &io::Error) -> String {
+    let is_file = |path: &&Path| fs::metadata(path).is_ok_and(|there| !there.is_dir());
+    let why = match error.kind() {
+        // What we say of what is there already is said.
+        ErrorKind::AlreadyExists if error.raw_os_error().is_none() => None,
+        ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
+            path.ancestors().find(is_file).map(|file| format!("`{}` is a file, and no folder", file.display()))
+        }
+        ErrorKind::NotFound => path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty() && !folder.exists())
+            .map(|folder| format!("there is no folder `{}`", folder.display())),
+        ErrorKind::IsADirectory => Some("it is a folder".to_string()),
+        _ => None,
+    };
+    format!("`{}` cannot be written: {}", path.display(), why.unwrap_or_else(|| error.to_string()))
+}
+
 /// An error if a link is at a path, or a file that somebody else wrote or edited.
 pub fn spare(path: &Path) -> io::Result<()> {
     let refused = |why| Err(io::Error::new(ErrorKind::AlreadyExists, why));

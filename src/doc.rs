@@ -82,7 +82,7 @@ impl Doc {
         }
         let unwritable = |path: &Path, error: std::io::Error| {
             let help = "choose another folder with `--out`";
-            message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
+            message::error(&disk::not_written(path, &error), Some(help));
             Exit::Failed
         };
         std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;

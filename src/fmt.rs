@@ -74,7 +74,7 @@ impl Fmt {
         // What a link points to is written, and the link stays.
         let written = std::fs::canonicalize(path).and_then(|file| disk::whole(&file, &formatted));
         written.map(|()| Exit::Well).map_err(|error| {
-            message::error(&format!("`{}` cannot be written: {error}", path.display()), None);
+            message::error(&disk::not_written(path, &error), None);
             Exit::Failed
         })
     }

@@ -58,7 +58,7 @@ impl Graph {
             Ok(()) => Exit::Well,
             Err(error) => {
                 let help = "choose another file with `--out`";
-                message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
+                message::error(&disk::not_written(path, &error), Some(help));
                 Exit::Failed
             }
         }

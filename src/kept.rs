@@ -69,7 +69,7 @@ impl Kept {
     pub fn journal_failed(&mut self, error: &io::Error) -> String {
         self.loses_journal(error);
         let help = "the mission goes on without; what the journal holds up to here can be read";
-        message::error_text(&format!("`{}` cannot be written: {error}", self.journal_path().display()), Some(help))
+        message::error_text(&disk::not_written(&self.journal_path(), error), Some(help))
     }
 
     /// The disk takes no more of the journal; gives what to tell.
@@ -113,7 +113,7 @@ impl Kept {
                     Ok(()) => record.has(name),
                     Err(error) => {
                         record.loses(name, &error);
-                        troubles.push((unwritten(&path.join(name), &error), None));
+                        troubles.push((disk::not_written(&path.join(name), &error), None));
                     }
                 }
             }
@@ -125,7 +125,10 @@ impl Kept {
         }
         let ended = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.finish(&text));
         if let Err(error) = begun.and(ended) {
-            troubles.push((unwritten(&path.join(RECORD), &error), Some(format!("the run ended: {}", record.end()))));
+            troubles.push((
+                disk::not_written(&path.join(RECORD), &error),
+                Some(format!("the run ended: {}", record.end())),
+            ));
         }
         let end = record.end();
         match (is_there, folder.is_recorded()) {
@@ -167,8 +170,4 @@ const GONE: &str = "it was removed or replaced";
 
 fn not_ours(path: &Path) -> String {
     format!("`{}` is not this run's any more: {GONE}", path.display())
-}
-
-fn unwritten(path: &Path, error: &io::Error) -> String {
-    format!("`{}` cannot be written: {error}", path.display())
 }

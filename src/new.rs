@@ -2,7 +2,7 @@
 
 mod name;
 
-use crate::disk::{PartFolder, whole};
+use crate::disk::{PartFolder, not_written, whole};
 use crate::exit::Exit;
 use crate::test::snapshot_file;
 use crate::{interruption, message, output};
@@ -38,7 +38,7 @@ impl Refusal {
     }
 
     fn unwritable(folder: &Path, error: &io::Error) -> Self {
-        let message = format!("`{}` cannot be written: {error}", folder.display());
+        let message = not_written(folder, error);
         Refusal { exit: Exit::Failed, message, help: "choose a folder where you may write, on a disk with room".into() }
     }
 }

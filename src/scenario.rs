@@ -83,7 +83,7 @@ impl Show {
             }
             Err(error) => {
                 let help = "choose another file with `--out`";
-                message::error(&format!("`{}` cannot be written: {error}", path.display()), Some(help));
+                message::error(&disk::not_written(&path, &error), Some(help));
                 Exit::Failed
             }
         }

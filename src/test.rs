@@ -1,6 +1,6 @@
 //! `albacore test`: runs the `test` blocks of scripts and compares behavior traces with their snapshots.
 
-use crate::disk::whole;
+use crate::disk::{not_written, whole};
 use crate::exit::Exit;
 use crate::message;
 use crate::output::Lines;
@@ -176,7 +176,7 @@ impl Test {
                     say(&format!("        wrote {}", file.display()));
                     Vec::new()
                 }
-                Err(error) => vec![format!("        `{}` cannot be written: {error}", file.display())],
+                Err(error) => vec![format!("        {}", not_written(&file, &error))],
             };
         }
         let Some(stored) = stored else {

@@ -322,7 +322,9 @@ fn what_others_write_into_the_files_of_a_run_is_told() {
         std::thread::sleep(Duration::from_millis(100));
         let (code, _, said) = ended(child);
         assert!(code == Some(4) && said.contains("`journal/journal` cannot be written: another program"), "{said}");
-        assert_eq!(std::fs::read_to_string(out.join("journal")).unwrap(), text);
+        // A block that was on its way when it was looked at last may stand behind, and no other.
+        let left = std::fs::read(out.join("journal")).unwrap();
+        assert!(left.starts_with(text.as_bytes()) && left.len() < 5_000, "{text:?}: {} bytes", left.len());
         assert!(record(&out)["lost"]["journal"].is_string());
         std::fs::remove_dir_all(&out).unwrap();
     }

@@ -147,6 +147,29 @@ fn what_is_no_file_is_not_replaced() {
     assert!(Path::new("/dev/stdout").is_symlink());
 }
 
+/// What a person can mend is said in words, and not by the number of an error.
+#[test]
+fn a_path_that_leads_nowhere_is_told() {
+    let folder = empty("nowhere");
+    sources(&folder);
+    std::fs::write(folder.join("f"), "").unwrap();
+    let beneath = "`f/x` cannot be written: `f` is a file, and no folder";
+    for (words, why) in [
+        ("run box.alb --out f", "`f` cannot be written: `f` is a file, and no folder"),
+        ("run box.alb --out f/x", beneath),
+        ("doc cpt --out f/x", beneath),
+        ("graph cpt cpt_2005 --out f/x", beneath),
+        ("scenario show box.alb --out f/x", beneath),
+        ("campaign box.alb --seeds 1..2 --out f/x", beneath),
+        ("campaign box.alb --seeds 1..2 --out no/x", "`no/x` cannot be written: there is no folder `no`"),
+        ("graph cpt cpt_2005 --out no/x", "`no/x` cannot be written: there is no folder `no`"),
+    ] {
+        let (code, said) = albacore(&folder, words);
+        assert!(code.is_some_and(|code| code > 0) && said.contains(why), "{words}: {code:?} {said}");
+        assert!(!said.contains("os error"), "{words}: {said}");
+    }
+}
+
 #[test]
 fn permissions_stay_and_what_is_read_only_is_refused() {
     let folder = empty("permissions");

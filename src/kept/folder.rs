@@ -183,7 +183,7 @@ fn foreign(path: &Path) -> Refusal {
 
 /// The disk will not have it.
 pub fn unwritable(path: &Path, error: &io::Error) -> Refusal {
-    let message = format!("`{}` cannot be written: {error}", path.display());
+    let message = disk::not_written(path, error);
     Refusal(message, "choose another folder with `--out`, or run without files with `--no-out`", Exit::Failed)
 }
 
