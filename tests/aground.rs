@@ -104,10 +104,34 @@ fn a_vehicle_that_waits_does_not_sink_to_the_bottom() {
             let trace = run.trace().to_string();
             assert!(!trace.contains("grounded at"), "{trace}");
             // By other waves it rises.
-            lifted += u32::from(trace.contains(way) && trace.contains("risen"));
+            lifted += u32::from(trace.contains(way) && trace.contains("no longer too deep"));
         }
         assert!(lifted >= 3, "{most}: {lifted}");
     }
+}
+
+fn slow(mission: &str, scenario: &str, set: &[&str], faults: &[&str]) -> String {
+    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+    let script = load(Path::new("tests/aground/slow.alb"), Some(mission), &set).unwrap();
+    assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+    let faults: Vec<String> = faults.iter().map(ToString::to_string).collect();
+    let plan = Plan::new(&script, "slow.alb", Some(mission), Some(scenario)).unwrap();
+    let mut run = Run::new(&plan.with_faults(&Faults::of(&load_faults(&faults)).unwrap()).unwrap(), 1).unwrap();
+    run.to_end();
+    run.trace().to_string()
+}
+
+/// Nobody is driven about because a gauge is wrong, the bottom is lost, or no speed that is allowed lifts the vehicle.
+#[test]
+fn way_that_cannot_help_is_not_made() {
+    for fault in ["depth, wrong, from: 60 s", "depth, wrong(size: 5), from: 60 s", "altitude, off, from: 60 s"] {
+        let trace = slow("waits", "shelf", &[], &[fault]);
+        assert!(trace.contains("altitude unknown") && !trace.contains("makes way"), "{fault}: {trace}");
+    }
+    let trace = slow("hangs", "still", &[], &[]);
+    assert!(!trace.contains("stuck") && !trace.contains("makes way"), "{trace}");
+    let trace = slow("waits", "surf", &["most=1cm/s"], &[]);
+    assert!(trace.contains("makes way, 0.01 m/s") && trace.contains("makes no more"), "{trace}");
 }
 
 /// What is wrong for a moment aborts nothing: a first sample too has others to follow it.

@@ -162,6 +162,12 @@ impl Run {
         self.floor_by_altitude(p, self.state.limits.altitude.0).min(self.deepest())
     }
 
+    /// How deep the vehicle may go as far as that is known, m: of a bottom that is lost nothing is.
+    pub fn deepest_known(&self, p: &Program) -> f64 {
+        let by_altitude = self.heard_lately(p).map_or(f64::MAX, |heard| heard.water - self.state.limits.altitude.0);
+        by_altitude.min(self.deepest()).max(0.0)
+    }
+
     /// How deep the vehicle may go by a least altitude, m.
     fn floor_by_altitude(&self, p: &Program, altitude_min: f64) -> f64 {
         let heard = self.state.bottom.heard;

@@ -41,7 +41,7 @@ impl Run {
         } else {
             (course, speed.max(0.0))
         };
-        let command = Command { heading, speed: self.lift(speed, floor), vertical };
+        let command = Command { heading, speed: self.lift(speed, self.deepest_known(p)), vertical };
         self.state.command = Some(command);
         command
     }

@@ -71,9 +71,11 @@ pub enum Event {
     /// It is known again.
     BottomFound,
     /// The vehicle is deeper than its limits allow and does not rise: from here on it makes at least so much way, m/s.
-    Sinks(f64),
+    Lifted(f64),
     /// It has risen.
     Risen,
+    /// It has not, and makes no more way for it.
+    LiftedInVain,
 }
 
 /// How a mission ended.

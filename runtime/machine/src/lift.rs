@@ -10,8 +10,10 @@ use serde::{Deserialize, Serialize};
 const SUNK_M: f64 = 1.0;
 const RISEN_M: f64 = 0.5;
 const PATIENCE_S: f64 = 5.0;
-/// It is lifted until it is no deeper than this below where it may be, m.
+/// It is lifted until it is no deeper than this below where it may be, m ...
 const LIFTED_M: f64 = 0.2;
+/// ... or has not risen by as much in so long, s, by which time it will not.
+const IN_VAIN_S: f64 = 30.0;
 /// The speed through the water at which fins lift a hull, m/s.
 const LIFT_SPEED: f64 = 1.5;
 
@@ -23,37 +25,51 @@ pub(crate) enum Lift {
     Clear,
     /// Its depth, m, and the tick from which it has to rise.
     Deep { depth: f64, since: u64 },
-    /// It did not: it makes way.
-    Lifted,
+    /// It did not: it makes way, and has to rise from there.
+    Lifted { depth: f64, since: u64 },
+    /// It made way in vain, down to this depth, m.
+    InVain { depth: f64 },
 }
 
 impl Run {
-    /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than `floor`, m, and
+    /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than `deepest`, m, and
     /// does not rise; as far as the limit of speed lets it.
-    pub fn lift(&mut self, asked: f64, floor: f64) -> f64 {
+    pub fn lift(&mut self, asked: f64, deepest: f64) -> f64 {
+        let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let fresh = |stamp: f64| stamp >= 0.0 && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
         let is_told = self.senses.depth.is_some_and(|at| fresh(self.get(at + Input::STAMP)));
         let before = self.state.lift;
-        if is_told {
-            self.state.lift = before.after(self.state.tick, self.depth(), floor);
+        if is_told && speed > 0.0 {
+            self.state.lift = before.after(self.state.tick, self.depth(), deepest);
         }
-        let lifted = self.state.lift == Lift::Lifted;
-        let speed = LIFT_SPEED.min(self.state.limits.speed.1);
-        if lifted != (before == Lift::Lifted) {
-            self.events.push(if lifted { Event::Sinks(speed) } else { Event::Risen });
+        let lifted = self.state.lift.is_lifted();
+        if lifted != before.is_lifted() {
+            self.events.push(match self.state.lift {
+                Lift::InVain { .. } => Event::LiftedInVain,
+                _ if lifted => Event::Lifted(speed),
+                _ => Event::Risen,
+            });
         }
         if lifted { asked.max(speed) } else { asked }
     }
 }
 
 impl Lift {
+    fn is_lifted(self) -> bool {
+        matches!(self, Lift::Lifted { .. })
+    }
+
     fn after(self, tick: u64, depth: f64, deepest: f64) -> Lift {
         let too_deep = depth - deepest;
+        let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match self {
-            Lift::Lifted if too_deep > LIFTED_M => Lift::Lifted,
+            Lift::Lifted { .. } | Lift::InVain { .. } if too_deep <= LIFTED_M => Lift::Clear,
+            Lift::Lifted { depth: from, .. } if depth <= from - RISEN_M => Lift::Lifted { depth, since: tick },
+            Lift::Lifted { since, .. } if lasts(since) > IN_VAIN_S => Lift::InVain { depth },
+            Lift::Lifted { .. } => self,
+            Lift::InVain { depth: from } if depth <= from + SUNK_M => self,
             Lift::Deep { depth: from, since } if too_deep > SUNK_M && depth > from - RISEN_M => {
-                let lasts = tick.saturating_sub(since) as f64 * TICK_S;
-                if lasts > PATIENCE_S { Lift::Lifted } else { self }
+                if lasts(since) > PATIENCE_S { Lift::Lifted { depth, since: tick } } else { self }
             }
             _ if too_deep > SUNK_M => Lift::Deep { depth, since: tick },
             _ => Lift::Clear,

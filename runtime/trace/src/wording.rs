@@ -120,10 +120,11 @@ impl Wording {
             Event::BottomLost(deepest) => {
                 ("limit", format!("altitude unknown: no deeper than {}", number::metres(*deepest)))
             }
-            Event::Sinks(speed) => {
+            Event::Lifted(speed) => {
                 ("limit", format!("too deep and does not rise: makes way, {}", number::metres_per_second(*speed)))
             }
-            Event::Risen => ("limit", "risen".to_string()),
+            Event::Risen => ("limit", "no longer too deep".to_string()),
+            Event::LiftedInVain => ("limit", "does not rise by way: makes no more".to_string()),
             Event::BottomFound => ("limit", "altitude known again".to_string()),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),
         })

@@ -105,7 +105,7 @@ impl Commanded {
         if let Some(told) = heard.heading {
             self.look_at_heading(told, command, speed, sights);
         }
-        self.look_at_goal(heard, command.vertical, sights);
+        self.look_at_goal(heard, command.vertical, speed.min(command.speed) > SPEED_MIN, sights);
     }
 
     /// Is it far off, and does not turn to where it should?
@@ -131,7 +131,7 @@ impl Commanded {
     }
 
     /// Every 30 s: is it nearer?
-    fn look_at_goal(&mut self, heard: &Heard, vertical: Vertical, sights: &mut Sights) {
+    fn look_at_goal(&mut self, heard: &Heard, vertical: Vertical, has_way: bool, sights: &mut Sights) {
         let (told, wanted, sight) = match vertical {
             Vertical::Depth(depth) => (heard.depth, depth, Sight::DepthNotAsCommanded),
             Vertical::Altitude(altitude) => (heard.altitude, altitude, Sight::AltitudeNotAsCommanded),
@@ -156,7 +156,8 @@ impl Commanded {
         if goal.missed {
             sights.see(sight);
             let is_depth = matches!(vertical, Vertical::Depth(_));
-            if is_depth && told.same > DEPTH_SAME && self.depth.last >= SURFACE {
+            // A hull without way may well stay where it is.
+            if is_depth && has_way && told.same > DEPTH_SAME && self.depth.last >= SURFACE {
                 sights.see(Sight::Stuck(Kind::Depth));
             }
         }

@@ -81,7 +81,7 @@ const BOTTOM_TIME: f64 = 1.0;
 const FALL_MAX: f64 = 0.5;
 /// Less deep than this a hull is at the surface, m.
 const AT_SURFACE: f64 = 0.1;
-/// A hull this much too deep, in m, has stalled where its stern plane can do no more and its nose is still this much too low,
+/// A hull this much too deep, in m, has stalled where its stern plane can do no more and its nose is still this much down,
 /// in rad: the light one after Prestero sinks so, nose down, at 0.8 m/s. It has recovered when it is no more than this too deep.
 const STALLED: f64 = 0.2;
 const STALLED_PITCH: f64 = 5.0 * PI / 180.0;
@@ -203,7 +203,7 @@ impl Autopilot {
         let stern = asked.clamp(-self.fin_max, self.fin_max);
         self.stalled = match self.stalled {
             true => error < -RECOVERED,
-            false => error < -STALLED && asked < -self.fin_max && down + sensed.pitch < -STALLED_PITCH,
+            false => error < -STALLED && asked < -self.fin_max && sensed.pitch < -STALLED_PITCH,
         };
         // At its limit the trim may only help it back.
         let helps = stern == asked || (asked > 0.0) != (error > 0.0);
