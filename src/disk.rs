@@ -27,7 +27,8 @@ pub fn not_written(path: &Path, error: &io::Error) -> String {
     let why = match error.kind() {
         // What we say of what is there already is said.
         ErrorKind::AlreadyExists if error.raw_os_error().is_none() => None,
-        ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
+        ErrorKind::AlreadyExists => Some("there is a file of that name".to_string()).filter(|_| is_file(&path)),
+        ErrorKind::NotADirectory => {
             path.ancestors().find(is_file).map(|file| format!("`{}` is a file, and no folder", file.display()))
         }
         ErrorKind::NotFound => path

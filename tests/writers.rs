@@ -155,7 +155,7 @@ fn a_path_that_leads_nowhere_is_told() {
     std::fs::write(folder.join("f"), "").unwrap();
     let beneath = "`f/x` cannot be written: `f` is a file, and no folder";
     for (words, why) in [
-        ("run box.alb --out f", "`f` cannot be written: `f` is a file, and no folder"),
+        ("run box.alb --out f", "`f` cannot be written: there is a file of that name"),
         ("run box.alb --out f/x", beneath),
         ("doc cpt --out f/x", beneath),
         ("graph cpt cpt_2005 --out f/x", beneath),

@@ -104,13 +104,14 @@ impl Run {
     }
 
     /// Holds what is asked of the vertical within the limits. Depth and altitude are bound to one another by the water's depth:
-    /// the limits of both hold, whichever is asked for. Of two that cannot both hold, the one that leads up does. `floor` is how deep
-    /// the vehicle may go, m.
-    pub fn limit_vertical(&mut self, p: &Program, asked: Vertical, floor: f64) -> Vertical {
+    /// the limits of both hold, whichever is asked for. Of two that cannot both hold, the one that leads up does.
+    pub fn limit_vertical(&mut self, p: &Program, asked: Vertical) -> Vertical {
         let Limits { altitude, depth, .. } = self.state.limits;
+        self.state.bottom.begun.get_or_insert(self.state.tick);
         let known = self.heard_lately(p);
         let deepest = self.deepest();
         let bounded = altitude.0 > 0.0 || deepest < f64::MAX;
+        let floor = self.floor(p, altitude.0).min(deepest);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
         let low = altitude.0 - (LOW_SHARE * altitude.0).min(LOW_MAX_M);
         match (asked, known) {
@@ -156,12 +157,6 @@ impl Run {
         self.state.limits.depth.1.min(self.above_bottom())
     }
 
-    /// How deep the vehicle may go, m.
-    pub fn floor(&mut self, p: &Program) -> f64 {
-        self.state.bottom.begun.get_or_insert(self.state.tick);
-        self.floor_by_altitude(p, self.state.limits.altitude.0).min(self.deepest())
-    }
-
     /// How deep the vehicle may go as far as that is known, m: of a bottom that is lost nothing is.
     pub fn deepest_known(&self, p: &Program) -> f64 {
         let by_altitude = self.heard_lately(p).map_or(f64::MAX, |heard| heard.water - self.state.limits.altitude.0);
@@ -169,7 +164,7 @@ impl Run {
     }
 
     /// How deep the vehicle may go by a least altitude, m.
-    fn floor_by_altitude(&self, p: &Program, altitude_min: f64) -> f64 {
+    fn floor(&self, p: &Program, altitude_min: f64) -> f64 {
         let heard = self.state.bottom.heard;
         let floor = match (heard, self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - altitude_min,

@@ -28,8 +28,7 @@ impl Run {
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
-        let floor = self.floor(p);
-        let vertical = self.limit_vertical(p, asked.vertical, floor);
+        let vertical = self.limit_vertical(p, asked.vertical);
         let mut filter = Filter::new(self.state.filtered);
         let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;

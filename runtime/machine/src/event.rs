@@ -72,9 +72,9 @@ pub enum Event {
     BottomFound,
     /// The vehicle is deeper than its limits allow and does not rise: from here on it makes at least so much way, m/s.
     Lifted(f64),
-    /// It has risen.
+    /// It is no longer too deep, as far as that is known.
     Risen,
-    /// It has not, and makes no more way for it.
+    /// It has not risen, and makes no more way for it.
     LiftedInVain,
 }
 

@@ -30,7 +30,7 @@ pub struct Gains {
     pub depth: f64,
     /// Pitch for an error of depth that lasts, rad/(m s).
     pub depth_integral: f64,
-    /// Steerage way: at this speed the stern plane lifts the nose out of any pitch, m/s.
+    /// Steerage way: what a stalled hull makes, to bring its nose up by the stern plane, m/s.
     pub steerage: f64,
 }
 
