@@ -2,7 +2,8 @@
 //!
 //! The altitude is an echo. Where none comes, or the same one again and again while the depth changes, nothing is known of what
 //! lies deeper than the vehicle has been: it descends no further than to where the least altitude was last known to hold, and rises
-//! from there as the bottom may. From where it dived by echoes that are not believed any more it rises at once. Where none has ever come it rises to the surface, but for what a chart says.
+//! from there as the bottom may. From where it dived by echoes that are not believed any more it rises at once. Where none has ever
+//! come it rises to the surface, but for what a chart says.
 
 use crate::Event;
 use crate::state::{Limits, Run};

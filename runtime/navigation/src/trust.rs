@@ -2,9 +2,9 @@
 //!
 //! The watch looks at all that came and steers nothing, with one exception: an altitude that it knows to be stuck is withheld, so
 //! that the limits of the mission take the bottom for lost. The gate withholds what cannot have happened, until it persists. An
-//! altitude that does not follow a dive, or is told of a vehicle that lies on the bottom or has a stuck depth, is doubted: limits do without it, and inputs
-//! take it, for down a slope a good one looks the same. All of it stays in the snapshot, marked, so that a journal holds what came and
-//! what was believed.
+//! altitude that does not follow a dive, or is told of a vehicle that lies on the bottom or has a stuck depth, is doubted: limits
+//! do without it, and inputs take it, for down a slope a good one looks the same. All of it stays in the snapshot, marked, so that a
+//! journal holds what came and what was believed.
 
 use crate::gate::Gate;
 use crate::sounding::Sounding;
