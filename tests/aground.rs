@@ -90,6 +90,38 @@ fn no_slow_way_leads_a_light_hull_aground() {
     assert!(ways.is_empty(), "{}", ways.join("\n"));
 }
 
+/// A limit is held where the bottom rises ahead, too: by what it rose on the way behind, and by an autopilot whose trim a long dive does not
+/// wind up.
+#[test]
+fn no_slope_leads_aground() {
+    let mut aground = Vec::new();
+    for (scenario, slowest) in [("gentle", 0), ("steep", 0), ("very_steep", 1)] {
+        for up in [0, 180] {
+            for slow_at in &["0 m/s", "0.1 m/s", "0.6 m/s", "1 m/s"][slowest..] {
+                for legs in [20, 60] {
+                    for by_altitude in [0, 1] {
+                        let set = [
+                            format!("up={up}deg"),
+                            format!("slow_at={slow_at}"),
+                            format!("legs={legs}s"),
+                            format!("by_altitude={by_altitude}"),
+                        ];
+                        let script = load(Path::new("tests/aground/slow.alb"), Some("slopes"), &set).unwrap();
+                        assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+                        let plan = Plan::new(&script, "slow.alb", Some("slopes"), Some(scenario)).unwrap();
+                        let mut run = Run::new(&plan, 1).unwrap();
+                        let outcome = run.to_end();
+                        if outcome != Outcome::TimedOut || run.trace().to_string().contains("grounded at") {
+                            aground.push(format!("{scenario}, {set:?}: {outcome:?}"));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+}
+
 /// A vehicle without way obeys no depth: one that has sunk below where its limits let it is given way, as much as they allow.
 #[test]
 fn a_vehicle_that_waits_does_not_sink_to_the_bottom() {

@@ -6,6 +6,7 @@
 //! come it rises to the surface, but for what a chart says.
 
 use crate::Event;
+use crate::slope::Slope;
 use crate::state::{Limits, Run};
 use albacore_geometry::Point;
 use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program, Slot};
@@ -43,6 +44,7 @@ pub(crate) struct Bottom {
     doubted: bool,
     /// The way through the water that was commanded since it came, m.
     way: f64,
+    slope: Slope,
     /// The tick from which limits are held: an echo may be on its way.
     begun: Option<u64>,
     /// It was told that the bottom is lost.
@@ -88,6 +90,7 @@ impl Run {
         let confirmed =
             self.state.bottom.heard.is_some_and(|heard| (tick - heard.tick) as f64 * TICK_S <= LIMIT_FRESH_S);
         self.state.bottom.altitude = Some(altitude);
+        self.state.bottom.slope.sound(water, self.state.bottom.way);
         (self.state.bottom.doubted, self.state.bottom.way) = (false, 0.0);
         self.state.bottom.heard = Some(Heard {
             tick,
@@ -123,7 +126,8 @@ impl Run {
             (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
                 let given = self.limit(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
-                Vertical::Altitude(given.min(highest).max((water - deepest).max(0.0)))
+                let given = given.max(self.ahead(altitude.0)).min(highest);
+                Vertical::Altitude(given.max((water - deepest).max(0.0)))
             }
             // An altitude that nobody measures cannot be held within anything.
             (Vertical::Altitude(metres), None) if bounded => {
@@ -168,16 +172,21 @@ impl Run {
     fn floor(&self, p: &Program, altitude_min: f64) -> f64 {
         let heard = self.state.bottom.heard;
         let floor = match (heard, self.heard_lately(p)) {
-            (_, Some(heard)) => heard.water - altitude_min,
+            (_, Some(heard)) => heard.water - self.ahead(altitude_min),
             _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
             (Some(heard), None) => {
                 let lasts = (self.state.tick - heard.tick) as f64 * TICK_S;
                 let undone = if self.state.bottom.doubted && lasts > LIMIT_FRESH_S { UNDONE_M } else { 0.0 };
-                (heard.depth - undone).min(heard.water - altitude_min - RISE * self.state.bottom.way)
+                (heard.depth - undone).min(heard.water - self.ahead(altitude_min) - RISE * self.state.bottom.way)
             }
             (None, None) => self.charted().map_or(self.unheard(), |water| water - altitude_min),
         };
         floor.max(0.0)
+    }
+
+    /// The altitude here at which a least altitude, m, will hold ahead.
+    fn ahead(&self, altitude_min: f64) -> f64 {
+        if altitude_min > 0.0 { altitude_min + self.state.bottom.slope.rises() } else { altitude_min }
     }
 
     fn asks_for_altitude(&self) -> bool {

@@ -74,10 +74,12 @@ impl Depth {
         off(self.last).min(off(self.mean.unwrap_or(self.last)))
     }
 
-    /// Whether it is another than it was.
+    /// Whether it is another than it was, by itself and by its mean. A vehicle that had just come to rest then was already where its mean
+    /// was going.
     fn differs(self, then: Depth) -> bool {
-        let means = self.mean.zip(then.mean).map_or(0.0, |(now, then)| (now - then).abs());
-        means > DEPTH_CHANGES && (self.last - then.last).abs() > DEPTH_CHANGES
+        let both = |depth: Depth| (depth.last, depth.mean.unwrap_or(depth.last));
+        let ((now, mean), (last, mean_then)) = (both(self), both(then));
+        now.min(mean) > last.max(mean_then) + DEPTH_CHANGES || now.max(mean) < last.min(mean_then) - DEPTH_CHANGES
     }
 }
 

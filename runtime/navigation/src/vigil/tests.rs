@@ -161,6 +161,25 @@ fn garbage_is_no_noise_by_which_a_rest_is_stuck() {
     }
 }
 
+/// A vehicle rises from 8 m to 1 m and stays there, in a swell that the pressure gauge feels. Its sounder has no noise.
+#[test]
+fn who_has_just_risen_is_not_rising() {
+    let told = watched(4_000, |tick, snapshot| {
+        let rise = (0.05 * tick.saturating_sub(1_000) as f64).min(7.0);
+        let swell = 0.9 * albacore_geometry::math::sin(tick as f64 * TICK_S / 9.0 * 2.0 * std::f64::consts::PI);
+        for sample in &mut snapshot.samples {
+            match sample.channel {
+                DEPTH => sample.reading[0] = 8.0 - rise + swell,
+                ALTITUDE => sample.reading[0] = 5.0 + rise,
+                WATER_DEPTH => sample.reading[0] = 13.0 + swell,
+                _ => {}
+            }
+        }
+    });
+    let stuck: Vec<_> = told.iter().filter(|(_, what)| what.contains("stuck")).collect();
+    assert!(stuck.is_empty(), "{stuck:?}");
+}
+
 /// What is told of a vehicle that is to turn right about after 10 s, and heads as a function of the tick and of its last heading.
 fn heads(mut heading: impl FnMut(u64, Heading) -> Heading) -> Vec<String> {
     let (mut vigil, mut told, mut at) = (Vigil::default(), Vec::new(), Heading::from_degrees(0.0));

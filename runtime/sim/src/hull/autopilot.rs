@@ -197,7 +197,8 @@ impl Autopilot {
     /// plane nose down.
     fn stern(&mut self, error: f64, slope: f64, sensed: &Sensed, speed: f64) -> f64 {
         let gains = self.gains;
-        let down = (gains.depth * error + slope + self.pitch_trim).clamp(-PITCH_MAX, PITCH_MAX);
+        let wanted = gains.depth * error + slope + self.pitch_trim;
+        let down = wanted.clamp(-PITCH_MAX, PITCH_MAX);
         let hold = gains.righting / (speed * speed) * sin(down);
         let asked = hold + gains.pitch * (down + sensed.pitch) + gains.pitch_rate / speed * sensed.pitch_rate;
         let stern = asked.clamp(-self.fin_max, self.fin_max);
@@ -205,8 +206,9 @@ impl Autopilot {
             true => error < -RECOVERED,
             false => error < -STALLED && asked < -self.fin_max && sensed.pitch < -STALLED_PITCH,
         };
-        // At its limit the trim may only help it back.
-        let helps = stern == asked || (asked > 0.0) != (error > 0.0);
+        // Where fin or pitch is at its limit on the way there, an error tells nothing of the trim: to go on counting would only wind it up.
+        let more = |asked: f64, given: f64| asked != given && (asked > 0.0) == (error > 0.0);
+        let helps = !more(asked, stern) && !more(wanted, down);
         // At the surface it can rise no further.
         if helps && (error > 0.0 || sensed.depth > AT_SURFACE) {
             let lasting = error.clamp(-DEPTH_LASTS, DEPTH_LASTS);

@@ -330,6 +330,20 @@ fn a_hull_that_goes_slowly_sinks_by_little() {
     }
 }
 
+/// On the way down an error of depth is none that lasts: what it added to the trim in a long dive led 3 m too deep for a minute.
+#[test]
+fn a_long_dive_ends_where_a_short_one_does() {
+    for (name, hull) in HULLS {
+        for speed in [1.2, 1.5, 2.0] {
+            let mut trial = Trial::at(hull(), 3.0);
+            let deepest =
+                trial.go(0.0, speed, Vertical::Depth(40.0), 300.0).iter().map(|m| m.depth).fold(0.0, f64::max);
+            println!("a dive to 40 m at {speed} m/s: {name} {:.1} m over", deepest - 40.0);
+            assert!(deepest < 41.0, "{name} at {speed} m/s: {deepest} m");
+        }
+    }
+}
+
 /// Who turns, rises, dives, stops and goes on as it comes is less than 3 m below the deepest that was asked for.
 #[test]
 fn no_hull_sinks_by_3_m_whatever_is_asked_of_it() {
