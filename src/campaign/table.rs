@@ -11,6 +11,7 @@ use super::sums::{self, Sums};
 use crate::disk;
 use crate::made::is_as_summed;
 use albacore_session::campaign::{Columns, Row, Tally, plain};
+use albacore_session::read_file;
 use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
 use std::io::{self, Read};
@@ -89,10 +90,7 @@ impl Table {
     }
 
     fn create(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
-        if path.is_symlink() && !path.exists() {
-            let message = format!("`{}` is there already: a link that leads nowhere", path.display());
-            return Err(Trouble::Asked(message, "remove it, or choose another file with `--out`".to_string()));
-        }
+        no_stray_link(path)?;
         let created = disk::new_file(path);
         if created.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::AlreadyExists) {
             let help = match neighbours(path).iter().any(|beside| is_there(beside)) {
@@ -128,11 +126,12 @@ impl Table {
     pub fn resume(path: &Path, columns: &Columns, origin: &Origin, seeds: Seeds) -> Result<Self, Trouble> {
         match std::fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                // A table that is gone is made again, and no other in its place.
-                left_by(path, origin)?;
-                if !sums::read(path).is_ok_and(|sums| !sums.is_empty()) {
+                if !neighbours(path).iter().any(|left| is_there(left)) {
                     return Table::create(path, columns, origin);
                 }
+                // A table that is gone is made again, and no other in its place.
+                left_by(path, origin)?;
+                no_stray_link(path)?;
                 drop(disk::new_file(path)?);
             }
             Err(error) => return Err(error.into()),
@@ -344,6 +343,14 @@ fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
 }
 
+fn no_stray_link(path: &Path) -> Result<(), Trouble> {
+    if !path.is_symlink() || path.exists() {
+        return Ok(());
+    }
+    let message = format!("`{}` is there already: a link that leads nowhere", path.display());
+    Err(Trouble::Asked(message, "remove it, or choose another file with `--out`".to_string()))
+}
+
 fn another(left: &Path) -> Trouble {
     let message = format!("`{}` is there already, and belongs to another table", left.display());
     Trouble::Asked(message, "move it away, or choose another file with `--out`".to_string())
@@ -429,22 +436,24 @@ fn may_be_row(tail: &[u8], seed: u64, columns: &Columns) -> bool {
     !tail.contains(&b'\n') || seed_of(tail, columns) == Some(seed)
 }
 
-/// Keeps what was found of a table and of what lies beside it, under one name that is free: who wrote into it may want that back.
+/// Keeps what was found of a table and of what lies beside it, under the first name that is free: who wrote into it may want that back.
+/// A campaign that was interrupted before it had mended all has kept the same already.
 fn keep(table: &Path, found: &[(&str, &[u8])]) -> io::Result<Vec<PathBuf>> {
-    let names = (1u64..).map(|number| match number {
-        1 => beside(table, ".found"),
-        _ => beside(table, &format!(".found-{number}")),
-    });
-    let is_free = |copy: &PathBuf| !is_there(copy) && !neighbours(copy).iter().any(|left| is_there(left));
-    let mut kept = Vec::new();
-    for copy in names.filter(is_free).take(1) {
-        for (suffix, bytes) in found.iter().filter(|(_, bytes)| !bytes.is_empty()) {
-            let copy = beside(&copy, suffix);
-            disk::keep(&copy, bytes)?;
-            kept.push(copy);
+    let found: Vec<_> = found.iter().filter(|(_, bytes)| !bytes.is_empty()).collect();
+    let mut copy = beside(table, ".found");
+    for number in 2u64.. {
+        let kept: Vec<PathBuf> = found.iter().map(|(suffix, _)| beside(&copy, suffix)).collect();
+        let holds = |path: &PathBuf, bytes: &[u8]| read_file(path, bytes.len() as u64).is_ok_and(|kept| kept == bytes);
+        if kept.iter().zip(&found).all(|(path, (_, bytes))| holds(path, bytes)) {
+            return Ok(kept);
         }
+        if !is_there(&copy) && !neighbours(&copy).iter().any(|left| is_there(left)) {
+            kept.iter().zip(&found).try_for_each(|(path, (_, bytes))| disk::keep(path, bytes))?;
+            return Ok(kept);
+        }
+        copy = beside(table, &format!(".found-{number}"));
     }
-    Ok(kept)
+    Ok(Vec::new())
 }
 
 /// The seed of a row that has all columns.

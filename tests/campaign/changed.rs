@@ -440,6 +440,10 @@ fn whatever_was_done_to_the_files_of_a_table_is_told_kept_and_mended() {
         if let Mends(..) = says {
             assert_eq!(std::fs::read_to_string(out.with_extension("csv.found.origin")).unwrap(), text);
             assert_eq!(std::fs::read(out.with_extension("csv.origin")).unwrap(), five[2]);
+            // Where the table is gone too, and what is kept already is not kept twice.
+            ["csv", "csv.sums"].iter().for_each(|of| std::fs::remove_file(out.with_extension(of)).unwrap());
+            std::fs::write(out.with_extension("csv.origin"), &text).unwrap();
+            is_told(case, &mission, &out, says, &whole);
         }
     }
 }
