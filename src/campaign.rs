@@ -16,11 +16,12 @@ use albacore_session::{Plan, Run};
 use indicatif::{ProgressBar, ProgressStyle};
 use origin::Origin;
 use seeds::Seeds;
+use std::collections::BTreeSet;
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Duration;
-use table::{Table, Trouble};
+use table::{Foreign, Table, Trouble};
 use told::Told;
 
 /// Columns for so many reports of each name, at most.
@@ -87,7 +88,8 @@ impl Campaign {
 
     fn carry_out(&self, plan: &Plan) -> Result<Exit, Trouble> {
         let campaign = MissionCampaign::new(plan.clone(), self.reports);
-        let (columns, origin) = (campaign.columns(), Origin::new(plan, &self.choice.set, &self.faults.texts));
+        let (columns, origin) =
+            (campaign.columns(), Origin::new(plan, &self.choice.set, &self.faults.texts, self.seeds.first));
         // Who interrupts finds a table that can be gone on with.
         let interrupted = interruption::flag();
         let mut table = if self.resume {
@@ -95,8 +97,7 @@ impl Campaign {
         } else {
             Table::begin(&self.out, columns, &origin)?
         };
-        let known = table.changed().len();
-        self.warn(&table);
+        self.warn(&mut table);
         let bar = self.bar(table.rows());
         let mut trouble = None;
         let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |row| {
@@ -108,6 +109,8 @@ impl Campaign {
             ControlFlow::Continue(())
         });
         bar.finish_and_clear();
+        // A line that was taken for one that was being written may have been another's.
+        self.warn(&mut table);
         if let Some(trouble) = trouble {
             return Err(trouble);
         }
@@ -125,26 +128,34 @@ impl Campaign {
             }
         }
         let tally = table.tally(columns, &origin)?;
-        // A line that was taken for one that was being written may have been another's.
-        if table.changed().len() > known {
-            self.warn(&table);
-        }
+        self.warn(&mut table);
         self.sum_up(plan, &tally);
         Ok(Exit::Well)
     }
 
-    /// Says which lines were changed, if any were.
-    fn warn(&self, table: &Table) {
-        if table.changed().is_empty() {
-            return;
+    /// Says what others did to the table, and what becomes of it.
+    fn warn(&self, table: &mut Table) {
+        let path = self.out.display();
+        for foreign in table.take_foreign() {
+            let (what, done, copies) = match foreign {
+                Foreign::Lines(lines, copies) => {
+                    let lines = listed(&lines);
+                    let what = format!("`{path}` or its `.sums` was changed since it was written: {lines}");
+                    (what, "rows that were changed are run again, and what is no row is taken out", copies)
+                }
+                Foreign::Origin(copies) => {
+                    let what = format!("`{path}.origin` was changed since it was written");
+                    (what, "it is written again, of this campaign", copies)
+                }
+            };
+            let copies: Vec<String> = copies.iter().map(|copy| format!("`{}`", copy.display())).collect();
+            let kept = match copies.is_empty() {
+                true => String::new(),
+                false => format!("; as it was found it is kept in {}", copies.join(" and ")),
+            };
+            let help = format!("  help: {done}{kept}");
+            message::write(&(message::line(&format!("warning: {what}")) + &message::line(&help)));
         }
-        let (path, lines) = (self.out.display(), listed(table.changed()));
-        let told = format!("warning: `{path}` or its `.sums` was changed since it was written: {lines}");
-        let mut help = "  help: rows that were changed are run again, and what is no row is taken out".to_string();
-        if let Some(found) = table.found() {
-            help += &format!("; the table as it was found is kept in `{}`", found.display());
-        }
-        message::write(&(message::line(&told) + &message::line(&help)));
     }
 
     fn sum_up(&self, plan: &Plan, tally: &Tally) {
@@ -173,8 +184,8 @@ impl Campaign {
             }
             Trouble::Gone(path) => {
                 let what = format!("`{}` is not this campaign's any more: it was removed or replaced", path.display());
-                let help = "what has its name now is left as it is: with the file back in its place, the same command with \
-                            `--resume` goes on";
+                let help = "what has its name now is left as it is: with the file back in its place the same command with \
+                            `--resume` goes on; without it, begin anew with another `--out`";
                 message::error(&what, Some(help));
                 Exit::Failed
             }
@@ -209,7 +220,7 @@ impl Campaign {
 }
 
 /// Line numbers as a person reads them: `lines 3, 7..9`.
-fn listed(lines: &[usize]) -> String {
+fn listed(lines: &BTreeSet<usize>) -> String {
     let mut ranges: Vec<(usize, usize)> = Vec::new();
     for &line in lines {
         match ranges.last_mut() {

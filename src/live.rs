@@ -7,7 +7,6 @@ use crate::message;
 use crate::run::{self, Telling};
 use crate::speaker::{Speaker, no_thread, within};
 use albacore_session::{Lived, Means, Run, Sink, Told, WAITING_BYTES};
-use indicatif::ProgressBar;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,8 +22,8 @@ const CTRL_Z: &str =
 
 /// What a run on a link is done with.
 pub struct Live {
-    /// Shows the progress.
-    pub bar: ProgressBar,
+    /// Shows messages and progress.
+    pub speaker: Speaker,
     /// Where the journal goes, and what was changed for this run.
     pub journal: Option<(Sink, Vec<String>)>,
     /// Raised when the run is to end.
@@ -38,23 +37,19 @@ pub struct Live {
 impl Live {
     /// Runs to the end, gives the vehicle back, and then waits for terminal and disk no longer than is stated.
     pub fn run(self, run: Run) -> Exit {
-        let Live { bar, journal, interrupted, mut kept, telling } = self;
+        let Live { speaker, journal, interrupted, mut kept, telling } = self;
         let stopping = interruption::ctrl_z();
-        let mut speaker = match Speaker::new(bar) {
-            Ok(speaker) => speaker,
-            Err(error) => return no_thread(&error),
-        };
         let mut tell = |told: Told<'_>| {
             if stopping.swap(false, Ordering::Relaxed) {
-                speaker.say(CTRL_Z);
+                message::write(CTRL_Z);
             }
             match told {
-                Told::Notice(notice) => speaker.say(&message::line(&format!("link: {notice}"))),
+                Told::Notice(notice) => message::write(&message::line(&format!("link: {notice}"))),
                 Told::Progress(tick, active) => {
                     kept.ticks();
                     speaker.progress(tick / 10, || active.join(" > "));
                 }
-                Told::JournalFailed(error) => speaker.say(&kept.journal_failed(&error)),
+                Told::JournalFailed(error) => message::write(&kept.journal_failed(&error)),
                 Told::Nothing => {}
             }
         };
@@ -64,7 +59,7 @@ impl Live {
             Err(error) => return no_thread(&error),
         };
         if journal_stalled {
-            speaker.say(&kept.journal_stalled());
+            message::write(&kept.journal_stalled());
         }
         let all_said = speaker.end();
         let (summary, release_failed) = (run.summary(telling.wall_s()), run.release_failed());

@@ -63,6 +63,22 @@ impl Comment {
     }
 }
 
+/// Where the sum of a record in JSON stands, without it: it is the last of its fields.
+const SUM: &str = "\"sum\": \"";
+
+/// A record in JSON, whose last field is `sum`, with the digest of all before it.
+pub fn summed(json: &str) -> String {
+    let before = json.rsplit_once(SUM).map_or(json, |(before, _)| before);
+    let mut digest = Digest::new();
+    digest.bytes(before.as_bytes());
+    format!("{before}{SUM}{digest}\"\n}}\n")
+}
+
+/// Whether a record in JSON is as it was made.
+pub fn is_as_summed(bytes: &[u8]) -> bool {
+    std::str::from_utf8(bytes).is_ok_and(|text| text.contains(SUM) && summed(text) == text)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Comment, Made, is_as_made};

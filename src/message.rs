@@ -6,6 +6,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource};
 use std::collections::BTreeSet;
 use std::fmt;
 use std::io::{IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
 
 /// Lines longer than this, in bytes, are not drawn.
 const LINE_MAX: usize = 400;
@@ -206,7 +207,25 @@ pub fn write(text: &str) {
     raw(&shown(text));
 }
 
-/// Writes what has been made to be seen. Standard error may be closed: then nobody listens, and that is all.
+/// Who takes messages in the place of standard error.
+type Taker = Box<dyn Fn(&str) + Send>;
+
+static TAKER: Mutex<Option<Taker>> = Mutex::new(None);
+
+/// From here on somebody else sees to it that messages are written; or nobody, and then each is written at once.
+pub fn hand_to(taker: Option<Taker>) {
+    *TAKER.lock().unwrap_or_else(PoisonError::into_inner) = taker;
+}
+
+/// Writes what has been made to be seen, or hands it to who does.
 fn raw(text: &str) {
+    match &*TAKER.lock().unwrap_or_else(PoisonError::into_inner) {
+        Some(take) => take(text),
+        None => print(text),
+    }
+}
+
+/// Writes it at once. Standard error may be closed: then nobody listens, and that is all.
+pub fn print(text: &str) {
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }

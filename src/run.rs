@@ -7,6 +7,7 @@ use crate::kept::{Asked, Kept, Place, Record};
 use crate::live::Live;
 use crate::output::Lines;
 use crate::plan::{Choice, Faults, refused};
+use crate::speaker::{Speaker, no_thread};
 use crate::synced::Synced;
 use crate::vehicle::told;
 use crate::{interruption, message, output};
@@ -61,6 +62,11 @@ impl Run {
     /// Runs the mission to its end.
     pub fn run(&self) -> Exit {
         interruption::hear_faults();
+        // A terminal that takes nothing holds no run on a link, from the first message on.
+        let speaker = match self.link.as_ref().map(|_| Speaker::new()).transpose() {
+            Ok(speaker) => speaker,
+            Err(error) => return no_thread(&error),
+        };
         let script = match self.choice.script(&self.script) {
             Ok(script) => script,
             Err(exit) => return exit,
@@ -93,9 +99,10 @@ impl Run {
             Err(exit) => return exit,
         };
         let journal = kept.journal().map(|file| (Box::new(Synced::new(file, 0)) as Sink, self.changes()));
-        if self.link.is_some() {
-            let bar = self.bar(&plan.program.mission.name);
-            return Live { bar, journal, interrupted, kept, telling }.run(run);
+        if let Some(speaker) = speaker {
+            let (json, doing) = (self.json, plan.program.mission.name.clone());
+            speaker.shows(move || bar(json, &doing));
+            return Live { speaker, journal, interrupted, kept, telling }.run(run);
         }
         if let Some((journal, changes)) = journal {
             run.with_journal(journal, &changes);
@@ -114,7 +121,7 @@ impl Run {
             let plan = self.choice.plan(script, &self.script)?;
             let plan = plan.with_faults(&self.faults.read()?).map_err(refused)?;
             // In a wide and slow sea a plume is hours old, and those are computed first.
-            let bar = self.bar(&format!("{} before the run", plan.scenario_name));
+            let bar = bar(self.json, &format!("{} before the run", plan.scenario_name));
             let run = MissionRun::new(&plan, self.seed);
             bar.finish_and_clear();
             return Ok((plan, run.map_err(refused)?));
@@ -160,7 +167,7 @@ impl Run {
 
     /// Ticks in a simulated world until the mission ends or the person interrupts it.
     fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut Kept, interrupted: &AtomicBool) -> Outcome {
-        let bar = self.bar(&plan.program.mission.name);
+        let bar = bar(self.json, &plan.program.mission.name);
         let mut pace = self.rate.map(Pace::new);
         loop {
             if let Some(pace) = &mut pace {
@@ -187,19 +194,20 @@ impl Run {
             }
         }
     }
+}
 
-    fn bar(&self, doing: &str) -> ProgressBar {
-        if self.json || !std::io::stderr().is_terminal() {
-            return ProgressBar::hidden();
-        }
-        let bar = ProgressBar::new_spinner();
-        let style = ProgressStyle::with_template("{spinner} {pos} s  {msg}")
-            .unwrap_or_else(|_| ProgressStyle::default_spinner());
-        bar.set_style(style);
-        bar.set_message(doing.to_string());
-        bar.enable_steady_tick(Duration::from_millis(100));
-        bar
+/// Progress, where a person looks at it.
+fn bar(json: bool, doing: &str) -> ProgressBar {
+    if json || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
     }
+    let bar = ProgressBar::new_spinner();
+    let style =
+        ProgressStyle::with_template("{spinner} {pos} s  {msg}").unwrap_or_else(|_| ProgressStyle::default_spinner());
+    bar.set_style(style);
+    bar.set_message(doing.to_string());
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
 }
 
 /// How the result of a run is told.

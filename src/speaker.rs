@@ -11,67 +11,99 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::Builder;
 use std::time::Duration;
 
-/// Lines that wait at most; further ones are counted.
-const LINES_MAX: usize = 1000;
+/// Messages that wait at most; further ones are counted.
+const WAITING_MAX: usize = 1000;
 /// A terminal that takes nothing for so long, when all is said, is left.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Who speaks to the person, and never waits.
+/// Who speaks to the person, and never waits: while it lives, every message of the program goes through it.
 pub struct Speaker {
-    sender: Sender<Said>,
-    waiting: Arc<AtomicUsize>,
-    unsaid: usize,
+    queue: Option<Queue>,
     spoken: Receiver<()>,
 }
 
+/// The way to the thread that writes.
+#[derive(Clone)]
+struct Queue {
+    sender: Sender<Said>,
+    waiting: Arc<AtomicUsize>,
+    unsaid: Arc<AtomicUsize>,
+}
+
 enum Said {
-    Line(String),
+    Lines(String),
+    /// A progress bar is made, which nobody else may touch: it draws.
+    Bar(Box<dyn FnOnce() -> ProgressBar + Send>),
     /// Seconds, and what is under way.
     Progress(u64, String),
 }
 
 impl Speaker {
-    /// With a progress bar, which nobody else may touch.
-    pub fn new(bar: ProgressBar) -> io::Result<Self> {
+    /// Takes what is said from here on.
+    pub fn new() -> io::Result<Self> {
         let (sender, said) = channel();
         let (speaks, spoken) = channel();
-        let waiting = Arc::new(AtomicUsize::new(0));
-        let waits = Arc::clone(&waiting);
-        Builder::new().name("speaker".into()).spawn(move || speak(&bar, &said, &waits, &speaks))?;
-        Ok(Speaker { sender, waiting, unsaid: 0, spoken })
+        let queue = Queue { sender, waiting: Arc::default(), unsaid: Arc::default() };
+        let waits = Arc::clone(&queue.waiting);
+        Builder::new().name("speaker".into()).spawn(move || speak(&said, &waits, &speaks))?;
+        let lines = queue.clone();
+        message::hand_to(Some(Box::new(move |text| lines.say(text))));
+        Ok(Speaker { queue: Some(queue), spoken })
     }
 
-    /// Says whole lines, unless a thousand wait already.
-    pub fn say(&mut self, lines: &str) {
-        if self.waiting.load(Ordering::Relaxed) >= LINES_MAX {
-            self.unsaid += 1;
-            return;
+    /// Shows progress on a bar.
+    pub fn shows(&self, bar: impl FnOnce() -> ProgressBar + Send + 'static) {
+        if let Some(queue) = &self.queue {
+            queue.put(Said::Bar(Box::new(bar)));
         }
-        if self.unsaid > 0 {
-            let unsaid = std::mem::take(&mut self.unsaid);
-            self.put(Said::Line(format!("{unsaid} messages were left out here: the terminal took none\n")));
-        }
-        self.put(Said::Line(lines.to_string()));
     }
 
     /// Shows where things are, if nothing else is to be said.
-    pub fn progress(&mut self, seconds: u64, doing: impl FnOnce() -> String) {
-        if self.waiting.load(Ordering::Relaxed) == 0 {
-            self.put(Said::Progress(seconds, doing()));
+    pub fn progress(&self, seconds: u64, doing: impl FnOnce() -> String) {
+        if let Some(queue) = self.queue.as_ref().filter(|queue| queue.waiting.load(Ordering::Relaxed) == 0) {
+            queue.put(Said::Progress(seconds, doing()));
         }
     }
 
-    /// Says what waits, as long as the terminal takes it; whether all was said.
-    pub fn end(self) -> bool {
-        let Speaker { sender, spoken, .. } = self;
-        drop(sender);
+    /// Says what waits, as long as the terminal takes it; whether all was said. What is said later is written at once.
+    pub fn end(mut self) -> bool {
+        self.says_all()
+    }
+
+    fn says_all(&mut self) -> bool {
+        if self.queue.take().is_none() {
+            return true;
+        }
+        message::hand_to(None);
         loop {
-            match spoken.recv_timeout(PATIENCE) {
+            match self.spoken.recv_timeout(PATIENCE) {
                 Ok(()) => {}
                 Err(RecvTimeoutError::Disconnected) => return true,
                 Err(RecvTimeoutError::Timeout) => return false,
             }
         }
+    }
+}
+
+/// Whoever ends early has said why.
+impl Drop for Speaker {
+    fn drop(&mut self) {
+        self.says_all();
+    }
+}
+
+impl Queue {
+    /// Says whole lines, unless a thousand messages wait already.
+    fn say(&self, lines: &str) {
+        if self.waiting.load(Ordering::Relaxed) >= WAITING_MAX {
+            self.unsaid.fetch_add(1, Ordering::Relaxed);
+            return;
+        }
+        let unsaid = self.unsaid.swap(0, Ordering::Relaxed);
+        if unsaid > 0 {
+            self.put(Said::Lines(format!("{unsaid} messages were left out here: the terminal took none\n")));
+        }
+        self.put(Said::Lines(lines.to_string()));
     }
 
     fn put(&self, said: Said) {
@@ -81,10 +113,12 @@ impl Speaker {
 }
 
 /// Speaks until nobody has anything to say any more; tells of each that it is said.
-fn speak(bar: &ProgressBar, said: &Receiver<Said>, waiting: &AtomicUsize, speaks: &Sender<()>) {
+fn speak(said: &Receiver<Said>, waiting: &AtomicUsize, speaks: &Sender<()>) {
+    let mut bar = ProgressBar::hidden();
     for said in said {
         match said {
-            Said::Line(lines) => bar.suspend(|| message::write(&lines)),
+            Said::Lines(lines) => bar.suspend(|| message::print(&lines)),
+            Said::Bar(make) => bar = make(),
             Said::Progress(seconds, doing) => {
                 bar.set_position(seconds);
                 bar.set_message(doing);

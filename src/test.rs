@@ -6,8 +6,8 @@ use crate::message;
 use crate::output::Lines;
 use crate::plan::Faults;
 use albacore_session::{
-    Digest, Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, Unread, first_difference, read_file, run_test,
-    same_behavior,
+    Digest, Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, Unread, first_difference, first_foreign_line,
+    read_file, run_test, same_behavior,
 };
 use std::path::{Path, PathBuf};
 
@@ -167,8 +167,12 @@ impl Test {
         }
         if self.accept {
             // What somebody else wrote is no old snapshot.
-            if stored.as_deref().is_some_and(|stored| !is_trace(stored)) {
-                return vec![format!("        `{}` is there already, and is no trace", file.display())];
+            let stored = stored.as_deref().filter(|stored| !stored.is_empty());
+            if let Some(line) = stored.and_then(first_foreign_line) {
+                return vec![
+                    format!("        `{}` is there already, and its line {line} is none of a trace", file.display()),
+                    "        move it away, or take what you wrote out of it".to_string(),
+                ];
             }
             let written = file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
             return match written {
@@ -205,12 +209,6 @@ fn stored(file: &Path, trace: &str) -> Result<Option<String>, String> {
         Err(Unread::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.to_string()),
     }
-}
-
-/// Whether a text has the first line of a trace, or nothing in it.
-fn is_trace(text: &str) -> bool {
-    let head = text.lines().next().unwrap_or_default();
-    text.is_empty() || head.starts_with("mission ") && head.contains("  scenario ") && head.contains("  seed ")
 }
 
 /// The first lines in which two texts differ.

@@ -7,7 +7,6 @@ use crate::plan::{Faults, refused, scenario_script, sound};
 use crate::speaker::{Speaker, no_thread};
 use crate::{interruption, message};
 use albacore_session::{Dialect, FarEnd, Faulty, LinkError, LinkFault, Rows, Transport, World, WrittenUrl};
-use indicatif::ProgressBar;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -49,6 +48,11 @@ impl Vehicle {
     /// Serves until the person interrupts.
     pub fn run(&self) -> Exit {
         interruption::hear_faults();
+        // A terminal that holds who writes must not hold the vehicle.
+        let speaker = match Speaker::new() {
+            Ok(speaker) => speaker,
+            Err(error) => return no_thread(&error),
+        };
         let url = match WrittenUrl::parse(&self.link) {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),
@@ -70,19 +74,14 @@ impl Vehicle {
             Err(error) => return told(&error, Exit::Failed),
         };
         let mut transport = Faulty::new(transport, faults, self.seed);
-        // A terminal that holds who writes must not hold the vehicle.
-        let mut speaker = match Speaker::new(ProgressBar::hidden()) {
-            Ok(speaker) => speaker,
-            Err(error) => return no_thread(&error),
-        };
-        say(&mut speaker, &far_end, &format!("link open at {at}"));
+        say(&far_end, &format!("link open at {at}"));
         let interrupted = interruption::flag();
-        let served = self.serve(&mut far_end, &mut transport, &interrupted, &mut speaker);
+        let served = self.serve(&mut far_end, &mut transport, &interrupted);
         if far_end.unreadable() > 0 {
-            say(&mut speaker, &far_end, &format!("{} lines could not be read", far_end.unreadable()));
+            say(&far_end, &format!("{} lines could not be read", far_end.unreadable()));
         }
         if let Err(error) = &served {
-            speaker.say(&message::error_text(&error.message, Some(&error.help)));
+            message::error(&error.message, Some(&error.help));
         }
         let all_said = speaker.end();
         if served.is_ok() && all_said { Exit::Well } else { Exit::Failed }
@@ -110,7 +109,6 @@ impl Vehicle {
         far_end: &mut FarEnd,
         transport: &mut Faulty<impl Transport>,
         interrupted: &AtomicBool,
-        speaker: &mut Speaker,
     ) -> Result<(), LinkError> {
         let mut pace = Pace::new(self.rate);
         let mut bytes = Vec::new();
@@ -130,7 +128,7 @@ impl Vehicle {
             transport.hold(far_end.is_driven());
             transport.send(&far_end.take_output())?;
             for happening in far_end.take_happenings() {
-                say(speaker, far_end, &happening.to_string());
+                say(far_end, &happening.to_string());
             }
         }
         Ok(())
@@ -138,8 +136,8 @@ impl Vehicle {
 }
 
 /// A line with the vehicle's time.
-fn say(speaker: &mut Speaker, far_end: &FarEnd, what: &str) {
-    speaker.say(&message::line(&format!("{:8.1} s  {what}", far_end.ticks() as f64 / 10.0)));
+fn say(far_end: &FarEnd, what: &str) {
+    message::write(&message::line(&format!("{:8.1} s  {what}", far_end.ticks() as f64 / 10.0)));
 }
 
 /// Tells what is wrong with the link.

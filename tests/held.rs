@@ -111,6 +111,25 @@ fn a_frozen_terminal_does_not_hold_the_served_vehicle() {
     assert_eq!(ended(&mut vehicle).code(), Some(4), "what it had to say was told to nobody");
 }
 
+/// What is said before the first tick waits like the rest: of the script, of the link, and what the progress draws.
+#[test]
+fn a_terminal_that_is_frozen_before_the_start_holds_neither_end() {
+    let folder = empty("frozen-before");
+    let free = std::net::UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let link = format!("udp:127.0.0.1:{free}?dialect=recon");
+    let mut terminals = [Terminal::new(), Terminal::new()];
+    terminals.iter_mut().for_each(Terminal::ctrl_s);
+    let mut vehicle = albacore(&["vehicle", &format!("{EXCURSION}#bay"), "--link", &link]);
+    let mut vehicle = vehicle.args(RATE).stderr(terminals[0].line()).spawn().unwrap();
+    let out = folder.join("run");
+    let mut run = albacore(&["run", EXCURSION, "--link", &link, "--out", &out.display().to_string()]);
+    let mut run = run.args(RATE).stdout(terminals[1].line()).stderr(terminals[1].line()).spawn().unwrap();
+    assert_eq!(ended(&mut run).code(), Some(4), "its result was told to nobody");
+    assert!(std::fs::read_to_string(out.join("run.json")).unwrap().contains("\"outcome\": \"completed\""));
+    send("-TERM", &vehicle);
+    assert_eq!(ended(&mut vehicle).code(), Some(4), "what it had to say was told to nobody");
+}
+
 #[test]
 fn every_signal_that_ends_a_program_gives_the_vehicle_back() {
     let folder = empty("signals");

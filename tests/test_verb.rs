@@ -125,8 +125,42 @@ fn what_is_no_trace_is_not_written_over() {
     let file = project.0.join("snapshots/north-goes_north-2.trace");
     std::fs::write(&file, "my notes").unwrap();
     let (code, said) = project.test(&["--accept"]);
-    assert!(code == Some(1) && said.contains("is there already, and is no trace"), "{said}");
+    assert!(code == Some(1) && said.contains("is there already, and its line 1 is none of a trace"), "{said}");
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "my notes");
+}
+
+/// A file that begins like a snapshot may be somebody's notes on it; one that a merge left with its marks is a snapshot.
+#[test]
+fn what_somebody_wrote_into_a_snapshot_is_not_written_over() {
+    let project = Project::new("annotated", "10 s", "5 m");
+    project.test(&["--accept"]);
+    let accepted = project.snapshot().unwrap();
+    let file = project.0.join("snapshots/north-goes_north-2.trace");
+    let (head, rest) = accepted.split_once('\n').unwrap();
+    let stale = rest.replace("end", "END").replace("0.1 s", "0.2 s");
+    for (text, line) in [
+        (format!("{head}\nmy notes\n"), Some(2)),
+        (format!("{accepted}# it turns too late\n"), Some(accepted.lines().count() + 1)),
+        (format!("{head}\n    1.x s  at\n"), Some(2)),
+        (format!("{head}\n{stale}"), None),
+        (format!("{head}\n<<<<<<< ours\n{rest}||||||| base\n=======\n{stale}>>>>>>> theirs\n"), None),
+        (format!("<<<<<<< ours\r\n{head}\r\n=======\r\n{head}1\r\n>>>>>>> theirs\r\n\r\n{rest}"), None),
+        (String::new(), None),
+    ] {
+        std::fs::write(&file, &text).unwrap();
+        let (code, said) = project.test(&["--accept"]);
+        match line {
+            Some(line) => {
+                let why = format!("is there already, and its line {line} is none of a trace");
+                assert!(code == Some(1) && said.contains(&why) && said.contains("move it away"), "{text}: {said}");
+                assert_eq!(std::fs::read_to_string(&file).unwrap(), text);
+                std::fs::rename(&file, file.with_extension("mine")).unwrap();
+                assert_eq!(project.test(&["--accept"]).0, Some(0), "the fix that is offered works");
+            }
+            None => assert_eq!(code, Some(0), "{text}: {said}"),
+        }
+        assert_eq!(project.snapshot().as_deref(), Some(accepted.as_str()), "{text}");
+    }
 }
 
 #[test]

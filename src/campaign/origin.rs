@@ -1,5 +1,6 @@
 //! What a table was made from, in a small file beside it: a campaign that is taken up again must be the same one.
 
+use crate::made::summed;
 use crate::plan::{ScriptDigest, scripts};
 use crate::{disk, output};
 use albacore_session::{Plan, SOURCE_BYTES_MAX, read_file};
@@ -8,23 +9,25 @@ use std::ffi::OsString;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// All that decides a row beside its seed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// All that decides a row beside its seed, and the seed of the first.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Origin {
     albacore: String,
     mission: String,
     scenario: String,
     set: Vec<String>,
-    /// None in tables from before there were faults.
-    #[serde(default)]
     fault: Vec<String>,
     sources: Vec<ScriptDigest>,
+    /// The first seed; the rows of the others follow.
+    first_seed: u64,
+    /// The digest of all before it.
+    sum: String,
 }
 
 impl Origin {
     /// The origin of what a plan gives. `set` are the texts of the parameters that were changed, `fault`
     /// those of what was made to go wrong.
-    pub fn new(plan: &Plan, set: &[String], fault: &[String]) -> Self {
+    pub fn new(plan: &Plan, set: &[String], fault: &[String], first_seed: u64) -> Self {
         Origin {
             albacore: env!("CARGO_PKG_VERSION").to_string(),
             mission: plan.program.mission.name.clone(),
@@ -32,18 +35,19 @@ impl Origin {
             set: set.to_vec(),
             fault: fault.to_vec(),
             sources: scripts(plan),
+            first_seed,
+            sum: String::new(),
         }
     }
 
-    /// The origin of a table.
-    pub fn read(table: &Path) -> Result<Self, Unread> {
-        let bytes = read_beside(table, ".origin", SOURCE_BYTES_MAX as u64)?;
-        serde_json::from_slice(&bytes).map_err(|error| Unread::Wrong(error.to_string()))
+    /// The origin of a table, as a file beside it holds it.
+    pub fn of(bytes: &[u8]) -> Result<Self, Unread> {
+        serde_json::from_slice(bytes).map_err(|error| Unread::Wrong(error.to_string()))
     }
 
     /// Writes it beside a table, whole or not at all.
     pub fn write(&self, table: &Path) -> io::Result<()> {
-        disk::whole(&beside(table, ".origin"), &output::json(self)?)
+        disk::whole(&beside(table, ".origin"), &summed(&output::json(self)?))
     }
 
     /// What of this is otherwise now, if anything is.
@@ -61,6 +65,9 @@ impl Origin {
         if self.fault != now.fault {
             return changed("", &options("--fault", &self.fault), &options("--fault", &now.fault));
         }
+        if self.first_seed != now.first_seed {
+            return changed("the first seed ", &self.first_seed.to_string(), &now.first_seed.to_string());
+        }
         if self.albacore != now.albacore {
             return changed("albacore ", &self.albacore, &now.albacore);
         }
@@ -76,6 +83,11 @@ impl Origin {
 fn options(name: &str, texts: &[String]) -> String {
     let options: Vec<String> = texts.iter().map(|text| format!("{name} {text}")).collect();
     if options.is_empty() { format!("no {name}") } else { options.join(" ") }
+}
+
+/// The bytes of the file that tells a table's origin.
+pub fn read(table: &Path) -> Result<Vec<u8>, Unread> {
+    read_beside(table, ".origin", SOURCE_BYTES_MAX as u64)
 }
 
 /// Why a file beside a table tells nothing.

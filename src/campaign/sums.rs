@@ -9,6 +9,7 @@ use super::seeds::RUNS_MAX;
 use super::table::Trouble;
 use crate::disk;
 use albacore_trace::Digest;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -41,17 +42,16 @@ impl Sums {
     }
 }
 
-/// What the disk kept of a table.
+/// What is known of a table by its checksums.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Kept<'a> {
-    /// Its lines as they were written, the first too; `None` where one is otherwise now. The last is never `None`.
-    pub lines: Vec<Option<&'a [u8]>>,
-    /// The numbers, from 1, of lines that were written and are otherwise now, and of those that nobody wrote.
-    pub changed: Vec<usize>,
-    /// What stands behind as many lines as have records: the beginning of a line whose record was not written yet, or another's.
+    /// The lines that are as they were written, each once, by their numbers from 1.
+    pub lines: Vec<(usize, &'a [u8])>,
+    /// The numbers of the lines, of the table and of its sums, that are not as they were written.
+    pub changed: BTreeSet<usize>,
+    /// What stands behind as many lines as have records, where nothing was changed before it: the beginning of a line whose record was
+    /// not written yet, or another's.
     pub tail: &'a [u8],
-    /// The number of the line that it begins.
-    pub tail_line: usize,
 }
 
 /// Whether the file beside a table holds checksums, whatever they are of, or nothing: one that holds else is somebody's own.
@@ -60,43 +60,61 @@ pub fn are_sums(table: &Path) -> bool {
         let (sum, end) = record.split_at(record.len().min(RECORD - 1));
         sum.iter().all(u8::is_ascii_hexdigit) && matches!(end, b"" | b"\n")
     };
-    match read_beside(table, ".sums", BYTES_MAX) {
+    match read(table) {
         Ok(sums) => sums.chunks(RECORD).all(is_sum),
         Err(Unread::Missing) => true,
         Err(Unread::Wrong(_)) => false,
     }
 }
 
-/// Reads the checksums of a table, and holds its text against them.
-pub fn kept<'a>(table: &Path, text: &'a [u8]) -> Result<Kept<'a>, Unread> {
-    let sums = read_beside(table, ".sums", BYTES_MAX)?;
-    Ok(held_against(text, &sums))
+/// The checksums of a table, as they stand in the file.
+pub fn read(table: &Path) -> Result<Vec<u8>, Unread> {
+    read_beside(table, ".sums", BYTES_MAX)
 }
 
-/// A line is found by its digest wherever it stands: a line end that was changed, or a line that was moved, takes no others
-/// with it.
-fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
-    let pieces = text.split_inclusive(|b| *b == b'\n');
-    let whole = pieces.clone().filter(|line| line.ends_with(b"\n"));
-    let by_sum: BTreeMap<String, &[u8]> = whole.clone().map(|line| (record(line), line)).collect();
-    let found = |sum: &[u8]| std::str::from_utf8(sum).ok().and_then(|sum| by_sum.get(sum).copied());
-    let records = sums.chunks_exact(RECORD);
-    let mut lines: Vec<Option<&[u8]>> = records.map(found).collect();
-    // The first line is known without a record.
-    let tail_line = lines.len().max(1) + 1;
-    let written: BTreeSet<&[u8]> = sums.chunks_exact(RECORD).collect();
-    let last_line = whole.clone().count();
-    // Of one line more at the end its record may not have been written.
-    let may_lack_it = |number: usize| number == tail_line && number == last_line;
-    let is_foreign = |number, line: &[u8]| !written.contains(record(line).as_bytes()) && !may_lack_it(number);
-    let gone = (1..).zip(&lines).filter(|(_, line)| line.is_none()).map(|(number, _)| number);
-    let foreign = (1..).zip(whole).filter(|(number, line)| is_foreign(*number, line)).map(|(number, _)| number);
-    let changed: BTreeSet<usize> = gone.chain(foreign).collect();
-    let before: usize = pieces.take(tail_line - 1).map(<[u8]>::len).sum();
-    while lines.last().is_some_and(Option::is_none) {
-        lines.pop();
+/// Holds a table against its checksums. What a campaign that was killed leaves has a record for every line but the last.
+pub fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
+    let lines: Vec<&[u8]> = pieces(text).collect();
+    let records: Vec<&[u8]> = pieces(sums).collect();
+    let written =
+        records.iter().zip(&lines).take_while(|(sum, line)| is_whole(line) && **sum == record(line).as_bytes()).count();
+    let (tail, rest) = (&lines[written..], &records[written..]);
+    let is_begun = |sum: &[u8]| {
+        !is_whole(sum) && tail.iter().all(|line| is_whole(line) && record(line).as_bytes().starts_with(sum))
+    };
+    if tail.len() <= 1 && (rest.is_empty() || tail.len() == 1 && rest.len() == 1 && is_begun(rest[0])) {
+        let lines = (1..).zip(lines[..written].iter().copied()).collect();
+        return Kept { lines, changed: BTreeSet::new(), tail: tail.first().copied().unwrap_or_default() };
     }
-    Kept { lines, changed: changed.into_iter().collect(), tail: &text[before..], tail_line }
+    // A line is found by its digest wherever it stands: one that was moved, or put between others, takes none with it.
+    let (mut known, mut changed, mut open) = (Vec::new(), BTreeSet::new(), BTreeMap::new());
+    for (number, sum) in (1..).zip(&records) {
+        match open.entry(*sum) {
+            Entry::Vacant(first) => drop(first.insert(number)),
+            Entry::Occupied(_) => drop(changed.insert(number)),
+        }
+    }
+    for (number, line) in (1..).zip(lines.iter().copied()) {
+        match open.remove(record(line).as_bytes()) {
+            Some(_) => known.push((number, line)),
+            None => drop(changed.insert(number)),
+        }
+    }
+    changed.extend(open.into_values());
+    if changed.is_empty() {
+        // All are there, in another order.
+        let moved = (1..).zip(lines.iter().zip(&records)).filter(|(_, (line, sum))| record(line).as_bytes() != **sum);
+        changed.extend(moved.map(|(number, _)| number));
+    }
+    Kept { lines: known, changed, tail: &[] }
+}
+
+fn pieces(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split_inclusive(|b| *b == b'\n')
+}
+
+fn is_whole(line: &[u8]) -> bool {
+    line.ends_with(b"\n")
 }
 
 fn record(line: &[u8]) -> String {
@@ -124,8 +142,9 @@ mod tests {
     fn is_noticed(text: &[u8], sums: &[u8], what: &str) {
         let kept = held_against(text, sums);
         assert!(!kept.changed.is_empty(), "{what}: not noticed");
-        for (line, written) in kept.lines.iter().zip(TABLE.split_inclusive('\n')) {
-            assert!(line.is_none_or(|line| line == written.as_bytes()), "{what}: taken for what was written");
+        for (_, line) in kept.lines {
+            let is_written = TABLE.split_inclusive('\n').any(|written| written.as_bytes() == line);
+            assert!(is_written, "{what}: taken for what was written");
         }
     }
 
@@ -140,7 +159,9 @@ mod tests {
         assert_eq!((kept.lines.len(), kept.changed.len()), (4, 0));
         // Killed between a line and its record.
         let kept = held_against(TABLE.as_bytes(), &sums().as_bytes()[..3 * super::RECORD + 5]);
-        assert_eq!((kept.lines.len(), kept.changed.len()), (3, 0));
+        assert_eq!((kept.lines.len(), kept.changed.len(), kept.tail), (3, 0, &b"3,completed\n"[..]));
+        let kept = held_against(&TABLE.as_bytes()[..TABLE.len() - 4], &sums().as_bytes()[..3 * super::RECORD]);
+        assert_eq!((kept.lines.len(), kept.changed.len(), kept.tail), (3, 0, &b"3,comple"[..]));
     }
 
     #[test]
@@ -163,6 +184,22 @@ mod tests {
             is_noticed(&TABLE.as_bytes()[..at], sums().as_bytes(), &format!("cut at {at}"));
             is_noticed(TABLE.replacen(&TABLE[at..=at], "", 1).as_bytes(), sums().as_bytes(), &format!("without {at}"));
         }
-        is_noticed(TABLE.as_bytes(), b"", "no sums");
+        for at in 0..3 * super::RECORD {
+            is_noticed(TABLE.as_bytes(), &sums().as_bytes()[..at], &format!("sums cut at {at}"));
+        }
+        for at in 0..=sums().len() {
+            for added in ["\n", "7", "# mine\n", &sums()[super::RECORD..2 * super::RECORD]] {
+                let mut sums = sums();
+                sums.insert_str(at, added);
+                is_noticed(TABLE.as_bytes(), sums.as_bytes(), &format!("{added:?} at {at} of the sums"));
+            }
+        }
+    }
+
+    #[test]
+    fn what_was_moved_is_noticed() {
+        let mut lines: Vec<&str> = TABLE.split_inclusive('\n').collect();
+        lines.swap(1, 2);
+        assert_eq!(held_against(lines.concat().as_bytes(), sums().as_bytes()).changed, [2, 3].into());
     }
 }

@@ -5,11 +5,14 @@
 //! the interruption, and whatever the disk did.
 
 use super::growing::Growing;
-use super::origin::{Origin, Unread, beside};
+use super::origin::{self, Origin, Unread, beside};
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
 use crate::disk;
+use crate::made::is_as_summed;
 use albacore_session::campaign::{Columns, Row, Tally, plain};
+use albacore_session::read_file;
+use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -18,30 +21,40 @@ use std::path::{Path, PathBuf};
 pub struct Table {
     path: PathBuf,
     state: State,
-    rows: u64,
-    /// The last row of an earlier campaign, until it has come out the same again.
-    known: Option<Vec<u8>>,
-    /// Lines that were changed on the disk, by their numbers.
-    changed: Vec<usize>,
-    /// Where the table is kept as it was found, if any were.
-    found: Option<PathBuf>,
+    /// The last row of an earlier campaign and its number, until it has come out the same again.
+    known: Option<(u64, Vec<u8>)>,
     /// What stood behind its last line, if that may be a row that was being written.
     tail: Option<Tail>,
+    /// What others did to it, as long as nobody was told.
+    foreign: Vec<Foreign>,
+}
+
+/// What others did to a table or to what lies beside it, and where that is kept as it was found.
+pub enum Foreign {
+    /// Lines of the table or of its sums, by their numbers.
+    Lines(BTreeSet<usize>, Vec<PathBuf>),
+    /// The origin, which says the same yet.
+    Origin(Vec<PathBuf>),
 }
 
 /// The end of a table, which is known for a row or for another's when that row is run again.
 struct Tail {
     row: u64,
-    /// The table as it was found, and where in it this begins.
-    found: Vec<u8>,
+    /// Where in the table it begins.
     at: usize,
+}
+
+/// A table and its sums, as they were found.
+struct Found {
+    text: Vec<u8>,
+    sums: Vec<u8>,
 }
 
 enum State {
     /// Rows are added at the end.
-    Adding(Growing, Sums),
-    /// Rows in the middle are run again first. The file is left as it is until all of them are known, and locked.
-    Mending(Growing, Lines),
+    Adding { file: Growing, sums: Sums, rows: u64 },
+    /// Rows of those that were written are run again first. The files are left as they are until all of them are known, and locked.
+    Mending { file: Growing, found: Found, lines: Lines },
 }
 
 /// What is known of a table's lines, the first too.
@@ -77,10 +90,7 @@ impl Table {
     }
 
     fn create(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
-        if path.is_symlink() && !path.exists() {
-            let message = format!("`{}` is there already: a link that leads nowhere", path.display());
-            return Err(Trouble::Asked(message, "remove it, or choose another file with `--out`".to_string()));
-        }
+        no_stray_link(path)?;
         let created = disk::new_file(path);
         if created.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::AlreadyExists) {
             let help = match neighbours(path).iter().any(|beside| is_there(beside)) {
@@ -108,25 +118,21 @@ impl Table {
         let mut file = Growing::new(file, path.to_path_buf(), &[]);
         file.add(&head)?;
         sums.add(&head)?;
-        let state = State::Adding(file, sums);
-        Ok(Table {
-            path: path.to_path_buf(),
-            state,
-            rows: 0,
-            known: None,
-            changed: Vec::new(),
-            found: None,
-            tail: None,
-        })
+        let state = State::Adding { file, sums, rows: 0 };
+        Ok(Table { path: path.to_path_buf(), state, known: None, tail: None, foreign: Vec::new() })
     }
 
     /// Goes on with a table, or begins it if there is none.
     pub fn resume(path: &Path, columns: &Columns, origin: &Origin, seeds: Seeds) -> Result<Self, Trouble> {
         match std::fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                if !neighbours(path).iter().any(|left| is_there(left)) {
+                    return Table::create(path, columns, origin);
+                }
                 // A table that is gone is made again, and no other in its place.
                 left_by(path, origin)?;
-                return Table::create(path, columns, origin);
+                no_stray_link(path)?;
+                drop(disk::new_file(path)?);
             }
             Err(error) => return Err(error.into()),
             // A device or a pipe would answer with something else, or never.
@@ -142,116 +148,135 @@ impl Table {
         lock(&file, path)?;
         let mut text = Vec::new();
         file.read_to_end(&mut text)?;
+        let changed_origin = if text.is_empty() { left_by(path, origin)? } else { belongs(path, origin)? };
+        let sums = match sums::read(path) {
+            Err(Unread::Missing) if text.is_empty() => Vec::new(),
+            sums => sums.map_err(|unread| silent(path, ".sums", "which tells whether its rows are whole", unread))?,
+        };
+        let mut table = Table::held(path, file, Found { text, sums }, columns, origin, seeds)?;
+        if let Some(theirs) = changed_origin {
+            table.origin_changed(&theirs, origin)?;
+        }
+        Ok(table)
+    }
+
+    /// Goes on with what is left of a table.
+    fn held(
+        path: &Path,
+        file: File,
+        found: Found,
+        columns: &Columns,
+        origin: &Origin,
+        seeds: Seeds,
+    ) -> Result<Self, Trouble> {
         let head = line(columns.names());
-        if text.is_empty() {
-            left_by(path, origin)?;
-        } else {
-            belongs(path, origin)?;
-        }
-        if !text.contains(&b'\n') {
-            // Not even its first line was written.
-            if !head.starts_with(&text) || !sums::are_sums(path) {
-                return Err(damaged(path));
-            }
-            file.set_len(0)?;
-            return Table::headed(path, file, columns, origin);
-        }
-        let kept = sums::kept(path, &text)
-            .map_err(|unread| silent(path, ".sums", "which tells whether its rows are whole", unread))?;
-        let mut lines: Vec<Option<Vec<u8>>> = kept.lines.iter().map(|line| line.map(<[u8]>::to_vec)).collect();
-        match lines.first_mut() {
-            // What it was is known without it.
-            Some(first @ None) => *first = Some(head),
-            Some(Some(first)) if *first == head => {}
-            None if text.starts_with(&head) && sums::are_sums(path) => lines.push(Some(head)),
-            // Whatever its columns are, the first line that was written is not here, or its sum is not.
-            first if first.is_none() || text.starts_with(&head) => return Err(damaged(path)),
-            _ => {
-                let help = "give the `--reports` that it was begun with, or choose another file with `--out`";
-                let message = format!("`{}` has other columns than this campaign", path.display());
-                return Err(Trouble::Asked(message, help.to_string()));
+        let kept = sums::held_against(&found.text, &found.sums);
+        let mut changed = kept.changed;
+        let (are_written, is_headed) = (changed.is_empty(), !kept.lines.is_empty());
+        // What the first line was is known without it.
+        let mut lines = vec![Some(head.clone())];
+        for (number, line) in kept.lines {
+            let at = if line == head { 0 } else { place(path, number, line, columns, seeds)? };
+            lines.resize(lines.len().max(at + 1), None);
+            lines[at] = Some(line.to_vec());
+            if are_written && number != at + 1 {
+                changed.insert(number);
             }
         }
-        matching(path, &lines[1..], columns, seeds)?;
-        let rows = lines.len() as u64 - 1;
-        let known = if rows > 0 { lines.last().cloned().flatten() } else { None };
-        let state = State::Mending(Growing::new(file, path.clone(), &text), lines);
-        let mut table =
-            Table { path: path.clone(), state, rows, known, changed: kept.changed, found: None, tail: None };
-        let row = kept.tail_line as u64 - 2;
+        let row = lines.len() as u64 - 1;
+        let mut tail = None;
         match kept.tail {
             b"" => {}
+            // Not even the first line was finished.
+            of_head if !is_headed && head.starts_with(of_head) => {}
+            _ if !is_headed => drop(changed.insert(1)),
             // Whether it is the row that was being written is known when that is run again.
-            tail if row < seeds.count() && may_be_row(tail, seeds.first + row, columns) => {
-                table.tail = Some(Tail { row, at: text.len() - tail.len(), found: text.clone() });
+            of_row if row < seeds.count() && may_be_row(of_row, seeds.first + row, columns) => {
+                lines.push(None);
+                tail = Some(Tail { row, at: found.text.len() - of_row.len() });
             }
-            _ if table.changed.is_empty() => table.changes(row),
-            // Lines that were moved there, or are told already.
-            _ => {}
+            _ => drop(changed.insert(lines.len() + 1)),
         }
-        if !table.changed.is_empty() {
-            table.found = Some(keep(path, &text)?);
+        let mut foreign = Vec::new();
+        if !changed.is_empty() {
+            let copies = keep(path, &[("", &found.text), (".sums", &found.sums)])?;
+            foreign.push(Foreign::Lines(changed, copies));
         }
+        if lines.len() == 1 {
+            // Nothing of it is known, and all of it is kept.
+            file.set_len(0)?;
+            return Ok(Table { foreign, ..Table::headed(path, file, columns, origin)? });
+        }
+        let known = (0..).zip(&lines[1..]).filter_map(|(row, line)| Some((row, line.clone()?))).last();
+        let file = Growing::new(file, path.to_path_buf(), &found.text);
+        let state = State::Mending { file, found, lines };
+        let mut table = Table { path: path.to_path_buf(), state, known, tail, foreign };
         table.mended()?;
         Ok(table)
     }
 
     /// Goes on adding rows if all lines are known.
     fn mended(&mut self) -> Result<(), Trouble> {
-        let State::Mending(file, lines) = &mut self.state else { return Ok(()) };
+        let State::Mending { file, found, lines } = &mut self.state else { return Ok(()) };
         let Some(known) = lines.iter().map(Option::as_deref).collect::<Option<Vec<&[u8]>>>() else { return Ok(()) };
         let written = known.concat();
-        let file = if file.text()?.starts_with(&written) {
+        // Others may have written while rows were run.
+        file.text()?;
+        if !sums::read(&self.path).is_ok_and(|sums| sums == found.sums) {
+            return Err(Trouble::Changed(beside(&self.path, ".sums")));
+        }
+        let file = if found.text.starts_with(&written) {
             file.file().set_len(written.len() as u64)?;
             file.file().try_clone()?
         } else {
             disk::replace(&self.path, &written)?
         };
+        let rows = known.len() as u64 - 1;
         let sums = Sums::begin(&self.path, known.into_iter())?;
-        self.state = State::Adding(Growing::new(file, self.path.clone(), &written), sums);
+        self.state = State::Adding { file: Growing::new(file, self.path.clone(), &written), sums, rows };
         Ok(())
     }
 
-    /// The line of a row is not as it was written.
-    fn changes(&mut self, row: u64) {
-        self.changed.push(row as usize + 2);
-        self.changed.sort_unstable();
-        self.changed.dedup();
+    /// The origin is not as it was written, and what this campaign is of is known: it is written again.
+    fn origin_changed(&mut self, theirs: &[u8], origin: &Origin) -> Result<(), Trouble> {
+        let copies = keep(&self.path, &[(".origin", theirs)])?;
+        origin.write(&self.path)?;
+        self.foreign.push(Foreign::Origin(copies));
+        Ok(())
     }
 
     /// The seeds that are still to be run. The last one of the table is run again: if its row comes out otherwise, this
     /// is another interpreter, whatever its version says. Then come those whose rows were changed.
     pub fn missing(&self, seeds: Seeds) -> impl Iterator<Item = u64> + Clone + use<> {
-        let known = self.known.as_ref().map(|_| self.rows - 1);
-        let changed: Vec<u64> = match &self.state {
-            State::Adding(..) => Vec::new(),
-            State::Mending(_, lines) => {
-                (0..).zip(&lines[1..]).filter(|(_, line)| line.is_none()).map(|(row, _)| row).collect()
+        let known = self.known.as_ref().map(|(row, _)| *row);
+        let (written, changed): (u64, Vec<u64>) = match &self.state {
+            State::Adding { rows, .. } => (*rows, Vec::new()),
+            State::Mending { lines, .. } => {
+                let changed = (0..).zip(&lines[1..]).filter(|(_, line)| line.is_none()).map(|(row, _)| row);
+                (lines.len() as u64 - 1, changed.collect())
             }
         };
         let again = known.into_iter().chain(changed).map(move |row| seeds.first + row);
-        again.chain(seeds.after(self.rows))
+        again.chain(seeds.after(written))
     }
 
     /// How many rows it has.
     pub fn rows(&self) -> u64 {
-        self.rows
+        match &self.state {
+            State::Adding { rows, .. } => *rows,
+            State::Mending { lines, .. } => lines[1..].iter().flatten().count() as u64,
+        }
     }
 
-    /// The numbers of lines that were changed on the disk since they were written: their seeds are run again.
-    pub fn changed(&self) -> &[usize] {
-        &self.changed
-    }
-
-    /// Where the table is kept as it was before they were run again.
-    pub fn found(&self) -> Option<&Path> {
-        self.found.as_deref()
+    /// What others did to it, each once.
+    pub fn take_foreign(&mut self) -> Vec<Foreign> {
+        std::mem::take(&mut self.foreign)
     }
 
     /// Adds a row.
     pub fn add(&mut self, seeds: Seeds, row: &Row) -> Result<(), Trouble> {
         let line = line(&row.cells);
-        if let Some(known) = self.known.take() {
+        if let Some((_, known)) = self.known.take() {
             if known == line {
                 return Ok(());
             }
@@ -260,23 +285,21 @@ impl Table {
                 "the interpreter is another one, or the row was changed by hand: begin anew with another `--out`";
             return Err(Trouble::Asked(message, help.to_string()));
         }
-        if let Some(tail) = self.tail.take_if(|tail| seeds.first + tail.row == row.seed)
-            && !line.starts_with(&tail.found[tail.at..])
-        {
-            self.changes(tail.row);
-            if self.found.is_none() {
-                self.found = Some(keep(&self.path, &tail.found)?);
-            }
-        }
         match &mut self.state {
-            State::Adding(file, sums) => {
+            State::Adding { file, sums, rows } => {
                 file.add(&line)?;
                 sums.add(&line)?;
-                self.rows += 1;
+                *rows += 1;
             }
-            State::Mending(_, lines) => {
-                let at = (row.seed - seeds.first) as usize + 1;
-                if let Some(missing) = lines.get_mut(at) {
+            State::Mending { found, lines, .. } => {
+                let at = row.seed - seeds.first;
+                if let Some(tail) = self.tail.take_if(|tail| tail.row == at)
+                    && !line.starts_with(&found.text[tail.at..])
+                {
+                    let copies = keep(&self.path, &[("", &found.text), (".sums", &found.sums)])?;
+                    self.foreign.push(Foreign::Lines([at as usize + 2].into(), copies));
+                }
+                if let Some(missing) = lines.get_mut(at as usize + 1) {
                     *missing = Some(line);
                 }
                 self.mended()?;
@@ -287,17 +310,19 @@ impl Table {
 
     /// What the rows come to, when all are written.
     pub fn tally(&mut self, columns: &Columns, origin: &Origin) -> Result<Tally, Trouble> {
-        match Origin::read(&self.path) {
+        match origin::read(&self.path) {
             // Nobody else could put it back.
             Err(Unread::Missing) => origin.write(&self.path)?,
-            _ => belongs(&self.path, origin)?,
+            Ok(there) if is_as_summed(&there) && same(&there, origin) => {}
+            Ok(theirs) => self.origin_changed(&theirs, origin)?,
+            Err(unread) => return Err(silent(&self.path, ".origin", MADE_FROM, unread)),
         }
         let text = match &mut self.state {
-            State::Adding(file, sums) => {
+            State::Adding { file, sums, .. } => {
                 sums.is_whole()?;
                 file.text()?
             }
-            State::Mending(file, _) => file.text()?,
+            State::Mending { file, .. } => file.text()?,
         };
         let mut reader = csv::Reader::from_reader(&text[..]);
         let mut tally = Tally::default();
@@ -318,23 +343,25 @@ fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
 }
 
+fn no_stray_link(path: &Path) -> Result<(), Trouble> {
+    if !path.is_symlink() || path.exists() {
+        return Ok(());
+    }
+    let message = format!("`{}` is there already: a link that leads nowhere", path.display());
+    Err(Trouble::Asked(message, "remove it, or choose another file with `--out`".to_string()))
+}
+
 fn another(left: &Path) -> Trouble {
     let message = format!("`{}` is there already, and belongs to another table", left.display());
     Trouble::Asked(message, "move it away, or choose another file with `--out`".to_string())
 }
 
-fn damaged(path: &Path) -> Trouble {
-    let message = format!("`{}` or its `.sums` is damaged: the first line is not as it was written", path.display());
-    Trouble::Asked(message, "put both back as they were, or begin anew with another `--out`".to_string())
-}
-
-/// A table that is gone, or empty, is made again where what lies beside it is its own, and no other in its place.
-fn left_by(path: &Path, origin: &Origin) -> Result<(), Trouble> {
+/// A table that is gone, or empty, is made again where what lies beside it is its own, and no other in its place. Gives the origin if it
+/// is not as it was written.
+fn left_by(path: &Path, origin: &Origin) -> Result<Option<Vec<u8>>, Trouble> {
     let [of, sums] = neighbours(path);
-    if is_there(&of) {
-        belongs(path, origin)?;
-    }
-    if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(another(&sums)) } else { Ok(()) }
+    let changed = if is_there(&of) { belongs(path, origin)? } else { None };
+    if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(another(&sums)) } else { Ok(changed) }
 }
 
 /// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
@@ -357,61 +384,84 @@ fn silent(table: &Path, suffix: &str, what: &str, unread: Unread) -> Trouble {
     Trouble::Asked(message, "put that back as it was, or begin anew with another `--out`".to_string())
 }
 
-/// Whether this campaign is the one that the table was begun by.
-fn belongs(path: &Path, origin: &Origin) -> Result<(), Trouble> {
-    let problem = match Origin::read(path) {
-        Err(unread) => return Err(silent(path, ".origin", "which tells what it was made from", unread)),
-        Ok(then) => then.difference(origin),
-    };
-    let Some(problem) = problem else { return Ok(()) };
-    let help = "a table holds one campaign: give what it was begun with, or choose another file with `--out`";
-    Err(Trouble::Asked(format!("`{}` {problem}", path.display()), help.to_string()))
-}
+/// What a table's origin is.
+const MADE_FROM: &str = "which tells what it was made from";
 
-/// The rows that are known must be those of the first seeds.
-fn matching(path: &Path, rows: &[Option<Vec<u8>>], columns: &Columns, seeds: Seeds) -> Result<(), Trouble> {
-    let mut expected = seeds.after(0);
-    for (i, line) in rows.iter().enumerate() {
-        let wanted = expected.next();
-        let Some(line) = line else { continue };
-        let seed = seed_of(line, columns);
-        if seed.is_none() || seed != wanted.map(|seed| seed.to_string()) {
-            let found = seed.map_or("is no row".to_string(), |seed| format!("has seed {seed}"));
-            let message = format!("`{}`, line {}: this {found}", path.display(), i + 2);
-            let help = wanted.map_or_else(
-                || format!("`--seeds {seeds}` ends before it: ask for more seeds"),
-                |seed| format!("`--seeds {seeds}` has seed {seed} here: give the first seed it was begun with"),
-            );
-            return Err(Trouble::Asked(message, format!("{help}, or choose another file with `--out`")));
+/// An error if this campaign is not the one that the table was begun by. Gives the origin if it says the same, and is not as it was
+/// written.
+fn belongs(path: &Path, origin: &Origin) -> Result<Option<Vec<u8>>, Trouble> {
+    let silent = |unread| silent(path, ".origin", MADE_FROM, unread);
+    let bytes = origin::read(path).map_err(silent)?;
+    let problem = Origin::of(&bytes).map_err(silent)?.difference(origin);
+    match problem {
+        None if is_as_summed(&bytes) => Ok(None),
+        None => Ok(Some(bytes)),
+        Some(problem) if is_as_summed(&bytes) => {
+            let help = "a table holds one campaign: give what it was begun with, or choose another file with `--out`";
+            Err(Trouble::Asked(format!("`{}` {problem}", path.display()), help.to_string()))
+        }
+        Some(problem) => {
+            let why = format!("it was changed since it was written, and says that the table {problem}");
+            Err(silent(Unread::Wrong(why)))
         }
     }
-    Ok(())
+}
+
+/// Whether an origin is that of this campaign.
+fn same(bytes: &[u8], origin: &Origin) -> bool {
+    Origin::of(bytes).is_ok_and(|there| there.difference(origin).is_none())
+}
+
+/// Where the row of a known line stands among the lines: an error if it is none of these seeds.
+fn place(path: &Path, number: usize, line: &[u8], columns: &Columns, seeds: Seeds) -> Result<usize, Trouble> {
+    let asked = |message: String, help: String| {
+        Err(Trouble::Asked(message, format!("{help}, or choose another file with `--out`")))
+    };
+    let Some(seed) = seed_of(line, columns) else {
+        let message = match number {
+            1 => format!("`{}` has other columns than this campaign", path.display()),
+            _ => format!("`{}`, line {number}: this is no row of this campaign", path.display()),
+        };
+        return asked(message, "give the `--reports` that it was begun with".to_string());
+    };
+    if !(seeds.first..=seeds.last).contains(&seed) {
+        let message = format!("`{}`, line {number}: this has seed {seed}", path.display());
+        return asked(message, format!("`--seeds {seeds}` ends before it: ask for more seeds"));
+    }
+    Ok((seed - seeds.first) as usize + 1)
 }
 
 /// Whether the end of a table may be the row of a seed, or the beginning of that.
 fn may_be_row(tail: &[u8], seed: u64, columns: &Columns) -> bool {
-    !tail.contains(&b'\n') || seed_of(tail, columns) == Some(seed.to_string())
+    !tail.contains(&b'\n') || seed_of(tail, columns) == Some(seed)
 }
 
-/// Keeps a table as it was found, beside it: who wrote into it may want that back.
-fn keep(table: &Path, text: &[u8]) -> io::Result<PathBuf> {
-    let mut number = 1;
-    loop {
-        let suffix = if number == 1 { ".found".to_string() } else { format!(".found-{number}") };
-        let copy = beside(table, &suffix);
-        match disk::keep(&copy, text) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
-            kept => return kept.map(|()| copy),
+/// Keeps what was found of a table and of what lies beside it, under the first name that is free: who wrote into it may want that back.
+/// A campaign that was interrupted before it had mended all has kept the same already.
+fn keep(table: &Path, found: &[(&str, &[u8])]) -> io::Result<Vec<PathBuf>> {
+    let found: Vec<_> = found.iter().filter(|(_, bytes)| !bytes.is_empty()).collect();
+    let mut copy = beside(table, ".found");
+    for number in 2u64.. {
+        let kept: Vec<PathBuf> = found.iter().map(|(suffix, _)| beside(&copy, suffix)).collect();
+        let holds = |path: &PathBuf, bytes: &[u8]| read_file(path, bytes.len() as u64).is_ok_and(|kept| kept == bytes);
+        if kept.iter().zip(&found).all(|(path, (_, bytes))| holds(path, bytes)) {
+            return Ok(kept);
         }
+        if !is_there(&copy) && !neighbours(&copy).iter().any(|left| is_there(left)) {
+            kept.iter().zip(&found).try_for_each(|(path, (_, bytes))| disk::keep(path, bytes))?;
+            return Ok(kept);
+        }
+        copy = beside(table, &format!(".found-{number}"));
     }
+    Ok(Vec::new())
 }
 
 /// The seed of a row that has all columns.
-fn seed_of(line: &[u8], columns: &Columns) -> Option<String> {
+fn seed_of(line: &[u8], columns: &Columns) -> Option<u64> {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);
     let row = reader.records().next()?.ok().filter(|row| row.len() == columns.names().len())?;
     let column = columns.names().iter().position(|name| name == "seed")?;
-    row.get(column).map(str::to_string)
+    row.get(column)?.parse().ok()
 }
 
 /// A row as it stands in the file. Names and reasons may have line ends in them; a row is one line.

@@ -2,9 +2,10 @@
 //! the same bytes; all that differs from run to run is here.
 
 use crate::clock::Utc;
+use crate::made::{is_as_summed, summed};
 use crate::output;
 use crate::plan::{ScriptDigest, scripts};
-use albacore_session::{Digest, Plan, SOURCE_BYTES_MAX, Summary, read_file};
+use albacore_session::{Plan, SOURCE_BYTES_MAX, Summary, read_file};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -39,23 +40,12 @@ pub struct Record {
     sum: &'static str,
 }
 
-/// Where the sum stands, without it: the last of the record.
-const SUM: &str = "\"sum\": \"";
-
 /// Whether a file is the record of a run, as that has left it.
 pub fn is_record(path: &Path) -> bool {
     let Ok(bytes) = read_file(path, SOURCE_BYTES_MAX as u64) else { return false };
-    let is_as_left =
-        |text: &str| text.rsplit_once(SUM).is_some_and(|(before, _)| summed(before) == text.trim_end_matches(' '));
     // One that has just been created is empty.
-    bytes.is_empty() || std::str::from_utf8(&bytes).is_ok_and(is_as_left)
-}
-
-/// A record with the sum of what stands before that.
-fn summed(before: &str) -> String {
-    let mut digest = Digest::new();
-    digest.bytes(before.as_bytes());
-    format!("{before}{SUM}{digest}\"\n}}\n")
+    let blanks = bytes.iter().rev().take_while(|b| **b == b' ').count();
+    bytes.is_empty() || is_as_summed(&bytes[..bytes.len() - blanks])
 }
 
 /// What the command line asked for.
@@ -105,8 +95,7 @@ impl Record {
     /// As JSON of so many bytes at most: of a reason that is too long only the beginning is kept. The trace has all of it.
     pub fn json(&mut self, room: usize) -> serde_json::Result<String> {
         loop {
-            let text = output::json(self)?;
-            let text = text.rsplit_once(SUM).map_or_else(String::new, |(before, _)| summed(before));
+            let text = summed(&output::json(self)?);
             let (kept, length) = (self.reason.chars().count() / 2, text.len());
             if length <= room || kept == 0 {
                 return Ok(text);

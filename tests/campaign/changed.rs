@@ -1,7 +1,7 @@
 //! Tables that are not as they were written: torn, damaged on the disk, or written into by somebody else. What a campaign wrote is mended,
 //! and what it did not write is told and kept.
 
-use crate::{ABORTING, BOX, FOREVER, REPORTING, command, empty, refused, script, stderr, table, under_way};
+use crate::{ABORTING, BOX, FOREVER, REPORTING, command, empty, refused, rows, script, stderr, table, under_way};
 use albacore_trace::Digest;
 use std::path::Path;
 use std::process::Command;
@@ -43,7 +43,7 @@ fn a_row_that_comes_out_otherwise_is_said() {
     refused(BOX, "1..5", &out, &["--resume"], 2, "seed 2 gives another row today");
     std::fs::write(&out, whole.replace(",completed,", ",")).unwrap();
     sums(&out);
-    refused(BOX, "1..5", &out, &["--resume"], 2, "line 2: this is no row");
+    refused(BOX, "1..5", &out, &["--resume"], 2, "line 2: this is no row of this campaign");
     std::fs::remove_file(out.with_extension("csv.sums")).unwrap();
     refused(BOX, "1..5", &out, &["--resume"], 2, "no `.sums` beside it");
 }
@@ -160,16 +160,12 @@ fn nothing_of_somebody_else_is_taken_for_what_a_campaign_left() {
         ("empty", Some(""), &[(".origin", "mine")], "t.csv.origin`, which tells"),
         ("empty-sums", Some(""), &[(".sums", "mine")], "t.csv.sums` is there already"),
         ("ours-sums", None, &[(".origin", ""), (".sums", "mine")], "t.csv.sums` is there already"),
-        ("text", Some("my notes"), &[(".origin", ""), (".sums", "")], "is damaged"),
-        ("torn-sums", Some("mission"), &[(".origin", ""), (".sums", "mine")], "is damaged"),
-        ("head-sums", Some("mission,HEAD"), &[(".origin", ""), (".sums", "mine, all of it")], "is damaged"),
+        ("text", Some("my notes"), &[(".sums", "")], "no `.origin` beside it"),
+        ("no-sums", Some("my notes"), &[(".origin", "")], "no `.sums` beside it"),
     ] {
         let folder = empty(&format!("theirs-{name}"));
         let out = folder.join("t.csv");
-        let first = std::fs::read_to_string(&whole).unwrap().lines().next().unwrap().to_string() + "\n";
-        head.iter().for_each(|head| {
-            std::fs::write(&out, if head.ends_with("HEAD") { first.as_str() } else { *head }).unwrap();
-        });
+        head.iter().for_each(|head| std::fs::write(&out, head).unwrap());
         for (suffix, text) in beside {
             let at = folder.join(format!("t.csv{suffix}"));
             if text.is_empty() {
@@ -207,6 +203,9 @@ fn a_table_that_is_changed_under_way_is_said() {
         ("added", "t.csv", &|path: &Path| append(path, "my,note\n"), changed),
         ("sums-swapped", "t.csv.sums", &swap, gone),
         ("sums-emptied", "t.csv.sums", &|path: &Path| std::fs::write(path, "").unwrap(), changed),
+        ("sums-added", "t.csv.sums", &|path: &Path| append(path, "mine\n"), changed),
+        ("sums-removed", "t.csv.sums", &|path: &Path| std::fs::remove_file(path).unwrap(), gone),
+        ("overwritten", "t.csv", &|path: &Path| std::fs::write(path, "mine\nand all of it\n").unwrap(), changed),
     ] {
         let folder = empty(&format!("under-way-{name}"));
         let child = under_way(&folder.join("t.csv"), FOREVER, 3);
@@ -216,32 +215,53 @@ fn a_table_that_is_changed_under_way_is_said() {
         assert_eq!(output.status.code(), Some(4), "{name}: {said}");
         assert!(said.contains(why) && said.contains("--resume") && !said.contains("room"), "{name}: {said}");
         assert!(output.stdout.is_empty(), "{name}: a summary of what is no table");
-        if why == gone && name != "removed" {
+        // The fix that is offered works.
+        let (out, away) = (folder.join("t.csv"), folder.join(file).with_extension("away"));
+        if away.exists() {
             assert_eq!(std::fs::read_to_string(folder.join(file)).unwrap(), "user\n", "{name}");
+            std::fs::rename(away, folder.join(file)).unwrap();
+        }
+        let lines = |file: &str| rows(&std::fs::read_to_string(folder.join(file)).unwrap_or_default());
+        let seeds = format!("1..{}", lines("t.csv").max(lines("t.csv.sums")) + 5);
+        let anew = table(BOX, &seeds, &folder.join("anew.csv"), &[]);
+        if name == "sums-removed" {
+            refused(BOX, &seeds, &out, &["--resume"], 2, "or begin anew with another `--out`");
+        } else {
+            assert_eq!(table(BOX, &seeds, &out, &["--resume"]), anew, "{name}");
         }
     }
 }
 
 /// Without it nobody could go on with the table, or read what it was of.
 #[test]
-fn an_origin_that_is_removed_under_way_is_written_again() {
-    // A campaign that ends before the file is removed shows nothing: then one of more runs.
-    for seeds in ["1..60", "1..600", "1..6000"] {
-        let out = empty("under-way-origin").join("t.csv");
-        let origin = out.with_extension("csv.origin");
-        let mut child = under_way(&out, seeds, 0);
-        let written = std::fs::read(&origin).unwrap();
-        std::fs::remove_file(&origin).unwrap();
-        let early = child.try_wait().unwrap().is_none();
-        let output = child.wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        if early {
-            assert_eq!(std::fs::read(&origin).unwrap(), written);
-            table(BOX, seeds, &out, &["--resume"]);
-            return;
-        }
+fn an_origin_that_is_removed_or_changed_under_way_is_written_again() {
+    for theirs in [None, Some("mine\n"), Some("{}\n")] {
+        let name = format!("under-way-origin-{}", theirs.map_or(0, str::len));
+        let is_early = |seeds: &&str| {
+            let out = empty(&name).join("t.csv");
+            let origin = out.with_extension("csv.origin");
+            let mut child = under_way(&out, seeds, 0);
+            let written = std::fs::read(&origin).unwrap();
+            match theirs {
+                Some(text) => std::fs::write(&origin, text).unwrap(),
+                None => std::fs::remove_file(&origin).unwrap(),
+            }
+            let is_early = child.try_wait().unwrap().is_none();
+            let output = child.wait_with_output().unwrap();
+            let said = stderr(&output);
+            assert_eq!(output.status.code(), Some(0), "{said}");
+            if is_early {
+                assert_eq!(std::fs::read(&origin).unwrap(), written);
+                let kept = std::fs::read_to_string(out.with_extension("csv.found.origin")).ok();
+                assert_eq!(kept.as_deref(), theirs);
+                assert_eq!(said.contains("t.csv.origin` was changed since it was written"), theirs.is_some(), "{said}");
+                table(BOX, seeds, &out, &["--resume"]);
+            }
+            is_early
+        };
+        // A campaign that ends before the file is changed shows nothing: then one of more runs.
+        assert!(["1..60", "1..600", "1..6000"].iter().any(is_early), "no campaign was under way");
     }
-    panic!("no campaign was under way when its origin was removed");
 }
 
 /// Who gives the name of another file by mistake is not led to go on with it.
@@ -299,7 +319,8 @@ fn a_line_that_was_added_is_told() {
         assert!(said.contains("was changed since it was written: line") && said.contains('6'), "{added}: {said}");
         let found = folder.join("t.csv.found");
         assert_eq!(std::fs::read_to_string(&found).unwrap(), format!("{four}{added}"));
-        std::fs::remove_file(found).unwrap();
+        std::fs::remove_file(&found).unwrap();
+        std::fs::remove_file(found.with_extension("found.sums")).unwrap();
     }
     // A row that was being written when its campaign ended is none.
     let fifth = whole.split_inclusive('\n').nth(5).unwrap();
@@ -311,5 +332,144 @@ fn a_line_that_was_added_is_told() {
         let output = command(BOX, "1..6", &out, &["--resume"]).output().unwrap();
         assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""), "{end}");
         assert_eq!(std::fs::read_to_string(&out).unwrap(), whole);
+    }
+}
+
+/// Does something to the text of a file, or removes it.
+type Deed = fn(&[u8]) -> Option<Vec<u8>>;
+
+/// What somebody does to one of a table's files.
+const DEEDS: [(&str, Deed); 10] = [
+    ("a short line appended", |text| Some([text, b"mine\n"].concat())),
+    ("a long line appended", |text| Some([text, b"mine, and more of it\n"].concat())),
+    ("the last line again", |text| Some([text, text.split_inclusive(|b| *b == b'\n').next_back().unwrap()].concat())),
+    ("a line put between", |text| {
+        let at = text.iter().position(|b| *b == b'\n').unwrap() + 1;
+        Some([&text[..at], b"mine\n", &text[at..]].concat())
+    }),
+    ("a byte altered", |text| {
+        let (mut text, at) = (text.to_vec(), 3 * text.len() / 5);
+        text[at] = if text[at] == b'1' { b'2' } else { b'1' };
+        Some(text)
+    }),
+    ("cut", |text| Some(text[..text.len() / 2].to_vec())),
+    ("removed", |_| None),
+    ("emptied", |_| Some(Vec::new())),
+    ("the first line overwritten", |text| {
+        let mut text = text.to_vec();
+        text[..8].copy_from_slice(b"my notes");
+        Some(text)
+    }),
+    ("all of it overwritten", |_| Some(b"my notes\nof today\n".to_vec())),
+];
+
+/// What a campaign that goes on says of it.
+enum Says {
+    /// It goes on, says so, and keeps what it found under these names.
+    Mends(&'static str, &'static [&'static str]),
+    /// It does not, and says how it could: with the file as it was, or with another.
+    Refuses(&'static str),
+}
+
+/// Whatever was done to a table, its sums or its origin: it is told in one message, no byte of it is lost, the fix that is offered works,
+/// and the table is then what it would have been.
+#[test]
+fn whatever_was_done_to_the_files_of_a_table_is_told_kept_and_mended() {
+    use Says::{Mends, Refuses};
+    let folder = empty("deeds");
+    let mission = script(&folder, "aborting.alb", ABORTING);
+    let whole = table(&mission, "1..8", &folder.join("whole.csv"), &[]);
+    table(&mission, "1..5", &folder.join("five.csv"), &[]);
+    let five = ["", ".sums", ".origin"].map(|suffix| std::fs::read(folder.join(format!("five.csv{suffix}"))).unwrap());
+    let lines = "`t.csv` or its `.sums` was changed since it was written: line";
+    let both = &["t.csv.found", "t.csv.found.sums"];
+    let origin = Mends("`t.csv.origin` was changed since it was written", &["t.csv.found.origin"]);
+    let unread = Refuses("`t.csv.origin`, which tells what it was made from, cannot be read");
+    for (suffix, file) in ["", ".sums", ".origin"].into_iter().zip(&five) {
+        for (deed, change) in DEEDS {
+            let says = match (suffix, deed) {
+                ("", "removed" | "emptied") => &Mends(lines, &["t.csv.found.sums"]),
+                (".sums", "emptied") => &Mends(lines, &["t.csv.found"]),
+                (".sums", "removed") => &Refuses("`t.csv` has no `.sums` beside it"),
+                ("" | ".sums", _) => &Mends(lines, both),
+                (_, "removed") => &Refuses("`t.csv` has no `.origin` beside it"),
+                _ => &unread,
+            };
+            let (case, at) = (format!("{suffix} {deed}"), empty("deed"));
+            let out = at.join("t.csv");
+            for (suffix, bytes) in ["", ".sums", ".origin"].into_iter().zip(&five) {
+                std::fs::write(at.join(format!("t.csv{suffix}")), bytes).unwrap();
+            }
+            let (path, changed) = (at.join(format!("t.csv{suffix}")), change(file));
+            match &changed {
+                Some(bytes) => std::fs::write(&path, bytes).unwrap(),
+                None => std::fs::remove_file(&path).unwrap(),
+            }
+            is_told(&case, &mission, &out, says, &whole);
+            if let Refuses(_) = says {
+                // Nothing was touched, and both fixes work.
+                assert_eq!(std::fs::read(&path).ok(), changed, "{case}");
+                assert_eq!(table(&mission, "1..8", &at.join("anew.csv"), &[]), whole, "{case}");
+                std::fs::write(&path, file).unwrap();
+                assert_eq!(table(&mission, "1..8", &out, &["--resume"]), whole, "{case}");
+            }
+            let copies = |name: &str| name.contains(".found") && name.ends_with(suffix);
+            let kept = std::fs::read_dir(&at).unwrap().map(|file| file.unwrap().path());
+            let mut kept = kept.filter(|file| copies(&file.file_name().unwrap().to_string_lossy()));
+            let is_kept = kept.any(|file| Some(std::fs::read(file).unwrap()) == changed);
+            let is_none = changed.as_ref().is_none_or(Vec::is_empty);
+            assert!(is_kept || is_none || matches!(says, Refuses(_)), "{case}: what was there is lost");
+            // Then all is well.
+            let output = command(&mission, "1..8", &out, &["--resume"]).output().unwrap();
+            assert!(output.status.success() && !stderr(&output).contains("warning: "), "{case}: {}", stderr(&output));
+        }
+    }
+    // An origin that says the same in other words, and one that says something else.
+    let text = String::from_utf8(five[2].clone()).unwrap();
+    for (case, text, says) in [
+        ("laid out otherwise", text.replace("  ", " "), &origin),
+        ("with a note", text.replacen('{', "{ \"note\": \"mine\",", 1), &origin),
+        ("with another seed", text.replace("\"first_seed\": 1", "\"first_seed\": 2"), &unread),
+        ("without its sum", text.replace("sum", "Sum"), &unread),
+    ] {
+        let out = empty("deed").join("t.csv");
+        for (suffix, bytes) in ["", ".sums", ".origin"].into_iter().zip([&five[0], &five[1], text.as_bytes()]) {
+            std::fs::write(out.with_extension(format!("csv{suffix}")), bytes).unwrap();
+        }
+        is_told(case, &mission, &out, says, &whole);
+        if let Mends(..) = says {
+            assert_eq!(std::fs::read_to_string(out.with_extension("csv.found.origin")).unwrap(), text);
+            assert_eq!(std::fs::read(out.with_extension("csv.origin")).unwrap(), five[2]);
+            // Where the table is gone too, and what is kept already is not kept twice.
+            ["csv", "csv.sums"].iter().for_each(|of| std::fs::remove_file(out.with_extension(of)).unwrap());
+            std::fs::write(out.with_extension("csv.origin"), &text).unwrap();
+            is_told(case, &mission, &out, says, &whole);
+        }
+    }
+}
+
+/// Goes on with a table, and holds what is said to what was to be said.
+#[track_caller]
+fn is_told(case: &str, mission: &str, out: &Path, says: &Says, whole: &str) {
+    let output = command(mission, "1..8", out, &["--resume"]).output().unwrap();
+    let folder = out.parent().unwrap();
+    let said = stderr(&output).replace(&format!("{}/", folder.display()), "");
+    match says {
+        Says::Mends(what, copies) => {
+            assert_eq!(output.status.code(), Some(0), "{case}: {said}");
+            assert_eq!(said.matches("warning: ").count(), 1, "{case}: {said}");
+            assert!(said.contains(what), "{case}: {said}");
+            assert_eq!(std::fs::read_to_string(out).unwrap(), whole, "{case}");
+            let names = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+            let mut kept: Vec<String> = names.filter(|name| name.contains(".found")).collect();
+            kept.sort();
+            assert_eq!(kept, *copies, "{case}");
+            assert!(copies.iter().all(|copy| said.contains(&format!("`{copy}`"))), "{case}: {said}");
+        }
+        Says::Refuses(what) => {
+            assert_eq!(output.status.code(), Some(2), "{case}: {said}");
+            assert!(said.contains(what), "{case}: {said}");
+            assert!(said.contains("put that back as it was, or begin anew with another `--out`"), "{case}: {said}");
+        }
     }
 }

@@ -183,7 +183,7 @@ fn a_table_holds_one_campaign() {
     refused(&mission, "1..5", &out, &["--resume", "--reports", "2"], 2, "has other columns");
     refused(&mission, "1..5", &out, &["--resume", "--in", "duck_2003"], 2, "the scenario `choppy`, not `duck_2003`");
     refused(BOX, "1..5", &out, &["--resume"], 2, "the mission `reporting`, not `box`");
-    refused(&mission, "2..5", &out, &["--resume"], 2, "line 2: this has seed 1");
+    refused(&mission, "2..5", &out, &["--resume"], 2, "was begun with the first seed `1`, not `2`");
     refused(&mission, "1..2", &out, &["--resume"], 2, "line 4: this has seed 3");
     std::fs::copy(&out, &other).unwrap();
     refused(&mission, "1..5", &other, &["--resume"], 2, "`.origin`");

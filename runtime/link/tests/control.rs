@@ -237,6 +237,40 @@ fn the_question_that_goes_before_the_first_goal_has_a_tick_of_its_own() {
     assert_eq!([0; 2].map(|_| commanded(&mut vehicle, &west())), ["", HEADING]);
 }
 
+/// What it does not read waits in a queue, of which all but the last lines are old when it reads on. A line a second says that we are here.
+#[test]
+fn a_vehicle_that_reads_nothing_finds_a_fifth_of_a_minutes_lines_when_it_reads_on() {
+    let asks = |vehicle: &mut Vehicle, minute: &[u8]| -> Vec<String> {
+        minute.iter().map(|mode| vehicle.says(*mode).1).collect()
+    };
+    let mut vehicle = Vehicle::new();
+    vehicle.says(0x01);
+    vehicle.controller.take_over();
+    let requests = asks(&mut vehicle, &[0x01; 290]);
+    let mut vehicle = Vehicle::driven();
+    vehicle.controller.give_back();
+    let returns = asks(&mut vehicle, &[0x0D; 600]);
+    let mut vehicle = Vehicle::driven();
+    let turning = |tick: u32| Command { heading: Heading::from_degrees(f64::from(tick)), ..west() };
+    let goals: Vec<String> = (0..600).map(|tick| commanded(&mut vehicle, &turning(tick))).collect();
+    for (sent, what) in [(&requests, "#E,1,"), (&returns, "#E,0,"), (&goals, "#C,")] {
+        let at: Vec<usize> = (0..).zip(sent).filter(|(_, lines)| !lines.is_empty()).map(|(tick, _)| tick).collect();
+        assert!(sent.iter().all(|lines| lines.is_empty() || lines.contains(what)), "{sent:?}");
+        assert!(at.len() <= 50 + sent.len() / 9 + 2, "{what} {} times", at.len());
+        assert!(at.windows(2).all(|pair| pair[1] - pair[0] <= 10), "{what}: silent for too long, {at:?}");
+    }
+    // The three goals that come last are as they were asked for when they were sent, and it is spoken to as before when it answers.
+    let last = goals.iter().rposition(|lines| lines.contains("Heading")).unwrap();
+    assert!(last >= 600 - 30 && goals[last].contains(&format!(",{}.", last % 360)), "{}", goals[last]);
+    let mut answering = |tick| {
+        let sent = commanded(&mut vehicle, &turning(tick));
+        vehicle.controller.hear(sent.as_bytes());
+        sent
+    };
+    let answered: Vec<String> = (600..700).map(&mut answering).collect();
+    assert!(answered[40..].iter().all(|lines| !lines.is_empty()), "{answered:?}");
+}
+
 /// Echoes all that is said to it.
 fn echoed(vehicle: &mut Vehicle, command: &Command) {
     let sent = commanded(vehicle, command);

@@ -61,12 +61,33 @@ fn paired(left: &Deed, right: &Deed, there: &mut BTreeMap<Rule, Rule>, back: &mu
     }
 }
 
+/// What a merge leaves at the beginning of a line.
+const MERGED: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
+
+/// Whether a text is a trace, whatever it tells: as it was written, stale, or with the marks of a merge in it. Else the number of the
+/// first line that is none of a trace, from 1; of a text without the line that a trace begins with, that is the first.
+pub fn first_foreign_line(text: &str) -> Option<usize> {
+    let is_head = |line: &str| line.starts_with("mission ") && line.contains("  seed ") && line.contains("  tick ");
+    let is_end = |line: &str| line.starts_with("digest ") || line.ends_with(" more lines not written");
+    let is_merged = |line: &str| MERGED.iter().any(|mark| line.starts_with(mark));
+    let is_ours = |line: &str| {
+        line.trim().is_empty() || is_head(line) || timed(line).is_some() || is_end(line) || is_merged(line)
+    };
+    if !text.lines().any(is_head) {
+        return Some(1);
+    }
+    (1..).zip(text.lines()).find(|(_, line)| !is_ours(line)).map(|(number, _)| number)
+}
+
+/// What stands behind the time of a line, if it has one.
+fn timed(line: &str) -> Option<&str> {
+    let (time, rest) = line.trim_start().split_once(" s  ")?;
+    time.bytes().all(|b| b.is_ascii_digit() || b == b'.').then_some(rest)
+}
+
 /// Reads an event line back; none for lines that are not about behavior.
 fn deed(line: &str) -> Option<Deed> {
-    let (time, rest) = line.trim_start().split_once(" s  ")?;
-    if !time.bytes().all(|b| b.is_ascii_digit() || b == b'.') {
-        return None;
-    }
+    let rest = timed(line)?;
     let mut columns = rest.split("  ").map(str::trim).filter(|column| !column.is_empty());
     let verb = columns.next()?;
     let what = columns.next().unwrap_or_default();

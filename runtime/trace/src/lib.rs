@@ -13,6 +13,6 @@ mod wording;
 mod words;
 
 pub use behavior::{BehaviorTrace, Header, Release};
-pub use compare::{Difference, first_difference, same_behavior};
+pub use compare::{Difference, first_difference, first_foreign_line, same_behavior};
 pub use digest::Digest;
 pub use picture::{Depths, Picture};

@@ -57,7 +57,9 @@ enum Want {
         since: Moment,
     },
     /// To listen, once the vehicle says that it drives itself.
-    GiveBack,
+    GiveBack {
+        since: Moment,
+    },
     Leave,
 }
 
@@ -374,8 +376,9 @@ impl Controller {
             return;
         }
         match (self.want, self.control) {
+            _ if self.waits_for_answer(tick) => {}
             (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
-            (Want::GiveBack, _) => self.say(&ToVehicle::Override(false)),
+            (Want::GiveBack { .. }, _) => self.say(&ToVehicle::Override(false)),
             // After late ticks a command comes first.
             (Want::Drive { .. }, Control::InControl | Control::Suspended)
                 if self.spoke < tick && !was_late && self.left == 0 =>
@@ -406,11 +409,11 @@ impl Controller {
             Want::Drive { since } => since,
             // In override although we have not asked: it hands over of its own accord, or to another.
             Want::Listen if active && mode.phase() == Phase::InMission => return Control::Offered,
-            Want::GiveBack if !active && !mode.has(Mode::ENABLED) => {
+            Want::GiveBack { .. } if !active && !mode.has(Mode::ENABLED) => {
                 self.want = Want::Listen;
                 return Control::Monitoring;
             }
-            Want::Listen | Want::GiveBack | Want::Leave => return Control::Monitoring,
+            Want::Listen | Want::GiveBack { .. } | Want::Leave => return Control::Monitoring,
         };
         let suspended = is_suspended(mode);
         if driven && (1..LEFT_LINES).contains(&self.left) {

@@ -169,8 +169,12 @@ impl RoundTrip {
 
     /// The round trip, as far as it is known, in ticks; a mark that has not come back counts for as long as it has waited.
     pub fn ticks(&self, now: Moment) -> u64 {
-        let waits = self.sent.get(self.heard()).map_or(0, |(_, when)| self.between(*when, now));
-        waits.max(self.last)
+        self.waits(now).max(self.last)
+    }
+
+    /// For so many ticks the oldest mark that has not come back has waited.
+    pub fn waits(&self, now: Moment) -> u64 {
+        self.sent.get(self.heard()).map_or(0, |(_, when)| self.between(*when, now))
     }
 
     /// The ticks from one moment to another, by the clock that counts more.

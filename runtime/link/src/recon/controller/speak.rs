@@ -9,6 +9,12 @@ use albacore_vehicle::{Command, Control, TICK_S, Vertical};
 
 /// Who commands nothing says this often that it is there.
 const KEEP_ALIVE_TICKS: u64 = 10;
+/// A vehicle that has left us without an answer for so long may not be reading, or its line is slower than we speak: what is said then
+/// waits in a queue, and is old when it is heard. One that hears nothing for so long leaves by itself; lines that are lost now and then
+/// leave no such gap.
+const UNANSWERED_TICKS: u64 = 50;
+/// It is told something this often, the newest: a tick before it would be told that we are there.
+const SELDOM_TICKS: u64 = KEEP_ALIVE_TICKS - 1;
 /// So many late ticks one after the other are told.
 const LATE_TICKS: u64 = 10;
 
@@ -20,9 +26,21 @@ impl Controller {
         }
     }
 
+    /// Whether the vehicle owes us an answer, and was told something a moment ago.
+    pub(super) fn waits_for_answer(&self, tick: u64) -> bool {
+        let unanswered = match self.want {
+            Want::Drive { since } if self.control == Control::Requesting => {
+                self.round_trip.between(since, self.moment())
+            }
+            Want::GiveBack { since } => self.round_trip.between(since, self.moment()),
+            _ => self.round_trip.waits(self.moment()),
+        };
+        unanswered >= UNANSWERED_TICKS && tick.saturating_sub(self.spoke) < SELDOM_TICKS
+    }
+
     /// Asks for control; the following ticks tell how that goes.
     pub fn take_over(&mut self) {
-        if matches!(self.want, Want::Listen | Want::GiveBack) {
+        if matches!(self.want, Want::Listen | Want::GiveBack { .. }) {
             self.want = Want::Drive { since: Moment { tick: self.next_tick, ..self.moment() } };
             self.round_trip.begin();
             self.say(&ToVehicle::Override(true));
@@ -32,7 +50,7 @@ impl Controller {
     /// Gives control back and listens on; the following ticks say so again until the vehicle drives itself.
     pub fn give_back(&mut self) {
         if let Want::Drive { .. } = self.want {
-            self.want = Want::GiveBack;
+            self.want = Want::GiveBack { since: self.moment() };
             self.control = Control::Monitoring;
             self.say(&ToVehicle::Override(false));
         }
@@ -69,7 +87,7 @@ impl Controller {
             }
         }
         // Something else was said in this tick.
-        if self.spoke + 1 == now {
+        if self.spoke + 1 == now || self.waits_for_answer(now - 1) {
             return;
         }
         let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now)?, goal)));
@@ -94,7 +112,7 @@ impl Controller {
         match self.want {
             Want::Listen => return true,
             // What was heard before we asked is no answer.
-            Want::Drive { .. } | Want::GiveBack => self.want = Want::Leave,
+            Want::Drive { .. } | Want::GiveBack { .. } => self.want = Want::Leave,
             Want::Leave => {
                 if heard.is_some_and(|mode| !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)) {
                     self.control = Control::Released;
