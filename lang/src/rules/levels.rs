@@ -173,7 +173,11 @@ impl<'h> Level<'h> {
 
     /// Whether this speaks of all that the other speaks of.
     pub fn covers(&self, other: &Level<'h>) -> bool {
-        other.parts.iter().all(|part| self.parts.iter().any(|own| same(own.subject(), part.subject())))
+        let speaks_of = |own: &Part, part: &Part| match (own, part) {
+            (Part::Truth(a, true), Part::Truth(b, true)) if compares_the_same(a, b) => true,
+            _ => same(own.subject(), part.subject()),
+        };
+        other.parts.iter().all(|part| self.parts.iter().any(|own| speaks_of(own, part)))
     }
 
     /// Whether the other holds whenever this does.
@@ -186,9 +190,11 @@ impl<'h> Level<'h> {
                 });
                 range.covers(own.unwrap_or(x.range))
             }
-            Part::Truth(x, holds) => {
-                self.parts.iter().any(|own| matches!(own, Part::Truth(y, other) if same(x, y) && holds == other))
-            }
+            Part::Truth(x, holds) => self.parts.iter().any(|own| match own {
+                Part::Truth(y, true) if *holds && is_weaker(x, y) => true,
+                Part::Truth(y, other) => same(x, y) && holds == other,
+                Part::Bound(..) => false,
+            }),
         })
     }
 
@@ -289,6 +295,29 @@ fn equated(e: &Expr) -> Option<(&Expr, f64)> {
         (None, Some(value)) => Some((a, value)),
         (Some(value), None) => Some((b, value)),
         _ => None,
+    }
+}
+
+/// The sides of a comparison, and whether they may be equal.
+fn sides(e: &Expr) -> Option<(&[Expr], bool)> {
+    match &e.kind {
+        ExprKind::Do(Builtin::Lt, sides) => Some((sides, false)),
+        ExprKind::Do(Builtin::Le, sides) => Some((sides, true)),
+        _ => None,
+    }
+}
+
+/// Whether two comparisons are of the same two values, whichever way.
+fn compares_the_same(a: &Expr, b: &Expr) -> bool {
+    let (Some((xs, _)), Some((ys, _))) = (sides(a), sides(b)) else { return false };
+    same(&xs[0], &ys[0]) && same(&xs[1], &ys[1]) || same(&xs[0], &ys[1]) && same(&xs[1], &ys[0])
+}
+
+/// Whether the first is `x <= y` where the second is `x < y`.
+fn is_weaker(a: &Expr, b: &Expr) -> bool {
+    match (sides(a), sides(b)) {
+        (Some((xs, true)), Some((ys, false))) => same(&xs[0], &ys[0]) && same(&xs[1], &ys[1]),
+        _ => false,
     }
 }
 
