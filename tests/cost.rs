@@ -110,6 +110,54 @@ fn large_scripts_are_checked_in_time() {
     }
 }
 
+/// Declarations one on the other, and many of a kind in one: what they take grows with them, however deep they go.
+#[cfg(unix)]
+#[test]
+fn long_chains_are_checked_in_time_and_on_a_small_stack() {
+    let body = "log \"{last}\"\nwait for 1 s";
+    let chain =
+        |first: &str, next: &dyn Fn(usize) -> String, last: &str| format!("{first}\n{}{last}", lines(9000, next));
+    let scripts = [
+        (
+            "lets",
+            script(
+                "",
+                &format!(
+                    "{}\n{body}",
+                    chain("let a0 = 1", &|i| format!("let a{} = a{i} + 1", i + 1), "let last = a9000")
+                ),
+            ),
+        ),
+        (
+            "consts",
+            script(&chain("const c0 = 1 m", &|i| format!("const c{} = c{i} + 1 m", i + 1), "const last = c9000"), body),
+        ),
+        (
+            "records",
+            script(
+                &chain("record R0 { x: Length }", &|i| format!("record R{} {{ r: R{i} }}", i + 1), ""),
+                "wait for 1 s",
+            ),
+        ),
+        ("fields", script(&chain("record Many {", &|i| format!("x{i}: Int,"), "}"), "wait for 1 s")),
+        ("params", script(&chain("fn many(", &|i| format!("x{i}: Int,"), ") -> Int { x0 }"), "wait for 1 s")),
+    ];
+    for (name, script) in scripts {
+        let before = work();
+        let file = std::env::temp_dir().join(format!("albacore-{}-{name}-chain.alb", std::process::id()));
+        std::fs::write(&file, script).unwrap();
+        let mut shell = Command::new("sh");
+        shell.args(["-c", "ulimit -s 2048; exec \"$0\" check \"$1\"", env!("CARGO_BIN_EXE_albacore")]).arg(&file);
+        let output = shell.output().unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        let is_refused = told.contains("limits::record") && output.status.code() == Some(3);
+        assert!(output.status.code() == Some(0) || is_refused, "{name}: {told:.2000}");
+        let took = work() - before;
+        assert!(took < 3, "{name}: {took} s");
+    }
+}
+
 /// What the vehicle's sensors look through at each sample is bounded, and told before anything else is made of it.
 #[test]
 fn a_scenario_has_so_many_clauses_of_one_name_at_most() {

@@ -19,6 +19,7 @@ fn values_from_outside_are_checked() {
         ("lambda=-6s", &["ranges::negative"]),
         ("lambda=1e300 s", &["types::number"]),
         ("lambda=6 m", &["types::mismatch"]),
+        ("trace_plume.threshold=9007199254740993.0", &["types::number"]),
         ("trace_plume.lambda=-6s", &["ranges::negative"]),
         ("cage.band=3m", &[]),
         ("cage.band=300m", &["ranges::outside"]),

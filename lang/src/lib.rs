@@ -28,7 +28,7 @@ pub mod types;
 pub use lower::{
     ExpectProgram, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots,
 };
-pub use rules::FAR_M;
+pub use rules::{FAR_M, hemisphere};
 pub use suggest::{help as suggestion, nearest};
 
 use crate::code::Code;

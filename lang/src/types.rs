@@ -199,3 +199,8 @@ impl TypeTable {
         true
     }
 }
+
+/// Whether values of a type are one number each, of which a range is known.
+pub fn is_number(ty: &Type) -> bool {
+    matches!(ty, Type::Int | Type::Sign | Type::Quantity(_) | Type::Heading | Type::Depth | Type::Altitude)
+}

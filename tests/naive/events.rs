@@ -55,7 +55,7 @@ fn line(p: &Program, event: &Event) -> String {
         Event::Adrift(adrift) => format!("adrift {adrift}"),
         Event::Silenced => "silenced".to_string(),
         Event::Unwritten(lines) => format!("unwritten {lines}"),
-        Event::BottomLost(deepest) => format!("bottom lost {deepest:?}"),
+        Event::BottomLost(deepest) => format!("bottom lost {:?}", deepest + 0.0),
         Event::Lifted(speed) => format!("lifted {speed:?}"),
         Event::LiftedInVain => "lifted in vain".to_string(),
         Event::Risen => "risen".to_string(),

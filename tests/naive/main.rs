@@ -60,7 +60,8 @@ fn trial(seed: u64, had: &mut BTreeMap<String, usize>) -> Result<(), String> {
             errors.map(|e| format!("{} {:?} {}", e.code, script.sources.line_column(e.span()), e.message)).collect();
         return Err(format!("seed {seed} is not sound:\n{}\n{text}", errors.join("\n")));
     }
-    let run = compare::compare(&script, "trial", &mut Chance::new(seed), GENERATED_TICKS_MAX);
+    let mut vehicle = if seed.is_multiple_of(7) { Chance::absurd(seed) } else { Chance::new(seed) };
+    let run = compare::compare(&script, "trial", &mut vehicle, GENERATED_TICKS_MAX);
     for (feature, count) in features {
         *had.entry(feature.to_string()).or_default() += count;
     }
@@ -138,6 +139,35 @@ fn rules() {
         differences.extend(run.difference.map(|difference| format!("{}: {difference}", path.display())));
     }
     assert!(differences.is_empty(), "{} of {} differ\n{}", differences.len(), scripts.len(), differences.join("\n\n"));
+}
+
+/// Whatever sensors tell, what is computed of it lies where the checker has it, in the fields of inputs too: the evaluator looks.
+#[test]
+fn absurd_samples() {
+    let text = "enum Mode { still, rough, wild }
+        input told: Ratio { count: Int, on: Bool, mode: Mode }
+        mission absurd within 2 min {
+            area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+            requires { position, course, heading, speed, flow, told fresh 1 min, else abort }
+            with depth 3 m, speed 1 m/s
+            memory seen: Int = 0
+            on told.count >= 1 { seen = seen + told.count }
+            on true {
+                let named = match told.mode { still { 1 }; rough { 2 }; wild { 3 } }
+                let far = (position - op.center).length
+                log \"{told} {told.count + 1} {told.count * told.count} {told.on} {named} {seen}\"
+                log \"{told * told} {told.peak} {1 / told else 0} {sqrt(abs(told))} {far} {position.sigma * far}\"
+                log \"{abs(told.count)} {1 / (1 + told.count * told.count) else 0} {heading + 1 deg} {flow.length}\"
+            }
+            loop { goto op.center + 1 m toward north within 1 s; steer heading for 1 s at speed min(speed, 2 m/s) }
+        }";
+    let script = albacore_lang::load(Source { name: "absurd.alb".into(), text: text.into() }, &Inputs, None, &[]);
+    let said: Vec<String> = script.findings.iter().map(|finding| finding.message.clone()).collect();
+    assert!(script.is_sound(), "{said:#?}");
+    for seed in 0..20 {
+        let run = compare::compare(&script, "absurd", &mut Chance::absurd(seed), 200);
+        assert!(run.difference.is_none(), "seed {seed}: {}", run.difference.unwrap_or_default());
+    }
 }
 
 /// What is written too fast is left out by both sides alike, and counted.

@@ -8,7 +8,29 @@ use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, Veh
 const HASTE: f64 = 10.0;
 const BOTTOM_M: f64 = 20.0;
 
+/// What sensors may tell that nobody would believe.
+const ABSURD: [f64; 16] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    2.5,
+    3.0,
+    5e-324,
+    1e-150,
+    9007199254740992.0,
+    -9007199254740992.0,
+    9007199254740994.0,
+    1e150,
+    -1e150,
+    1.1e150,
+    f64::INFINITY,
+    f64::NAN,
+];
+
 pub struct Chance {
+    /// Whether its sensors tell absurd numbers.
+    is_absurd: bool,
     channels: Vec<Channel>,
     random: Random,
     tick: u64,
@@ -25,12 +47,20 @@ pub struct Chance {
 }
 
 impl Chance {
+    /// One whose sensors tell absurd numbers, and on a channel `told` four of them.
+    pub fn absurd(seed: u64) -> Self {
+        let mut vehicle = Chance { is_absurd: true, ..Chance::new(seed) };
+        vehicle.channels.push(Channel { name: "told".to_string(), ..vehicle.channels[0].clone() });
+        vehicle
+    }
+
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed, 2);
         let channels = channels::all();
         let ends = [Control::Released, Control::TimedOut, Control::Disconnected, Control::Refused];
         let end = random.percent(8).then(|| (1 + random.bits() % 150, ends[random.below(ends.len())]));
         Chance {
+            is_absurd: false,
             silent: (0..channels.len()).map(|_| if random.percent(15) { random.bits() % 12 } else { 0 }).collect(),
             channels,
             tick: 0,
@@ -107,6 +137,14 @@ impl Vehicle for Chance {
         if self.tick.is_multiple_of(7) {
             let battery = 1.0 - self.tick as f64 / 400.0;
             say(self, channels::BATTERY, &[battery]);
+        }
+        if self.is_absurd {
+            snapshot.push(self.channels.len() as u16 - 1, &[0.0; 4]);
+            for number in snapshot.samples.iter_mut().flat_map(|sample| &mut sample.reading) {
+                if self.random.percent(30) {
+                    *number = ABSURD[self.random.below(ABSURD.len())];
+                }
+            }
         }
         snapshot.control = match self.end {
             Some((tick, control)) if self.tick >= tick => control,

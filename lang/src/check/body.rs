@@ -9,6 +9,7 @@ use crate::source::Span;
 use crate::syntax::tree::{self, Action, Clause, ClauseKind};
 use crate::types::Type;
 use albacore_program::seen::is_unseen;
+use std::collections::BTreeSet;
 
 impl<'t> Checker<'t> {
     pub(super) fn check_fn(&mut self, m: usize, f: &'t tree::Function) {
@@ -43,9 +44,10 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn declare_params(&mut self, params: &[tree::Param], infos: &[super::ParamInfo]) {
-        for (i, (param, info)) in params.iter().zip(infos).enumerate() {
+        let mut names = BTreeSet::new();
+        for (param, info) in params.iter().zip(infos) {
             // That two have one name has been told.
-            let is_second = params[..i].iter().any(|p| p.name.node == param.name.node);
+            let is_second = !names.insert(&param.name.node);
             let id = if is_second {
                 self.declare_hidden(param.name.node.clone(), VarKind::Param, info.ty.clone(), param.name.span)
             } else {

@@ -9,6 +9,7 @@ use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval};
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_arithmetic::INT_MAX;
 
 impl<'t> Checker<'t> {
     /// An expression of a type that is asked for; `what` names what asks.
@@ -41,7 +42,9 @@ impl<'t> Checker<'t> {
             (Type::Int, Type::Sign) if constant.is_some_and(|x| x.abs() == 1.0) => {
                 return Expr { ty: Type::Sign, ..value };
             }
-            (Type::Quantity(d), Type::Int) if d.is_none() && constant.is_some_and(|x| x.fract() == 0.0) => {
+            (Type::Quantity(d), Type::Int)
+                if d.is_none() && constant.is_some_and(|x| x.fract() == 0.0 && x.abs() <= INT_MAX) =>
+            {
                 return Expr { ty: Type::Int, ..value };
             }
             (Type::Quantity(d), Type::Heading) if *d == Dimension::ANGLE && is_constant => {

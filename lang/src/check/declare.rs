@@ -4,9 +4,10 @@ use super::{Checker, ClauseInfo, Def, Lazy, Module, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir;
+use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
 use crate::types::{EnumInfo, RecordInfo, Type};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Operands and operators of a file's signal at most, with those of the signals that it reads.
 const SIGNAL_PARTS_MAX: usize = 256;
@@ -224,20 +225,26 @@ impl<'t> Checker<'t> {
     }
 
     fn fields_once(&mut self, fields: &[tree::Field]) {
-        for (i, field) in fields.iter().enumerate() {
-            if let Some(first) = fields[..i].iter().find(|f| f.name.node == field.name.node) {
-                let message = format!("there are two fields `{}`", field.name.node);
-                let finding = Diagnostic::error(Code::NamesTwice, field.name.span, message);
-                self.report(finding.label(first.name.span, "the first").help("choose another name, or leave it out"));
+        let mut firsts: BTreeMap<&str, Span> = BTreeMap::new();
+        for tree::Field { name, .. } in fields {
+            let first = *firsts.entry(&name.node).or_insert(name.span);
+            if first != name.span {
+                let finding =
+                    Diagnostic::error(Code::NamesTwice, name.span, format!("there are two fields `{}`", name.node));
+                self.report(finding.label(first, "the first").help("choose another name, or leave it out"));
             }
         }
     }
 
+    /// Whether a record is found again in what it holds. One with too many parts is not looked through: it is refused anyway.
     fn holds_itself(&self, id: usize) -> bool {
         let mut seen = BTreeSet::new();
         let mut ahead = vec![id];
+        let mut left = PARTS_MAX;
         while let Some(record) = ahead.pop() {
             for (_, ty) in &self.types.records[record].fields {
+                let Some(fewer) = left.checked_sub(1) else { return false };
+                left = fewer;
                 let mut ty = ty;
                 while let Type::Optional(inner) | Type::List(inner, _) = ty {
                     ty = inner;

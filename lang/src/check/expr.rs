@@ -58,7 +58,7 @@ impl<'t> Checker<'t> {
         use tree::ExprKind as K;
         let span = e.span;
         match &e.kind {
-            K::Number { value, unit } => self.number(*value, unit.as_ref(), span),
+            K::Number { value, whole, unit } => self.number(*value, *whole, unit.as_ref(), span),
             K::Geodetic { latitude_deg, longitude_deg } => {
                 if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 {
                     self.report(
@@ -93,8 +93,9 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn number(&mut self, value: f64, unit: Option<&tree::Name>, span: Span) -> Expr {
-        if unit.is_none() && value.abs() > INT_MAX {
+    fn number(&mut self, value: f64, whole: Option<u64>, unit: Option<&tree::Name>, span: Span) -> Expr {
+        let is_counted = value <= INT_MAX && whole.is_none_or(|whole| whole <= INT_MAX as u64);
+        if unit.is_none() && !is_counted {
             self.report(
                 Diagnostic::error(Code::TypesNumber, span, "this whole number is too large to be counted exactly")
                     .help(format!(
@@ -103,8 +104,19 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         }
+        if unit.is_none() && whole.is_none() && value.fract() == 0.0 {
+            self.report(
+                Diagnostic::error(
+                    Code::TypesNumber,
+                    span,
+                    format!("no number so close to a whole one can be held: this would be {value}"),
+                )
+                .help(format!("write `{value}`, or fewer digits: a number holds about 16")),
+            );
+            return self.unknown(span);
+        }
         match unit {
-            None if value.fract() == 0.0 => self.make(ExprKind::Number(value), Type::Int, span),
+            None if whole.is_some() => self.make(ExprKind::Number(value), Type::Int, span),
             None => self.make(ExprKind::Number(value), Type::Quantity(Dimension::NONE), span),
             Some(word) => match self.unit(self.scope.module, word) {
                 Some(unit) if self.sensible_quantity(value * unit.scale, span) => {

@@ -68,7 +68,7 @@ fn in_degrees(e: &Expr) -> bool {
 /// A number without a unit, or in degrees.
 fn degrees(e: &Expr) -> Option<f64> {
     match &e.kind {
-        ExprKind::Number { value, unit } if unit.is_none() || in_degrees(e) => Some(*value),
+        ExprKind::Number { value, unit, .. } if unit.is_none() || in_degrees(e) => Some(*value),
         ExprKind::Unary(sign, inside) if sign.node == Unary::Neg => Some(-degrees(inside)?),
         ExprKind::Unary(sign, inside) if sign.node == Unary::Pos => degrees(inside),
         _ => None,

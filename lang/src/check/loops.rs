@@ -9,7 +9,7 @@ use crate::dimension::Dimension;
 use crate::hir::{Block, Expr, ExprKind, Interval, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Condition, ForOver};
-use crate::types::Type;
+use crate::types::{Type, is_number};
 use albacore_arithmetic::INT_MAX;
 
 /// A loop that takes no time goes round this often at most: every tick must end, and soon.
@@ -80,9 +80,17 @@ impl<'t> Checker<'t> {
         self.enter_loop();
         let constants =
             matches!(&list.kind, ExprKind::List(elements) if elements.iter().all(|e| e.range.constant().is_some()));
+        let range = match &list.kind {
+            ExprKind::List(elements) if is_number(&element) => elements.iter().map(|e| e.range).reduce(Interval::or),
+            _ => None,
+        };
         let (var, body) = self.in_block(|c| {
             let var = c.declare(name, VarKind::Loop, element);
             c.scope.vars[var].walks_constants = constants;
+            // A copy is walked: its elements stay as they are.
+            if let Some(range) = range {
+                c.scope.vars[var].range = range;
+            }
             (var, c.block(block))
         });
         Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })

@@ -9,6 +9,7 @@ use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_arithmetic::LARGEST;
+use std::collections::BTreeMap;
 
 /// A parameter set from outside, as by `--set cpt_2005.beta=30deg`.
 #[derive(Clone, Debug)]
@@ -44,14 +45,16 @@ impl<'t> Checker<'t> {
 
     pub(super) fn params(&mut self, m: usize, params: &'t [tree::Param], owner: Option<&str>) -> Vec<ParamInfo> {
         let mut infos: Vec<ParamInfo> = Vec::new();
+        let mut firsts: BTreeMap<&str, Span> = BTreeMap::new();
         for param in params {
-            if let Some(earlier) = infos.iter().find(|i| i.name == param.name.node) {
+            let first = *firsts.entry(&param.name.node).or_insert(param.name.span);
+            if first != param.name.span {
                 let finding = Diagnostic::error(
                     Code::NamesTwice,
                     param.name.span,
                     format!("there are two parameters `{}`", param.name.node),
                 )
-                .label(earlier.span, "the first")
+                .label(first, "the first")
                 .help("choose another name, or leave it out");
                 self.report(finding);
             }

@@ -13,7 +13,7 @@ const LIST_CAPACITY_MAX: f64 = 1024.0;
 
 impl<'t> Checker<'t> {
     pub(super) fn declared_unit(&mut self, m: usize, value: &tree::Expr) -> Option<Unit> {
-        let tree::ExprKind::Number { value: number, unit: Some(unit) } = &value.kind else {
+        let tree::ExprKind::Number { value: number, unit: Some(unit), .. } = &value.kind else {
             self.report(
                 Diagnostic::error(Code::UnitsDeclaration, value.span, "a unit is declared by a quantity")
                     .help("for example `unit fathom = 1.8288 m`"),

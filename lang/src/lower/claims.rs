@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use crate::hir::{Interval, Var, VarKind};
-use crate::types::Type;
+use crate::types::{Type, is_number};
 use albacore_arithmetic::counted;
 use albacore_program::{ABSOLUTE, Addr, Claim, Input, Slot, Unit};
 
@@ -78,8 +78,4 @@ impl<'a> Lowering<'a> {
             _ => {}
         }
     }
-}
-
-fn is_number(ty: &Type) -> bool {
-    matches!(ty, Type::Int | Type::Sign | Type::Quantity(_) | Type::Heading | Type::Depth | Type::Altitude)
 }

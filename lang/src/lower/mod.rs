@@ -389,7 +389,8 @@ impl<'a> Lowering<'a> {
             let fields = input.fields.iter().map(|(_, ty)| self.words(ty));
             let width = fields.fold(self.words(&input.ty), u32::saturating_add).min(WORDS_MAX);
             let shape = self.types.shape(&input.ty);
-            self.program.inputs.push(Input { name: input.name.clone(), at: 0, width, kept: 0, shape });
+            let fields = input.fields.iter().map(|(_, ty)| self.types.shape(ty)).collect();
+            self.program.inputs.push(Input { name: input.name.clone(), at: 0, width, kept: 0, shape, fields });
         }
     }
 

@@ -1,9 +1,10 @@
 //! Switching tables to code: for each behavior its guards, and for each rule what happens when it fires.
 
 use super::Lowering;
-use crate::hir::{self, Block, Decl, Expr, ExprKind, InputPart, VarKind, children};
+use crate::hir::{self, Block, Decl, Expr, ExprKind, InputPart, VarId, VarKind, children};
 use crate::types::Type;
 use albacore_program::{Body, Entry, Exit, Op, Rule, Shape, Table, Target, Valued, Watched, WatchedCode};
+use std::collections::{BTreeMap, BTreeSet};
 
 impl<'a> Lowering<'a> {
     pub(super) fn table(&mut self, id: usize, start: usize, behaviors: &[usize], rules: &[hir::Rule]) -> Body {
@@ -112,9 +113,7 @@ impl<'a> Lowering<'a> {
 
     /// What the trace prints of a guard: its names, and for each signal the readings that it is made of.
     fn watched(&mut self, id: usize, guard: &Expr) -> Vec<WatchedCode> {
-        let mut leaves: Vec<(String, Expr)> = Vec::new();
-        self.leaves(id, guard, &mut leaves);
-        leaves
+        self.leaves(id, guard)
             .into_iter()
             .map(|(name, e)| {
                 let code = self.code(&e);
@@ -124,36 +123,43 @@ impl<'a> Lowering<'a> {
             .collect()
     }
 
-    fn leaves(&self, id: usize, e: &Expr, out: &mut Vec<(String, Expr)>) {
-        let shown = match &e.kind {
-            ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..)),
-            ExprKind::Part(inner, _) => matches!(inner.kind, ExprKind::Var(_)),
-            _ => false,
+    /// The readings and names in a guard, in their order. Signals may be made of one another in a long chain: it is followed without
+    /// going down.
+    fn leaves(&self, id: usize, guard: &Expr) -> Vec<(String, Expr)> {
+        let signal = |decl: &'a Decl| match decl {
+            Decl::Signal(var, e) => Some((*var, e)),
+            _ => None,
         };
-        let hides = matches!(&e.kind, ExprKind::Part(inner, _) if !matches!(inner.kind, ExprKind::Var(_)));
-        if shown && !hides {
-            let name = self.sources.text(e.span).to_string();
+        let signals: BTreeMap<VarId, &Expr> =
+            self.hir.activities[self.owner_of(id)].decls.iter().filter_map(signal).collect();
+        let mut seen = BTreeSet::new();
+        let mut out = Vec::new();
+        let mut ahead = vec![guard];
+        while let Some(e) = ahead.pop() {
+            let is_shown = match &e.kind {
+                ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..)),
+                ExprKind::Part(inner, _) => matches!(inner.kind, ExprKind::Var(_)),
+                _ => false,
+            };
+            if !is_shown {
+                let first = ahead.len();
+                children(e, &mut |child| ahead.push(child));
+                ahead[first..].reverse();
+                continue;
+            }
+            let name = self.sources.text(e.span);
             // Its own readings are there already: signals of signals would be gone through once for each way to them.
-            if out.iter().any(|(n, _)| *n == name) {
-                return;
+            if !seen.insert(name) {
+                continue;
             }
-            out.push((name, e.clone()));
-            if let ExprKind::Input(_, InputPart::Hits(limit, _)) = &e.kind {
-                self.leaves(id, limit, out);
+            out.push((name.to_string(), e.clone()));
+            match &e.kind {
+                ExprKind::Input(_, InputPart::Hits(limit, _)) => ahead.push(limit),
+                ExprKind::Var(var) => ahead.extend(signals.get(var)),
+                _ => {}
             }
-            if let ExprKind::Var(var) = e.kind {
-                let unit = &self.hir.activities[self.owner_of(id)];
-                let signal = unit.decls.iter().find_map(|d| match d {
-                    Decl::Signal(v, e) if *v == var => Some(e),
-                    _ => None,
-                });
-                if let Some(signal) = signal {
-                    self.leaves(id, signal, out);
-                }
-            }
-            return;
         }
-        children(e, &mut |child| self.leaves(id, child, out));
+        out
     }
 }
 

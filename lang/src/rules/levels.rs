@@ -88,40 +88,36 @@ impl<'h> Signals<'h> {
 
     /// The variables that an expression reads, those that its signals read among them.
     pub fn reads(&self, e: &'h Expr, read: &mut BTreeSet<VarId>) {
-        if let ExprKind::Var(id) = &e.kind
-            && read.insert(*id)
-            && let Some(signal) = self.0.get(id)
-        {
-            self.reads(signal, read);
+        self.walk(e, read, |_| true);
+    }
+
+    /// Looks at the parts of an expression, and of what its signals are, each signal once and without going down: they may be made of
+    /// one another in a long chain. Ends where it is told to.
+    fn walk(&self, e: &'h Expr, seen: &mut BTreeSet<VarId>, mut goes_on: impl FnMut(&'h Expr) -> bool) -> bool {
+        let mut ahead = vec![e];
+        while let Some(e) = ahead.pop() {
+            if !goes_on(e) {
+                return false;
+            }
+            if let ExprKind::Var(id) = &e.kind
+                && seen.insert(*id)
+            {
+                ahead.extend(self.0.get(id));
+            }
+            children(e, &mut |child| ahead.push(child));
         }
-        children(e, &mut |child| self.reads(child, read));
+        true
     }
 
     /// Whether what held when a behavior was entered may hold when it is done: no edge is in it, nor the end of a body.
     pub fn outlasts(&self, e: &'h Expr) -> bool {
-        self.has_none(e, &|e| matches!(e.kind, ExprKind::Becomes(_) | ExprKind::Done), &mut BTreeSet::new())
+        self.walk(e, &mut BTreeSet::new(), |e| !matches!(e.kind, ExprKind::Becomes(_) | ExprKind::Done))
     }
 
     /// Whether what holds goes on to hold at the entry of a behavior, where times begin anew.
     fn is_level(&self, e: &'h Expr) -> bool {
-        let is_timed = |e: &Expr| matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..));
-        self.outlasts(e) && self.has_none(e, &is_timed, &mut BTreeSet::new())
-    }
-
-    /// Whether no part of an expression, nor of what its signals are, is of a kind.
-    fn has_none(&self, e: &'h Expr, kind: &dyn Fn(&Expr) -> bool, seen: &mut BTreeSet<VarId>) -> bool {
-        if kind(e) {
-            return false;
-        }
-        if let ExprKind::Var(id) = &e.kind
-            && let Some(signal) = self.0.get(id)
-            && seen.insert(*id)
-        {
-            return self.has_none(signal, kind, seen);
-        }
-        let mut none = true;
-        children(e, &mut |child| none = none && self.has_none(child, kind, seen));
-        none
+        let is_untimed = |e: &Expr| !matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..));
+        self.outlasts(e) && self.walk(e, &mut BTreeSet::new(), is_untimed)
     }
 
     /// What stands behind the name of a signal.
@@ -177,7 +173,11 @@ impl<'h> Level<'h> {
 
     /// Whether this speaks of all that the other speaks of.
     pub fn covers(&self, other: &Level<'h>) -> bool {
-        other.parts.iter().all(|part| self.parts.iter().any(|own| same(own.subject(), part.subject())))
+        let speaks_of = |own: &Part, part: &Part| match (own, part) {
+            (Part::Truth(a, true), Part::Truth(b, true)) if compares_the_same(a, b) => true,
+            _ => same(own.subject(), part.subject()),
+        };
+        other.parts.iter().all(|part| self.parts.iter().any(|own| speaks_of(own, part)))
     }
 
     /// Whether the other holds whenever this does.
@@ -190,9 +190,11 @@ impl<'h> Level<'h> {
                 });
                 range.covers(own.unwrap_or(x.range))
             }
-            Part::Truth(x, holds) => {
-                self.parts.iter().any(|own| matches!(own, Part::Truth(y, other) if same(x, y) && holds == other))
-            }
+            Part::Truth(x, holds) => self.parts.iter().any(|own| match own {
+                Part::Truth(y, true) if *holds && is_weaker(x, y) => true,
+                Part::Truth(y, other) => same(x, y) && holds == other,
+                Part::Bound(..) => false,
+            }),
         })
     }
 
@@ -293,6 +295,29 @@ fn equated(e: &Expr) -> Option<(&Expr, f64)> {
         (None, Some(value)) => Some((a, value)),
         (Some(value), None) => Some((b, value)),
         _ => None,
+    }
+}
+
+/// The sides of a comparison, and whether they may be equal.
+fn sides(e: &Expr) -> Option<(&[Expr], bool)> {
+    match &e.kind {
+        ExprKind::Do(Builtin::Lt, sides) => Some((sides, false)),
+        ExprKind::Do(Builtin::Le, sides) => Some((sides, true)),
+        _ => None,
+    }
+}
+
+/// Whether two comparisons are of the same two values, whichever way.
+fn compares_the_same(a: &Expr, b: &Expr) -> bool {
+    let (Some((xs, _)), Some((ys, _))) = (sides(a), sides(b)) else { return false };
+    same(&xs[0], &ys[0]) && same(&xs[1], &ys[1]) || same(&xs[0], &ys[1]) && same(&xs[1], &ys[0])
+}
+
+/// Whether the first is `x <= y` where the second is `x < y`.
+fn is_weaker(a: &Expr, b: &Expr) -> bool {
+    match (sides(a), sides(b)) {
+        (Some((xs, true)), Some((ys, false))) => same(&xs[0], &ys[0]) && same(&xs[1], &ys[1]),
+        _ => false,
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::fixed::Fixed;
 use super::swapped;
+use super::swapped::hemisphere;
 use crate::code::Code;
 use crate::diagnostic::{Diagnostic, distance};
 use crate::hir::{Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
@@ -97,7 +98,8 @@ pub(super) fn goals(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnos
     let activity = &hir.activities[mission];
     let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
     let mut fixed = Fixed::of(hir, types, mission, frame);
-    let mut outside: Vec<(Span, f64, Span)> = Vec::new();
+    let mut outside: Vec<(Span, f64, Span, Option<String>)> = Vec::new();
+    let asked = |place| frame.and_then(|frame| hemisphere(frame.to_geodetic(place), frame.origin));
     for id in hir.called_from(mission) {
         let unit = fixed.unit(id);
         for block in hir.activities[id].blocks() {
@@ -108,9 +110,9 @@ pub(super) fn goals(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnos
                     return;
                 };
                 let Some(goal) = args.first() else { return };
-                let places =
-                    fixed.places(unit, goal).into_iter().map(|(span, place)| (span, -area.gap(place), goal.span));
-                outside.extend(places.filter(|(_, out, _)| *out > GOAL_MARGIN_M));
+                let places = fixed.places(unit, goal).into_iter();
+                let places = places.map(|(span, place)| (span, -area.gap(place), goal.span, asked(place)));
+                outside.extend(places.filter(|(_, out, ..)| *out > GOAL_MARGIN_M));
             });
         }
     }
@@ -119,12 +121,15 @@ pub(super) fn goals(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnos
     outside.retain(|(span, ..)| told.insert(*span));
     outside
         .into_iter()
-        .map(|(span, out, goal)| {
+        .map(|(span, out, goal, asked)| {
             let message = format!("this goal is {} outside the area of the mission `{}`", distance(out), activity.name);
             let finding = Diagnostic::warning(Code::AreasGoal, span, message).label(written, "the area");
             let contains = goal.file == span.file && goal.start <= span.start && span.end <= goal.end;
             let finding = if contains { finding } else { finding.label(goal, "the vehicle goes there") };
-            finding.help("if the vehicle shall not go there, look for minutes exchanged, and for north and east; else widen the area")
+            finding.help(asked.unwrap_or_else(|| {
+                "if the vehicle shall not go there, look for minutes exchanged, and for north and east; else widen the area"
+                    .to_string()
+            }))
         })
         .collect()
 }

@@ -30,6 +30,23 @@ pub fn of_mission(hir: &Hir, mission: usize, places: &[Geodetic]) -> Option<Diag
     })
 }
 
+/// What to ask of a place far from another that would lie near it on the other side of the equator, of Greenwich, or of both.
+pub fn hemisphere(place: Geodetic, other: Geodetic) -> Option<String> {
+    let letters = |is_negative: bool, [positive, negative]: [&'static str; 2]| {
+        if is_negative { (positive, negative) } else { (negative, positive) }
+    };
+    let (lat, lon) = (place.latitude_rad, place.longitude_rad);
+    let (north, east) = (letters(lat < 0.0, ["N", "S"]), letters(lon < 0.0, ["E", "W"]));
+    let sides =
+        [(lat, lon, vec![]), (-lat, lon, vec![north]), (lat, -lon, vec![east]), (-lat, -lon, vec![north, east])];
+    let meant = sides.into_iter().find(|&(latitude_rad, longitude_rad, _)| {
+        Geodetic { latitude_rad, longitude_rad }.great_circle(other) < NEAR_M
+    });
+    let letters: Vec<String> =
+        meant?.2.into_iter().map(|(meant, written)| format!("`{meant}` for `{written}`")).collect();
+    (!letters.is_empty()).then(|| format!("did you mean {}?", letters.join(" and ")))
+}
+
 /// Whether an area of a file is far from all places, and would be near one if its positions were exchanged.
 pub(super) fn would_be_near(area: &Expr, places: &[Geodetic]) -> bool {
     let Some(middle) = of_file(area).then(|| origin_of(area)).flatten() else { return false };

@@ -235,13 +235,25 @@ fn nothing(b: &Builder) -> Expr {
     Expr { kind: ExprKind::None, span: Span { file: b.file, start: 0, end: 0 } }
 }
 
-/// A number as it is written. A whole one that is not held exactly is the next larger, so that it is found to be too large.
-fn value(text: &str) -> f64 {
-    let value: f64 = text.parse().unwrap_or(0.0);
-    match text.parse::<u64>() {
-        Ok(whole) if value as u64 != whole => value.next_up(),
-        _ => value,
+/// The whole number that a number is written as, told by its digits: what is held of it may have been rounded.
+fn whole(text: &str) -> Option<u64> {
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = format!("{before}{after}");
+    let leading = digits.len() - digits.trim_start_matches('0').len();
+    let digits = digits.trim_matches('0');
+    if digits.is_empty() {
+        return Some(0);
     }
+    // An exponent too large to be read is as good as the largest.
+    let largest = if exponent.starts_with('-') { i64::MIN } else { i64::MAX };
+    let places = exponent.parse().unwrap_or(largest).saturating_add(before.len() as i64 - leading as i64);
+    if places < digits.len() as i64 {
+        return None;
+    }
+    let most = u64::MAX.ilog10() as usize + 1;
+    let zeros = usize::try_from(places).unwrap_or(most).min(most).saturating_sub(digits.len());
+    Some(format!("{digits}{}", "0".repeat(zeros)).parse().unwrap_or(u64::MAX))
 }
 
 fn primary(b: &mut Builder, pair: P) -> Expr {
@@ -255,8 +267,9 @@ fn primary(b: &mut Builder, pair: P) -> Expr {
                 return Expr { kind: ExprKind::Name(String::new()), span };
             }
             let mut inner = pair.into_inner();
-            let value = inner.next().map_or(0.0, |n| value(n.as_str()));
-            ExprKind::Number { value, unit: inner.next().map(|u| name(b, u)) }
+            let text = inner.next().map_or("0", |number| number.as_str());
+            let unit = inner.next().map(|u| name(b, u));
+            ExprKind::Number { value: text.parse().unwrap_or(0.0), whole: whole(text), unit }
         }
         Rule::geodetic => {
             let mut halves = pair.into_inner().map(|half| degrees(b, half));

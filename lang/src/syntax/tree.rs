@@ -366,8 +366,17 @@ impl Expr {
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "each variant is what it says")]
 pub enum ExprKind {
-    Number { value: f64, unit: Option<Name> },
-    Geodetic { latitude_deg: f64, longitude_deg: f64 },
+    /// `whole` is the whole number that is written, however it is spelt and before it is rounded to `value`: `u64::MAX` stands for
+    /// any that is larger, none for one with a fraction.
+    Number {
+        value: f64,
+        whole: Option<u64>,
+        unit: Option<Name>,
+    },
+    Geodetic {
+        latitude_deg: f64,
+        longitude_deg: f64,
+    },
     Text(Vec<TextPart>),
     Bool(bool),
     None,
@@ -381,8 +390,15 @@ pub enum ExprKind {
     Unary(Spanned<Unary>, Box<Expr>),
     Binary(Spanned<Binary>, Box<Expr>, Box<Expr>),
     HasHeldFor(Box<Expr>, Box<Expr>),
-    If { condition: Box<Condition>, then: Block, otherwise: Option<Block> },
-    Match { on: Box<Expr>, arms: Vec<MatchArm> },
+    If {
+        condition: Box<Condition>,
+        then: Block,
+        otherwise: Option<Block>,
+    },
+    Match {
+        on: Box<Expr>,
+        arms: Vec<MatchArm>,
+    },
 }
 
 /// `a, b { … }` of a `match`; no names means `else`.

@@ -162,6 +162,8 @@ pub struct Input {
     pub kept: u32,
     /// Its shape, for the trace.
     pub shape: Shape,
+    /// The shapes of its further fields, which follow it in a sample.
+    pub fields: Vec<Shape>,
 }
 
 /// The layout of an input's block of words, from its start.
@@ -175,10 +177,15 @@ impl Input {
     /// The latest sample.
     pub const VALUE: u32 = 3;
 
-    /// Whether a sample can be a value of this input. Its further fields may be any numbers.
+    /// Whether a sample can be a value of this input, with its further fields as far as it has them.
     pub fn admits(&self, sample: &[f64]) -> bool {
-        let words = self.shape.words() as usize;
-        sample.iter().all(|x| Interval::ANY.holds(*x)) && (sample.len() < words || self.shape.admits(&sample[..words]))
+        let mut rest = sample;
+        sample.iter().all(|x| Interval::ANY.holds(*x))
+            && std::iter::once(&self.shape).chain(&self.fields).all(|shape| {
+                let Some((value, after)) = rest.split_at_checked(shape.words() as usize) else { return true };
+                rest = after;
+                shape.admits(value)
+            })
     }
 
     /// The words of its block.

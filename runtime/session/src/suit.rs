@@ -71,7 +71,10 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
         return Some(swapped);
     }
     let places = match nearest.and_then(|(_, _, here)| Some((here, there?))) {
-        Some((here, there)) => format!("the area lies about {here}, {what} about {there}"),
+        Some((here, there)) => {
+            let asked = albacore_lang::hemisphere(here, there).map_or(String::new(), |asked| format!(" ({asked})"));
+            format!("the area lies about {here}{asked}, {what} about {there}")
+        }
         None => "both are in metres from one origin".to_string(),
     };
     let own = script.missions().find(|info| info.name == mission).and_then(|info| info.scenario.as_deref());

@@ -79,7 +79,7 @@ fn program(first_line: u32) -> Program {
             name: "source".into(),
             fields: vec![(String::new(), valued(Shape::Point)), ("at_edge".into(), valued(Shape::Bool))],
         }],
-        inputs: vec![Input { name: "chemical".into(), at: 0, width: 1, kept: 0, shape: Shape::Int }],
+        inputs: vec![Input { name: "chemical".into(), at: 0, width: 1, kept: 0, shape: Shape::Int, fields: vec![] }],
         ..Program::default()
     }
 }

@@ -55,7 +55,7 @@ impl Evaluator<'_> {
         let deepest = floor.map_or(high, |floor| floor.max(0.0).min(high));
         let lost = known.is_none() && lowest > 0.0 && !(echo.is_none() && young);
         if lost != std::mem::replace(&mut self.bottom.lost, lost) {
-            self.w.say(if lost { format!("bottom lost {deepest:?}") } else { "bottom found".into() });
+            self.w.say(if lost { format!("bottom lost {:?}", deepest + 0.0) } else { "bottom found".into() });
         }
         // What is measured too low leads up, whatever the depth is told to be.
         let low_by = (0.25 * lowest).min(0.5);

@@ -152,13 +152,28 @@ impl<'p> World<'p> {
         self.types.shape(ty)
     }
 
-    /// Rule 2: every input is sampled once a tick. A sample with something in it that is no number counts as none.
+    /// Rule 2: every input is sampled once a tick. A sample with something in it that cannot be counts as none.
     pub fn sense(&mut self, channels: &[Channel], samples: &[Sample]) {
         for (input, sensed) in self.hir.inputs.iter().zip(&mut self.inputs) {
             let own = |sample: &&Sample| channels[sample.channel as usize].name == input.name;
             let width = sensed.latest.len().min(4);
             let valid = samples.iter().filter(own).map(|sample| &sample.reading[..width]);
-            let valid: Vec<&[f64]> = valid.filter(|numbers| numbers.iter().all(|x| x.is_finite())).collect();
+            let types = std::iter::once(&input.ty).chain(input.fields.iter().map(|(_, ty)| ty));
+            let can_be = |numbers: &&[f64]| {
+                let mut words = numbers.iter();
+                numbers.iter().all(|x| x.abs() <= 1e150)
+                    && types.clone().all(|ty| {
+                        let mut words = words.by_ref().take(self.types.words(ty) as usize);
+                        let below = |count: f64| move |x: &f64| x.fract() == 0.0 && (0.0..count).contains(x);
+                        match ty {
+                            Type::Bool => words.all(below(2.0)),
+                            Type::Enum(id) => words.all(below(self.types.enums[*id].variants.len() as f64)),
+                            Type::Int | Type::Sign => words.all(|x| x.fract() == 0.0 && x.abs() <= 9007199254740992.0),
+                            _ => words.count() < usize::MAX,
+                        }
+                    })
+            };
+            let valid: Vec<&[f64]> = valid.filter(can_be).collect();
             sensed.peak = sensed.latest[0];
             let Some(latest) = valid.last() else { continue };
             sensed.peak = valid.iter().map(|numbers| numbers[0]).fold(f64::NEG_INFINITY, f64::max);

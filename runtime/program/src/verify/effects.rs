@@ -104,9 +104,13 @@ impl Ranges<'_> {
                 self.timer(known, to);
             }
             Op::Elapsed { to, .. } => known.set(&self.ground, to, Word::TRUTH, no_tells()),
-            Op::At { to, words, .. } => {
+            Op::At { to, list, words, .. } => {
+                let element = self.element(known, list, words);
                 known.forget(&self.ground, to, words.saturating_add(1));
                 known.set(&self.ground, to, Word::TRUTH, no_tells());
+                for (slot, word) in (to.saturating_add(1)..).zip(element) {
+                    known.set(&self.ground, slot, word, no_tells());
+                }
             }
             Op::Sort { .. } | Op::PushSorted { .. } | Op::Remove { .. } | Op::Push { .. } | Op::Top { .. } => {
                 self.list_changes(op, known);

@@ -34,7 +34,7 @@ impl Word {
         (both.low <= both.high).then_some(Word { range: both, ..self })
     }
 
-    fn or(self, other: Word) -> Self {
+    pub fn or(self, other: Word) -> Self {
         Word { range: self.range.or(other.range), is_whole: self.is_whole && other.is_whole }
     }
 
@@ -227,6 +227,17 @@ impl Known {
         let (range, told) =
             if holds { (Interval::NOT_ZERO, tells.when) } else { (Interval::exactly(0.0), tells.unless) };
         self.learn(ground, slot, range) && told.into_iter().all(|(of, range)| self.learn(ground, of, range))
+    }
+
+    /// The values of a word where another is not 0; none where that cannot be.
+    pub fn range_where(&self, ground: &Ground, slot: Slot, flag: Slot) -> Option<Interval> {
+        self.word(ground, flag).and(Interval::NOT_ZERO)?;
+        let mut word = self.word(ground, slot);
+        for (of, range) in self.tells(ground, flag).when {
+            let told = if of == slot { &mut word } else { &mut self.word(ground, of) };
+            *told = told.and(range)?;
+        }
+        Some(word.range)
     }
 
     /// What is known where two ways meet. Where a word differs between them, its value tells which way was gone.

@@ -153,6 +153,17 @@ impl<'p> Ranges<'p> {
         self.unit.lists.iter().copied().find(|(slot, _)| *slot == list).unwrap_or((list, ABSOLUTE - list))
     }
 
+    /// What is known of the words of any element of a list: nothing where its length is not known here.
+    pub(super) fn element(&self, known: &Known, list: Slot, words: u32) -> Vec<Word> {
+        let length = known.range(&self.ground, list).constant().unwrap_or(0.0);
+        let word = |of: u32, word: u32| {
+            let slot = list.saturating_add(1).saturating_add(of.saturating_mul(words)).saturating_add(word);
+            known.word(&self.ground, slot)
+        };
+        let of_all = |of_element| (0..length as u32).map(|of| word(of, of_element)).reduce(Word::or);
+        (0..words).map_while(of_all).collect()
+    }
+
     fn unit_code(&mut self, own: &[Addr], guards: &Guards) -> Result<(), Unsound> {
         let mut after: BTreeMap<u32, Known> = BTreeMap::new();
         for (&guard, (value, rules)) in guards {
@@ -306,11 +317,10 @@ impl<'p> Ranges<'p> {
     }
 
     fn keeps(&self, known: &Known, slot: Slot, present: Option<Slot>, claimed: Interval) -> bool {
-        let mut known = known.clone();
-        if present.is_some_and(|flag| !known.assume(&self.ground, flag, true)) {
-            return true;
+        match present {
+            Some(flag) => known.range_where(&self.ground, slot, flag).is_none_or(|range| claimed.covers(range)),
+            None => claimed.covers(known.range(&self.ground, slot)),
         }
-        claimed.covers(known.range(&self.ground, slot))
     }
 
     /// What is called has its arguments as it claims them.
