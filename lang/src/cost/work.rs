@@ -460,8 +460,11 @@ fn outer_timed<'a>(block: &'a Block, found: &mut Vec<&'a Timed>) {
 fn weight(op: Builtin, operands: &[Expr]) -> u64 {
     match op {
         Builtin::Top | Builtin::Spread => 1 + capacity(operands.first().map(|e| &e.ty)),
-        Builtin::Polygon | Builtin::Gap | Builtin::Corner | Builtin::NearestEdge => 1 + CORNERS,
-        Builtin::Exit | Builtin::Run => 1 + CORNERS,
+        // Each edge is held against each corner.
+        Builtin::Polygon => 1 + CORNERS * CORNERS,
+        // Outside, the edges are looked at twice.
+        Builtin::Gap => 1 + 2 * CORNERS,
+        Builtin::Corner | Builtin::NearestEdge | Builtin::Exit | Builtin::Run => 1 + CORNERS,
         _ => 1,
     }
 }
