@@ -140,6 +140,7 @@ fn long_chains_are_checked_in_time_and_on_a_small_stack() {
             ),
         ),
         ("fields", script(&chain("record Many {", &|i| format!("x{i}: Int,"), "}"), "wait for 1 s")),
+        ("blanks", script(&"   \n".repeat(200_000), "wait for 1 s")),
         ("params", script(&chain("fn many(", &|i| format!("x{i}: Int,"), ") -> Int { x0 }"), "wait for 1 s")),
     ];
     for (name, script) in scripts {

@@ -106,7 +106,7 @@ fn block(before: &str, rest: &str, expected: &str) -> Option<Habit> {
         let message = Some("a block stands between `{` and `}`".to_string());
         let help = match body {
             "" => format!("write `{head} {{`, and `}}` on a line of its own after the block"),
-            body => format!("write `{head} {{ {body} }}`"),
+            body => in_block(head, body),
         };
         return Some(Habit { message, help });
     }
@@ -116,8 +116,16 @@ fn block(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let begins_body = super::errors::CLAUSE_WORDS.contains(&word(rest)) && word(rest) != "if" && word(rest) != "for";
     (expected.contains("`{`") && begins_body && first != "mission").then(|| Habit {
         message: Some("a block stands between `{` and `}`".to_string()),
-        help: format!("write `{head} {{ {} }}`", line_end(rest)),
+        help: in_block(head, line_end(rest)),
     })
+}
+
+/// How a body without braces is written: an abort is a clause of its own, for a reaction takes no time.
+fn in_block(head: &str, body: &str) -> String {
+    match head.strip_prefix("on ").filter(|_| body.starts_with("abort")) {
+        Some(condition) => format!("write `{body} on {condition}`"),
+        None => format!("write `{head} {{ {body} }}`"),
+    }
 }
 
 /// `depth = 18 m` in a condition.

@@ -70,6 +70,7 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         open: Vec::new(),
         chained: 0,
         after_else: false,
+        after_block: false,
         deep: false,
         last: Last::Nothing,
         comments: Vec::new(),
@@ -132,6 +133,8 @@ struct Scanner<'a> {
     /// How many `else if` the statement that is being read has outside the innermost bracket.
     chained: usize,
     after_else: bool,
+    /// Whether the last that is no blank, newline or comment is `}`.
+    after_block: bool,
     /// Nested too deep, which has been said.
     deep: bool,
     last: Last,
@@ -153,6 +156,7 @@ impl<'a> Scanner<'a> {
         self.margin();
         while let Some(c) = self.rest().chars().next() {
             let start = self.at;
+            let is_code = !c.is_whitespace() && !["//", "/*"].iter().any(|begin| self.rest().starts_with(begin));
             match c {
                 '\n' => self.newline(),
                 '/' if self.rest().starts_with("//") => self.comment(),
@@ -184,6 +188,9 @@ impl<'a> Scanner<'a> {
                     self.look_alike(start, self.at);
                     self.last = Last::Ends;
                 }
+            }
+            if is_code {
+                self.after_block = c == '}';
             }
         }
     }
@@ -270,12 +277,9 @@ impl<'a> Scanner<'a> {
 
     /// `else` goes on with the line before, but for a field of that name, which follows no block: `else: Side`.
     fn next_goes_on(&mut self) -> bool {
-        let after_block = self.source[..self.at].trim_end().ends_with('}');
-        let after = self.next().strip_prefix("else");
-        after.is_some_and(|after| {
-            let is_word = !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
-            is_word && (after_block || !after.trim_start().starts_with(':'))
-        })
+        let Some(after) = self.next().strip_prefix("else") else { return false };
+        let is_word = !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        is_word && (self.after_block || !after.trim_start().starts_with(':'))
     }
 
     /// A `{` on a line of its own belongs to the line before: told once, and read as if it stood there.

@@ -6,7 +6,7 @@ use crate::{Event, Outcome};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
-/// A mission whose vehicle has lain on the bottom for so long, s, is aborted: its recovery leads up.
+/// A mission whose vehicle has lain on the bottom for so long, s, at once or again and again while it drove, is aborted: its recovery leads up.
 const AGROUND_MAX_S: f64 = 30.0;
 /// One that has lain there for so long in all, s, has done more than touch it, whatever comes after.
 const TOUCHED_MAX_S: f64 = 10.0;
@@ -16,8 +16,9 @@ const TOUCHED_MAX_S: f64 = 10.0;
 pub(crate) struct Aground {
     /// Since which tick it has lain there.
     since: Option<u64>,
-    /// For how many ticks it has lain there in all.
+    /// For how many ticks it has lain there in all, and for how many of these the mission drove.
     ticks: u64,
+    driven: u64,
     /// The least depth at which it has lain, m.
     depth: Option<f64>,
 }
@@ -28,6 +29,7 @@ impl Run {
         let since = aground.then(|| self.state.aground.since.unwrap_or(self.state.tick));
         self.state.aground.since = since;
         self.state.aground.ticks += u64::from(aground);
+        self.state.aground.driven += u64::from(aground && self.drives());
         if aground {
             let depth = self.depth();
             self.state.aground.depth = Some(self.state.aground.depth.map_or(depth, |least| least.min(depth)));
@@ -46,7 +48,8 @@ impl Run {
 
     /// Whether the vehicle that we drive has lain on the bottom for too long: what the mission asks for does not free it.
     pub fn is_stranded(&self) -> bool {
-        self.state.wish == Wish::Drive && self.lain_s() >= AGROUND_MAX_S
+        let in_all = self.state.aground.driven.saturating_sub(1) as f64 * TICK_S;
+        self.state.wish == Wish::Drive && self.lain_s().max(in_all) >= AGROUND_MAX_S
     }
 
     pub fn tell_stranded(&mut self) {

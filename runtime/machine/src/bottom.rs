@@ -24,7 +24,7 @@ const DOUBTFUL_S: f64 = 1.0;
 /// Where nothing came for 5 s but what is not believed, the dive that it led to is undone by so many metres: by that a true echo shows
 /// itself, too.
 pub(crate) const UNDONE_M: f64 = 2.5;
-/// A bottom of which nothing is heard is taken to rise by so much in each metre of way.
+/// A bottom of which nothing is heard is taken to rise by so much in each metre of way, through the water or over ground.
 const RISE: f64 = 0.25;
 /// An altitude that is below the least by this share of it, or by so much, m, is no noise: it leads up, whatever the depth is told
 /// to be.
@@ -37,12 +37,12 @@ const CHART_MARGIN_M: f64 = 10.0;
 /// What is known of the water below.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Bottom {
-    /// The altitude that was told last.
-    altitude: Option<f64>,
+    /// The altitude that was told last, m, and the tick: by itself it leads up, however deep the vehicle is.
+    sounded: Option<(u64, f64)>,
     heard: Option<Heard>,
     /// What came after it is not believed.
     doubted: bool,
-    /// The way through the water that was commanded since it came, m.
+    /// The way through the water that was commanded since it came, m; what the current adds is told by the position.
     way: f64,
     slope: Slope,
     /// The tick from which limits are held: an echo may be on its way.
@@ -60,10 +60,10 @@ struct Heard {
     water: f64,
     /// Depth and altitude of the latest, added up.
     water_now: f64,
-    /// The altitude of the latest.
-    altitude: f64,
     /// Whether another has confirmed it.
     confirmed: bool,
+    /// Where the vehicle was, as far as it was known.
+    at: Option<Point>,
 }
 
 impl Run {
@@ -79,27 +79,44 @@ impl Run {
             (tick as f64 - self.get(at + Input::STAMP) <= ticks).then(|| self.get(at + Input::VALUE))
         };
         let depth = told(self.senses.depth, LIMIT_FRESH_S / TICK_S);
-        let (Some(altitude), Some(depth)) = (told(self.senses.altitude, 0.0), depth) else { return };
+        let Some(altitude) = told(self.senses.altitude, 0.0) else { return };
+        let last = self.state.bottom.sounded.replace((tick, altitude));
+        let Some(depth) = depth else { return };
         let held = match self.state.command.map(|command| command.vertical) {
             Some(Vertical::Altitude(goal)) => (altitude - goal).abs() < HELD_M,
             _ => false,
         };
         let water = depth + altitude;
-        let again = self.state.bottom.altitude == Some(altitude) && !held;
+        let again = last.is_some_and(|(_, last)| last == altitude) && !held;
         let before = self.state.bottom.heard.filter(|_| again);
         let confirmed =
             self.state.bottom.heard.is_some_and(|heard| (tick - heard.tick) as f64 * TICK_S <= LIMIT_FRESH_S);
-        self.state.bottom.altitude = Some(altitude);
-        self.state.bottom.slope.sound(water, self.state.bottom.way);
+        let (at, way) = (self.place(), self.way());
+        self.state.bottom.slope.sound(water, way);
         (self.state.bottom.doubted, self.state.bottom.way) = (false, 0.0);
         self.state.bottom.heard = Some(Heard {
             tick,
             depth: before.map_or(depth, |before| before.depth.min(depth)),
             water: before.map_or(water, |before| before.water.min(water)),
             water_now: water,
-            altitude,
             confirmed,
+            at,
         });
+    }
+
+    /// Where the vehicle is, unless that is not known any more.
+    fn place(&self) -> Option<Point> {
+        let age = |at: Slot| self.state.tick as f64 - self.get(at + Input::STAMP);
+        let told = |at: &Slot| self.get(at + Input::STAMP) >= 0.0 && age(*at) <= LIMIT_FRESH_S / TICK_S;
+        self.senses.position.filter(told).map(|_| self.position())
+    }
+
+    /// The way since the latest echo, m: through the water as commanded, or over ground, if that is more. A current carries who stands
+    /// still, too.
+    fn way(&self) -> f64 {
+        let from = self.state.bottom.heard.and_then(|heard| heard.at);
+        let over_ground = from.zip(self.place()).map_or(0.0, |(from, here)| here.distance(from));
+        self.state.bottom.way.max(over_ground)
     }
 
     /// An altitude has come that is not believed.
@@ -117,9 +134,9 @@ impl Run {
         let bounded = altitude.0 > 0.0 || deepest < f64::MAX;
         let floor = self.floor(p, altitude.0).min(deepest);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
-        let low = altitude.0 - (LOW_SHARE * altitude.0).min(LOW_MAX_M);
+        let is_low = self.is_low();
         match (asked, known) {
-            (Vertical::Depth(metres), Some(heard)) if heard.altitude < low => {
+            (Vertical::Depth(metres), _) if is_low => {
                 self.limit(Channel::Depth, metres);
                 Vertical::Depth(depth.0)
             }
@@ -132,7 +149,7 @@ impl Run {
             // An altitude that nobody measures cannot be held within anything.
             (Vertical::Altitude(metres), None) if bounded => {
                 self.limit(Channel::Altitude, metres);
-                Vertical::Depth(floor)
+                Vertical::Depth(if is_low { depth.0 } else { floor })
             }
             (Vertical::Altitude(metres), None) => Vertical::Altitude(self.limit(Channel::Altitude, metres)),
             (Vertical::Depth(metres), _) => {
@@ -141,6 +158,19 @@ impl Run {
                 Vertical::Depth(given.max(shallowest).min(floor).max(0.0))
             }
         }
+    }
+
+    /// Whether the altitude by itself is less than the limit lets it be.
+    fn is_low(&self) -> bool {
+        let least = self.state.limits.altitude.0;
+        let low = least - (LOW_SHARE * least).min(LOW_MAX_M);
+        self.sounded().is_some_and(|altitude| altitude < low)
+    }
+
+    /// The altitude that was told last, m, unless it is too old to count.
+    fn sounded(&self) -> Option<f64> {
+        let fresh = |tick: u64| (self.state.tick - tick) as f64 * TICK_S <= LIMIT_FRESH_S;
+        self.state.bottom.sounded.filter(|(tick, _)| fresh(*tick)).map(|(_, altitude)| altitude)
     }
 
     /// What the latest echo told, unless it is too old to count.
@@ -162,10 +192,25 @@ impl Run {
         self.state.limits.depth.1.min(self.above_bottom())
     }
 
-    /// How deep the vehicle may go as far as that is known, m: of a bottom that is lost nothing is.
-    pub fn deepest_known(&self, p: &Program) -> f64 {
-        let by_altitude = self.heard_lately(p).map_or(f64::MAX, |heard| heard.water - self.state.limits.altitude.0);
-        by_altitude.min(self.deepest()).max(0.0)
+    /// By how much the vehicle is deeper than it may be, m, as far as that is known: by its depth, and without one by its altitude. Of a
+    /// bottom that is lost it is known that it may rise on the way.
+    pub fn too_deep(&self, p: &Program) -> Option<f64> {
+        let least = self.state.limits.altitude.0;
+        let fresh = |stamp: f64| stamp >= 0.0 && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
+        if !self.senses.depth.is_some_and(|at| fresh(self.get(at + Input::STAMP))) {
+            return self.sounded().map(|altitude| least - altitude);
+        }
+        let by_altitude = match (self.state.bottom.heard, self.heard_lately(p)) {
+            (_, Some(heard)) => heard.water - least,
+            (Some(heard), None) if least > 0.0 && self.risen(heard, least) < heard.depth => self.risen(heard, least),
+            _ => f64::MAX,
+        };
+        Some(self.depth() - by_altitude.min(self.deepest()).max(0.0))
+    }
+
+    /// How deep the vehicle may go if the bottom has risen on the way since an echo, m.
+    fn risen(&self, heard: Heard, altitude_min: f64) -> f64 {
+        heard.water - self.ahead(altitude_min) - RISE * self.way()
     }
 
     /// How deep the vehicle may go by a least altitude, m.
@@ -177,7 +222,7 @@ impl Run {
             (Some(heard), None) => {
                 let lasts = (self.state.tick - heard.tick) as f64 * TICK_S;
                 let undone = if self.state.bottom.doubted && lasts > LIMIT_FRESH_S { UNDONE_M } else { 0.0 };
-                (heard.depth - undone).min(heard.water - self.ahead(altitude_min) - RISE * self.state.bottom.way)
+                (heard.depth - undone).min(self.risen(heard, altitude_min))
             }
             (None, None) => self.charted().map_or(self.unheard(), |water| water - altitude_min),
         };

@@ -40,7 +40,7 @@ impl Run {
         } else {
             (course, speed.max(0.0))
         };
-        let command = Command { heading, speed: self.lift(speed, self.deepest_known(p)), vertical };
+        let command = Command { heading, speed: self.lift(speed, p), vertical };
         self.state.command = Some(command);
         command
     }

@@ -21,8 +21,12 @@ impl Run {
 
     /// The command of this tick, when there is anybody to obey it.
     pub fn command_if_ours(&mut self, p: &Program) -> Option<Command> {
-        let ours = self.state.wish == Wish::Drive && self.state.control == Control::InControl;
-        ours.then(|| self.give_command(p))
+        self.drives().then(|| self.give_command(p))
+    }
+
+    /// Whether the vehicle obeys the mission.
+    pub fn drives(&self) -> bool {
+        self.state.wish == Wish::Drive && self.state.control == Control::InControl
     }
 
     /// Rule 6: at the very start the present heading and depth, speed 0.

@@ -2,7 +2,7 @@
 
 use crate::Event;
 use crate::state::Run;
-use albacore_program::{Input, LIMIT_FRESH_S};
+use albacore_program::Program;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
@@ -23,24 +23,22 @@ pub(crate) enum Lift {
     /// It is not, or not by much.
     #[default]
     Clear,
-    /// Its depth, m, and the tick from which it has to rise.
-    Deep { depth: f64, since: u64 },
+    /// By how much it is too deep, m, and the tick from which that has to become less.
+    Deep { by: f64, since: u64 },
     /// It did not: it makes way, and has to rise from there.
-    Lifted { depth: f64, since: u64 },
-    /// It made way in vain, down to this depth, m.
-    InVain { depth: f64 },
+    Lifted { by: f64, since: u64 },
+    /// It made way in vain, so much too deep, m.
+    InVain { by: f64 },
 }
 
 impl Run {
-    /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than `deepest`, m, and
-    /// does not rise; as far as the limit of speed lets it.
-    pub fn lift(&mut self, asked: f64, deepest: f64) -> f64 {
+    /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than its limits allow
+    /// and does not rise; as far as the limit of speed lets it.
+    pub fn lift(&mut self, asked: f64, p: &Program) -> f64 {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
-        let fresh = |stamp: f64| stamp >= 0.0 && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
-        let is_told = self.senses.depth.is_some_and(|at| fresh(self.get(at + Input::STAMP)));
         let before = self.state.lift;
-        if is_told && speed > 0.0 {
-            self.state.lift = before.after(self.state.tick, self.depth(), deepest);
+        if let Some(too_deep) = self.too_deep(p).filter(|_| speed > 0.0) {
+            self.state.lift = before.after(self.state.tick, too_deep);
         }
         let lifted = self.state.lift.is_lifted();
         if lifted != before.is_lifted() {
@@ -59,19 +57,22 @@ impl Lift {
         matches!(self, Lift::Lifted { .. })
     }
 
-    fn after(self, tick: u64, depth: f64, deepest: f64) -> Lift {
-        let too_deep = depth - deepest;
+    fn after(self, tick: u64, too_deep: f64) -> Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match self {
             Lift::Lifted { .. } | Lift::InVain { .. } if too_deep <= LIFTED_M => Lift::Clear,
-            Lift::Lifted { depth: from, .. } if depth <= from - RISEN_M => Lift::Lifted { depth, since: tick },
-            Lift::Lifted { since, .. } if lasts(since) > IN_VAIN_S => Lift::InVain { depth },
+            Lift::Lifted { by, .. } if too_deep <= by - RISEN_M => Lift::Lifted { by: too_deep, since: tick },
+            Lift::Lifted { since, .. } if lasts(since) > IN_VAIN_S => Lift::InVain { by: too_deep },
             Lift::Lifted { .. } => self,
-            Lift::InVain { depth: from } if depth <= from + SUNK_M => self,
-            Lift::Deep { depth: from, since } if too_deep > SUNK_M && depth > from - RISEN_M => {
-                if lasts(since) > PATIENCE_S { Lift::Lifted { depth, since: tick } } else { self }
+            Lift::InVain { by } if too_deep <= by + SUNK_M => self,
+            Lift::Deep { by, since } if too_deep > SUNK_M && too_deep > by - RISEN_M => {
+                if lasts(since) > PATIENCE_S {
+                    Lift::Lifted { by: too_deep, since: tick }
+                } else {
+                    self
+                }
             }
-            _ if too_deep > SUNK_M => Lift::Deep { depth, since: tick },
+            _ if too_deep > SUNK_M => Lift::Deep { by: too_deep, since: tick },
             _ => Lift::Clear,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::mission::Evaluator;
 use super::world::World;
+use albacore_geometry::Point;
 use albacore_program::Channel;
 use albacore_vehicle::{Command, TICK_S, Vertical};
 
@@ -14,16 +15,20 @@ const LONE_TICKS: u64 = 10;
 #[derive(Clone, Copy)]
 struct Echo {
     tick: u64,
-    altitude: f64,
     depth: f64,
     water: f64,
     sum: f64,
     confirmed: bool,
+    place: Option<Point>,
 }
 
 #[derive(Default)]
 pub(super) struct Bottom {
     echo: Option<Echo>,
+    /// The latest altitude, and when it came.
+    altitude: Option<(u64, f64)>,
+    /// The water that was sounded on the last 2 m and on the last 12 m of way, m.
+    lately: Option<[f64; 2]>,
     lost: bool,
     begun: Option<u64>,
     pub commanded: Option<Command>,
@@ -45,9 +50,11 @@ impl Evaluator<'_> {
         let lone = fresh.min(LONE_TICKS);
         let known = echo.filter(|echo| self.w.tick - echo.tick <= if echo.confirmed { fresh } else { lone });
         let floor = match (known, echo) {
-            (Some(echo), _) => Some(echo.water - lowest),
+            (Some(echo), _) => Some(echo.water - self.ahead(lowest)),
             (None, _) if lowest == 0.0 && matches!(asked, Vertical::Depth(_)) => None,
-            (None, Some(echo)) => Some(echo.depth.min(echo.water - lowest - 0.25 * self.bottom.way)),
+            (None, Some(echo)) => {
+                Some(echo.depth.min(echo.water - self.ahead(lowest) - 0.25 * self.bottom.gone(&self.w)))
+            }
             (None, None) if young => Some(self.w.depth().unwrap_or(0.0)),
             (None, None) => Some(0.0),
         };
@@ -59,8 +66,9 @@ impl Evaluator<'_> {
         }
         // What is measured too low leads up, whatever the depth is told to be.
         let low_by = (0.25 * lowest).min(0.5);
+        let is_low = self.bottom.altitude(&self.w).is_some_and(|altitude| altitude < lowest - low_by);
         match asked {
-            Vertical::Depth(asked) if known.is_some_and(|echo| echo.altitude < lowest - low_by) => {
+            Vertical::Depth(asked) if is_low => {
                 self.limit(Channel::Depth, asked);
                 Vertical::Depth(low)
             }
@@ -69,9 +77,9 @@ impl Evaluator<'_> {
                 match known {
                     Some(echo) => {
                         let most = if low > 0.0 { (echo.sum - low).max(lowest) } else { f64::MAX };
-                        Vertical::Altitude(given.min(most).max(echo.sum - high).max(0.0))
+                        Vertical::Altitude(given.max(self.ahead(lowest)).min(most).max(echo.sum - high).max(0.0))
                     }
-                    None if lowest > 0.0 || high < f64::MAX => Vertical::Depth(deepest),
+                    None if lowest > 0.0 || high < f64::MAX => Vertical::Depth(if is_low { low } else { deepest }),
                     None => Vertical::Altitude(given),
                 }
             }
@@ -82,21 +90,47 @@ impl Evaluator<'_> {
             }
         }
     }
+
+    /// The altitude by which a least one holds for the next 15 m of way, m.
+    fn ahead(&self, lowest: f64) -> f64 {
+        let [near, far] = self.bottom.lately.unwrap_or_default();
+        if lowest > 0.0 { lowest + 15.0 * ((far - near) / 10.0).clamp(0.0, 0.25) } else { lowest }
+    }
 }
 
 impl Bottom {
+    /// The way since the echo, m: as commanded, or over ground.
+    fn gone(&self, w: &World) -> f64 {
+        let echo = self.echo.and_then(|echo| echo.place);
+        let apart = echo.zip(w.place(FRESH_TICKS)).map_or(0.0, |(there, here)| there.distance(here));
+        self.way.max(apart)
+    }
+
+    /// The altitude, if it was told lately.
+    fn altitude(&self, w: &World) -> Option<f64> {
+        self.altitude.filter(|(tick, _)| w.tick - tick <= FRESH_TICKS).map(|(_, altitude)| altitude)
+    }
+
     pub fn hear(&mut self, w: &World) {
         self.way += self.commanded.map_or(0.0, |command| command.speed) * TICK_S;
-        let (Some(altitude), Some(depth)) = (w.lately("altitude", 0), w.lately("depth", FRESH_TICKS)) else { return };
+        let Some(altitude) = w.lately("altitude", 0) else { return };
+        let before = self.altitude.replace((w.tick, altitude));
+        let Some(depth) = w.lately("depth", FRESH_TICKS) else { return };
+        let (gone, place) = (self.gone(w), w.place(FRESH_TICKS));
         self.way = 0.0;
         let sum = depth + altitude;
         let goal = self.commanded.map(|command| command.vertical);
         let held = matches!(goal, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
         let confirmed = self.echo.is_some_and(|old| w.tick - old.tick <= FRESH_TICKS);
-        let new = Echo { tick: w.tick, altitude, depth, water: sum, sum, confirmed };
+        let new = Echo { tick: w.tick, depth, water: sum, sum, confirmed, place };
+        let mut lately = self.lately.unwrap_or([sum; 2]);
+        for (mean, over) in lately.iter_mut().zip([2.0, 12.0]) {
+            *mean += (sum - *mean) * (gone / (gone + over));
+        }
+        self.lately = Some(lately);
         self.echo = Some(match self.echo {
             // It may be an old one.
-            Some(old) if old.altitude == altitude && !held => {
+            Some(old) if before.is_some_and(|(_, before)| before == altitude) && !held => {
                 Echo { depth: old.depth.min(depth), water: old.water.min(sum), ..new }
             }
             _ => new,

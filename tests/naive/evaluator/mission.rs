@@ -58,9 +58,10 @@ pub struct Evaluator<'p> {
     limited: [bool; 3],
     filter: CommandFilter,
     pub(super) bottom: Bottom,
-    /// Since when the vehicle has lain on the bottom, and for how many ticks in all.
+    /// Since when the vehicle has lain on the bottom, and for how many ticks in all, and while it drove.
     aground: Option<u64>,
     lain: u64,
+    lain_driven: u64,
     /// The least depth at which it has, m.
     lain_at: Option<f64>,
     /// Rule 6: whether the heading and depth of the very start have been taken.
@@ -102,6 +103,7 @@ impl<'p> Evaluator<'p> {
             bottom: Bottom::default(),
             aground: None,
             lain: 0,
+            lain_driven: 0,
             lain_at: None,
             stands: false,
             control: Control::Disconnected,
@@ -124,6 +126,7 @@ impl<'p> Evaluator<'p> {
         self.bottom.hear(&self.w);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
         self.lain += u64::from(snapshot.aground);
+        self.lain_driven += u64::from(snapshot.aground && snapshot.control == Control::InControl);
         if snapshot.aground {
             let depth = self.w.depth().unwrap_or(0.0);
             self.lain_at = Some(self.lain_at.map_or(depth, |least: f64| least.min(depth)));
@@ -288,7 +291,8 @@ impl<'p> Evaluator<'p> {
     }
 
     fn is_stranded(&self) -> bool {
-        self.aground.is_some_and(|since| self.w.tick - since >= STRANDED_TICKS)
+        let at_once = self.aground.is_some_and(|since| self.w.tick - since >= STRANDED_TICKS);
+        at_once || self.lain_driven > STRANDED_TICKS
     }
 
     fn run(&mut self) -> Option<Command> {

@@ -240,6 +240,13 @@ impl<'p> World<'p> {
         (self.tick - stamp <= ticks).then(|| self.inputs[id].latest[0])
     }
 
+    /// Where the vehicle is, if that has been told within so many ticks.
+    pub fn place(&self, ticks: u64) -> Option<Point> {
+        self.lately("position", ticks)?;
+        let id = self.hir.inputs.iter().position(|input| input.name == "position")?;
+        Some(Point::new(self.inputs[id].latest[0], self.inputs[id].latest[1]))
+    }
+
     /// Also what `at first` says.
     pub fn flow(&self) -> Vector {
         let id = self.hir.inputs.iter().position(|input| input.name == "flow");

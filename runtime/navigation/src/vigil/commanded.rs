@@ -87,9 +87,9 @@ impl Depth {
 #[derive(Clone, Copy, Debug)]
 struct Goal {
     vertical: Vertical,
-    /// The tick of the last look, and how far off it was then, m.
+    /// The tick of the last look, and how far off it has been at most since, m: a hull that dives fast goes on for a while.
     since: u64,
-    off: f64,
+    farthest: f64,
     /// It was no nearer at the last look.
     missed: bool,
 }
@@ -148,12 +148,14 @@ impl Commanded {
             Vertical::Altitude(_) => (told.reading[0] - wanted).abs(),
             Vertical::Depth(_) => self.depth.off(wanted),
         };
-        let now = Goal { vertical, since: heard.tick, off, missed: false };
+        let now = Goal { vertical, since: heard.tick, farthest: off, missed: false };
         let goal = self.goal.get_or_insert(now);
         if !is_same(goal.vertical, vertical) {
             *goal = now;
         } else if heard.tick >= goal.since + LOOK_TICKS {
-            *goal = Goal { missed: off > NEAR && off > goal.off - NEARER_MIN, ..now };
+            *goal = Goal { missed: off > NEAR && off > goal.farthest - NEARER_MIN, ..now };
+        } else {
+            goal.farthest = goal.farthest.max(off);
         }
         if goal.missed {
             sights.see(sight);
