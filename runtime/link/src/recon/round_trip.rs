@@ -7,6 +7,10 @@
 //! until then was heard; one that has not come back counts for as long as it has waited.
 //!
 //! Times are taken in the vehicle's time, by the stamps that are heard, and by the host's clock: the longer one counts.
+//!
+//! Echoes may be prompt and states late. A state is as old as the host's clock has come to be further ahead of the stamps than it was
+//! with a fresh one; but no older than the oldest mark that no state has told, or than the last was that one told. A vehicle that
+//! protects itself tells none, one whose clock is slow tells all: neither is late. States that are late from the first on look fresh.
 
 use albacore_geometry::Heading;
 use albacore_vehicle::TICK_S;
@@ -65,6 +69,8 @@ struct Back {
     last: Option<Mark>,
     /// So many of the marks that were sent were told, or were sent before one that was.
     heard: usize,
+    /// The time that the newest of these took, ticks.
+    took: u64,
 }
 
 /// Measures round trips.
@@ -79,18 +85,21 @@ pub struct RoundTrip {
     back: [Back; 2],
     /// The time that the newest took that has come back, ticks.
     last: u64,
+    /// By how much the host's clock is ahead of the stamp of a state that has just been made, ticks, as far as it is known.
+    ahead: Option<i64>,
 }
 
 impl RoundTrip {
     /// For a vehicle that runs so many times faster than real time.
     pub fn new(rate: f64) -> Self {
-        RoundTrip { rate, mark: None, sent: VecDeque::new(), back: Default::default(), last: 0 }
+        RoundTrip { rate, mark: None, sent: VecDeque::new(), back: Default::default(), last: 0, ahead: None }
     }
 
     /// A new override: what was measured before it tells nothing.
     pub fn begin(&mut self) {
         self.pause();
         self.last = 0;
+        self.back.iter_mut().for_each(|back| back.took = 0);
     }
 
     /// Nothing is commanded for a while: what was sent may never come back.
@@ -154,6 +163,10 @@ impl RoundTrip {
     /// The vehicle has told a heading goal. What it told before as well tells nothing; of those that were sent alike it may be the
     /// oldest.
     pub fn told(&mut self, heading: Heading, by: Told, now: Moment) {
+        if let Told::State = by {
+            let ahead = self.ahead_of(now);
+            self.ahead = Some(self.ahead.map_or(ahead, |least| least.min(ahead)));
+        }
         let (mark, known) = (Mark::of(heading), self.heard());
         let back = &mut self.back[by as usize];
         if back.last.replace(mark) == Some(mark) {
@@ -161,20 +174,44 @@ impl RoundTrip {
         }
         let waiting = self.sent.iter().enumerate().skip(back.heard);
         let Some((at, (_, when))) = { waiting }.find(|(_, (sent, _))| *sent == mark) else { return };
-        back.heard = at + 1;
+        let took = self.between(*when, now);
+        self.back[by as usize] = Back { last: Some(mark), heard: at + 1, took };
         if at >= known {
-            self.last = self.between(*when, now);
+            self.last = took;
+        }
+        if let Told::State = by {
+            // It was made when the mark had been heard.
+            let fresh = self.ahead_of(now) - took as i64;
+            self.ahead = self.ahead.map(|ahead| ahead.max(fresh));
         }
     }
 
-    /// The round trip, as far as it is known, in ticks; a mark that has not come back counts for as long as it has waited.
+    /// The round trip, as far as it is known, in ticks; a mark that has not come back counts for as long as it has waited, and a state
+    /// that is older for its age.
     pub fn ticks(&self, now: Moment) -> u64 {
-        self.waits(now).max(self.last)
+        self.waits(now).max(self.last).max(self.state_age(now))
+    }
+
+    /// How old the last state is, ticks.
+    fn state_age(&self, now: Moment) -> u64 {
+        let Back { heard, took, .. } = self.back[Told::State as usize];
+        let age = self.ahead.map_or(0, |ahead| self.ahead_of(now) - ahead);
+        self.since(heard, now).max(took).min(age.max(0) as u64)
+    }
+
+    /// By how much the host's clock is ahead of the stamps, ticks.
+    fn ahead_of(&self, now: Moment) -> i64 {
+        host_ticks(now.host, self.rate) as i64 - now.tick as i64
     }
 
     /// For so many ticks the oldest mark that has not come back has waited.
     pub fn waits(&self, now: Moment) -> u64 {
-        self.sent.get(self.heard()).map_or(0, |(_, when)| self.between(*when, now))
+        self.since(self.heard(), now)
+    }
+
+    /// The ticks since one of the marks was sent, if it was.
+    fn since(&self, mark: usize, now: Moment) -> u64 {
+        self.sent.get(mark).map_or(0, |(_, when)| self.between(*when, now))
     }
 
     /// The ticks from one moment to another, by the clock that counts more.

@@ -213,3 +213,52 @@ fn what_the_vehicle_tells_anyway_proves_nothing() {
     trip.told(mark(90.1), Told::State, at(61));
     assert_eq!(trip.ticks(at(61)), 60, "the first of the two, as far as anybody knows");
 }
+
+/// What is measured at last of a vehicle that echoes at once, and whose states are so many ticks late; for some time it holds a heading of
+/// its own, and does not live at all.
+fn of_late_states(late: impl Fn(u64) -> u64, protects: impl Fn(u64) -> bool, stops: impl Fn(u64) -> bool) -> Vec<u64> {
+    let mut trip = RoundTrip::new(1.0);
+    let (mut held, mut stamp, mut told) = (mark(200.0), 0, 0);
+    let mut states = VecDeque::new();
+    (1..=1800)
+        .map(|now| {
+            if !stops(now) {
+                stamp += 1;
+                states.push_back((now + late(now), stamp, if protects(now) { mark(200.0) } else { held }));
+            }
+            let moment = |tick: u64| Moment { tick, host: Duration::from_millis(100 * now) };
+            while let Some((_, stamp, heading)) = states.pop_front_if(|(due, ..)| *due <= now) {
+                told = stamp;
+                trip.told(heading, Told::State, moment(told));
+            }
+            let heading = trip.marked(mark(90.0), moment(told));
+            trip.sent(heading, moment(told));
+            if !stops(now) {
+                held = heading;
+                trip.told(held, Told::Echo, moment(told));
+            }
+            trip.ticks(moment(told))
+        })
+        .collect()
+}
+
+#[test]
+fn states_that_grow_old_count_however_soon_an_echo_comes() {
+    let never = |_: u64| false;
+    let late = of_late_states(|now| now.saturating_sub(300) / 10, never, never);
+    for (now, measured) in (0..).zip(&late).skip(400) {
+        let so = (now - 300) / 11;
+        assert!((so..=so + 15).contains(measured), "{now}: {measured}, {so}");
+    }
+    let recovered = of_late_states(|now| if now < 900 { now.saturating_sub(300).min(120) } else { 0 }, never, never);
+    // Nothing overtakes: what was late goes before.
+    assert!(recovered[899] >= 110 && recovered[1040] <= 15, "{} and {}", recovered[899], recovered[1040]);
+}
+
+#[test]
+fn a_vehicle_that_protects_itself_or_stood_still_is_not_late() {
+    let protects = of_late_states(|_| 1, |now| now > 300, |_| false);
+    assert!(protects.iter().all(|measured| *measured <= 15), "{:?}", protects.iter().max());
+    let stood = of_late_states(|_| 1, |now| now > 600, |now| (300..330).contains(&now));
+    assert!(stood[350..].iter().all(|measured| *measured <= 15), "{:?}", stood[350..].iter().max());
+}
