@@ -158,6 +158,25 @@ fn no_current_leads_aground() {
     assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
 }
 
+/// Runs that once touched the bottom, as they were found.
+#[test]
+fn what_once_led_aground_does_not() {
+    let mut runs = 0;
+    insta::glob!("aground/found/*.alb", |path| {
+        let script = load(path, None, &[]).unwrap();
+        assert!(script.is_sound(), "{:?}", script.findings);
+        let plan = Plan::new(&script, &path.to_string_lossy(), None, None).unwrap();
+        for seed in 1..=3 {
+            let mut run = Run::new(&plan, seed).unwrap();
+            run.to_end();
+            let trace = run.trace().to_string();
+            assert!(!trace.contains("grounded at"), "{}, seed {seed}: {trace}", path.display());
+            runs += 1;
+        }
+    });
+    assert!(runs >= 27);
+}
+
 /// A vehicle without way obeys no depth: one that has sunk below where its limits let it is given way, as much as they allow.
 #[test]
 fn a_vehicle_that_waits_does_not_sink_to_the_bottom() {

@@ -37,7 +37,7 @@ const CHART_MARGIN_M: f64 = 10.0;
 /// What is known of the water below.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Bottom {
-    /// The altitude that was told last, m, and the tick: by itself it leads up, however deep the vehicle is.
+    /// The altitude that was told last, m, and the tick: by itself it leads up, however deep the vehicle is, and if it is doubted too.
     sounded: Option<(u64, f64)>,
     heard: Option<Heard>,
     /// What came after it is not believed.
@@ -67,13 +67,10 @@ struct Heard {
 }
 
 impl Run {
-    /// Takes in the altitude that has come in this tick, if one has, and is an echo.
+    /// Takes in the altitude that has come in this tick, if one has; and the water below, if it is an echo of that.
     pub fn sound(&mut self, is_echo: bool) {
         let tick = self.state.tick;
         self.state.bottom.way += self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
-        if !is_echo {
-            return;
-        }
         let told = |at: Option<u32>, ticks: f64| {
             let at = at.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
             (tick as f64 - self.get(at + Input::STAMP) <= ticks).then(|| self.get(at + Input::VALUE))
@@ -81,7 +78,7 @@ impl Run {
         let depth = told(self.senses.depth, LIMIT_FRESH_S / TICK_S);
         let Some(altitude) = told(self.senses.altitude, 0.0) else { return };
         let last = self.state.bottom.sounded.replace((tick, altitude));
-        let Some(depth) = depth else { return };
+        let Some(depth) = depth.filter(|_| is_echo) else { return };
         let held = match self.state.command.map(|command| command.vertical) {
             Some(Vertical::Altitude(goal)) => (altitude - goal).abs() < HELD_M,
             _ => false,
@@ -161,7 +158,7 @@ impl Run {
     }
 
     /// Whether the altitude by itself is less than the limit lets it be.
-    fn is_low(&self) -> bool {
+    pub fn is_low(&self) -> bool {
         let least = self.state.limits.altitude.0;
         let low = least - (LOW_SHARE * least).min(LOW_MAX_M);
         self.sounded().is_some_and(|altitude| altitude < low)
@@ -192,13 +189,18 @@ impl Run {
         self.state.limits.depth.1.min(self.above_bottom())
     }
 
-    /// By how much the vehicle is deeper than it may be, m, as far as that is known: by its depth, and without one by its altitude. Of a
-    /// bottom that is lost it is known that it may rise on the way.
+    /// By how much the vehicle is deeper than it may be, m, as far as that is known: by its depth, and without one by its altitude. Without
+    /// either it is taken to be as deep as it was: nothing tells that it rises. Of a bottom that is lost it is known that it may rise on
+    /// the way.
     pub fn too_deep(&self, p: &Program) -> Option<f64> {
         let least = self.state.limits.altitude.0;
-        let fresh = |stamp: f64| stamp >= 0.0 && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
-        if !self.senses.depth.is_some_and(|at| fresh(self.get(at + Input::STAMP))) {
-            return self.sounded().map(|altitude| least - altitude);
+        let told = |stamp: f64| stamp >= 0.0;
+        let fresh = |stamp: f64| told(stamp) && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
+        let stamp = self.get(self.senses.depth? + Input::STAMP);
+        match self.sounded() {
+            Some(altitude) if !fresh(stamp) => return Some(least - altitude),
+            None if !told(stamp) => return None,
+            _ => {}
         }
         let by_altitude = match (self.state.bottom.heard, self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - least,

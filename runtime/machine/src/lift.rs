@@ -6,7 +6,7 @@ use albacore_program::Program;
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
 
-/// A vehicle sinks that is deeper than it may be by so much, m, and has not risen by so much in so long, s.
+/// A vehicle sinks that is deeper than it may be by so much, m, or whose altitude is low, and has not risen by so much in so long, s.
 const SUNK_M: f64 = 1.0;
 const RISEN_M: f64 = 0.5;
 const PATIENCE_S: f64 = 5.0;
@@ -38,7 +38,8 @@ impl Run {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
         if let Some(too_deep) = self.too_deep(p).filter(|_| speed > 0.0) {
-            self.state.lift = before.after(self.state.tick, too_deep);
+            let sunk = too_deep > SUNK_M || self.is_low();
+            self.state.lift = before.after(self.state.tick, too_deep, sunk);
         }
         let lifted = self.state.lift.is_lifted();
         if lifted != before.is_lifted() {
@@ -57,7 +58,7 @@ impl Lift {
         matches!(self, Lift::Lifted { .. })
     }
 
-    fn after(self, tick: u64, too_deep: f64) -> Lift {
+    fn after(self, tick: u64, too_deep: f64, sunk: bool) -> Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match self {
             Lift::Lifted { .. } | Lift::InVain { .. } if too_deep <= LIFTED_M => Lift::Clear,
@@ -65,14 +66,14 @@ impl Lift {
             Lift::Lifted { since, .. } if lasts(since) > IN_VAIN_S => Lift::InVain { by: too_deep },
             Lift::Lifted { .. } => self,
             Lift::InVain { by } if too_deep <= by + SUNK_M => self,
-            Lift::Deep { by, since } if too_deep > SUNK_M && too_deep > by - RISEN_M => {
+            Lift::Deep { by, since } if sunk && too_deep > by - RISEN_M => {
                 if lasts(since) > PATIENCE_S {
                     Lift::Lifted { by: too_deep, since: tick }
                 } else {
                     self
                 }
             }
-            _ if too_deep > SUNK_M => Lift::Deep { by: too_deep, since: tick },
+            _ if sunk => Lift::Deep { by: too_deep, since: tick },
             _ => Lift::Clear,
         }
     }

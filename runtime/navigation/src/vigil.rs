@@ -6,12 +6,14 @@
 
 mod channel;
 mod commanded;
+mod mirrored;
 mod motion;
 
 use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH};
 use albacore_vehicle::{Command, Control, Reading, Snapshot};
 use channel::Channel;
 use commanded::Commanded;
+use mirrored::Mirrored;
 use motion::Motion;
 use std::fmt;
 
@@ -105,6 +107,7 @@ impl fmt::Display for Sighting {
 #[derive(Clone, Debug)]
 pub struct Vigil {
     channels: [Channel; WATCHED.len()],
+    mirrored: Mirrored,
     motion: Motion,
     commanded: Commanded,
     /// For how many ticks depth and altitude have not added up.
@@ -148,6 +151,7 @@ impl Default for Vigil {
     fn default() -> Self {
         Vigil {
             channels: WATCHED.map(|(_, kind)| Channel::new(kind)),
+            mirrored: Mirrored::default(),
             motion: Motion::default(),
             commanded: Commanded::default(),
             uneven: 0,
@@ -172,7 +176,11 @@ impl Vigil {
                 None => {}
             }
         }
+        self.mirrored.look(&heard);
         for channel in &mut self.channels {
+            if channel.is_of(Kind::Depth) {
+                channel.moves(self.mirrored.is_the_vehicles());
+            }
             // A vehicle that stands still has no course.
             if channel.is_of(Kind::Course) && self.motion.speed() < AT_REST {
                 channel.excuse(tick);

@@ -13,8 +13,9 @@ const SILENT_TICKS: u64 = 20;
 /// Changes from which it is learnt whether a channel is noisy.
 const NOISE_CHANGES: u64 = 300;
 /// A channel is noisy where neighbouring differences correlate by less than this: of white noise it is -1/2, of a random walk 0, of
-/// a smooth motion 1.
+/// a smooth motion 1. What they are on the mean of so many counts as no difference: a steady dive hides no noise.
 const NOISE_CORRELATION: f64 = -0.25;
+const NOISE_DRIFT_CHANGES: u64 = 20;
 /// ... and where they are larger than the rounding of the last bits, in SI units, and than the smallest of them, which may be the step
 /// in which a link tells numbers: a value between two steps flickers like noise and then rests for minutes.
 const NOISE_MIN: f64 = 1e-4;
@@ -135,10 +136,14 @@ pub(super) struct Channel {
     changes: u64,
     /// The smallest of these changes.
     step: f64,
-    /// Means of the squared differences of neighbours, and of their products.
+    /// The mean of the latest differences of neighbours, and how far from it the last one was; means of the squares of that, and of
+    /// the products of neighbours.
+    drift: f64,
     difference: f64,
     variance: f64,
     covariance: f64,
+    /// What changes is the vehicle, not the noise of its sensor.
+    moves: bool,
 }
 
 impl Channel {
@@ -154,9 +159,11 @@ impl Channel {
             same_most: 0,
             changes: 0,
             step: f64::INFINITY,
+            drift: 0.0,
             difference: 0.0,
             variance: 0.0,
             covariance: 0.0,
+            moves: false,
         }
     }
 
@@ -223,6 +230,11 @@ impl Channel {
         self.last = self.last.max(tick);
     }
 
+    /// Whether its changes are those of the vehicle.
+    pub fn moves(&mut self, moves: bool) {
+        self.moves = moves;
+    }
+
     /// A tick has gone by.
     pub fn wait(&self, tick: u64, sights: &mut Sights) {
         let Some(period) = self.period else { return };
@@ -234,7 +246,10 @@ impl Channel {
     fn learn(&mut self, difference: f64) {
         self.changes += 1;
         self.step = if difference == 0.0 { self.step } else { self.step.min(difference.abs()) };
-        let share = 1.0 / self.changes.min(NOISE_CHANGES) as f64;
+        let share = |most: u64| 1.0 / self.changes.min(most) as f64;
+        let off = difference - self.drift;
+        self.drift += share(NOISE_DRIFT_CHANGES) * off;
+        let (difference, share) = (off, share(NOISE_CHANGES));
         self.variance += share * (difference * difference - self.variance);
         self.covariance += share * (difference * self.difference - self.covariance);
         self.difference = difference;
@@ -248,7 +263,8 @@ impl Channel {
             Kind::Flow => self.samples >= MEAN_SAMPLES && self.same_most <= MEAN_SAME_MAX,
             _ => {
                 let least = NOISE_MIN.max(NOISE_STEPS * self.step);
-                self.changes >= NOISE_CHANGES
+                !self.moves
+                    && self.changes >= NOISE_CHANGES
                     && self.covariance < NOISE_CORRELATION * self.variance
                     && self.variance > least * least
                     && self.same_most <= NOISE_REST_MAX

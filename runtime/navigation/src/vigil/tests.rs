@@ -113,6 +113,35 @@ fn each_trouble_has_its_name() {
     assert_eq!(first(COURSE, aside).map(|(_, what)| what), told(0, "course and position disagree").map(|t| t.1));
 }
 
+/// A vehicle that is held 4 m above the bottom by an altitude with noise, and then by its depth, and what its gauge tells.
+fn held_above_the_bottom(mut gauge: impl FnMut(u64, f64) -> f64) -> Vec<(u64, String)> {
+    let (mut depth, mut noise): (f64, f64) = (4.0, 0.0);
+    watched(4000, |tick, snapshot| {
+        let goal = if tick < 2000 { 4.0 + noise } else { 3.0 };
+        depth += (goal - depth).clamp(-0.03, 0.03);
+        noise = (tick * 7_919 % 101) as f64 / 500.0 - 0.1;
+        for sample in &mut snapshot.samples {
+            match sample.channel {
+                DEPTH => sample.reading[0] = gauge(tick, depth),
+                ALTITUDE => sample.reading[0] = 8.0 - depth + noise,
+                WATER_DEPTH => sample.reading[0] = 8.0 + noise,
+                _ => {}
+            }
+        }
+    })
+}
+
+#[test]
+fn a_zigzag_of_the_vehicle_is_no_noise_of_its_gauge() {
+    assert_eq!(held_above_the_bottom(|_, depth| depth), []);
+    let mut last = 0.0;
+    let told = held_above_the_bottom(|tick, depth| {
+        last = if tick < 3000 { depth + (tick * 7_919 % 97) as f64 / 1000.0 } else { last };
+        last
+    });
+    assert_eq!(told, [(3049, "detected: depth stuck".to_string())]);
+}
+
 /// A value that a link tells in steps: it flickers between two of them for minutes, and then rests.
 #[test]
 fn a_flicker_between_two_steps_is_no_noise() {
