@@ -126,6 +126,11 @@ impl Reserved {
         self.room
     }
 
+    /// The file.
+    pub fn file(&self) -> io::Result<File> {
+        self.file.try_clone()
+    }
+
     /// Whether a path leads to it.
     pub fn is_at(&self, path: &Path) -> bool {
         is_at(&self.file, path).unwrap_or(false)

@@ -2,6 +2,7 @@
 
 mod folder;
 mod record;
+mod watch;
 
 use crate::clock::Utc;
 use crate::disk;
@@ -16,6 +17,7 @@ use std::fmt::Display;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
+use watch::Watch;
 
 /// The files of a run.
 pub struct Kept {
@@ -63,6 +65,12 @@ impl Kept {
                 None
             }
         }
+    }
+
+    /// Tells under way if a file of the run loses its name, as long as what this gives is kept.
+    pub fn watch(&self) -> Option<Watch> {
+        // Where no thread is to be had it is told at the end.
+        self.files.as_ref().and_then(|(folder, _)| Watch::begin(folder).ok())
     }
 
     /// The journal can be written no further; gives what to tell.

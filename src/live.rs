@@ -39,6 +39,7 @@ impl Live {
     pub fn run(self, run: Run) -> Exit {
         let Live { speaker, journal, interrupted, mut kept, telling } = self;
         let stopping = interruption::ctrl_z();
+        let watch = kept.watch();
         let mut tell = |told: Told<'_>| {
             if stopping.swap(false, Ordering::Relaxed) {
                 message::write(CTRL_Z);
@@ -58,6 +59,7 @@ impl Live {
             Ok(lived) => lived,
             Err(error) => return no_thread(&error),
         };
+        drop(watch);
         if journal_stalled {
             message::write(&kept.journal_stalled());
         }

@@ -101,6 +101,29 @@ fn a_vehicle_whose_guest_is_killed_goes_back_to_its_legs() {
     assert!(matches!(journal.ending, Ending::CutShort(_)), "{:?}", journal.ending);
 }
 
+/// The person who cleans up in the wrong window is told while the mission lasts.
+#[test]
+fn files_that_go_away_under_a_run_are_told_at_once() {
+    let folder = empty("gone");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    for gone in ["journal", "run.json", ""] {
+        let (out, said) = (folder.join("run"), folder.join("said"));
+        let mut run = vehicle.mission(&["--mission", "stay", "--out"]);
+        let mut run = run.arg(&out).stderr(std::fs::File::create(&said).unwrap()).spawn().unwrap();
+        grown(&out.join("journal"), 2000);
+        let moved = folder.join("moved");
+        std::fs::rename(out.join(gone), &moved).unwrap();
+        let said = || std::fs::read_to_string(&said).unwrap();
+        eventually(gone, || said().contains("this run's any more: it was removed or replaced").then_some(()));
+        assert!(said().contains("the mission goes on") && run.try_wait().unwrap().is_none(), "{}", said());
+        send("-INT", &run);
+        assert_eq!(run.wait().unwrap().code(), Some(4), "{}", said());
+        for left in [&moved, &out] {
+            let _ = if left.is_dir() { std::fs::remove_dir_all(left) } else { std::fs::remove_file(left) };
+        }
+    }
+}
+
 #[test]
 fn who_interrupts_a_mission_gives_the_vehicle_back() {
     let folder = empty("interrupted");

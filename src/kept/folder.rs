@@ -26,6 +26,8 @@ const RUNS: &str = "albacore-runs";
 /// So many bytes are kept for what the record does not say before the end.
 const RECORD_MORE: usize = 4096;
 
+const ELSEWHERE: &str = "move it away, or choose another folder with `--out`";
+
 /// Where a run's files go.
 pub enum Place {
     /// A new folder below `albacore-runs`, for a mission.
@@ -93,6 +95,12 @@ impl Folder {
         disk::is_at(&self.journal, &self.path.join(JOURNAL)).unwrap_or(false)
     }
 
+    /// The files that are written as the run goes on, and where they should be.
+    pub fn names(&self) -> io::Result<[(File, PathBuf); 2]> {
+        let at = |name: &str| self.path.join(name);
+        Ok([(self.journal.try_clone()?, at(JOURNAL)), (self.record.file()?, at(RECORD))])
+    }
+
     /// Whether its path leads to its record still.
     pub fn is_recorded(&self) -> bool {
         self.record.is_at(&self.path.join(RECORD))
@@ -105,7 +113,7 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
     match FILES.iter().find(|name| is_there(name)) {
         None => return Ok(()),
         // Whoever begins a run creates its journal first, and whoever replaces one removes that last.
-        Some(&name) if name != JOURNAL => return Err(foreign(&folder.join(name))),
+        Some(&name) if name != JOURNAL => return Err(alone(&folder.join(name))),
         Some(_) => {}
     }
     let path = folder.join(JOURNAL);
@@ -178,7 +186,14 @@ fn taken(folder: &Path) -> Refusal {
 
 fn foreign(path: &Path) -> Refusal {
     let message = format!("`{}` is there already, and is not as a run left it", path.display());
-    Refusal(message, "move it away, or choose another folder with `--out`", Exit::Usage)
+    Refusal(message, ELSEWHERE, Exit::Usage)
+}
+
+/// A file that no journal tells to be a run's.
+fn alone(path: &Path) -> Refusal {
+    let message =
+        format!("`{}` is there already, and beside it no `{JOURNAL}` of the run that left it", path.display());
+    Refusal(message, ELSEWHERE, Exit::Usage)
 }
 
 /// The disk will not have it.
