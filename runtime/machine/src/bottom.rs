@@ -205,6 +205,7 @@ impl Run {
         let by_altitude = match (self.state.bottom.heard, self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - least,
             (Some(heard), None) if least > 0.0 && self.risen(heard, least) < heard.depth => self.risen(heard, least),
+            (None, None) if least > 0.0 => self.charted().map_or(self.unheard(), |water| water - least),
             _ => f64::MAX,
         };
         Some(self.depth() - by_altitude.min(self.deepest()).max(0.0))

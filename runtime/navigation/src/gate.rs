@@ -77,6 +77,9 @@ impl fmt::Display for Doubt {
         match self.change {
             Change::Rejected(change, time) => write!(f, "rejected: {name}, {} in {time:.1} s", by(change)),
             Change::Believed(change, time) => write!(f, "believed: {name}, {} for {time:.1} s", by(change)),
+            Change::Impossible(sigma) if kind == Kind::Position => {
+                write!(f, "rejected: {name}, a sigma of {sigma:.1} m cannot be")
+            }
             Change::Impossible(value) => write!(f, "rejected: {name}, {value:.1} cannot be"),
         }
     }
@@ -126,7 +129,7 @@ impl Gate {
     /// Whether a sample of a tick is believed.
     pub fn believes(&mut self, tick: u64, channel: u16, reading: Reading) -> bool {
         let Some(index) = JUDGED.iter().position(|(judged, _)| *judged == channel) else { return true };
-        if channel == COURSE && self.speed < HAS_COURSE {
+        if channel == COURSE && self.speed < HAS_COURSE && is_possible(Kind::Course, reading) {
             // What follows has nothing to follow.
             self.channels[index] = Channel::new(Kind::Course);
             return true;
@@ -155,10 +158,10 @@ impl Channel {
             return true;
         }
         let kind = self.kind;
-        if kind != Kind::Position && !kind.can_be(reading) {
+        if !is_possible(kind, reading) {
             self.came = tick;
             self.doubtful = None;
-            self.doubt(tick, Change::Impossible(reading[0]), told);
+            self.doubt(tick, Change::Impossible(if kind == Kind::Position { reading[2] } else { reading[0] }), told);
             return false;
         }
         let seconds = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
@@ -217,6 +220,11 @@ impl Channel {
         self.doubted = Some(tick);
         self.doubts = (self.doubts + DOUBT).min(DOUBTS_MAX);
     }
+}
+
+/// Whether a reading can be. A position may be anywhere: where missions are is not known here; its standard deviation may not.
+fn is_possible(kind: Kind, reading: Reading) -> bool {
+    if kind == Kind::Position { reading[2] >= 0.0 } else { kind.can_be(reading) }
 }
 
 /// Whether a reading can follow another after some seconds. The gate judges a course of a vehicle under way alone.

@@ -97,3 +97,16 @@ fn time_without_samples_counts() {
     let depths = [(0, 3.0), (1, 3.0), (300, 40.0), (301, 80.0)].map(|(tick, depth)| (tick, [depth, 0.0, 0.0]));
     assert_eq!(judged(DEPTH, depths).0, [301]);
 }
+
+/// A sigma excuses a position as far as it can be true; what no sensor can measure is not believed of a course at rest either.
+#[test]
+fn what_cannot_be_is_no_excuse() {
+    let positions = (0..100).map(|tick| (tick, if tick == 50 { [4e5, -7e5, -2e5] } else { [0.0, 0.0, 1.0] }));
+    let (withheld, said) = judged(POSITION, positions);
+    assert_eq!(withheld, [50]);
+    assert_eq!(said, told(&[(50, "rejected: position, a sigma of -200000.0 m cannot be")]));
+    let courses = (0..100).map(|tick| (tick, [if tick == 50 { 4e3 } else { 0.1 }, 0.0, 0.0]));
+    let (withheld, said) = judged(COURSE, courses);
+    assert_eq!(withheld, [50]);
+    assert_eq!(said, told(&[(50, "rejected: course, 4000.0 cannot be")]));
+}

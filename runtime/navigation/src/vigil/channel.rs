@@ -198,15 +198,15 @@ impl Channel {
                 sights.see(Sight::Stuck(self.kind));
             }
         } else {
-            // A rest that was told of says nothing of how long it rests when all is well.
+            // A rest that was told of says nothing of how long it rests when all is well, and its end nothing of its noise; nor
+            // does what no vehicle can do.
             if !sights.sees(Sight::Stuck(self.kind)) {
                 self.same_most = self.same_most.max(self.same);
+                if follows {
+                    self.learn(reading[0] - before[0]);
+                }
             }
             self.same = 0;
-            // What no vehicle can do is no noise of a sensor that is well.
-            if follows {
-                self.learn(reading[0] - before[0]);
-            }
         }
         let since = if self.same > 0 { since } else { tick };
         self.reading = Some((reading, since));
@@ -225,9 +225,9 @@ impl Channel {
         self.kind == kind
     }
 
-    /// It may well be silent now.
+    /// It may well be silent now, or tell the same again and again.
     pub fn excuse(&mut self, tick: u64) {
-        self.last = self.last.max(tick);
+        (self.last, self.same) = (self.last.max(tick), 0);
     }
 
     /// Whether its changes are those of the vehicle.
