@@ -44,6 +44,8 @@ struct Wire {
     cut: Shared<bool>,
     /// The bytes for which there is room in the system: what comes then is lost. 0: as many as come.
     room: Shared<usize>,
+    /// So long what the vehicle says is on its way.
+    delay: Shared<Duration>,
     sent: Shared<String>,
 }
 
@@ -57,6 +59,7 @@ struct Desk {
     wire: Arc<Wire>,
     far_end: FrontSeat<Simulator>,
     to_vehicle: Vec<u8>,
+    under_way: VecDeque<(Duration, Vec<u8>)>,
     from_vehicle: VecDeque<u8>,
     ticked: Duration,
 }
@@ -66,7 +69,8 @@ impl Desk {
         while self.ticked + TICK <= self.wire.now.get() {
             self.ticked += TICK;
             self.far_end.tick(&std::mem::take(&mut self.to_vehicle)).unwrap();
-            let said = self.far_end.take_output();
+            self.under_way.push_back((self.ticked + self.wire.delay.get(), self.far_end.take_output()));
+            let Some((_, said)) = self.under_way.pop_front_if(|(due, _)| *due <= self.ticked) else { continue };
             let room = self.wire.room.get();
             if !self.wire.silent.get() && (room == 0 || self.from_vehicle.len() + said.len() <= room) {
                 self.from_vehicle.extend(said);
@@ -114,6 +118,7 @@ fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
         wire: Arc::clone(&wire),
         far_end,
         to_vehicle: Vec::new(),
+        under_way: VecDeque::new(),
         from_vehicle: VecDeque::new(),
         ticked: Duration::ZERO,
     };
@@ -322,8 +327,9 @@ fn a_vehicle_that_offers_takes_control_back_before_it_offers_again() {
 }
 
 /// The commands of the ticks that came while nobody looked, and of the next: each asks for a heading of its own.
-fn after_a_pause(ticks: u32, room: usize) -> Vec<(Control, String)> {
+fn after_a_pause(ticks: u32, room: usize, delay: u32) -> Vec<(Control, String)> {
     let (mut vehicle, wire, mut snapshot) = driven();
+    wire.delay.set(TICK * delay);
     // The vehicle has taken up what it was asked for: nothing has to be said again.
     (0..20).for_each(|_| {
         vehicle.sense(&mut snapshot).unwrap();
@@ -346,9 +352,10 @@ fn after_a_pause(ticks: u32, room: usize) -> Vec<(Control, String)> {
 
 #[test]
 fn after_a_pause_the_newest_command_alone_is_sent() {
-    let said = after_a_pause(40, 0);
+    let said = after_a_pause(40, 0, 0);
     let late = said.iter().take_while(|(_, sent)| sent.is_empty()).count();
-    assert!((38..=40).contains(&late), "{late} late ticks in silence: {said:?}");
+    // The first state that is later by the round trip than the pause was certainly made after it.
+    assert!((38..=44).contains(&late), "{late} late ticks in silence: {said:?}");
     let newest = &said[late].1;
     assert!(newest.starts_with(&format!("#C,Heading,Goal,{late}.0,")) && newest.lines().count() == 1, "{newest}");
     assert!(said.iter().all(|(control, _)| *control == Control::InControl));
@@ -358,10 +365,11 @@ fn after_a_pause_the_newest_command_alone_is_sent() {
 fn after_a_pause_nothing_is_sent_to_a_vehicle_that_has_left_override() {
     // It leaves who is silent for 5 s.
     // ... and of which the system may have kept what it said before that alone.
-    for room in [0, 5000, 2000, 400] {
-        let said = after_a_pause(60, room);
-        assert_eq!(said.last().unwrap().0, Control::Released, "{room}");
-        assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{room}: {said:?}");
+    // ... or what it said before that may be under way still.
+    for (room, delay) in [(0, 0), (5000, 0), (2000, 0), (400, 0), (0, 5), (0, 18)] {
+        let said = after_a_pause(60, room, delay);
+        assert_eq!(said.last().unwrap().0, Control::Released, "{room}, {delay}");
+        assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{room}, {delay}: {said:?}");
     }
 }
 

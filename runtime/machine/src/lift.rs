@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 const SUNK_M: f64 = 1.0;
 const RISEN_M: f64 = 0.5;
 const PATIENCE_S: f64 = 5.0;
+/// ... or so long, s, if its altitude is low: a hull takes ten seconds to be lifted.
+const PATIENCE_LOW_S: f64 = 2.0;
 /// It is lifted until it is no deeper than this below where it may be, m ...
 const LIFTED_M: f64 = 0.2;
 /// ... or has not risen by as much in so long, s, by which time it will not.
@@ -38,8 +40,11 @@ impl Run {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
         if let Some(too_deep) = self.too_deep(p).filter(|_| speed > 0.0) {
-            let sunk = too_deep > SUNK_M || self.is_low();
-            self.state.lift = before.after(self.state.tick, too_deep, sunk);
+            let patience = match (self.is_low(), too_deep > SUNK_M) {
+                (true, _) => Some(PATIENCE_LOW_S),
+                (false, sunk) => sunk.then_some(PATIENCE_S),
+            };
+            self.state.lift = before.after(self.state.tick, too_deep, patience);
         }
         let lifted = self.state.lift.is_lifted();
         if lifted != before.is_lifted() {
@@ -58,7 +63,7 @@ impl Lift {
         matches!(self, Lift::Lifted { .. })
     }
 
-    fn after(self, tick: u64, too_deep: f64, sunk: bool) -> Lift {
+    fn after(self, tick: u64, too_deep: f64, patience: Option<f64>) -> Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match self {
             Lift::Lifted { .. } | Lift::InVain { .. } if too_deep <= LIFTED_M => Lift::Clear,
@@ -66,14 +71,14 @@ impl Lift {
             Lift::Lifted { since, .. } if lasts(since) > IN_VAIN_S => Lift::InVain { by: too_deep },
             Lift::Lifted { .. } => self,
             Lift::InVain { by } if too_deep <= by + SUNK_M => self,
-            Lift::Deep { by, since } if sunk && too_deep > by - RISEN_M => {
-                if lasts(since) > PATIENCE_S {
+            Lift::Deep { by, since } if patience.is_some() && too_deep > by - RISEN_M => {
+                if patience.is_some_and(|patience| lasts(since) > patience) {
                     Lift::Lifted { by: too_deep, since: tick }
                 } else {
                     self
                 }
             }
-            _ if sunk => Lift::Deep { by: too_deep, since: tick },
+            _ if patience.is_some() => Lift::Deep { by: too_deep, since: tick },
             _ => Lift::Clear,
         }
     }

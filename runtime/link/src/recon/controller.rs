@@ -43,6 +43,8 @@ const LEFT_LINES: u64 = 3;
 const WAITING_MAX: usize = 4096;
 /// Notices that wait to be read.
 const NOTICES_MAX: usize = 128;
+/// After a pause states from before it may come for as long as it was, and for so long more.
+const AWAY_MORE: Duration = Duration::from_secs(5);
 
 /// The places of the goals.
 const HEADING_GOAL: usize = 0;
@@ -109,8 +111,8 @@ pub struct Controller {
     late: u64,
     /// Whether the tick that was taken last was late.
     was_late: bool,
-    /// We were away, and no state has come since then: what was heard last may be from before.
-    away: bool,
+    /// We were away, and no state has come that was made since then: what was heard last is from before.
+    away: Option<Away>,
     grounding: Grounding,
     round_trip: RoundTrip,
     /// The host's time, as it was told last.
@@ -123,6 +125,13 @@ pub struct Controller {
     /// What the vehicle may still bring about of them.
     allowance: Allowance,
     told: String,
+}
+
+/// Until when we were away, by the host's clock, and how long states from before may come.
+#[derive(Clone, Copy, Debug)]
+struct Away {
+    until: Duration,
+    longest: Duration,
 }
 
 impl Controller {
@@ -147,7 +156,7 @@ impl Controller {
             goals: Default::default(),
             late: 0,
             was_late: false,
-            away: false,
+            away: None,
             round_trip: RoundTrip::new(1.0),
             host: Duration::ZERO,
             grounding: Grounding::default(),
@@ -205,14 +214,15 @@ impl Controller {
         self.lost || self.latest_tick.is_some_and(|latest| self.next_tick <= latest)
     }
 
-    /// All that came while nobody looked has been heard: it is old, and the next state is the vehicle's word.
-    pub fn was_away(&mut self) {
-        self.away = true;
+    /// All that came while nobody looked, for so long, has been heard: it is old, and a state that is made from now on is the vehicle's
+    /// word.
+    pub fn was_away(&mut self, time: Duration) {
+        self.away = Some(Away { until: self.host, longest: self.host + time + AWAY_MORE });
     }
 
     /// Whether the vehicle's time has gone on since the tick that was taken last, or may have.
     fn is_late(&self) -> bool {
-        !self.lost && (self.away || self.is_due())
+        !self.lost && (self.away.is_some() || self.is_due())
     }
 
     /// Whether it is the vehicle's last word, of this tick or a later one, that we drive it.
@@ -275,7 +285,8 @@ impl Controller {
             }
         };
         self.latest_tick = Some(tick);
-        self.away = false;
+        let is_of_now = |away: &Away| self.round_trip.made_after(tick, away.until) || self.host > away.longest;
+        self.away = self.away.filter(|away| !is_of_now(away));
         self.round_trip.told(state.heading_goal, Told::State, self.moment());
         self.speed = state.speed;
         let position = self.frame.to_point(state.position);

@@ -199,6 +199,13 @@ impl RoundTrip {
         self.since(heard, now).max(took).min(age.max(0) as u64)
     }
 
+    /// Whether a state with this stamp was made after a time of the host's clock, as far as the two clocks are known. What comes through
+    /// a buffer after a pause is older than it looks.
+    pub fn made_after(&self, tick: u64, host: Duration) -> bool {
+        let made = self.ahead.map(|ahead| tick as i64 + ahead - self.last as i64);
+        made.is_none_or(|made| made >= host_ticks(host, self.rate) as i64)
+    }
+
     /// By how much the host's clock is ahead of the stamps, ticks.
     fn ahead_of(&self, now: Moment) -> i64 {
         host_ticks(now.host, self.rate) as i64 - now.tick as i64

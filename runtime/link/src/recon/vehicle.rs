@@ -42,8 +42,8 @@ pub struct ReconVehicle {
     ticked: Duration,
     /// When we looked last for what has come.
     looked: Duration,
-    /// There was a pause before that.
-    paused: bool,
+    /// There was a pause before that, of so long.
+    paused: Option<Duration>,
     greeted: Option<Duration>,
     /// When the first tick was taken.
     begun: Option<Duration>,
@@ -76,7 +76,7 @@ impl ReconVehicle {
             silence,
             ticked,
             looked: ticked,
-            paused: false,
+            paused: None,
             greeted: None,
             begun: None,
             rate,
@@ -94,7 +94,7 @@ impl ReconVehicle {
         let now = (self.clock)();
         let away = now.saturating_sub(self.looked);
         if away >= PAUSE {
-            self.paused = true;
+            self.paused = Some(away + self.paused.unwrap_or_default());
             self.ticked = (self.ticked + away).min(now);
         }
         self.looked = now;
@@ -109,13 +109,13 @@ impl ReconVehicle {
     /// last before the next has come.
     fn catch_up(&mut self) -> Result<(), VehicleError> {
         for _ in 0..LOOKS_MAX {
-            let wait = if self.paused { QUIET } else { Duration::ZERO };
-            if !self.look(wait)? && (wait == QUIET || !self.paused) {
+            let wait = if self.paused.is_some() { QUIET } else { Duration::ZERO };
+            if !self.look(wait)? && (wait == QUIET || self.paused.is_none()) {
                 break;
             }
         }
-        if std::mem::take(&mut self.paused) {
-            self.controller.was_away();
+        if let Some(time) = self.paused.take() {
+            self.controller.was_away(time);
         }
         Ok(())
     }
@@ -175,7 +175,7 @@ impl Vehicle for ReconVehicle {
         if !self.controller.is_due() {
             self.look(LOOK)?;
             // We may have been stopped while we waited.
-            if self.paused {
+            if self.paused.is_some() {
                 self.catch_up()?;
             }
         }

@@ -16,6 +16,8 @@ const NOISE_CHANGES: u64 = 300;
 /// a smooth motion 1. What they are on the mean of so many counts as no difference: a steady dive hides no noise.
 const NOISE_CORRELATION: f64 = -0.25;
 const NOISE_DRIFT_CHANGES: u64 = 20;
+/// ... and where so many of them are of another sign than the one before, of 2/3 in white noise: that one has zigzagged once is no noise.
+const NOISE_ALTERNATES: f64 = 0.5;
 /// ... and where they are larger than the rounding of the last bits, in SI units, and than the smallest of them, which may be the step
 /// in which a link tells numbers: a value between two steps flickers like noise and then rests for minutes.
 const NOISE_MIN: f64 = 1e-4;
@@ -142,6 +144,8 @@ pub(super) struct Channel {
     difference: f64,
     variance: f64,
     covariance: f64,
+    /// The share of those that are of another sign than the one before, and larger than rounding.
+    alternates: f64,
     /// What changes is the vehicle, not the noise of its sensor.
     moves: bool,
 }
@@ -163,6 +167,7 @@ impl Channel {
             difference: 0.0,
             variance: 0.0,
             covariance: 0.0,
+            alternates: 0.0,
             moves: false,
         }
     }
@@ -251,7 +256,9 @@ impl Channel {
         self.drift += share(NOISE_DRIFT_CHANGES) * off;
         let (difference, share) = (off, share(NOISE_CHANGES));
         self.variance += share * (difference * difference - self.variance);
-        self.covariance += share * (difference * self.difference - self.covariance);
+        let product = difference * self.difference;
+        self.covariance += share * (product - self.covariance);
+        self.alternates += share * (f64::from(product < -NOISE_MIN * NOISE_MIN) - self.alternates);
         self.difference = difference;
     }
 
@@ -266,6 +273,7 @@ impl Channel {
                 !self.moves
                     && self.changes >= NOISE_CHANGES
                     && self.covariance < NOISE_CORRELATION * self.variance
+                    && self.alternates > NOISE_ALTERNATES
                     && self.variance > least * least
                     && self.same_most <= NOISE_REST_MAX
             }
