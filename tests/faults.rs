@@ -117,6 +117,25 @@ fn nothing_is_detected_where_nothing_is_wrong() {
     }
 }
 
+/// Sensors that are well, in what once looked like a fault.
+#[test]
+fn nothing_is_taken_for_stuck_that_rests() {
+    let mut runs = 0;
+    insta::glob!("faults/none/*.alb", |path| {
+        let script = load(path, None, &[]).unwrap();
+        assert!(script.is_sound(), "{:?}", script.findings);
+        let plan = Plan::new(&script, &path.to_string_lossy(), None, None).unwrap();
+        for seed in 1..=5 {
+            let mut run = Run::new(&plan, seed).unwrap();
+            run.to_end();
+            let trace = run.trace().to_string();
+            assert!(!trace.contains("stuck"), "{}, seed {seed}: {trace}", path.display());
+            runs += 1;
+        }
+    });
+    assert!(runs >= 30);
+}
+
 #[test]
 fn every_fault_is_survived_and_named() {
     let matrix = SENSORS.iter().flat_map(|sensor| DISORDERS.map(|disorder| format!("{sensor}, {disorder}")));

@@ -49,6 +49,8 @@ pub(crate) struct Bottom {
     begun: Option<u64>,
     /// It was told that the bottom is lost.
     lost: bool,
+    /// Where the vehicle is is not known: a chart tells nothing of the water there.
+    misplaced: bool,
 }
 
 /// What an echo tells: depth and water depth when it came, m. Of echoes that are all the same the least of either: as long as they
@@ -64,6 +66,13 @@ struct Heard {
     confirmed: bool,
     /// Where the vehicle was, as far as it was known.
     at: Option<Point>,
+}
+
+impl Bottom {
+    /// A position has come, which may be doubted.
+    pub fn doubt_place(&mut self, is_doubted: bool) {
+        self.misplaced = is_doubted;
+    }
 }
 
 impl Run {
@@ -203,7 +212,7 @@ impl Run {
             _ => {}
         }
         let by_altitude = match (self.state.bottom.heard, self.heard_lately(p)) {
-            (_, Some(heard)) => heard.water - least,
+            (_, Some(heard)) => heard.water - self.ahead(least),
             (Some(heard), None) if least > 0.0 && self.risen(heard, least) < heard.depth => self.risen(heard, least),
             (None, None) if least > 0.0 => self.charted().map_or(self.unheard(), |water| water - least),
             _ => f64::MAX,
@@ -252,7 +261,7 @@ impl Run {
     }
 
     fn charted(&self) -> Option<f64> {
-        let chart = self.chart.as_ref()?;
+        let chart = self.chart.as_ref().filter(|_| !self.state.bottom.misplaced)?;
         // Where the vehicle was is no place where it is.
         let age = |at: Slot| self.state.tick as f64 - self.get(at + Input::STAMP) + self.state.lag.round_trip as f64;
         let told = |at: &Slot| self.get(at + Input::STAMP) >= 0.0 && age(*at) <= LIMIT_FRESH_S / TICK_S;

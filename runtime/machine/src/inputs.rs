@@ -4,7 +4,7 @@ use crate::state::{Run, Senses};
 use albacore_arithmetic::{Age, Operation};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_program::{Input, Program, Slot};
-use albacore_vehicle::channels::ALTITUDE;
+use albacore_vehicle::channels::{ALTITUDE, POSITION};
 use albacore_vehicle::{Channel, Sample};
 
 /// An input that a mission requires and the vehicle does not deliver.
@@ -72,6 +72,9 @@ impl Run {
             if sample.is_doubted_of(ALTITUDE) {
                 self.doubt_sounding();
                 is_echo = false;
+            }
+            if sample.input_channel() == POSITION || sample.is_doubted_of(POSITION) {
+                self.state.bottom.doubt_place(sample.is_doubted_of(POSITION));
             }
             let Some(Some(index)) = wiring.get(sample.input_channel() as usize) else { continue };
             let input = &program.inputs[*index as usize];

@@ -3,14 +3,23 @@
 //! The watch looks at all that came and steers nothing, with one exception: an altitude that it knows to be stuck is withheld, so
 //! that the limits of the mission take the bottom for lost. The gate withholds what cannot have happened, until it persists. An
 //! altitude that does not follow a dive, or is told of a vehicle that lies on the bottom or has a stuck depth, is doubted: limits
-//! do without it, and inputs take it, for down a slope a good one looks the same. All of it stays in the snapshot, marked, so that a
+//! do without it, and inputs take it, for down a slope a good one looks the same. So is a position that the watch sees anything
+//! against: no survey tells the depth of the water there. All of it stays in the snapshot, marked, so that a
 //! journal holds what came and what was believed.
 
 use crate::gate::Gate;
 use crate::sounding::Sounding;
 use crate::vigil::{Kind, Sight, Vigil};
-use albacore_vehicle::channels::{ALTITUDE, COURSE, DEPTH, HEADING, WATER_DEPTH};
+use albacore_vehicle::channels::{ALTITUDE, COURSE, DEPTH, HEADING, POSITION, WATER_DEPTH};
 use albacore_vehicle::{Command, Sample, Snapshot};
+
+/// What speaks against a position.
+const MISPLACED: [Sight; 4] = [
+    Sight::Stuck(Kind::Position),
+    Sight::Jumps(Kind::Position),
+    Sight::SpeedAgainstPosition,
+    Sight::CourseAgainstPosition,
+];
 
 /// What is believed in one run: a function of what came and what was commanded.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +37,7 @@ impl Trust {
         told.extend(self.vigil.look(tick, snapshot, command).iter().map(ToString::to_string));
         // Depth and altitude tell of one another: with a depth that stands still nothing is known of the bottom.
         let depth_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Depth));
+        let is_misplaced = MISPLACED.iter().any(|sight| self.vigil.sees(*sight));
         // What is made of others is doubtful with them, and so it is looked at after them.
         let altitude_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Altitude));
         let mut doubtful: Vec<u16> = altitude_is_stuck.then_some(ALTITUDE).into_iter().collect();
@@ -41,6 +51,7 @@ impl Trust {
                     sample.withhold();
                 } else if !self.sounds(tick, sample, command, snapshot.aground)
                     || depth_is_stuck && sample.channel == ALTITUDE
+                    || is_misplaced && sample.channel == POSITION
                 {
                     sample.doubt();
                 }

@@ -179,9 +179,7 @@ impl Vigil {
         self.mirrored.look(&heard);
         for channel in &mut self.channels {
             if channel.is_of(Kind::Depth) {
-                channel.moves(self.mirrored.moves_depth());
-            } else if channel.is_of(Kind::Altitude) {
-                channel.moves(self.mirrored.moves_altitude());
+                channel.moves(self.mirrored.is_the_vehicles());
             }
             // A vehicle that stands still has no course.
             if channel.is_of(Kind::Course) && self.motion.speed() < AT_REST {

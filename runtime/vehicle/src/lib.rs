@@ -72,7 +72,8 @@ pub struct Lag {
 
 /// Marks the channel of a sample that is not believed: it is kept for whoever reads the journal, and no input takes it.
 const WITHHELD: u16 = 0x8000;
-/// Marks the channel of an altitude that may be no echo of the bottom: inputs take it, and no limit goes by it.
+/// Marks the channel of an altitude that may be no echo of the bottom, or of a position that may be elsewhere: inputs take it, and no
+/// limit goes by it.
 const DOUBTED: u16 = 0x4000;
 
 impl Sample {

@@ -224,7 +224,7 @@ impl Moment {
     pub fn place(&self) -> String {
         let sensed = |name: &str| {
             let channel = self.vehicle.channels().iter().position(|c| c.name == name)?;
-            self.snapshot.samples.iter().rev().find(|s| s.channel as usize == channel).map(|s| s.reading)
+            self.snapshot.samples.iter().rev().find(|s| s.input_channel() as usize == channel).map(|s| s.reading)
         };
         let [north, east, ..] = sensed("position").unwrap_or([f64::NAN; 4]);
         let heading = number::heading(sensed("heading").map_or(f64::NAN, |r| r[0]));
