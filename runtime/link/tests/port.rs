@@ -70,7 +70,10 @@ impl Desk {
             self.ticked += TICK;
             self.far_end.tick(&std::mem::take(&mut self.to_vehicle)).unwrap();
             self.under_way.push_back((self.ticked + self.wire.delay.get(), self.far_end.take_output()));
-            let Some((_, said)) = self.under_way.pop_front_if(|(due, _)| *due <= self.ticked) else { continue };
+            if self.under_way.front().is_some_and(|(due, _)| *due > self.ticked) {
+                continue;
+            }
+            let Some((_, said)) = self.under_way.pop_front() else { continue };
             let room = self.wire.room.get();
             if !self.wire.silent.get() && (room == 0 || self.from_vehicle.len() + said.len() <= room) {
                 self.from_vehicle.extend(said);
