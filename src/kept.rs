@@ -131,6 +131,11 @@ impl Kept {
                 record.loses(JOURNAL, GONE);
             }
         }
+        if is_there && !record.has_lost(JOURNAL) && !folder.is_journal_whole() {
+            record.loses(JOURNAL, WRITTEN_INTO);
+            let what = format!("`{}` is not as this run wrote it: {WRITTEN_INTO}", path.join(JOURNAL).display());
+            troubles.push((what, Some("it is left as it is; what was overwritten is lost".to_string())));
+        }
         let ended = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.finish(&text));
         if let Err(error) = begun.and(ended) {
             troubles.push((
@@ -175,6 +180,7 @@ impl Kept {
 
 /// What became of a file that has the name of a run's file no more.
 const GONE: &str = "it was removed or replaced";
+const WRITTEN_INTO: &str = "another program has written into it";
 
 fn not_ours(path: &Path) -> String {
     format!("`{}` is not this run's any more: {GONE}", path.display())

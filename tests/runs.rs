@@ -335,6 +335,20 @@ fn what_others_write_into_the_files_of_a_run_is_told() {
     }
 }
 
+/// As long as it was, and with other bytes.
+#[test]
+fn a_journal_that_was_overwritten_is_told() {
+    for (name, at) in [("head", 0), ("middle", 1500)] {
+        let project = project(&format!("overwritten-{name}"));
+        let (out, child) = (project.join("out"), long_run(&project, "out"));
+        let journal = std::fs::OpenOptions::new().write(true).open(out.join("journal")).unwrap();
+        std::os::unix::fs::FileExt::write_all_at(&journal, b"XXXX", at).unwrap();
+        let (code, _, said) = ended(child);
+        assert!(code == Some(4) && said.contains("`out/journal` is not as this run wrote it"), "{code:?} {said}");
+        assert!(record(&out)["lost"]["journal"].is_string());
+    }
+}
+
 #[test]
 fn a_journal_that_was_removed_is_told() {
     let project = project("journal-gone");

@@ -95,6 +95,14 @@ impl Folder {
         disk::is_at(&self.journal, &self.path.join(JOURNAL)).unwrap_or(false)
     }
 
+    /// Whether the journal holds what the run wrote, as far as it was written.
+    pub fn is_journal_whole(&self) -> bool {
+        let read = |look: &dyn Fn(&mut File) -> bool| {
+            File::open(self.path.join(JOURNAL)).is_ok_and(|mut file| look(&mut file))
+        };
+        read(&|file| is_journal(file)) && read(&|file| is_journal_as_left(file))
+    }
+
     /// The files that are written as the run goes on, and where they should be.
     pub fn names(&self) -> io::Result<[(File, PathBuf); 2]> {
         let at = |name: &str| self.path.join(name);

@@ -118,6 +118,11 @@ impl Record {
         self.lost.insert(name, why.to_string());
     }
 
+    /// Whether a file is known not to be whole.
+    pub fn has_lost(&self, name: &str) -> bool {
+        self.lost.contains_key(name)
+    }
+
     /// It is, after all.
     pub fn has(&mut self, name: &str) {
         self.lost.remove(name);
