@@ -224,3 +224,24 @@ fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
         }
     }
 }
+
+/// What it holds is within its limits, whatever its sounder tells.
+#[test]
+fn a_goal_above_the_bottom_is_told_no_deeper_than_the_limit() {
+    let limits = Some(Limits { depth: Some(4.0), ..Limits::default() });
+    let trouble = Trouble::Sensor(Sensor::Altitude, Disorder::Garbage);
+    let faults = vec![Fault { trouble, from: 0.0, to: None }];
+    let simulator = Simulator::new(&Scenario { limits, faults, ..Scenario::default() }, 1).unwrap();
+    let altitude = simulator.water_depth(Point::ORIGIN) - 2.0;
+    let rows: Rows = "100x20x2".parse().unwrap();
+    let start = (Point::ORIGIN, Heading::NORTH);
+    let mut vehicle = FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
+    vehicle.tick((seal("E,1") + &seal(&format!("C,Depth,Altitude,{altitude:.2}"))).as_bytes()).unwrap();
+    for _ in 0..200 {
+        vehicle.tick(seal("V,still here").as_bytes()).unwrap();
+    }
+    let said = String::from_utf8(vehicle.take_output()).unwrap();
+    let goals = said.lines().filter_map(|line| line.split(",DG").nth(1)?.split(',').next()?.parse::<f64>().ok());
+    let goals: Vec<f64> = goals.collect();
+    assert!(goals.len() > 190 && goals.iter().all(|goal| (0.0..=4.0).contains(goal)), "{goals:?}");
+}

@@ -461,8 +461,11 @@ impl<V: Vehicle> FrontSeat<V> {
         let goal = self.vehicle.held().or(self.command);
         let depth_goal = match goal.map(|c| c.vertical) {
             Some(Vertical::Depth(depth)) => depth,
-            // Where the water is shallower than that it stays at the surface.
-            Some(Vertical::Altitude(altitude)) => (s.depth + s.altitude.unwrap_or(altitude) - altitude).max(0.0),
+            // Where the water is shallower than that it stays at the surface, and it goes no deeper than it may whatever it hears.
+            Some(Vertical::Altitude(altitude)) => {
+                let most = self.vehicle.limits().depth.unwrap_or(f64::INFINITY);
+                (s.depth + s.altitude.unwrap_or(altitude) - altitude).max(0.0).min(most)
+            }
             None => s.depth,
         };
         let speed_goal = goal.map_or(0.0, |c| c.speed);
