@@ -59,3 +59,16 @@ fn constants_and_signals_of_a_long_chain_of_modules() {
     std::fs::write(folder.join("main.alb"), main).unwrap();
     assert!(told(&folder).contains("no errors"), "{}", told(&folder));
 }
+
+/// A project may have a script with the name of a module of the standard library, which goes on to be made of its own.
+#[test]
+fn the_standard_library_imports_its_own() {
+    let folder = folder("standard");
+    std::fs::write(folder.join("search.alb"), "const ours = 1\n").unwrap();
+    std::fs::write(
+        folder.join("main.alb"),
+        "use cpt, search\nfn f(s: cpt.Source) -> Int { if s.at_edge { search.ours } else { 0 } }\n",
+    )
+    .unwrap();
+    assert!(told(&folder).contains("no errors"), "{}", told(&folder));
+}
