@@ -136,7 +136,8 @@ impl Test {
 
     /// What is wrong with what became of a test, in lines.
     fn problems(&self, path: &Path, result: &TestResult, faults: &albacore_session::Faults) -> Vec<String> {
-        let mut problems: Vec<String> = result.failures.iter().flat_map(told).collect();
+        let mut problems = failed_runs(result);
+        problems.extend(result.failures.iter().flat_map(told));
         // A snapshot is of a run in which only the scenario's own faults were.
         let traces: &[(u64, String)] = if faults.is_empty() { &result.traces } else { &[] };
         if self.accept && !problems.is_empty() {
@@ -162,7 +163,8 @@ impl Test {
             }
             Err(error) => return vec![format!("        `{}` is there already, and {error}", file.display())],
         };
-        if stored.as_deref() == Some(trace) {
+        // The ends of lines belong to who keeps the file: version control and editors write their own.
+        if stored.as_deref().is_some_and(|stored| stored.lines().eq(trace.lines())) {
             return Vec::new();
         }
         if self.accept {
@@ -195,7 +197,8 @@ impl Test {
         let behavior = first_difference(&stored, trace);
         let lines = behavior.map_or_else(|| first_lines(&stored, trace), |d| (d.left, d.right));
         for (sign, line) in [("-", lines.0), ("+", lines.1)] {
-            told.push(format!("          {sign} {}", line.as_deref().unwrap_or("(nothing more)")));
+            let line = line.as_deref().unwrap_or("(nothing more)");
+            told.push(format!("          {sign} {}", if line.is_empty() { "(an empty line)" } else { line }));
         }
         told.push("        when this is right: `albacore test --accept`".to_string());
         told
@@ -247,6 +250,22 @@ fn say(line: &str) {
     lines.print();
 }
 
+/// The runs that could not go on, in lines.
+fn failed_runs(result: &TestResult) -> Vec<String> {
+    let (failed, runs) = result.failed_of;
+    if failed == 0 {
+        return Vec::new();
+    }
+    let mut lines = vec![format!("        {failed} of {runs} runs failed: nothing is known of what came after")];
+    lines.extend(result.failed.iter().map(|(seed, why)| example(*seed, why)));
+    lines
+}
+
+/// A run that is told of as one of several.
+fn example(seed: u64, found: &str) -> String {
+    format!("          seed {seed}: {found}")
+}
+
 /// A failed expectation as a person reads it, in lines.
 fn told(failure: &Failure) -> Vec<String> {
     let (held, runs) = failure.held;
@@ -257,7 +276,7 @@ fn told(failure: &Failure) -> Vec<String> {
         format!("        {}  {}", failure.place, failure.text),
         format!("        held in {held} of {runs} runs{wanted}"),
     ];
-    lines.extend(failure.examples.iter().map(|(seed, found)| format!("          seed {seed}: {found}")));
+    lines.extend(failure.examples.iter().map(|(seed, found)| example(*seed, found)));
     lines
 }
 

@@ -159,6 +159,32 @@ fn long_chains_are_checked_in_time_and_on_a_small_stack() {
     }
 }
 
+/// Each byte, or nearly, of one long line is a mistake: where it stands is not looked for through the whole line.
+#[test]
+fn a_line_full_of_mistakes_is_checked_in_time() {
+    let lines = [
+        ("closers", "}".repeat(400_000)),
+        ("crossed", "(]".repeat(200_000)),
+        ("blanks", "\u{a0}".repeat(400_000)),
+        ("wide", "\u{ff41} ".repeat(400_000)),
+        ("turned", "\u{202e}".repeat(400_000)),
+        ("text", format!("const c = \"{}\"", "\u{200b}".repeat(400_000))),
+        ("escapes", format!("const c = \"{}\"", "\\q".repeat(200_000))),
+        ("tabs", "\t}".repeat(200_000)),
+    ];
+    for (name, line) in lines {
+        let before = work();
+        let file = std::env::temp_dir().join(format!("albacore-{}-{name}-line.alb", std::process::id()));
+        std::fs::write(&file, line).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_albacore")).arg("check").arg(&file).output().unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(3) && told.contains("more"), "{name}: {told:.2000}");
+        let took = work() - before;
+        assert!(took < 3, "{name}: {took} s");
+    }
+}
+
 /// What the vehicle's sensors look through at each sample is bounded, and told before anything else is made of it.
 #[test]
 fn a_scenario_has_so_many_clauses_of_one_name_at_most() {

@@ -361,3 +361,66 @@ fn a_share_of_the_runs_is_of_one_at_least() {
         assert_eq!((code, said.contains(&held), project.snapshot()), (Some(1), true, None), "{said}");
     }
 }
+
+/// A hull of which the simulator cannot compute the motion: a current takes it out of all bounds.
+const FAILING: &str = r#"
+scenario torn {
+    vehicle(fossen(step: 50 ms, fin_max: 45 deg, turns_max: 60 Hz, speed_max: 6 m/s), start: point(north: 0 m, east: 0 m),
+        depth: 3 m)
+    fault(flooding(water: 0 kg, within: 0 s), from: 5 s)
+    fault(strong_current(current: 10 m/s toward east), from: 10 s, to: 60 s)
+}
+
+mission zigzag in torn within 5 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+    limits { altitude >= 2 m, speed <= 2.5 m/s }
+    requires { position, course, heading fresh 20 s, else abort }
+    recovery within 5 min { goto op.center }
+    with depth 3 m, speed 2.4 m/s
+    for i in 0..5 {
+        steer east for 5 s
+        steer west for 5 s
+    }
+}
+
+test "passes by its expectations alone" {
+    run zigzag in torn seeds 1..2
+    expect time > 0 s
+    expect not completed
+    expect in 50 % of runs: time > 0 s
+    expect always zigzag.op.gap(truth.position) > -10 km
+    snapshot switches of seed 1
+}
+"#;
+
+#[test]
+fn a_run_that_could_not_go_on_fails_its_test_whatever_it_expects() {
+    let project = Project::new("failed", "10 s", "5 m");
+    std::fs::write(project.0.join("north.alb"), FAILING).unwrap();
+    for more in [&[][..], &["--accept"]] {
+        let (code, said) = project.test(more);
+        assert_eq!(code, Some(1), "{said}");
+        assert!(said.contains("2 of 2 runs failed"), "{said}");
+        assert!(said.contains("seed 1: the motion of the hull cannot be computed"), "{said}");
+        assert!(!project.0.join("snapshots").exists(), "{said}");
+    }
+}
+
+/// Version control may write other line ends than these, and an editor may leave the last one out.
+#[test]
+fn the_ends_of_lines_are_no_part_of_a_snapshot() {
+    let project = Project::new("line-ends", "10 s", "5 m");
+    project.test(&["--accept"]);
+    let file = project.0.join("snapshots/north-goes_north-2.trace");
+    let accepted = project.snapshot().unwrap();
+    let short = accepted.trim_end().to_string();
+    for text in [accepted.replace('\n', "\r\n"), short.replace('\n', "\r\n"), short] {
+        std::fs::write(&file, &text).unwrap();
+        let (code, said) = project.test(&[]);
+        assert_eq!(code, Some(0), "{said}");
+    }
+    // What else differs is shown, though it be a blank line.
+    std::fs::write(&file, format!("{accepted}\n")).unwrap();
+    let (code, said) = project.test(&[]);
+    assert!(code == Some(1) && said.contains("- (an empty line)") && said.contains("+ (nothing more)"), "{said}");
+}

@@ -216,7 +216,7 @@ impl<'t> Checker<'t> {
                     let finding = Diagnostic::error(Code::MissionsTwice, span, "a mission has one recovery");
                     self.report(finding.help("keep one of them"));
                 }
-                let within = within.as_ref().map(|e| self.duration(e, "the time of the recovery"));
+                let within = within.as_ref().map(|e| self.time_limit(e, "the time of the recovery"));
                 if within.is_none() {
                     let word = Span { end: span.start + "recovery".len() as u32, ..span };
                     self.report(

@@ -22,6 +22,42 @@ const PARTS_READ_MAX: usize = 1 << 20;
 /// Fields of a record at most, with those of the records that it holds.
 const PARTS_MAX: usize = 256;
 
+/// The place of each module in an order in which what a module knows comes before it: what every script knows, and what it
+/// imports. No import leads back to its beginning.
+fn imported_first(modules: &[Module]) -> Vec<usize> {
+    let mut ranks = vec![None; modules.len()];
+    let mut next = 0;
+    let prelude = (0..modules.len()).filter(|&m| modules[m].prelude);
+    for first in prelude.chain(0..modules.len()) {
+        let mut ahead = vec![first];
+        while let Some(&m) = ahead.last() {
+            let known = modules[m].imports.values().chain(&modules[m].extends);
+            let before = ahead.len();
+            ahead.extend(known.copied().filter(|&other| ranks[other].is_none()));
+            if ahead.len() == before {
+                ahead.pop();
+                if ranks[m].is_none() {
+                    ranks[m] = Some(next);
+                    next += 1;
+                }
+            }
+        }
+    }
+    ranks.into_iter().flatten().collect()
+}
+
+/// What modules declare, in the order of the modules and then of the declarations.
+fn in_order(declared: &[Lazy], ranks: &[usize]) -> Vec<usize> {
+    let rank = |i: &usize| match &declared[*i] {
+        Lazy::Unchecked { module, .. } => ranks[*module],
+        // It is known already, and takes nothing more.
+        Lazy::InProgress(_) | Lazy::Done(_) => 0,
+    };
+    let mut order: Vec<usize> = (0..declared.len()).collect();
+    order.sort_by_key(rank);
+    order
+}
+
 impl<'t> Checker<'t> {
     pub(super) fn run(&mut self) {
         let modules = self.modules;
@@ -46,10 +82,11 @@ impl<'t> Checker<'t> {
             self.unknown_override(&unused);
         }
         self.make_room();
-        for i in 0..self.consts.len() {
+        let ranks = imported_first(modules);
+        for i in in_order(&self.consts, &ranks) {
             self.constant(i);
         }
-        for i in 0..self.signals.len() {
+        for i in in_order(&self.signals, &ranks) {
             self.module_signal(i);
         }
         self.check_vehicles();

@@ -176,7 +176,7 @@ impl Checker<'_> {
 
     pub(super) fn mission_header(&mut self, a: &tree::Activity, mission: &mut Mission) {
         let ActivityKind::Mission { scenario, within } = &a.kind else { return };
-        mission.within = within.as_ref().map(|e| self.duration(e, "the mission's time limit"));
+        mission.within = within.as_ref().map(|e| self.time_limit(e, "the mission's time limit"));
         if let Some(path) = scenario {
             mission.scenario = Some(path.text());
             self.scenario_named(path);

@@ -230,7 +230,7 @@ impl Scope {
     }
 }
 
-/// Checks modules. Imported modules come before those that import them.
+/// Checks modules.
 pub struct Checker<'t> {
     modules: &'t [Module],
     library: &'t dyn Library,

@@ -51,6 +51,19 @@ impl<'t> Checker<'t> {
         value
     }
 
+    /// The time after which a mission or its recovery is over: nothing would be left of one that may be 0 s.
+    pub(super) fn time_limit(&mut self, e: &tree::Expr, what: &str) -> Expr {
+        let value = self.duration(e, what);
+        if value.ty != Type::Unknown && value.range.low == 0.0 && value.range.high > 0.0 {
+            self.report(
+                Diagnostic::error(Code::RangesDuration, value.span, format!("{what} may be zero"))
+                    .here("how short can this be?")
+                    .help("give the parameter a range, `in 1 min..2 h`, or write `max(1 min, …)`"),
+            );
+        }
+        value
+    }
+
     /// The range of an activity's parameter that has none of its own, and of a memory: a time is not negative. What is given or
     /// assigned is held to it, so that it can be waited for wherever it is read.
     pub(super) fn implied_range(ty: &Type) -> Option<Interval> {

@@ -379,7 +379,8 @@ pub(super) fn text(b: &mut Builder, pair: P) -> Expr {
     let mut text = Vec::new();
     for part in pair.into_inner() {
         if part.as_rule() == Rule::text_part {
-            text.push(TextPart::Literal(unescape(part.as_str())));
+            let begin = b.span(&part).start;
+            text.push(TextPart::Literal(unescape(b, begin, part.as_str())));
         } else if let Some(hole) = part.into_inner().next().and_then(|p| p.into_inner().next()) {
             text.push(TextPart::Hole(expr(b, hole)));
         }
@@ -387,18 +388,27 @@ pub(super) fn text(b: &mut Builder, pair: P) -> Expr {
     Expr { kind: ExprKind::Text(text), span }
 }
 
-fn unescape(written: &str) -> String {
+/// A piece of a text, which begins at a byte of the source, as it is meant.
+fn unescape(b: &mut Builder, begin: u32, written: &str) -> String {
     let mut out = String::with_capacity(written.len());
-    let mut chars = written.chars();
-    while let Some(c) = chars.next() {
-        match c {
-            '\\' => match chars.next() {
-                Some('n') => out.push('\n'),
-                Some('t') => out.push('\t'),
-                Some(other) => out.push(other),
-                None => {}
-            },
-            c => out.push(c),
+    let mut chars = written.char_indices();
+    while let Some((at, c)) = chars.next() {
+        if c != '\\' {
+            out.push(c);
+            continue;
+        }
+        match chars.next() {
+            Some((_, 'n')) => out.push('\n'),
+            Some((_, 't')) => out.push('\t'),
+            Some((_, c @ ('"' | '\\' | '{' | '}'))) => out.push(c),
+            Some((_, other)) => {
+                let start = begin + at as u32;
+                let span = Span { file: b.file, start, end: start + 1 + other.len_utf8() as u32 };
+                b.refused.push(Diagnostic::error(Code::SyntaxText, span, format!("a text has no `\\{other}`")).help(
+                    "there are `\\\"`, `\\\\`, `\\{`, `\\}`, `\\n` and `\\t`; a backslash itself is written `\\\\`",
+                ));
+            }
+            None => {}
         }
     }
     out

@@ -200,11 +200,13 @@ struct Told(Vec<(u32, u32)>);
 
 impl Told {
     fn of(findings: &[Diagnostic], source: &str) -> Self {
+        // Where lines end is looked up: there may be as many findings as there are characters, and all of them on one line.
+        let ends: Vec<u32> = source.match_indices('\n').map(|(at, _)| at as u32).collect();
         let lines = findings.iter().filter(|f| f.code.group() == "syntax").map(|finding| {
             let Span { start, end, .. } = finding.span();
-            let before = source.get(..start as usize).and_then(|text| text.rfind('\n')).map_or(0, |at| at as u32 + 1);
-            let after = source.get(end as usize..).and_then(|text| text.find('\n'));
-            (before, after.map_or(source.len() as u32, |at| end + at as u32))
+            let before = ends[..ends.partition_point(|at| *at < start)].last().map_or(0, |at| at + 1);
+            let after = ends.get(ends.partition_point(|at| *at < end));
+            (before, after.copied().unwrap_or(source.len() as u32))
         });
         let mut lines: Vec<(u32, u32)> = lines.collect();
         lines.sort_unstable();

@@ -11,7 +11,7 @@ use super::errors::{begins_item, line_begins_item};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
-use nesting::Open;
+use nesting::{Brackets, Open};
 
 /// Brackets, blocks and `else if` may be nested this deep, on every machine and in every build.
 pub const NESTING_MAX: usize = 64;
@@ -67,7 +67,7 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         source,
         out: source.as_bytes().to_vec(),
         at: 0,
-        open: Vec::new(),
+        open: Brackets::default(),
         chained: 0,
         after_else: false,
         after_block: false,
@@ -129,7 +129,7 @@ struct Scanner<'a> {
     source: &'a str,
     out: Vec<u8>,
     at: usize,
-    open: Vec<Open>,
+    open: Brackets,
     /// How many `else if` the statement that is being read has outside the innermost bracket.
     chained: usize,
     after_else: bool,
@@ -227,7 +227,7 @@ impl<'a> Scanner<'a> {
     fn margin(&mut self) {
         let word: String = self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
         // In a strategy a behavior may stand at the margin too; in round brackets nothing is declared.
-        let block = self.open.iter().rposition(|open| open.bracket == '{').map_or(0, |at| at + 1);
+        let block = self.open.innermost('{').map_or(0, |at| at + 1);
         let level = if ITEM_WORDS.contains(&word.as_str()) { 0 } else { block };
         if self.open.len() > level && line_begins_item(self.rest()) {
             self.all_unclosed(level);

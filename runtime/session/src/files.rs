@@ -286,12 +286,25 @@ fn stdlib(name: &str) -> Option<Source> {
     Some(Source { name: format!("stdlib/{name}.alb").into(), text: (*text).into() })
 }
 
+/// Whether a module is one of the standard library, and no script that lies where one of them would.
+fn is_standard(source: &Source) -> bool {
+    let name = source.name.strip_prefix("stdlib/").and_then(|file| file.strip_suffix(".alb"));
+    name.and_then(stdlib).is_some_and(|standard| standard.text == source.text)
+}
+
 impl Library for Files {
     fn prelude(&self) -> Vec<Source> {
         PRELUDE.iter().filter_map(|name| stdlib(name)).collect()
     }
 
-    fn module(&self, _importer: &Source, path: &[String]) -> Result<Source, String> {
+    fn module(&self, importer: &Source, path: &[String]) -> Result<Source, String> {
+        // The standard library is made of its own modules, whatever a project calls its scripts.
+        if let [name] = path
+            && is_standard(importer)
+            && let Some(source) = stdlib(name)
+        {
+            return Ok(source);
+        }
         // Names are letters, digits and underscores: they cannot lead out of the folder.
         let file = path.iter().fold(self.root.clone(), |folder, part| folder.join(part)).with_extension("alb");
         if file.exists() {

@@ -22,6 +22,10 @@ pub struct TestResult {
     pub place: String,
     /// The seeds that were run.
     pub seeds: (u64, u64),
+    /// The first of the runs that failed, whatever was expected of them: the seed, why and when.
+    pub failed: Vec<(u64, String)>,
+    /// How many failed of how many.
+    pub failed_of: (usize, usize),
     /// Expectations that did not hold.
     pub failures: Vec<Failure>,
     /// The traces that snapshots compare, by seed.
@@ -75,12 +79,17 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
             });
         }
     }
+    let failed = || runs.iter().filter_map(|r| Some((r.seed, r.failed.clone()?)));
+    let failed_of = (failed().count(), runs.len());
+    let failed = failed().take(EXAMPLES_MAX).collect();
     let traces = runs.into_iter().filter_map(|r| Some((r.seed, r.trace?))).collect();
     Ok(TestResult {
         name: test.name.clone(),
         file_name: test.file_name.clone(),
         place: test.place.clone(),
         seeds: test.seeds,
+        failed,
+        failed_of,
         failures,
         traces,
     })
@@ -91,6 +100,8 @@ struct Judged {
     seed: u64,
     /// For each expectation what was found where it first did not hold.
     breaches: Vec<Option<String>>,
+    /// Why it could not go on, and when.
+    failed: Option<String>,
     trace: Option<String>,
 }
 
@@ -114,16 +125,22 @@ fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError
     for (i, expect) in test.expects.iter().enumerate().filter(|(_, e)| e.share.is_some()) {
         breaches[i] = breach(&mut evaluation, test, expect, &run);
     }
+    let failed =
+        (run.outcome() == Some(Outcome::Failed)).then(|| format!("{} ({})", run.summary(0.0).reason, time(&run)));
     let trace = test.snapshots.contains(&seed).then(|| run.trace().to_string());
-    Ok(Judged { seed, breaches, trace })
+    Ok(Judged { seed, breaches, failed, trace })
+}
+
+/// How long a run has lasted.
+fn time(run: &Run) -> String {
+    number::seconds(run.tick().saturating_sub(1)).trim().to_string()
 }
 
 /// What was found, when an expectation does not hold.
 fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgram, run: &Run) -> Option<String> {
     let when = || {
-        let at = number::seconds(run.tick().saturating_sub(1)).trim().to_string();
         let ending = expect.share.and_then(|_| ending(run));
-        ending.map_or(at.clone(), |ending| format!("{at}, {ending}"))
+        ending.map_or_else(|| time(run), |ending| format!("{}, {ending}", time(run)))
     };
     for (need, without) in &expect.needs {
         if evaluation.words(*need, 1)[0] == 0.0 {

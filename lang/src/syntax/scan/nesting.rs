@@ -3,6 +3,7 @@
 use super::{NESTING_MAX, Scanner};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
+use std::collections::BTreeMap;
 
 /// A bracket that is open.
 pub(super) struct Open {
@@ -10,6 +11,47 @@ pub(super) struct Open {
     pub at: usize,
     /// The `else if` of the statement in which it stands: each nests its blocks one deeper.
     pub chained: usize,
+}
+
+/// The brackets that are open, from the outermost in. The innermost of a kind is known: there may be as many as there are bytes,
+/// and each that closes asks for it.
+#[derive(Default)]
+pub(super) struct Brackets {
+    open: Vec<Open>,
+    /// Where those of each kind stand among all.
+    of_kind: BTreeMap<char, Vec<usize>>,
+}
+
+impl Brackets {
+    pub fn last(&self) -> Option<&Open> {
+        self.open.last()
+    }
+
+    pub fn len(&self) -> usize {
+        self.open.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.open.is_empty()
+    }
+
+    /// The level of the innermost of a kind.
+    pub fn innermost(&self, bracket: char) -> Option<usize> {
+        self.of_kind.get(&bracket)?.last().copied()
+    }
+
+    fn push(&mut self, open: Open) {
+        self.of_kind.entry(open.bracket).or_default().push(self.open.len());
+        self.open.push(open);
+    }
+
+    fn split_off(&mut self, level: usize) -> Vec<Open> {
+        let inside = self.open.split_off(level);
+        for open in &inside {
+            self.of_kind.entry(open.bracket).or_default().pop();
+        }
+        inside
+    }
 }
 
 impl Scanner<'_> {
@@ -25,7 +67,7 @@ impl Scanner<'_> {
         if self.deep {
             return;
         }
-        let chained: usize = self.open.iter().map(|open| open.chained).sum();
+        let chained: usize = self.open.open.iter().map(|open| open.chained).sum();
         self.deep = self.open.len() + chained + self.chained + inside > NESTING_MAX;
         if self.deep {
             let span = self.span(at, at + length);
@@ -43,10 +85,10 @@ impl Scanner<'_> {
             ']' => '[',
             _ => '{',
         };
-        match self.open.iter().rposition(|open| open.bracket == wanted) {
-            Some(index) => {
-                self.all_unclosed(index + 1);
-                self.chained = self.open.pop().map_or(0, |open| open.chained);
+        match self.open.innermost(wanted) {
+            Some(level) => {
+                self.all_unclosed(level + 1);
+                self.chained = self.open.split_off(level).first().map_or(0, |open| open.chained);
             }
             None => {
                 let span = self.span(self.at, self.at + 1);
