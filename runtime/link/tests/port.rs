@@ -334,7 +334,7 @@ fn after_a_pause(ticks: u32, room: usize, delay: u32) -> Vec<(Control, String)> 
     let (mut vehicle, wire, mut snapshot) = driven();
     wire.delay.set(TICK * delay);
     // The vehicle has taken up what it was asked for: nothing has to be said again.
-    (0..20).for_each(|_| {
+    (0..60).for_each(|_| {
         vehicle.sense(&mut snapshot).unwrap();
         vehicle.command(&AHEAD).unwrap();
     });
@@ -361,6 +361,18 @@ fn after_a_pause_the_newest_command_alone_is_sent() {
     let newest = &said[late].1;
     assert!(newest.starts_with(&format!("#C,Heading,Goal,{late}.0,")) && newest.lines().count() == 1, "{newest}");
     assert!(said.iter().all(|(control, _)| *control == Control::InControl));
+}
+
+/// The attack: what a pause of ours adds to a mark that comes back after it is no delay of the link. Where it was taken for one, the
+/// silence went on for as long again, and the vehicle left.
+#[test]
+fn a_pause_on_a_slow_link_is_as_long_as_it_is() {
+    for delay in [1, 5, 10] {
+        let said = after_a_pause(30, 0, delay);
+        assert!(said.iter().all(|(control, _)| *control == Control::InControl), "{delay}");
+        let late = said.iter().take_while(|(_, sent)| sent.is_empty()).count();
+        assert!(late <= 32 + delay as usize, "{delay}: {late} late ticks in silence");
+    }
 }
 
 #[test]
