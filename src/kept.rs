@@ -126,7 +126,9 @@ impl Kept {
                 }
             }
         } else {
-            [TRACE, PICTURE].into_iter().for_each(|name| record.loses(name, "the run's folder was another's by then"));
+            [TRACE, PICTURE]
+                .into_iter()
+                .for_each(|name| record.loses(name, "the run's folder may be another's by then"));
             if folder.is_recorded() {
                 record.loses(JOURNAL, GONE);
             }

@@ -200,7 +200,8 @@ impl RoundTrip {
     }
 
     /// Whether a state with this stamp was made after a time of the host's clock, as far as the two clocks are known. What comes through
-    /// a buffer after a pause is older than it looks. A link's constant delay is not known apart from the clocks: a state may be older by that.
+    /// a buffer after a pause is older than it looks. A link's constant delay is not known apart from the clocks: a state may be older
+    /// by that.
     pub fn made_after(&self, tick: u64, host: Duration) -> bool {
         let made = self.ahead.map(|ahead| tick as i64 + ahead);
         made.is_none_or(|made| made >= host_ticks(host, self.rate) as i64)
