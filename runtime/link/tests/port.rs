@@ -134,12 +134,18 @@ const AHEAD: Command = Command { heading: Heading::NORTH, speed: 2.0, vertical: 
 
 /// A vehicle that is driven.
 fn driven() -> (ReconVehicle, Arc<Wire>, Snapshot) {
+    driven_with_delay(0)
+}
+
+/// A vehicle that is driven, and is heard so many ticks late.
+fn driven_with_delay(delay: u32) -> (ReconVehicle, Arc<Wire>, Snapshot) {
     let (mut vehicle, wire) = vehicle();
+    wire.delay.set(TICK * delay);
     let mut snapshot = Snapshot::default();
     vehicle.sense(&mut snapshot).unwrap();
     assert_eq!(snapshot.control, Control::Monitoring);
     vehicle.take_over().unwrap();
-    for _ in 0..20 {
+    for _ in 0..20 + delay {
         vehicle.sense(&mut snapshot).unwrap();
         vehicle.command(&AHEAD).unwrap();
     }
@@ -329,10 +335,11 @@ fn a_vehicle_that_offers_takes_control_back_before_it_offers_again() {
     vehicle.release().unwrap();
 }
 
-/// The commands of the ticks that came while nobody looked, and of the next: each asks for a heading of its own.
-fn after_a_pause(ticks: u32, room: usize, delay: u32) -> Vec<(Control, String)> {
-    let (mut vehicle, wire, mut snapshot) = driven();
-    wire.delay.set(TICK * delay);
+/// The commands of the ticks that came while nobody looked, and of the next: each asks for a heading of its own. The vehicle is heard
+/// so many ticks late from the first on, or from when it is driven.
+fn after_a_pause(ticks: u32, room: usize, (delay, later): (u32, u32)) -> Vec<(Control, String)> {
+    let (mut vehicle, wire, mut snapshot) = driven_with_delay(delay);
+    wire.delay.set(TICK * (delay + later));
     // The vehicle has taken up what it was asked for: nothing has to be said again.
     (0..60).for_each(|_| {
         vehicle.sense(&mut snapshot).unwrap();
@@ -355,9 +362,9 @@ fn after_a_pause(ticks: u32, room: usize, delay: u32) -> Vec<(Control, String)> 
 
 #[test]
 fn after_a_pause_the_newest_command_alone_is_sent() {
-    let said = after_a_pause(40, 0, 0);
+    let said = after_a_pause(40, 0, (0, 0));
     let late = said.iter().take_while(|(_, sent)| sent.is_empty()).count();
-    assert!((38..=40).contains(&late), "{late} late ticks in silence: {said:?}");
+    assert!((38..=41).contains(&late), "{late} late ticks in silence: {said:?}");
     let newest = &said[late].1;
     assert!(newest.starts_with(&format!("#C,Heading,Goal,{late}.0,")) && newest.lines().count() == 1, "{newest}");
     assert!(said.iter().all(|(control, _)| *control == Control::InControl));
@@ -367,11 +374,11 @@ fn after_a_pause_the_newest_command_alone_is_sent() {
 /// silence went on for as long again, and the vehicle left.
 #[test]
 fn a_pause_on_a_slow_link_is_as_long_as_it_is() {
-    for delay in [1, 5, 10] {
+    for delay in [(0, 1), (0, 5), (0, 10), (1, 0), (5, 0), (10, 0)] {
         let said = after_a_pause(30, 0, delay);
-        assert!(said.iter().all(|(control, _)| *control == Control::InControl), "{delay}");
+        assert!(said.iter().all(|(control, _)| *control == Control::InControl), "{delay:?}");
         let late = said.iter().take_while(|(_, sent)| sent.is_empty()).count();
-        assert!(late <= 32 + delay as usize, "{delay}: {late} late ticks in silence");
+        assert!(late <= 32 + (delay.0 + delay.1) as usize, "{delay:?}: {late} late ticks in silence");
     }
 }
 
@@ -379,11 +386,14 @@ fn a_pause_on_a_slow_link_is_as_long_as_it_is() {
 fn after_a_pause_nothing_is_sent_to_a_vehicle_that_has_left_override() {
     // It leaves who is silent for 5 s.
     // ... and of which the system may have kept what it said before that alone.
-    // ... or what it said before that may be under way still.
-    for (room, delay) in [(0, 0), (5000, 0), (2000, 0), (400, 0), (0, 5), (0, 18)] {
-        let said = after_a_pause(60, room, delay);
-        assert_eq!(said.last().unwrap().0, Control::Released, "{room}, {delay}");
-        assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{room}, {delay}: {said:?}");
+    // ... or what it said before that may be under way still, as all that it says may be.
+    let kept = [5000, 2000, 400].map(|room| (60, room, (0, 0)));
+    let late = [(0, 0), (0, 5), (0, 18), (3, 0), (9, 0), (18, 0)];
+    let late = late.into_iter().flat_map(|delay| [53, 60, 66].map(|ticks| (ticks, 0, delay)));
+    for (ticks, room, delay) in kept.into_iter().chain(late) {
+        let said = after_a_pause(ticks, room, delay);
+        assert_eq!(said.last().unwrap().0, Control::Released, "{ticks}, {room}, {delay:?}");
+        assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{ticks}, {room}, {delay:?}: {said:?}");
     }
 }
 

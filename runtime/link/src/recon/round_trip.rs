@@ -87,12 +87,22 @@ pub struct RoundTrip {
     last: u64,
     /// By how much the host's clock is ahead of the stamp of a state that has just been made, ticks, as far as it is known.
     ahead: Option<i64>,
+    /// The least time that a mark took that a state told, ticks: of what `ahead` is, so much at most is the way to the host.
+    quickest: Option<u64>,
 }
 
 impl RoundTrip {
     /// For a vehicle that runs so many times faster than real time.
     pub fn new(rate: f64) -> Self {
-        RoundTrip { rate, mark: None, sent: VecDeque::new(), back: Default::default(), last: 0, ahead: None }
+        RoundTrip {
+            rate,
+            mark: None,
+            sent: VecDeque::new(),
+            back: Default::default(),
+            last: 0,
+            ahead: None,
+            quickest: None,
+        }
     }
 
     /// A new override: what was measured before it tells nothing.
@@ -182,6 +192,7 @@ impl RoundTrip {
         if let Told::State = by {
             // It was made when the mark had been heard.
             let fresh = self.ahead_of(now) - took as i64;
+            self.quickest = Some(self.quickest.map_or(took, |least| least.min(took)));
             self.ahead = self.ahead.map(|ahead| ahead.max(fresh));
         }
     }
@@ -200,10 +211,9 @@ impl RoundTrip {
     }
 
     /// Whether a state with this stamp was made after a time of the host's clock, as far as the two clocks are known. What comes through
-    /// a buffer after a pause is older than it looks. A link's constant delay is not known apart from the clocks: a state may be older
-    /// by that.
+    /// a buffer after a pause is older than it looks, and all by a link's delay, which is no more than the quickest round trip.
     pub fn made_after(&self, tick: u64, host: Duration) -> bool {
-        let made = self.ahead.map(|ahead| tick as i64 + ahead);
+        let made = self.ahead.map(|ahead| tick as i64 + ahead - self.quickest.unwrap_or(0) as i64);
         made.is_none_or(|made| made >= host_ticks(host, self.rate) as i64)
     }
 
