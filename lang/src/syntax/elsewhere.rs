@@ -21,6 +21,8 @@ pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habi
         .or_else(|| comparison(before, rest))
         .or_else(|| decimals(before, rest))
         .or_else(|| direction(before, rest))
+        .or_else(|| bearing(before, rest))
+        .or_else(|| pair(before, rest))
         .or_else(|| label(before, rest))
         .or_else(|| text(before, rest))
         .or_else(|| format(before, rest, expected))
@@ -306,6 +308,32 @@ fn direction(before: &str, rest: &str) -> Option<Habit> {
     let (number, unit) = quantity(before).filter(|(_, unit)| !unit.is_empty() && *unit != "%")?;
     let is_label = rest[way.len()..].trim_start().starts_with(':');
     (before.ends_with(' ') && !is_label).then(|| write(format!("{number} {unit} toward {way}"))).flatten()
+}
+
+/// `steer heading north`, `steer toward buoy`.
+fn bearing(before: &str, rest: &str) -> Option<Habit> {
+    let line = format!("{before}{rest}");
+    let after = line.trim_start().strip_prefix("steer ")?.trim_start();
+    let (first, value) = (word(after), line_end(after[word(after).len()..].trim_start()));
+    match first {
+        "heading" | "course" if !value.is_empty() => write(format!("steer {value}")),
+        "toward" | "towards" | "to" => {
+            let place = value.split(" for ").next().unwrap_or(value);
+            write(format!("goto {}", if place.is_empty() { "PLACE" } else { place }))
+        }
+        _ => None,
+    }
+}
+
+/// `goto (10 m, 20 m)`.
+fn pair(before: &str, rest: &str) -> Option<Habit> {
+    let (head, north) = before.rsplit_once('(')?;
+    let east = rest.strip_prefix(',')?.split([')', ',', '\n']).next()?.trim();
+    let is_named = head.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+    let is_place = |value: &str| quantity(value).is_some_and(|(_, unit)| matches!(unit, "m" | "km"));
+    (!is_named && is_place(north) && is_place(east))
+        .then(|| write(format!("point(north: {}, east: {east})", north.trim())))
+        .flatten()
 }
 
 /// What should be a text, or follow one.
