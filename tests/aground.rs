@@ -2,7 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
-use albacore_session::{Faults, Outcome, Plan, Run, load, load_faults};
+use albacore_lang::source::Source;
+use albacore_session::{Faults, Outcome, Plan, Run, load, load_faults, load_text};
 use std::path::Path;
 
 const LIMITS: &str = "tests/aground/limits.alb";
@@ -61,6 +62,25 @@ fn no_altitude_leads_aground() {
 fn no_depth_leads_aground_while_the_altitude_is_true() {
     let aground = aground("depth", &DEPTHS);
     assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+}
+
+/// An attack: an altitude was held within `depth <= D` by the altitude that was told alone, and a vehicle that measured another went to
+/// 55 m where 15 m were allowed.
+#[test]
+fn no_altitude_that_is_asked_for_leads_deeper_than_the_depth_may_be() {
+    let text = std::fs::read_to_string("tests/aground/deep.alb").unwrap();
+    for hull in ["kinematic", "fossen", "prestero"] {
+        let text = text.replace("vehicle(kinematic", &format!("vehicle({hull}"));
+        let script = load_text(Source { name: "deep.alb".into(), text: text.into() });
+        assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+        for scenario in ["told_less", "share", "biased", "silent", "falling", "falling_biased"] {
+            let plan = Plan::new(&script, "deep.alb", None, Some(scenario)).unwrap();
+            let mut run = Run::new(&plan, 1).unwrap();
+            run.to_end();
+            let trace = run.trace().to_string();
+            assert!(!trace.contains("below 16 m") && !trace.contains("grounded at"), "{hull} in {scenario}:\n{trace}");
+        }
+    }
 }
 
 #[test]

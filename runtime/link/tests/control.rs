@@ -80,7 +80,7 @@ impl Vehicle {
         let mut vehicle = Vehicle::new();
         vehicle.says(0x01);
         vehicle.controller.take_over();
-        assert_eq!(vehicle.says(0x0D).0, Control::InControl);
+        (0..3).for_each(|_| assert_eq!(vehicle.says(0x0D).0, Control::InControl));
         vehicle
     }
 }
@@ -128,6 +128,22 @@ fn a_vehicle_that_takes_control_back_has_released_itself_from_us() {
         let controls = [mode; 3].map(|mode| vehicle.says(mode).0);
         assert_eq!(controls, [Control::InControl, Control::InControl, Control::Released], "{mode:02X}");
         assert_eq!(vehicle.says(0x0D).0, Control::Released, "and that is final");
+    }
+}
+
+/// One wrong line neither refuses nor gives control.
+#[test]
+fn one_wrong_line_before_control_is_had_ends_nothing() {
+    for wrong in [0x03, 0x07, 0x8F, 0x0D, 0x8D] {
+        let mut vehicle = Vehicle::new();
+        vehicle.says(0x01);
+        vehicle.controller.take_over();
+        vehicle.says(wrong);
+        let last = (0..10).map(|_| vehicle.says(0x05).0).last();
+        assert_eq!(last, Some(Control::Requesting), "{wrong:02X}");
+        assert_eq!(vehicle.says(0x0D).0, Control::InControl, "{wrong:02X}");
+        assert_eq!([0x01; 6].map(|mode| vehicle.says(mode).0).last(), Some(&Control::Requesting));
+        assert_eq!([0x03; 3].map(|mode| vehicle.says(mode).0).last(), Some(&Control::Refused));
     }
 }
 

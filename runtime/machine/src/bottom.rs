@@ -19,6 +19,8 @@ pub type Chart = Arc<dyn Fn(Point, f64) -> Option<f64> + Send + Sync>;
 
 /// An altitude this near to the one that is commanded is held, m: then the depth may change and it does not.
 const HELD_M: f64 = 0.5;
+/// A vehicle that is deeper by so much, m, than it may be has been led too deep.
+const SUNK_M: f64 = 0.5;
 /// An echo counts for so long, s, that no other has confirmed, or after which came what is not believed.
 const DOUBTFUL_S: f64 = 1.0;
 /// Where nothing came for 5 s but what is not believed, the dive that it led to is undone by so many metres: by that a true echo shows
@@ -47,6 +49,8 @@ pub(crate) struct Bottom {
     slope: Slope,
     /// The tick from which limits are held: an echo may be on its way.
     begun: Option<u64>,
+    /// An altitude that was asked for has led too deep, and deeper than by what we hear of it by so much, m.
+    below: f64,
     /// It was told that the bottom is lost.
     lost: bool,
     /// Where the vehicle is is not known: a chart tells nothing of the water there.
@@ -150,7 +154,11 @@ impl Run {
                 let given = self.limit(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
                 let given = given.max(self.ahead(altitude.0)).min(highest);
-                Vertical::Altitude(given.max((water - deepest).max(0.0)))
+                match self.too_deep_by_altitude(water - given, deepest) {
+                    true if is_low => Vertical::Depth(depth.0),
+                    true => Vertical::Depth((water - given).min(floor).max(0.0)),
+                    false => Vertical::Altitude(given),
+                }
             }
             // An altitude that nobody measures cannot be held within anything.
             (Vertical::Altitude(metres), None) if bounded => {
@@ -164,6 +172,22 @@ impl Run {
                 Vertical::Depth(given.max(shallowest).min(floor).max(0.0))
             }
         }
+    }
+
+    /// Whether an altitude that is asked for would lead deeper than the vehicle may be, by the depth (m) that it comes to: then it is
+    /// held by that depth. The vehicle may measure another altitude than we hear, or go by an older one: once that has led too deep,
+    /// it would again.
+    fn too_deep_by_altitude(&mut self, goal: f64, deepest: f64) -> bool {
+        let depth = self.depth();
+        let below = &mut self.state.bottom.below;
+        if depth > deepest + SUNK_M {
+            *below = below.max(depth - goal);
+        }
+        let is_too_deep = goal + *below > deepest;
+        if !is_too_deep {
+            *below = 0.0;
+        }
+        is_too_deep
     }
 
     /// Whether the altitude by itself is less than the limit lets it be.

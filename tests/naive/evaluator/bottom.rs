@@ -30,6 +30,8 @@ pub(super) struct Bottom {
     /// The water that was sounded on the last 2 m and on the last 12 m of way, m.
     lately: Option<[f64; 2]>,
     lost: bool,
+    /// An altitude has led deeper than it may, by so much more than it was told to, m.
+    below: f64,
     begun: Option<u64>,
     pub commanded: Option<Command>,
     /// The way that was commanded since the echo, m.
@@ -77,7 +79,17 @@ impl Evaluator<'_> {
                 match known {
                     Some(echo) => {
                         let most = if low > 0.0 { (echo.sum - low).max(lowest) } else { f64::MAX };
-                        Vertical::Altitude(given.max(self.ahead(lowest)).min(most).max(echo.sum - high).max(0.0))
+                        let given = given.max(self.ahead(lowest)).min(most);
+                        let goal = echo.sum - given;
+                        if let Some(depth) = self.w.depth().filter(|depth| *depth > high + 0.5) {
+                            self.bottom.below = self.bottom.below.max(depth - goal);
+                        }
+                        if goal + self.bottom.below > high {
+                            Vertical::Depth(if is_low { low } else { goal.min(deepest).max(0.0) })
+                        } else {
+                            self.bottom.below = 0.0;
+                            Vertical::Altitude(given)
+                        }
                     }
                     None if lowest > 0.0 || high < f64::MAX => Vertical::Depth(if is_low { low } else { deepest }),
                     None => Vertical::Altitude(given),

@@ -106,6 +106,10 @@ pub struct Controller {
     lost: bool,
     /// Lines in which the vehicle has said that nobody drives it, one after the other.
     left: u64,
+    /// ... and that its mission is over.
+    over: u64,
+    /// Lines in which it has said that we drive it, since we asked or ask again.
+    ours: u64,
     goals: [Goal; 3],
     /// Ticks whose commands came too late to be sent, since the last that was.
     late: u64,
@@ -153,6 +157,8 @@ impl Controller {
             want: Want::Listen,
             lost: false,
             left: 0,
+            over: 0,
+            ours: 0,
             goals: Default::default(),
             late: 0,
             was_late: false,
@@ -364,7 +370,8 @@ impl Controller {
         let heard: Vec<Heard> = self.heard.drain(..until).collect();
         for heard in heard {
             self.mode = heard.mode;
-            self.left = if is_left(heard.mode) { self.left + 1 } else { 0 };
+            (self.left, self.ours) = if is_left(heard.mode) { (self.left + 1, self.ours) } else { (0, self.ours + 1) };
+            self.over = if heard.mode.phase() == Phase::Over { self.over + 1 } else { 0 };
             self.take_in_goals(heard.heading_goal, heard.depth_goal);
             snapshot.samples.extend(heard.samples);
         }
@@ -433,12 +440,14 @@ impl Controller {
         match (mode.phase(), self.control) {
             (_, ended @ (Control::Released | Control::Refused)) => ended,
             (Phase::Over, _) if driven => self.end(Control::Released, "the vehicle's own mission is over"),
-            (Phase::Over, _) => {
+            (Phase::Over, _) if self.over >= LEFT_LINES => {
                 self.end(Control::Refused, "the vehicle's own mission is over: nothing can be overridden")
             }
             _ if driven && suspended => Control::Suspended,
             (Phase::InMission, _) if active && !suspended => Control::InControl,
-            _ if driven => self.end(Control::Released, "the vehicle has left override by itself"),
+            _ if driven && self.ours >= LEFT_LINES => {
+                self.end(Control::Released, "the vehicle has left override by itself")
+            }
             (phase, _) if self.round_trip.between(since, Moment { tick, ..self.moment() }) > REQUEST_TICKS => {
                 let why = match phase {
                     Phase::PreLaunch => "it is not launched yet",
@@ -449,7 +458,10 @@ impl Controller {
                 let seconds = REQUEST_TICKS as f64 * TICK_S;
                 self.end(Control::Refused, &format!("the vehicle did not let us drive for {seconds} s: {why}"))
             }
-            _ => Control::Requesting,
+            _ => {
+                self.ours = 0;
+                Control::Requesting
+            }
         }
     }
 

@@ -43,6 +43,7 @@ impl Controller {
         if matches!(self.want, Want::Listen | Want::GiveBack { .. }) {
             self.want = Want::Drive { since: Moment { tick: self.next_tick, ..self.moment() } };
             self.round_trip.begin();
+            self.ours = 0;
             self.say(&ToVehicle::Override(true));
         }
     }
