@@ -6,7 +6,7 @@
 //! believed. The limits are those of the watch ([`crate::Vigil`]).
 
 use crate::vigil::Kind;
-use albacore_geometry::math::degrees;
+use albacore_geometry::math::{asin, degrees};
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::channels::{ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, POSITION, SPEED};
 use albacore_vehicle::{Reading, TICK_S};
@@ -26,6 +26,9 @@ const FIRST_SAMPLES: u32 = 2;
 /// From this speed over ground on the course turns as the nose does, m/s: at rest it is any, and against a current that leaves the
 /// vehicle little way it turns many times as fast.
 const HAS_COURSE: f64 = 1.0;
+/// ... and as waves carry the vehicle to and fro, which change its velocity by so much in a second, m/s2, and by so much at most, m/s.
+const SWAY: f64 = 2.5;
+const SWAY_MAX: f64 = 2.0;
 /// Each sample that is doubted counts so much, up to the most, and each that is believed takes one away. Above the trusted number a
 /// sample is not believed because it fits: one in three may be wrong, and of several in a row no more than these.
 const DOUBT: u32 = 2;
@@ -134,7 +137,7 @@ impl Gate {
             self.channels[index] = Channel::new(Kind::Course);
             return true;
         }
-        let believed = self.channels[index].judge(tick, reading, &mut self.told);
+        let believed = self.channels[index].judge(tick, reading, self.speed, &mut self.told);
         if channel == SPEED && believed {
             self.speed = reading[0];
         }
@@ -152,7 +155,8 @@ impl Channel {
         Channel { kind, believed: None, confirmed: false, came: 0, doubtful: None, doubts: 0, doubted: None }
     }
 
-    fn judge(&mut self, tick: u64, reading: Reading, told: &mut Vec<Doubt>) -> bool {
+    /// Judges a sample of a vehicle that makes a speed over ground, m/s.
+    fn judge(&mut self, tick: u64, reading: Reading, speed: f64, told: &mut Vec<Doubt>) -> bool {
         // That a number is none is seen by everybody.
         if reading.iter().any(|x| !x.is_finite()) {
             return true;
@@ -167,7 +171,7 @@ impl Channel {
         let seconds = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         let came = std::mem::replace(&mut self.came, tick);
         let is_next = match self.believed {
-            Some((before, _)) => follows(kind, reading, before, seconds(came)),
+            Some((before, _)) => follows(kind, reading, before, seconds(came), speed),
             None => begins(kind, reading),
         };
         if is_next && self.doubts <= DOUBTS_TRUSTED {
@@ -178,7 +182,7 @@ impl Channel {
         let change = change(kind, reading, before);
         let first = Doubtful { reading, tick, since: tick, samples: 1 };
         let doubtful = match self.doubtful {
-            Some(d) if follows(kind, reading, d.reading, seconds(d.tick)) => {
+            Some(d) if follows(kind, reading, d.reading, seconds(d.tick), speed) => {
                 Doubtful { since: d.since, samples: d.samples + 1, ..first }
             }
             _ => first,
@@ -227,10 +231,18 @@ fn is_possible(kind: Kind, reading: Reading) -> bool {
     if kind == Kind::Position { reading[2] >= 0.0 } else { kind.can_be(reading) }
 }
 
-/// Whether a reading can follow another after some seconds. The gate judges a course of a vehicle under way alone.
-fn follows(kind: Kind, now: Reading, before: Reading, time: f64) -> bool {
-    let kind = if kind == Kind::Course { Kind::Heading } else { kind };
-    kind.can_follow(now, before, time)
+/// Whether a reading can follow another after some seconds, of a vehicle that makes a speed over ground, m/s. The gate judges a course
+/// of a vehicle under way alone.
+fn follows(kind: Kind, now: Reading, before: Reading, time: f64, speed: f64) -> bool {
+    if kind != Kind::Course {
+        return kind.can_follow(now, before, time);
+    }
+    let (now, before) = (Heading::from_radians(now[0]), Heading::from_radians(before[0]));
+    let sway = asin(((SWAY * time).min(SWAY_MAX) / speed).min(1.0));
+    let turn = now - before;
+    // What waves add to a turn is to either side.
+    let turned = before + turn.signum() * (turn.abs() - sway).max(0.0);
+    Kind::Heading.can_follow([turned.radians(), 0.0, 0.0, 0.0], [before.radians(), 0.0, 0.0, 0.0], time)
 }
 
 /// Whether a first reading is where missions begin.
