@@ -200,6 +200,24 @@ pub fn old_file(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).append(true).open(path)
 }
 
+/// The same for one to which there may be nothing to add: where it must not be written it is opened to be read, with the reason.
+pub fn known_file(path: &Path) -> io::Result<(File, Option<io::Error>)> {
+    match old_file(path) {
+        Err(error) if is_forbidden(&error) => Ok((File::open(path)?, Some(error))),
+        file => Ok((file?, None)),
+    }
+}
+
+/// Whether it is not for want of room that something cannot be written, but for want of permission.
+pub fn is_forbidden(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem)
+}
+
+/// Whether there is no room for what is to be written: on the disk, in what a user may have of it, or in a file.
+pub fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge)
+}
+
 /// Removes a file, or a link and not what it leads to. What is not there is removed already.
 pub fn remove(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
