@@ -7,7 +7,7 @@ mod sums;
 mod table;
 mod told;
 
-use crate::disk::not_written;
+use crate::disk::{self, not_written};
 use crate::exit::Exit;
 use crate::plan::{Choice, Faults, refused};
 use crate::{interruption, message, output};
@@ -17,11 +17,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use origin::Origin;
 use seeds::Seeds;
 use std::collections::BTreeSet;
-use std::io::IsTerminal;
+use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Duration;
-use table::{Foreign, Table, Trouble};
+use table::{Foreign, Standing, Table, Trouble};
 use told::Told;
 
 /// Columns for so many reports of each name, at most.
@@ -196,14 +196,37 @@ impl Campaign {
                 message::error(&what, Some(help));
                 Exit::Failed
             }
-            Trouble::Disk(error) => {
-                let help =
-                    "the rows it has are whole: when there is room again, the same command with `--resume` goes on";
-                let help = if self.out.is_file() { help } else { "choose another file with `--out`" };
-                message::error(&not_written(&self.out, &error), Some(help));
+            Trouble::Disk(path, error) => {
+                message::error(&not_written(&path, &error), Some(&self.left(&error)));
                 Exit::Failed
             }
         }
+    }
+
+    /// What is known of a table that the disk takes no more of, and how it can be gone on with. Nothing is said of a row that was not
+    /// looked at: who could not write may not even have read it.
+    fn left(&self, error: &io::Error) -> String {
+        if !self.out.is_file() {
+            return "choose another file with `--out`".to_string();
+        }
+        let (known, then) = match table::standing(&self.out) {
+            Standing::Whole(0) | Standing::Unknown => (String::new(), ""),
+            Standing::Whole(1) => ("its first row is as it was written; ".to_string(), ""),
+            Standing::Whole(rows) => (format!("its first {rows} rows are as they were written; "), ""),
+            Standing::Changed(lines) => (
+                format!("it or its `.sums` was changed since it was written: {}; ", listed(&lines)),
+                ", and runs the rows that were changed again",
+            ),
+        };
+        let again = match () {
+            () if disk::is_full(error) => "when there is room again, the same command with `--resume` goes on",
+            () if disk::is_forbidden(error) => {
+                "when you may write it, its `.origin`, its `.sums` and their folder, or with a copy of the three as `--out`, the same \
+                 command with `--resume` goes on"
+            }
+            () => "when the disk takes it again, the same command with `--resume` goes on",
+        };
+        format!("{known}{again}{then}")
     }
 
     fn bar(&self, rows: u64) -> ProgressBar {

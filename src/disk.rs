@@ -15,6 +15,31 @@ pub fn whole(path: &Path, text: &str) -> io::Result<()> {
     replace(path, text.as_bytes()).map(drop)
 }
 
+/// The same for a file that is the person's own: what a link in its place leads to is written, and the link stays. Gives how many
+/// other names the file had (hard links): they keep what it held, for written in place it would not be whole at every moment.
+pub fn rewrite(path: &Path, text: &str) -> io::Result<u64> {
+    let file = match path.canonicalize() {
+        Err(error) if error.kind() == ErrorKind::NotFound && !path.is_symlink() => path.to_path_buf(),
+        file => file?,
+    };
+    let others = names(&file).saturating_sub(1);
+    whole(&file, text)?;
+    Ok(others)
+}
+
+/// How many names a file has.
+#[cfg(unix)]
+fn names(path: &Path) -> u64 {
+    use std::os::unix::fs::MetadataExt;
+    fs::metadata(path).map_or(0, |there| there.nlink())
+}
+
+/// Nobody tells.
+#[cfg(not(unix))]
+fn names(_: &Path) -> u64 {
+    1
+}
+
 /// The same for what was made, in the place of what was made before and is as it was made: all others stay.
 pub fn remake(path: &Path, made: &Made) -> io::Result<()> {
     spare(path)?;
@@ -24,9 +49,18 @@ pub fn remake(path: &Path, made: &Made) -> io::Result<()> {
 /// Says that a path cannot be written, and why.
 pub fn not_written(path: &Path, error: &io::Error) -> String {
     let is_file = |path: &&Path| fs::metadata(path).is_ok_and(|there| !there.is_dir());
+    let is_stray =
+        |path: &&Path| path.is_symlink() && fs::metadata(path).is_err_and(|e| e.kind() == ErrorKind::NotFound);
+    let is_folders = path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) && !path.is_dir();
     let why = match error.kind() {
         // What we say of what is there already is said.
         ErrorKind::AlreadyExists if error.raw_os_error().is_none() => None,
+        ErrorKind::AlreadyExists | ErrorKind::NotFound if path.ancestors().any(|path| is_stray(&path)) => {
+            path.ancestors().find(is_stray).map(|link| format!("`{}` is a link that leads nowhere", link.display()))
+        }
+        ErrorKind::IsADirectory | ErrorKind::NotADirectory if is_folders => {
+            Some("its name ends as a folder's does, and there is no such folder".to_string())
+        }
         ErrorKind::AlreadyExists => Some("there is a file of that name".to_string()).filter(|_| is_file(&path)),
         ErrorKind::NotADirectory => {
             path.ancestors().find(is_file).map(|file| format!("`{}` is a file, and no folder", file.display()))
@@ -198,6 +232,24 @@ pub fn new_folder(parent: &Path, name: &str) -> io::Result<PathBuf> {
 /// A file that is there, to be read and gone on with.
 pub fn old_file(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).append(true).open(path)
+}
+
+/// The same for one to which there may be nothing to add: where it must not be written it is opened to be read, with the reason.
+pub fn known_file(path: &Path) -> io::Result<(File, Option<io::Error>)> {
+    match old_file(path) {
+        Err(error) if is_forbidden(&error) => Ok((File::open(path)?, Some(error))),
+        file => Ok((file?, None)),
+    }
+}
+
+/// Whether it is not for want of room that something cannot be written, but for want of permission.
+pub fn is_forbidden(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem)
+}
+
+/// Whether there is no room for what is to be written: on the disk, in what a user may have of it, or in a file.
+pub fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge)
 }
 
 /// Removes a file, or a link and not what it leads to. What is not there is removed already.

@@ -71,12 +71,16 @@ impl Fmt {
         if *formatted == *source.text {
             return Ok(Exit::Well);
         }
-        // What a link points to is written, and the link stays.
-        let written = std::fs::canonicalize(path).and_then(|file| disk::whole(&file, &formatted));
-        written.map(|()| Exit::Well).map_err(|error| {
-            message::error(&disk::not_written(path, &error), None);
-            Exit::Failed
-        })
+        match disk::rewrite(path, &formatted) {
+            Ok(others) => {
+                message::parted(path, others);
+                Ok(Exit::Well)
+            }
+            Err(error) => {
+                message::error(&disk::not_written(path, &error), None);
+                Err(Exit::Failed)
+            }
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use crate::disk;
 use crate::exit::Exit;
 use crate::made::{Comment, Made};
 use crate::message;
+use crate::synced::WRITTEN_INTO;
 use albacore_session::{Run, Summary};
 pub use folder::Place;
 use folder::{Folder, JOURNAL, PICTURE, RECORD, Refusal, TRACE};
@@ -76,7 +77,10 @@ impl Kept {
     /// The journal can be written no further; gives what to tell.
     pub fn journal_failed(&mut self, error: &io::Error) -> String {
         self.loses_journal(error);
-        let help = "the mission goes on without; what the journal holds up to here can be read";
+        let help = match error.to_string() == WRITTEN_INTO {
+            true => "the mission goes on without; what the journal holds by now is left as it is",
+            false => "the mission goes on without; what the journal holds up to here can be read",
+        };
         message::error_text(&disk::not_written(&self.journal_path(), error), Some(help))
     }
 
@@ -130,11 +134,12 @@ impl Kept {
                 .into_iter()
                 .for_each(|name| record.loses(name, "the run's folder may be another's by then"));
             if folder.is_recorded() {
-                record.loses(JOURNAL, GONE);
+                record.also_loses(JOURNAL, GONE);
             }
         }
-        if is_there && !record.has_lost(JOURNAL) && !folder.is_journal_whole() {
-            record.loses(JOURNAL, WRITTEN_INTO);
+        // One that the disk has cut may have been written into besides.
+        if is_there && !record.has_lost_by(JOURNAL, WRITTEN_INTO) && !folder.is_journal_whole() {
+            record.also_loses(JOURNAL, WRITTEN_INTO);
             let what = format!("`{}` is not as this run wrote it: {WRITTEN_INTO}", path.join(JOURNAL).display());
             troubles.push((what, Some("it is left as it is; what was overwritten is lost".to_string())));
         }
@@ -182,7 +187,6 @@ impl Kept {
 
 /// What became of a file that has the name of a run's file no more.
 const GONE: &str = "it was removed or replaced";
-const WRITTEN_INTO: &str = "another program has written into it";
 
 fn not_ours(path: &Path) -> String {
     format!("`{}` is not this run's any more: {GONE}", path.display())

@@ -26,8 +26,10 @@ mod synced;
 mod test;
 mod vehicle;
 
+use albacore_session::seen::one_line;
 use clap::{CommandFactory, Parser, Subcommand};
 use exit::Exit;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// A mission scripting language for autonomous underwater vehicles.
@@ -73,6 +75,12 @@ enum Verb {
     Completions(completions::Completions),
 }
 
+/// The same error of the arguments as they are shown: of others it would leave out what a terminal obeys, and quote nothing.
+fn repeated(error: clap::Error) -> clap::Error {
+    let shown = std::env::args_os().map(|argument| one_line(&argument.to_string_lossy()).into());
+    Arguments::try_parse_from::<_, OsString>(shown).err().filter(|again| again.kind() == error.kind()).unwrap_or(error)
+}
+
 fn main() -> ExitCode {
     interruption::survive_file_limits();
     let arguments = match Arguments::try_parse() {
@@ -82,7 +90,7 @@ fn main() -> ExitCode {
             let usage = error.use_stderr();
             // What it repeats of the arguments may be anything; its help is ours, and has its styles.
             if usage {
-                message::write(&error.render().to_string());
+                message::write(&repeated(error).render().to_string());
             } else {
                 output::told(error.print());
             }

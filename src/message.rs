@@ -6,6 +6,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource};
 use std::collections::BTreeSet;
 use std::fmt;
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 /// Lines longer than this, in bytes, are not drawn.
@@ -190,6 +191,24 @@ pub fn error_text(message: &str, help: Option<&str>) -> String {
         text.push_str(&line(&format!("  help: {help}")));
     }
     text
+}
+
+/// Says that a file which was written anew has had other names: those lead to what it held before.
+pub fn parted(path: &Path, others: u64) {
+    if others == 0 {
+        return;
+    }
+    let names = if others == 1 {
+        "another name (a hard link)".to_string()
+    } else {
+        format!("{others} other names (hard links)")
+    };
+    let what = format!(
+        "warning: `{}` had {names}, which {} what it held before",
+        path.display(),
+        if others == 1 { "keeps" } else { "keep" }
+    );
+    write(&(line(&what) + &line("  help: link them anew where they should be one file")));
 }
 
 /// A line of a message, which stays one.

@@ -8,6 +8,9 @@ use std::time::Duration;
 /// So long what was written may be lost with the machine's power.
 const STEP: Duration = Duration::from_secs(1);
 
+/// What became of a file that is not as it was left.
+pub const WRITTEN_INTO: &str = "another program has written into it";
+
 /// Writes at once, and lets the disk have it in steps. Who writes waits for the disk: no control loop should.
 pub struct Synced {
     file: File,
@@ -61,7 +64,7 @@ impl Synced {
 impl Write for Synced {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if !self.is_as_left()? {
-            return Err(io::Error::other("another program has written into it"));
+            return Err(io::Error::other(WRITTEN_INTO));
         }
         let written = self.file.write(bytes)?;
         self.bytes += written as u64;

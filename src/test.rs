@@ -1,14 +1,16 @@
 //! `albacore test`: runs the `test` blocks of scripts and compares behavior traces with their snapshots.
 
-use crate::disk::{not_written, whole};
+use crate::disk::{self, not_written};
 use crate::exit::Exit;
 use crate::message;
 use crate::output::Lines;
 use crate::plan::Faults;
+use albacore_session::seen::is_unseen;
 use albacore_session::{
     Digest, Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, Unread, first_difference, first_foreign_line,
-    read_file, run_test, same_behavior,
+    read_file, run_test,
 };
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// A snapshot's name has so many bytes at most, without its ending: systems take 255 and less.
@@ -59,8 +61,11 @@ impl Test {
         };
         let mut count = Count::default();
         let mut exit = Exit::Well;
-        for path in scripts {
-            let script = match albacore_session::load(&path, None, &[]) {
+        for path in &scripts {
+            // Of several files of one name a test is told by its path.
+            let is_alone = scripts.iter().filter(|other| other.file_name() == path.file_name()).count() == 1;
+            let at = Named { path, is_alone };
+            let script = match albacore_session::load(path, None, &[]) {
                 Ok(script) => script,
                 Err(error) => {
                     message::error(&error.message, error.help.as_deref());
@@ -72,7 +77,7 @@ impl Test {
                 exit = Exit::Script;
                 continue;
             }
-            if let Err(failed) = self.tests_of(&script, &path, &faults, &mut count) {
+            if let Err(failed) = self.tests_of(&script, &at, &faults, &mut count) {
                 exit = failed;
             }
         }
@@ -94,7 +99,7 @@ impl Test {
     fn tests_of(
         &self,
         script: &Script,
-        path: &Path,
+        at: &Named,
         faults: &albacore_session::Faults,
         count: &mut Count,
     ) -> Result<(), Exit> {
@@ -116,18 +121,18 @@ impl Test {
                     return Err(Exit::Script);
                 }
                 Err(PlanError::Asked(what, help)) => {
-                    message::error(&format!("{}: {what}", test.place), help.as_deref());
+                    message::error(&format!("{}: {what}", at.place(&test.place)), help.as_deref());
                     return Err(Exit::Usage);
                 }
             };
-            let problems = self.problems(path, &result, faults);
-            let seeds = format!("seeds {}..{}", result.seeds.0, result.seeds.1);
+            let problems = self.problems(at, &result, faults);
+            let (place, seeds) = (at.place(&result.place), format!("seeds {}..{}", result.seeds.0, result.seeds.1));
             if problems.is_empty() {
                 count.passed += 1;
-                say(&format!("ok      {}  \"{}\"  {seeds}", result.place, result.name));
+                say(&format!("ok      {place}  \"{}\"  {seeds}", result.name));
             } else {
                 count.failed += 1;
-                say(&format!("FAILED  {}  \"{}\"  {seeds}", result.place, result.name));
+                say(&format!("FAILED  {place}  \"{}\"  {seeds}", result.name));
                 problems.iter().for_each(|problem| say(problem));
             }
         }
@@ -135,9 +140,9 @@ impl Test {
     }
 
     /// What is wrong with what became of a test, in lines.
-    fn problems(&self, path: &Path, result: &TestResult, faults: &albacore_session::Faults) -> Vec<String> {
+    fn problems(&self, at: &Named, result: &TestResult, faults: &albacore_session::Faults) -> Vec<String> {
         let mut problems = failed_runs(result);
-        problems.extend(result.failures.iter().flat_map(told));
+        problems.extend(result.failures.iter().flat_map(|failure| told(at, failure)));
         // A snapshot is of a run in which only the scenario's own faults were.
         let traces: &[(u64, String)] = if faults.is_empty() { &result.traces } else { &[] };
         if self.accept && !problems.is_empty() {
@@ -148,7 +153,7 @@ impl Test {
             return problems;
         }
         for (seed, trace) in traces {
-            problems.extend(self.compare(path, result, *seed, trace));
+            problems.extend(self.compare(at.path, result, *seed, trace));
         }
         problems
     }
@@ -167,19 +172,20 @@ impl Test {
         if stored.as_deref().is_some_and(|stored| stored.lines().eq(trace.lines())) {
             return Vec::new();
         }
+        // What somebody else wrote is no old snapshot.
+        let foreign = stored.as_deref().filter(|stored| !stored.is_empty()).and_then(first_foreign_line);
         if self.accept {
-            // What somebody else wrote is no old snapshot.
-            let stored = stored.as_deref().filter(|stored| !stored.is_empty());
-            if let Some(line) = stored.and_then(first_foreign_line) {
+            if let Some(line) = foreign {
                 return vec![
                     format!("        `{}` is there already, and its line {line} is none of a trace", file.display()),
-                    "        move it away, or take what you wrote out of it".to_string(),
+                    THEIRS.to_string(),
                 ];
             }
-            let written = file.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| whole(&file, trace));
-            return match written {
-                Ok(()) => {
+            let made = file.parent().map_or(Ok(()), std::fs::create_dir_all);
+            return match made.and_then(|()| disk::rewrite(&file, trace)) {
+                Ok(others) => {
                     say(&format!("        wrote {}", file.display()));
+                    message::parted(&file, others);
                     Vec::new()
                 }
                 Err(error) => vec![format!("        {}", not_written(&file, &error))],
@@ -188,20 +194,79 @@ impl Test {
         let Some(stored) = stored else {
             return vec![
                 format!("        seed {seed}: there is no snapshot `{}`", file.display()),
-                "        look at the run, then `albacore test --accept`".to_string(),
+                format!("        look at the run, then `{}`", self.accepting()),
             ];
         };
-        let verdict =
-            if same_behavior(&stored, trace) { "numerically different, same behavior" } else { "behaved differently" };
-        let mut told = vec![format!("        seed {seed}: {verdict}  ({})", file.display())];
+        let mut told = Vec::new();
         let behavior = first_difference(&stored, trace);
-        let lines = behavior.map_or_else(|| first_lines(&stored, trace), |d| (d.left, d.right));
-        for (sign, line) in [("-", lines.0), ("+", lines.1)] {
-            let line = line.as_deref().unwrap_or("(nothing more)");
-            told.push(format!("          {sign} {}", if line.is_empty() { "(an empty line)" } else { line }));
+        // Of a snapshot into which somebody wrote, that is what differs, where the behavior does not.
+        if behavior.is_some() || foreign.is_none() {
+            let verdict =
+                if behavior.is_some() { "behaved differently" } else { "numerically different, same behavior" };
+            told.push(format!("        seed {seed}: {verdict}  ({})", file.display()));
+            let lines = behavior.map_or_else(|| first_lines(&stored, trace), |d| (d.left, d.right));
+            for (sign, line) in [("-", lines.0), ("+", lines.1)] {
+                let line = line.as_deref().unwrap_or("(nothing more)");
+                told.push(format!("          {sign} {}", if line.is_empty() { "(an empty line)" } else { line }));
+            }
         }
-        told.push("        when this is right: `albacore test --accept`".to_string());
+        match foreign {
+            Some(line) => {
+                told.push(format!("        seed {seed}: line {line} of `{}` is none of a trace", file.display()));
+                let text = stored.lines().nth(line - 1).unwrap_or_default();
+                told.extend([format!("          {text}"), THEIRS.to_string()]);
+            }
+            None => told.push(format!("        when this is right: `{}`", self.accepting())),
+        }
         told
+    }
+
+    /// The command that accepts what this one has found, as a shell takes it: of what was named, and of nothing else.
+    fn accepting(&self) -> String {
+        let mut words = vec!["albacore test --accept".to_string()];
+        words.extend(self.filter.as_ref().map(|text| format!("--filter={}", quoted(OsStr::new(text)))));
+        if self.paths.iter().any(|path| path.as_os_str().as_encoded_bytes().starts_with(b"-")) {
+            words.push("--".to_string());
+        }
+        words.extend(self.paths.iter().map(|path| quoted(path.as_os_str())));
+        words.join(" ")
+    }
+}
+
+/// A script, as it is named.
+struct Named<'a> {
+    path: &'a Path,
+    /// Whether no other that is tested has its file's name.
+    is_alone: bool,
+}
+
+impl Named<'_> {
+    /// `file:line` of it, with as much of its path as tells it from the others.
+    fn place(&self, place: &str) -> String {
+        match place.rsplit_once(':') {
+            Some((_, line)) if !self.is_alone => format!("{}:{line}", self.path.display()),
+            _ => place.to_string(),
+        }
+    }
+}
+
+/// What to do about a snapshot that holds more than one.
+const THEIRS: &str = "        move it away, or take what you wrote out of it";
+
+/// A word as a shell takes it. One that a terminal would not show, or that is no text, is written out in the way of `$'\x1b'`.
+fn quoted(word: &OsStr) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_-./@%+,:=".contains(c);
+    match word.to_str() {
+        Some(text) if !text.is_empty() && text.chars().all(is_plain) => text.to_string(),
+        Some(text) if !text.chars().any(is_unseen) => format!("'{}'", text.replace('\'', "'\\''")),
+        _ => {
+            let seen = |b: u8| match b {
+                b'\'' | b'\\' => format!("\\{}", b as char),
+                b' '..=b'~' => (b as char).to_string(),
+                _ => format!("\\x{b:02x}"),
+            };
+            format!("$'{}'", word.as_encoded_bytes().iter().copied().map(seen).collect::<String>())
+        }
     }
 }
 
@@ -267,13 +332,13 @@ fn example(seed: u64, found: &str) -> String {
 }
 
 /// A failed expectation as a person reads it, in lines.
-fn told(failure: &Failure) -> Vec<String> {
+fn told(at: &Named, failure: &Failure) -> Vec<String> {
     let (held, runs) = failure.held;
     // Without the last bits of a product.
     let digits = |w: f64| (w * 1e12).round() / 1e12;
     let wanted = failure.wanted.filter(|w| *w < 100.0).map(|w| format!(", {} % wanted", digits(w))).unwrap_or_default();
     let mut lines = vec![
-        format!("        {}  {}", failure.place, failure.text),
+        format!("        {}  {}", at.place(&failure.place), failure.text),
         format!("        held in {held} of {runs} runs{wanted}"),
     ];
     lines.extend(failure.examples.iter().map(|(seed, found)| example(*seed, found)));

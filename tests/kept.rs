@@ -174,3 +174,43 @@ fn a_folder_that_cannot_be_written_is_said_before_the_first_tick() {
     assert!(said.contains("`Cargo.toml/out` cannot be written") && said.contains("--no-out"), "{said}");
     assert!(output.stdout.is_empty());
 }
+
+/// A journal that the disk has cut, and into which another program has written since, is told as both.
+#[test]
+fn a_journal_that_was_cut_and_written_into_is_told_as_both() {
+    let out = empty("cut-and-written-into");
+    let script = out.with_extension("alb");
+    std::fs::write(&script, LONG).unwrap();
+    let run = shell::behind("trap '' XFSZ; ulimit -f 16", &albacore(&script.display().to_string(), &out))
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let (path, mut before) = (out.join("journal"), 0);
+    // Until it grows no more.
+    for _ in 0..2_000 {
+        std::thread::sleep(Duration::from_millis(100));
+        let now = std::fs::metadata(&path).map_or(0, |m| m.len());
+        if now > 4_000 && now == before {
+            break;
+        }
+        before = now;
+    }
+    let mut bytes = std::fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle..middle + 8].copy_from_slice(b"my notes");
+    std::io::Write::write_all(&mut std::fs::OpenOptions::new().write(true).open(&path).unwrap(), &bytes).unwrap();
+    send("-TERM", &run);
+    let output = run.wait_with_output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(
+        said.contains("journal` cannot be written: ") && said.contains("another program has written into it"),
+        "{said}"
+    );
+    let record: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("run.json")).unwrap()).unwrap();
+    let why = record["lost"]["journal"].as_str().unwrap();
+    assert!(why.contains("os error") && why.ends_with("; another program has written into it"), "{why}");
+}

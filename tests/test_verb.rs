@@ -148,6 +148,15 @@ fn what_somebody_wrote_into_a_snapshot_is_not_written_over() {
         (String::new(), None),
     ] {
         std::fs::write(&file, &text).unwrap();
+        // Nobody is advised to do what is refused.
+        let (code, said) = project.test(&[]);
+        let same = text.starts_with(&accepted);
+        if let Some(line) = line {
+            let what = format!("line {line} of `./snapshots/north-goes_north-2.trace` is none of a trace");
+            assert!(code == Some(1) && said.contains(&what) && !said.contains("--accept"), "{text}: {said}");
+            assert_eq!(said.contains("behaved differently"), !same, "{text}: {said}");
+            assert!(!said.contains("numerically different"), "{text}: {said}");
+        }
         let (code, said) = project.test(&["--accept"]);
         match line {
             Some(line) => {
@@ -423,4 +432,107 @@ fn the_ends_of_lines_are_no_part_of_a_snapshot() {
     std::fs::write(&file, format!("{accepted}\n")).unwrap();
     let (code, said) = project.test(&[]);
     assert!(code == Some(1) && said.contains("- (an empty line)") && said.contains("+ (nothing more)"), "{said}");
+}
+
+/// The command that a message gives accepts what the message is of, typed as it stands, and nothing else: whatever the paths are
+/// called, and wherever they are.
+#[test]
+fn the_command_that_is_given_accepts_what_was_looked_at() {
+    let project = Project::new("advice", "10 s", "5 m");
+    let script = std::fs::read_to_string(project.0.join("north.alb")).unwrap();
+    let odd = "o'er $HOME `there`";
+    for folder in ["missions", "other", odd, "-x"] {
+        std::fs::create_dir(project.0.join(folder)).unwrap();
+        std::fs::write(project.0.join(folder).join("fast.alb"), &script).unwrap();
+    }
+    let program = Path::new(env!("CARGO_BIN_EXE_albacore"));
+    let run = |mut command: Command| {
+        let output = command.current_dir(&project.0).env("NO_COLOR", "1").stdin(Stdio::null()).output().unwrap();
+        let said = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
+        (output.status.code(), said)
+    };
+    let test = |arguments: &[&str]| {
+        let mut command = Command::new(program);
+        command.arg("test").args(arguments);
+        run(command)
+    };
+    let snapshot = |folder: &str| project.0.join(folder).join("snapshots/fast-goes_north-2.trace");
+    // A regression that nobody has looked at.
+    assert_eq!(test(&["missions", "--accept"]).0, Some(0));
+    let accepted = std::fs::read_to_string(snapshot("missions")).unwrap().replace("enter", "ENTER");
+    std::fs::write(snapshot("missions"), &accepted).unwrap();
+    for (arguments, folder, words) in [
+        (&["other/fast.alb"][..], "other", "other/fast.alb"),
+        (&[odd], odd, r"'o'\''er $HOME `there`'"),
+        (&["--filter", "goes north", "other/fast.alb"], "other", "--filter='goes north' other/fast.alb"),
+        (&["--", "-x"], "-x", "-- -x"),
+    ] {
+        for is_there in [false, true] {
+            match is_there {
+                false => drop(std::fs::remove_dir_all(snapshot(folder).parent().unwrap())),
+                true => std::fs::write(snapshot(folder), accepted.replace("ENTER", "leave")).unwrap(),
+            }
+            let (code, said) = test(arguments);
+            let before = if is_there { "when this is right: `" } else { "look at the run, then `" };
+            let advice = said.lines().find_map(|line| line.trim().strip_prefix(before)).unwrap_or_default();
+            let advice = advice.strip_suffix('`').unwrap_or_default();
+            assert_eq!((code, advice), (Some(1), format!("albacore test --accept {words}").as_str()), "{said}");
+            let mut shell = Command::new("sh");
+            let path = std::env::join_paths([program.parent().unwrap(), Path::new("/usr/bin"), Path::new("/bin")]);
+            shell.args(["-c", advice]).env("PATH", path.unwrap());
+            let (code, said) = run(shell);
+            assert_eq!(code, Some(0), "{advice}: {said}");
+            assert_eq!(test(arguments).0, Some(0), "{advice}");
+            assert_eq!(std::fs::read_to_string(snapshot("missions")).unwrap(), accepted, "{advice}");
+        }
+    }
+    // Where nothing was named nothing is.
+    let (code, said) = test(&[]);
+    assert!(code == Some(1) && said.contains("when this is right: `albacore test --accept`\n"), "{said}");
+    // What a terminal obeys is written so that a shell reads it.
+    std::fs::rename(project.0.join("-x"), project.0.join("e\u{1b}'")).unwrap();
+    std::fs::remove_dir_all(project.0.join("e\u{1b}'/snapshots")).unwrap();
+    let (code, said) = test(&["e\u{1b}'"]);
+    assert!(code == Some(1) && said.contains(r"`albacore test --accept $'e\x1b\''`"), "{said}");
+}
+
+/// Two files of one name are told apart.
+#[test]
+fn a_test_is_told_by_as_much_of_its_path_as_tells_it_from_others() {
+    let project = Project::new("places", "10 s", "10 cm");
+    let other = project.0.join("other");
+    std::fs::create_dir(&other).unwrap();
+    std::fs::copy(project.0.join("north.alb"), other.join("north.alb")).unwrap();
+    std::fs::copy(project.0.join("north.alb"), other.join("south.alb")).unwrap();
+    let (code, said) = project.test(&[&other.display().to_string()]);
+    assert_eq!(code, Some(1), "{said}");
+    for line in
+        ["FAILED  ./north.alb:17", "        ./north.alb:19", "FAILED  ./other/north.alb:17", "FAILED  south.alb:17"]
+    {
+        assert!(said.contains(&format!("{line}  ")), "{line}: {said}");
+    }
+}
+
+/// A snapshot may be kept elsewhere: what a link leads to is the snapshot, and the link stays.
+#[test]
+fn a_snapshot_behind_a_link_is_accepted_behind_it() {
+    let project = Project::new("linked", "10 s", "5 m");
+    project.test(&["--accept"]);
+    let (file, kept) = (project.0.join("snapshots/north-goes_north-2.trace"), project.0.join("kept.trace"));
+    std::fs::rename(&file, &kept).unwrap();
+    std::os::unix::fs::symlink("../kept.trace", &file).unwrap();
+    project.write("11 s", "5 m");
+    let (code, said) = project.test(&["--accept"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(file.is_symlink() && std::fs::read_to_string(&kept).unwrap().contains("11.1 s  report"), "{said}");
+    assert_eq!(project.test(&[]).0, Some(0));
+    // One that leads nowhere is left, and so is another name of the file before.
+    std::fs::hard_link(&kept, project.0.join("named.trace")).unwrap();
+    project.write("10 s", "5 m");
+    let (code, said) = project.test(&["--accept"]);
+    assert!(code == Some(0) && said.contains("trace` had another name (a hard link)"), "{said}");
+    assert!(std::fs::read_to_string(project.0.join("named.trace")).unwrap().contains("11.1 s  report"));
+    std::fs::remove_file(&kept).unwrap();
+    let (code, said) = project.test(&["--accept"]);
+    assert!(code == Some(1) && said.contains("is a link that leads nowhere") && file.is_symlink(), "{said}");
 }

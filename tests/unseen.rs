@@ -141,3 +141,21 @@ fn a_table_holds_no_formula() {
     said(&folder, &["campaign", &evil, "--seeds", "1..3", "--out", "evil.csv", "--resume"]);
     assert!(!table.contains(",=") && !table.contains(",@") && !table.contains(",+"), "{table}");
 }
+
+/// What is wrong with an argument is told with the argument, though a terminal would obey all of it.
+#[test]
+fn an_argument_that_is_refused_is_shown() {
+    let folder = folder("arguments");
+    let evil = "\u{1b}[31m";
+    for arguments in [
+        &[evil][..],
+        &["run", "box.alb", evil],
+        &["run", "box.alb", "--seed", evil],
+        &["campaign", "box.alb", "--out", "t.csv", "--seeds", evil],
+        &["completions", evil],
+        &["run", "box.alb", &format!("--{evil}")],
+    ] {
+        let said = said(&folder, arguments);
+        assert!(said.contains(r"\u{1b}[31m'"), "{arguments:?}: {said}");
+    }
+}

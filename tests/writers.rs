@@ -123,6 +123,25 @@ fn what_a_link_leads_to_is_left_alone() {
     assert_eq!(std::fs::read_to_string(folder.join("plan.alb")).unwrap(), LAID_OUT);
 }
 
+/// A file is written whole by taking the place of the one before: its other names would lead to that, and nobody would know.
+#[test]
+fn who_lays_out_a_file_of_several_names_is_told() {
+    let folder = empty("names");
+    for (others, said_of_them) in [(1, "had another name (a hard link), which keeps"), (2, "had 2 other names")] {
+        let _ = std::fs::remove_file(folder.join("plan.alb"));
+        std::fs::write(folder.join("plan.alb"), PLAN).unwrap();
+        let names: Vec<PathBuf> = (0..others).map(|i| folder.join(format!("other-{others}-{i}"))).collect();
+        names.iter().for_each(|name| std::fs::hard_link(folder.join("plan.alb"), name).unwrap());
+        let (code, said) = albacore(&folder, "fmt --check plan.alb");
+        assert_eq!((code, said.as_str()), (Some(1), ""));
+        let (code, said) = albacore(&folder, "fmt plan.alb");
+        assert!(code == Some(0) && said.contains(&format!("warning: `plan.alb` {said_of_them}")), "{code:?} {said}");
+        assert_eq!(std::fs::read_to_string(folder.join("plan.alb")).unwrap(), LAID_OUT);
+        assert!(names.iter().all(|name| std::fs::read_to_string(name).unwrap() == PLAN));
+        assert_eq!(albacore(&folder, "fmt plan.alb"), (Some(0), String::new()));
+    }
+}
+
 #[test]
 fn a_table_is_begun_through_no_link() {
     let folder = empty("table");
@@ -153,6 +172,7 @@ fn a_path_that_leads_nowhere_is_told() {
     let folder = empty("nowhere");
     sources(&folder);
     std::fs::write(folder.join("f"), "").unwrap();
+    symlink("nowhere", folder.join("albacore-runs")).unwrap();
     let beneath = "`f/x` cannot be written: `f` is a file, and no folder";
     for (words, why) in [
         ("run box.alb --out f", "`f` cannot be written: there is a file of that name"),
@@ -163,6 +183,16 @@ fn a_path_that_leads_nowhere_is_told() {
         ("campaign box.alb --seeds 1..2 --out f/x", beneath),
         ("campaign box.alb --seeds 1..2 --out no/x", "`no/x` cannot be written: there is no folder `no`"),
         ("graph cpt cpt_2005 --out no/x", "`no/x` cannot be written: there is no folder `no`"),
+        ("campaign box.alb --seeds 1..2 --out q/", "`q/` cannot be written: its name ends as a folder's does"),
+        ("campaign box.alb --seeds 1..2 --out q/ --resume", "`q/` cannot be written: its name ends as a folder's does"),
+        ("graph cpt cpt_2005 --out q/", "`q/` cannot be written: its name ends as a folder's does"),
+        ("scenario show box.alb --out f/", "`f/` cannot be written: its name ends as a folder's does"),
+        ("campaign box.alb --seeds 1..2 --out out/", "`out/` cannot be written: it is a folder"),
+        ("run box.alb", "`albacore-runs/box` cannot be written: `albacore-runs` is a link that leads nowhere"),
+        ("scenario show box.alb", "cannot be written: `albacore-runs` is a link that leads nowhere"),
+        ("run box.alb --out albacore-runs/x", "cannot be written: `albacore-runs` is a link that leads nowhere"),
+        ("doc cpt --out albacore-runs", "cannot be written: `albacore-runs` is a link that leads nowhere"),
+        ("graph cpt cpt_2005 --out albacore-runs/x", "cannot be written: `albacore-runs` is a link that leads nowhere"),
     ] {
         let (code, said) = albacore(&folder, words);
         assert!(code.is_some_and(|code| code > 0) && said.contains(why), "{words}: {code:?} {said}");

@@ -13,12 +13,25 @@ pub struct Growing {
     file: Synced,
     path: PathBuf,
     digest: Digest,
+    /// Why it can only be read, if so.
+    forbidden: Option<io::Error>,
 }
 
 impl Growing {
     /// A file that holds this text, whole lines.
     pub fn new(file: File, path: PathBuf, text: &[u8]) -> Self {
-        Growing { file: Synced::new(file, text.len() as u64), path, digest: digest(Digest::new(), text) }
+        let (file, digest) = (Synced::new(file, text.len() as u64), digest(Digest::new(), text));
+        Growing { file, path, digest, forbidden: None }
+    }
+
+    /// One that may turn out to be complete as it is: then nothing has to be written into it.
+    pub fn known(file: File, forbidden: Option<io::Error>, path: PathBuf, text: &[u8]) -> Self {
+        Growing { forbidden, ..Growing::new(file, path, text) }
+    }
+
+    /// An error if it can only be read.
+    pub fn may_grow(&mut self) -> Result<(), Trouble> {
+        self.forbidden.take().map_or(Ok(()), |error| Err(Trouble::Disk(self.path.clone(), error)))
     }
 
     /// The file itself.
@@ -31,17 +44,17 @@ impl Growing {
         if !disk::is_at(self.file(), &self.path).unwrap_or(false) {
             return Err(Trouble::Gone(self.path.clone()));
         }
-        if !self.file.is_as_left()? {
+        if !self.is_as_left()? {
             return Err(Trouble::Changed(self.path.clone()));
         }
-        self.file.write_whole(line)?;
+        self.file.write_whole(line).map_err(|error| Trouble::Disk(self.path.clone(), error))?;
         self.digest = digest(self.digest, line);
         Ok(())
     }
 
     /// What it holds: what was written.
     pub fn text(&mut self) -> Result<Vec<u8>, Trouble> {
-        if !self.file.is_as_left()? {
+        if !self.is_as_left()? {
             return Err(Trouble::Changed(self.path.clone()));
         }
         let read = || -> io::Result<Option<Vec<u8>>> {
@@ -53,8 +66,12 @@ impl Growing {
             Ok(Some(_)) => Err(Trouble::Changed(self.path.clone())),
             Ok(None) => Err(Trouble::Gone(self.path.clone())),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Err(Trouble::Gone(self.path.clone())),
-            Err(error) => Err(error.into()),
+            Err(error) => Err(Trouble::Disk(self.path.clone(), error)),
         }
+    }
+
+    fn is_as_left(&self) -> Result<bool, Trouble> {
+        self.file.is_as_left().map_err(|error| Trouble::Disk(self.path.clone(), error))
     }
 }
 

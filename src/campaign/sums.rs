@@ -11,7 +11,6 @@ use crate::disk;
 use albacore_trace::Digest;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Bytes of a record.
@@ -23,12 +22,34 @@ const BYTES_MAX: u64 = RECORD as u64 * (RUNS_MAX + 2);
 pub struct Sums(Growing);
 
 impl Sums {
-    /// Begins with these lines.
-    pub fn begin<'a>(table: &Path, lines: impl Iterator<Item = &'a [u8]>) -> io::Result<Self> {
+    /// Those of a table that is begun.
+    pub fn begin(table: &Path) -> Result<Self, Trouble> {
+        Sums::written(path(table), b"")
+    }
+
+    /// Goes on with what was found: where that is not of these lines it is written anew.
+    pub fn go_on<'a>(table: &Path, found: &[u8], lines: impl Iterator<Item = &'a [u8]>) -> Result<Self, Trouble> {
         let text: String = lines.map(record).collect();
         let path = path(table);
-        let file = disk::replace(&path, text.as_bytes())?;
-        Ok(Sums(Growing::new(file, path, text.as_bytes())))
+        if text.as_bytes() != found {
+            return Sums::written(path, text.as_bytes());
+        }
+        match disk::known_file(&path) {
+            Ok((file, forbidden)) => Ok(Sums(Growing::known(file, forbidden, path, found))),
+            Err(error) => Err(Trouble::Disk(path, error)),
+        }
+    }
+
+    fn written(path: PathBuf, text: &[u8]) -> Result<Self, Trouble> {
+        match disk::replace(&path, text) {
+            Ok(file) => Ok(Sums(Growing::new(file, path, text))),
+            Err(error) => Err(Trouble::Disk(path, error)),
+        }
+    }
+
+    /// An error if they can only be read.
+    pub fn may_grow(&mut self) -> Result<(), Trouble> {
+        self.0.may_grow()
     }
 
     /// Adds a line.

@@ -65,27 +65,50 @@ type Lines = Vec<Option<Vec<u8>>>;
 pub enum Trouble {
     /// What was asked for cannot be: what is wrong, and a fix.
     Asked(String, String),
-    /// The disk will not have it.
-    Disk(io::Error),
+    /// The disk will not have a file.
+    Disk(PathBuf, io::Error),
     /// A file was removed or replaced while it was written.
     Gone(PathBuf),
     /// Somebody else wrote into it.
     Changed(PathBuf),
 }
 
-impl From<io::Error> for Trouble {
-    fn from(error: io::Error) -> Self {
-        Trouble::Disk(error)
+/// What is known of a table that cannot be gone on with, by nothing but a look at it.
+pub enum Standing {
+    /// So many rows are as they were written.
+    Whole(usize),
+    /// These lines of the table or of its sums are not.
+    Changed(BTreeSet<usize>),
+    /// It or its sums cannot be read.
+    Unknown,
+}
+
+/// Holds a table against its checksums, and touches nothing.
+pub fn standing(path: &Path) -> Standing {
+    let read = |path: &Path| std::fs::read(path).ok().zip(sums::read(path).ok());
+    let Some((text, sums)) = path.canonicalize().ok().filter(|path| path.is_file()).and_then(|path| read(&path)) else {
+        return Standing::Unknown;
+    };
+    let kept = sums::held_against(&text, &sums);
+    if kept.changed.is_empty() {
+        Standing::Whole(kept.lines.len().saturating_sub(1))
+    } else {
+        Standing::Changed(kept.changed)
     }
+}
+
+/// What the disk says of a file.
+fn disk_of(path: &Path) -> impl FnOnce(io::Error) -> Trouble {
+    |error| Trouble::Disk(path.to_path_buf(), error)
 }
 
 impl Table {
     /// Begins a table, where there is none yet.
     pub fn begin(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
         // What lies beside a table that is gone is of that one, and may be all that is left of it.
-        match neighbours(path).iter().find(|left| !path.exists() && is_there(left)) {
-            Some(left) => Err(another(left)),
-            None => Table::create(path, columns, origin),
+        match neighbours(path).iter().any(|left| !path.exists() && is_there(left)) {
+            true => Err(alone(path)),
+            false => Table::create(path, columns, origin),
         }
     }
 
@@ -99,7 +122,7 @@ impl Table {
             };
             return Err(Trouble::Asked(format!("`{}` is there already", path.display()), help.to_string()));
         }
-        let file = created?;
+        let file = created.map_err(disk_of(path))?;
         lock(&file, path)?;
         let made: Vec<PathBuf> = neighbours(path).into_iter().filter(|left| !is_there(left)).collect();
         let table = Table::headed(path, file, columns, origin);
@@ -113,8 +136,8 @@ impl Table {
     /// Writes where it comes from, and then the first line: a table with a line always has its origin beside it.
     fn headed(path: &Path, file: File, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
         let head = line(columns.names());
-        origin.write(path)?;
-        let mut sums = Sums::begin(path, std::iter::empty())?;
+        write(origin, path)?;
+        let mut sums = Sums::begin(path)?;
         let mut file = Growing::new(file, path.to_path_buf(), &[]);
         file.add(&head)?;
         sums.add(&head)?;
@@ -132,9 +155,9 @@ impl Table {
                 // A table that is gone is made again, and no other in its place.
                 left_by(path, origin)?;
                 no_stray_link(path)?;
-                drop(disk::new_file(path)?);
+                drop(disk::new_file(path).map_err(disk_of(path))?);
             }
-            Err(error) => return Err(error.into()),
+            Err(error) => return Err(Trouble::Disk(path.to_path_buf(), error)),
             // A device or a pipe would answer with something else, or never.
             Ok(found) if !found.is_file() => {
                 let message = format!("`{}` is no ordinary file", path.display());
@@ -143,11 +166,12 @@ impl Table {
             Ok(_) => {}
         }
         // What a link leads to is gone on with, and the link stays.
-        let path = &path.canonicalize()?;
-        let mut file = disk::old_file(path)?;
+        let path = &path.canonicalize().map_err(disk_of(path))?;
+        let (mut file, forbidden) = disk::known_file(path).map_err(disk_of(path))?;
         lock(&file, path)?;
         let mut text = Vec::new();
-        file.read_to_end(&mut text)?;
+        file.read_to_end(&mut text).map_err(disk_of(path))?;
+        let file = Growing::known(file, forbidden, path.clone(), &text);
         let changed_origin = if text.is_empty() { left_by(path, origin)? } else { belongs(path, origin)? };
         let sums = match sums::read(path) {
             Err(Unread::Missing) if text.is_empty() => Vec::new(),
@@ -163,7 +187,7 @@ impl Table {
     /// Goes on with what is left of a table.
     fn held(
         path: &Path,
-        file: File,
+        mut file: Growing,
         found: Found,
         columns: &Columns,
         origin: &Origin,
@@ -197,21 +221,32 @@ impl Table {
             }
             _ => drop(changed.insert(lines.len() + 1)),
         }
+        // Into one that is complete nothing has to be written, and nothing is.
+        let is_complete = lines.len() as u64 > seeds.count() && lines.iter().all(Option::is_some) && changed.is_empty();
+        if !is_complete {
+            file.may_grow()?;
+        }
         let mut foreign = Vec::new();
         if !changed.is_empty() {
             let copies = keep(path, &[("", &found.text), (".sums", &found.sums)])?;
             foreign.push(Foreign::Lines(changed, copies));
         }
-        if lines.len() == 1 {
-            // Nothing of it is known, and all of it is kept.
-            file.set_len(0)?;
-            return Ok(Table { foreign, ..Table::headed(path, file, columns, origin)? });
+        // A table with a line has both beside it, whenever the campaign is killed.
+        let [of, sums] = neighbours(path);
+        if found.text.is_empty() && !is_there(&of) {
+            write(origin, path)?;
+        }
+        if found.text.is_empty() && !is_there(&sums) {
+            Sums::begin(path)?;
         }
         let known = (0..).zip(&lines[1..]).filter_map(|(row, line)| Some((row, line.clone()?))).last();
-        let file = Growing::new(file, path.to_path_buf(), &found.text);
         let state = State::Mending { file, found, lines };
         let mut table = Table { path: path.to_path_buf(), state, known, tail, foreign };
         table.mended()?;
+        match &mut table.state {
+            State::Adding { sums, .. } if !is_complete => sums.may_grow()?,
+            _ => {}
+        }
         Ok(table)
     }
 
@@ -225,22 +260,26 @@ impl Table {
         if !sums::read(&self.path).is_ok_and(|sums| sums == found.sums) {
             return Err(Trouble::Changed(beside(&self.path, ".sums")));
         }
+        // Whoever kills the campaign in between finds a table that is as it was, or whole, and never one that is shorter than its sums.
         let file = if found.text.starts_with(&written) {
-            file.file().set_len(written.len() as u64)?;
-            file.file().try_clone()?
+            if found.text.len() > written.len() {
+                file.file().set_len(written.len() as u64).map_err(disk_of(&self.path))?;
+            }
+            file.file().try_clone()
         } else {
-            disk::replace(&self.path, &written)?
+            disk::replace(&self.path, &written)
         };
+        let file = Growing::new(file.map_err(disk_of(&self.path))?, self.path.clone(), &written);
         let rows = known.len() as u64 - 1;
-        let sums = Sums::begin(&self.path, known.into_iter())?;
-        self.state = State::Adding { file: Growing::new(file, self.path.clone(), &written), sums, rows };
+        let sums = Sums::go_on(&self.path, &found.sums, known.into_iter())?;
+        self.state = State::Adding { file, sums, rows };
         Ok(())
     }
 
     /// The origin is not as it was written, and what this campaign is of is known: it is written again.
     fn origin_changed(&mut self, theirs: &[u8], origin: &Origin) -> Result<(), Trouble> {
         let copies = keep(&self.path, &[(".origin", theirs)])?;
-        origin.write(&self.path)?;
+        write(origin, &self.path)?;
         self.foreign.push(Foreign::Origin(copies));
         Ok(())
     }
@@ -312,7 +351,7 @@ impl Table {
     pub fn tally(&mut self, columns: &Columns, origin: &Origin) -> Result<Tally, Trouble> {
         match origin::read(&self.path) {
             // Nobody else could put it back.
-            Err(Unread::Missing) => origin.write(&self.path)?,
+            Err(Unread::Missing) => write(origin, &self.path)?,
             Ok(there) if is_as_summed(&there) && same(&there, origin) => {}
             Ok(theirs) => self.origin_changed(&theirs, origin)?,
             Err(unread) => return Err(silent(&self.path, ".origin", MADE_FROM, unread)),
@@ -327,7 +366,7 @@ impl Table {
         let mut reader = csv::Reader::from_reader(&text[..]);
         let mut tally = Tally::default();
         for row in reader.records() {
-            let row = row.map_err(io::Error::from)?;
+            let row = row.map_err(|error| Trouble::Disk(self.path.clone(), error.into()))?;
             tally.add(columns, &row.iter().collect::<Vec<_>>());
         }
         Ok(tally)
@@ -337,6 +376,10 @@ impl Table {
 /// The files that lie beside a table.
 fn neighbours(table: &Path) -> [PathBuf; 2] {
     [".origin", ".sums"].map(|suffix| beside(table, suffix))
+}
+
+fn write(origin: &Origin, table: &Path) -> Result<(), Trouble> {
+    origin.write(table).map_err(|error| Trouble::Disk(beside(table, ".origin"), error))
 }
 
 fn is_there(path: &Path) -> bool {
@@ -351,9 +394,18 @@ fn no_stray_link(path: &Path) -> Result<(), Trouble> {
     Err(Trouble::Asked(message, "remove it, or choose another file with `--out`".to_string()))
 }
 
-fn another(left: &Path) -> Trouble {
-    let message = format!("`{}` is there already, and belongs to another table", left.display());
-    Trouble::Asked(message, "move it away, or choose another file with `--out`".to_string())
+/// Says what lies beside a table of which nothing is left.
+fn alone(table: &Path) -> Trouble {
+    let [of, sums] = neighbours(table);
+    let (left, why, again) = match (is_there(&of), sums::are_sums(table)) {
+        (_, false) => (sums, "holds no checksums of a table", ""),
+        (true, true) => {
+            (of, "nothing is left of its table", "with `--resume` the same campaign makes the table again; or ")
+        }
+        (false, true) => (sums, "nothing is left of its table and its `.origin`", ""),
+    };
+    let message = format!("`{}` is there already, and {why}", left.display());
+    Trouble::Asked(message, format!("{again}move it away, or choose another file with `--out`"))
 }
 
 /// A table that is gone, or empty, is made again where what lies beside it is its own, and no other in its place. Gives the origin if it
@@ -361,7 +413,7 @@ fn another(left: &Path) -> Trouble {
 fn left_by(path: &Path, origin: &Origin) -> Result<Option<Vec<u8>>, Trouble> {
     let [of, sums] = neighbours(path);
     let changed = if is_there(&of) { belongs(path, origin)? } else { None };
-    if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(another(&sums)) } else { Ok(changed) }
+    if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(alone(path)) } else { Ok(changed) }
 }
 
 /// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
@@ -438,7 +490,7 @@ fn may_be_row(tail: &[u8], seed: u64, columns: &Columns) -> bool {
 
 /// Keeps what was found of a table and of what lies beside it, under the first name that is free: who wrote into it may want that back.
 /// A campaign that was interrupted before it had mended all has kept the same already.
-fn keep(table: &Path, found: &[(&str, &[u8])]) -> io::Result<Vec<PathBuf>> {
+fn keep(table: &Path, found: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Trouble> {
     let found: Vec<_> = found.iter().filter(|(_, bytes)| !bytes.is_empty()).collect();
     let mut copy = beside(table, ".found");
     for number in 2u64.. {
@@ -448,7 +500,9 @@ fn keep(table: &Path, found: &[(&str, &[u8])]) -> io::Result<Vec<PathBuf>> {
             return Ok(kept);
         }
         if !is_there(&copy) && !neighbours(&copy).iter().any(|left| is_there(left)) {
-            kept.iter().zip(&found).try_for_each(|(path, (_, bytes))| disk::keep(path, bytes))?;
+            for (path, (_, bytes)) in kept.iter().zip(&found) {
+                disk::keep(path, bytes).map_err(disk_of(path))?;
+            }
             return Ok(kept);
         }
         copy = beside(table, &format!(".found-{number}"));

@@ -118,9 +118,15 @@ impl Record {
         self.lost.insert(name, why.to_string());
     }
 
-    /// Whether a file is known not to be whole.
-    pub fn has_lost(&self, name: &str) -> bool {
-        self.lost.contains_key(name)
+    /// The same, for one more reason than what is known already.
+    pub fn also_loses(&mut self, name: &'static str, why: &str) {
+        let before = self.lost.get(name).map(|before| format!("{before}; ")).unwrap_or_default();
+        self.loses(name, before + why);
+    }
+
+    /// Whether a file is known not to be whole, and why.
+    pub fn has_lost_by(&self, name: &str, why: &str) -> bool {
+        self.lost.get(name).is_some_and(|known| known == why)
     }
 
     /// It is, after all.

@@ -1,9 +1,12 @@
 //! Tables that are not as they were written: torn, damaged on the disk, or written into by somebody else. What a campaign wrote is mended,
 //! and what it did not write is told and kept.
 
-use crate::{ABORTING, BOX, FOREVER, REPORTING, command, empty, refused, rows, script, stderr, table, under_way};
+use crate::{
+    ABORTING, BOX, FOREVER, REPORTING, command, empty, refused, rows, script, shell, stderr, table, under_way,
+};
 use albacore_trace::Digest;
-use std::path::Path;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 #[test]
@@ -138,9 +141,15 @@ fn what_is_left_of_another_table_stays() {
     std::fs::remove_file(&out).unwrap();
     let origin = std::fs::read(out.with_extension("csv.origin")).unwrap();
     refused(BOX, "1..3", &out, &["--set", "round.patience=9min"], 2, "t.csv.origin` is there already");
-    refused(BOX, "1..2", &out, &[], 2, "belongs to another table");
+    refused(BOX, "1..2", &out, &[], 2, "nothing is left of its table");
     refused(BOX, "1..3", &out, &["--resume", "--set", "round.patience=9min"], 2, "was begun with `no --set`");
     assert_eq!(std::fs::read(out.with_extension("csv.origin")).unwrap(), origin);
+    // The fix that is offered works.
+    assert_eq!(rows(&table(BOX, "1..2", &out, &["--resume"])), 2);
+    [&out, &out.with_extension("csv.origin")].into_iter().for_each(|of| std::fs::remove_file(of).unwrap());
+    let alone = "t.csv.sums` is there already, and nothing is left of its table and its `.origin`";
+    refused(BOX, "1..2", &out, &[], 2, alone);
+    refused(BOX, "1..2", &out, &["--resume"], 2, alone);
     let link = folder.join("link.csv");
     std::os::unix::fs::symlink("nowhere.csv", &link).unwrap();
     for more in [&[][..], &["--resume"]] {
@@ -471,5 +480,94 @@ fn is_told(case: &str, mission: &str, out: &Path, says: &Says, whole: &str) {
             assert!(said.contains(what), "{case}: {said}");
             assert!(said.contains("put that back as it was, or begin anew with another `--out`"), "{case}: {said}");
         }
+    }
+}
+
+const FULL: &str = "trap '' XFSZ; ulimit -f 0";
+
+/// The files of a table of five rows, in an empty folder.
+fn five_rows(name: &str) -> [PathBuf; 3] {
+    let out = empty(name).join("t.csv");
+    table(BOX, "1..5", &out, &[]);
+    ["csv", "csv.sums", "csv.origin"].map(|extension| out.with_extension(extension))
+}
+
+/// Nothing is said of a row that was not held against its checksum, and the fix fits what is wrong.
+#[test]
+fn of_a_table_that_cannot_be_written_only_what_was_verified_is_told() {
+    let whole = "its first 5 rows are as they were written; ";
+    let forged = "it or its `.sums` was changed since it was written: line 3; ";
+    let (room, leave) =
+        ("when there is room again", "when you may write it, its `.origin`, its `.sums` and their folder");
+    for (name, is_forged, is_full, known, fix) in [
+        ("full", false, true, whole, room),
+        ("full-forged", true, true, forged, room),
+        ("read-only-forged", true, false, forged, leave),
+    ] {
+        let [out, sums, origin] = five_rows(&format!("unwritable-{name}"));
+        if is_forged {
+            let text = std::fs::read_to_string(&out).unwrap();
+            std::fs::write(&out, text.replacen("stream,2,completed", "stream,2,aborted", 1)).unwrap();
+        }
+        let before = std::fs::read(&out).unwrap();
+        let files = [&out, &sums, &origin];
+        let modes = |mode| files.map(|file| std::fs::set_permissions(file, PermissionsExt::from_mode(mode)).unwrap());
+        modes(if is_full { 0o644 } else { 0o444 });
+        let setting = if is_full { FULL } else { "true" };
+        let output = shell::behind(setting, &command(BOX, "1..6", &out, &["--resume"])).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(4), "{name}: {said}");
+        assert!(said.contains(&format!("help: {known}{fix}")), "{name}: {said}");
+        assert_eq!(std::fs::read(&out).unwrap(), before, "{name}");
+        // The fix that is offered works.
+        modes(0o644);
+        let anew = table(BOX, "1..6", &out.with_file_name("anew.csv"), &[]);
+        assert_eq!(table(BOX, "1..6", &out, &["--resume"]), anew, "{name}");
+    }
+}
+
+/// Who may only read a table that is complete has its summary: there is nothing to write.
+#[test]
+fn into_a_table_that_is_complete_nothing_is_written() {
+    let files = five_rows("complete");
+    let before =
+        files.each_ref().map(|file| (std::fs::read(file).unwrap(), file.metadata().unwrap().modified().unwrap()));
+    for (mode, setting) in [(0o444, "true"), (0o644, FULL)] {
+        files.iter().for_each(|file| std::fs::set_permissions(file, PermissionsExt::from_mode(mode)).unwrap());
+        let output = shell::behind(setting, &command(BOX, "1..5", &files[0], &["--resume"])).output().unwrap();
+        assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("seeds 1..5: 5 completed"));
+        let after =
+            files.each_ref().map(|file| (std::fs::read(file).unwrap(), file.metadata().unwrap().modified().unwrap()));
+        assert!(after == before);
+    }
+}
+
+/// A campaign that ends at any moment of its beginning, and then at any of its being taken up again, has changed nothing of its own.
+#[test]
+fn a_table_that_was_cut_at_its_first_line_was_not_changed() {
+    let [out, sums, origin] = five_rows("cut");
+    let (whole, all) = (std::fs::read_to_string(&out).unwrap(), std::fs::read_to_string(&sums).unwrap());
+    let head = whole.find('\n').unwrap() + 1;
+    for (line, sum) in [(head, Some(17)), (head, Some(5)), (head, Some(0)), (5, Some(0)), (0, Some(0)), (0, None)] {
+        let case = format!("{line} bytes of the table, {sum:?} of its sums");
+        std::fs::write(&out, &whole[..line]).unwrap();
+        match sum {
+            Some(sum) => std::fs::write(&sums, &all[..sum]).unwrap(),
+            None => std::fs::remove_file(&sums).unwrap(),
+        }
+        for read_only in [&origin, &sums] {
+            // It ends as soon as it writes anything, or this file.
+            for setting in [FULL, "true"] {
+                let _ = std::fs::set_permissions(read_only, PermissionsExt::from_mode(0o444));
+                let output = shell::behind(setting, &command(BOX, "1..5", &out, &["--resume"])).output().unwrap();
+                assert!(!stderr(&output).contains("changed"), "{case}: {}", stderr(&output));
+                let _ = std::fs::set_permissions(read_only, PermissionsExt::from_mode(0o644));
+            }
+        }
+        let output = command(BOX, "1..5", &out, &["--resume"]).output().unwrap();
+        assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""), "{case}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), whole, "{case}");
+        assert!(!out.with_extension("csv.found.sums").exists(), "{case}");
     }
 }
