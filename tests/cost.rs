@@ -208,14 +208,12 @@ fn a_scenario_has_so_many_clauses_of_one_name_at_most() {
 /// one another one by one. Both took a hundred times what their steps allow, here a quarter of a minute each.
 #[test]
 fn what_counts_few_steps_takes_little_time() {
-    let corners = lines(16, |i| {
-        let (north, east) = ((i as f64 * 0.3927).cos() * 100.0, (i as f64 * 0.3927).sin() * 100.0);
-        format!("point({north:.3} m, {east:.3} m),")
-    });
+    // On a parabola: none of them is inside of the others.
+    let corners = lines(16, |i| format!("point({} m, {} m),", 10 * i, i * i));
     let rows = format!(
         "memory walked: Area = polygon([{corners}]) else op
          memory mown: Length = 0 m
-         on true {{ for i in 1..20 {{ for row in walked.rows(0.1 m) {{ mown = row.length }} }} }}
+         on true {{ for i in 1..20 {{ for row in walked.rows(0.01 m) {{ mown = row.length }} }} }}
          wait for 35 s"
     );
     let turned = "memory way: Length = 1 m
