@@ -203,3 +203,39 @@ fn a_scenario_has_so_many_clauses_of_one_name_at_most() {
     let many = told(20_000);
     assert!(many.contains("20000 clauses `pit`: 1024 are the most") && many.contains("1 error"), "{many:.2000}");
 }
+
+/// The attacks: rows were computed from the area anew, each on its own, and large elements of a list that is turned round moved past
+/// one another one by one. Both took a hundred times what their steps allow, here a quarter of a minute each.
+#[test]
+fn what_counts_few_steps_takes_little_time() {
+    // On a parabola: none of them is inside of the others.
+    let corners = lines(16, |i| format!("point({} m, {} m),", 10 * i, i * i));
+    let rows = format!(
+        "memory walked: Area = polygon([{corners}]) else op
+         memory mown: Length = 0 m
+         on true {{ for i in 1..20 {{ for row in walked.rows(0.01 m) {{ mown = row.length }} }} }}
+         wait for 35 s"
+    );
+    let turned = "memory way: Length = 1 m
+         memory rank: Length = 1 m
+         memory places: [Place; 500] by least it.rank * way
+         on true {
+             way = 0 m - way
+             rank = rank + 1 m
+             places.insert(Place(rank: rank, a: op, b: op, c: op, d: op))
+         }
+         wait for 55 s";
+    let record = "record Place { rank: Length, a: Area, b: Area, c: Area, d: Area }";
+    for (name, script) in [("rows", script("", &rows)), ("turned", script(record, turned))] {
+        let before = work();
+        let file = std::env::temp_dir().join(format!("albacore-{}-{name}-quick.alb", std::process::id()));
+        std::fs::write(&file, script).unwrap();
+        let mut albacore = Command::new(env!("CARGO_BIN_EXE_albacore"));
+        let output = albacore.args(["run", "--no-out"]).arg(&file).output().unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let told = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{name}: {told:.2000}");
+        let took = work() - before;
+        assert!(took < 6, "{name}: {took} s");
+    }
+}

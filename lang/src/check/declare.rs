@@ -73,19 +73,24 @@ impl<'t> Checker<'t> {
             }
         }
         self.records_are_small(modules);
-        for (m, module) in modules.iter().enumerate() {
-            for item in &module.tree.items {
-                self.declare_signature(m, item);
+        let signatures = |c: &mut Self, of_functions: bool| {
+            for (m, module) in modules.iter().enumerate() {
+                let items = module.tree.items.iter().filter(|item| matches!(item, Item::Fn(_)) == of_functions);
+                items.for_each(|item| c.declare_signature(m, item));
             }
+        };
+        // Constants call functions, and the defaults and ranges of all else read constants: in their order, none waits for another
+        // because a parameter asks for it first.
+        let ranks = imported_first(modules);
+        signatures(self, true);
+        for i in in_order(&self.consts, &ranks) {
+            self.constant(i);
         }
+        signatures(self, false);
         for unused in self.overrides.clone().into_iter().filter(|o| o.found.is_none()) {
             self.unknown_override(&unused);
         }
         self.make_room();
-        let ranks = imported_first(modules);
-        for i in in_order(&self.consts, &ranks) {
-            self.constant(i);
-        }
         for i in in_order(&self.signals, &ranks) {
             self.module_signal(i);
         }

@@ -13,6 +13,7 @@ mod depth;
 mod expr;
 mod facts;
 mod flow;
+mod foregone;
 mod globe;
 mod hidden;
 mod lists;

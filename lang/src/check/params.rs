@@ -183,7 +183,7 @@ impl<'t> Checker<'t> {
         // Where a range ends at 1 or before, it is of shares: `4 %`.
         let is_share = value.ty.dimension() == Some(Dimension::NONE) && range.high <= 1.0 && range.high.fract() != 0.0;
         let show = |x: f64| match is_share {
-            true => format!("{} %", significant(x * 100.0)),
+            true => format!("{} %", short(significant(x * 100.0))),
             false => self.shown_number(x, &value.ty),
         };
         let percent = value.range.constant().map(|x| x * 0.01).filter(|x| *x >= range.low && *x <= range.high);
@@ -227,10 +227,15 @@ impl<'t> Checker<'t> {
             Type::Quantity(d) if !d.is_none() => d.display(),
             Type::Heading => Dimension::ANGLE.display(),
             Type::Depth | Type::Altitude => Dimension::LENGTH.display(),
-            _ => return format!("{x}"),
+            _ => return short(x),
         };
-        format!("{} {}", significant(x / display.scale), display.unit)
+        format!("{} {}", short(significant(x / display.scale)), display.unit)
     }
+}
+
+/// A number without rows of zeros.
+fn short(x: f64) -> String {
+    if x != 0.0 && !(1e-6..1e16).contains(&x.abs()) { format!("{x:e}") } else { format!("{x}") }
 }
 
 /// As a person writes it: six digits, so that radians come back as the degrees that they were.

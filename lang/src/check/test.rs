@@ -1,10 +1,11 @@
 //! Tests: a mission run in a scenario over seeds, and what must hold of it.
 
+use super::foregone::{Empty, Expectations};
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expect, Expr, ExprKind, Test, When, test_file_name};
+use crate::hir::{Expect, Expr, Test, When, test_file_name};
 use crate::source::Span;
 use crate::syntax::tree::{self, ExpectMode, TestClause};
 use crate::types::Type;
@@ -138,9 +139,15 @@ impl<'t> Checker<'t> {
     fn expect(&mut self, mode: &ExpectMode, holds: &tree::Expr, span: Span) -> Expect {
         let holds = self.in_block(|c| c.condition(holds));
         let needs = self.test.as_mut().map(|test| std::mem::take(&mut test.needs)).unwrap_or_default();
-        if needs.is_empty() && known(&holds) == Some(true) {
+        if needs.is_empty()
+            && let Some(empty) = self.says_nothing(&holds)
+        {
+            let message = match empty {
+                Empty::Holds => "this holds whatever the mission does",
+                Empty::Constant => "this reads nothing of a run: it is the same whatever the mission does",
+            };
             self.report(
-                Diagnostic::error(Code::TestsNothing, holds.span, "this holds whatever the mission does")
+                Diagnostic::error(Code::TestsNothing, holds.span, message)
                     .help("write what must hold of the run, such as `expect completed`, or leave it out"),
             );
         }
@@ -167,42 +174,9 @@ impl<'t> Checker<'t> {
         };
         Expect { when, holds, needs, span }
     }
-}
 
-/// Whether a condition holds, where that is known without a run.
-fn known(e: &Expr) -> Option<bool> {
-    let ExprKind::Do(op, operands) = &e.kind else {
-        return if let (ExprKind::Number(x), Type::Bool) = (&e.kind, &e.ty) { Some(*x != 0.0) } else { None };
-    };
-    match (op, operands.as_slice()) {
-        (Builtin::Not, [x]) => known(x).map(|holds| !holds),
-        (Builtin::And, [a, b]) => match (known(a), known(b)) {
-            (Some(false), _) | (_, Some(false)) => Some(false),
-            (Some(true), Some(true)) => Some(true),
-            _ => None,
-        },
-        (Builtin::Or, [a, b]) => match (known(a), known(b)) {
-            (Some(true), _) | (_, Some(true)) => Some(true),
-            (Some(false), Some(false)) => Some(false),
-            _ => None,
-        },
-        // The range of an optional is that of its value, where it has one.
-        (_, [a, b]) if matches!((&a.ty, &b.ty), (Type::Optional(_), _) | (_, Type::Optional(_))) => None,
-        (Builtin::Lt, [a, b]) => parted(a.range.high < b.range.low, a.range.low >= b.range.high),
-        (Builtin::Le, [a, b]) => parted(a.range.high <= b.range.low, a.range.low > b.range.high),
-        (Builtin::Eq, [a, b]) => {
-            let (a, b) = (a.range, b.range);
-            let same = a.constant().is_some() && a.constant() == b.constant();
-            parted(same, a.high < b.low || b.high < a.low)
-        }
-        _ => None,
-    }
-}
-
-fn parted(holds: bool, fails: bool) -> Option<bool> {
-    match (holds, fails) {
-        (true, _) => Some(true),
-        (_, true) => Some(false),
-        _ => None,
+    fn says_nothing(&self, holds: &Expr) -> Option<Empty> {
+        let names = &self.test.as_ref()?.names;
+        Expectations { names, kind: &|id| self.scope.vars[id].kind }.empty(holds)
     }
 }

@@ -15,6 +15,8 @@ use std::collections::BTreeMap;
 const CORNERS: u64 = AREA_CORNERS_MAX as u64;
 /// So many words are copied in the 10 ns that a million steps to a tick leave room for ten times over.
 const WORDS_A_STEP: u64 = 8;
+/// The edges of an area are gone through so often before its first row: for the longest, for the width, and for the outermost rows.
+const ACROSS: u64 = 4;
 
 /// A loop that goes round within a tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -218,17 +220,21 @@ impl<'a> Work<'a> {
             StmtKind::ForRange { first, last, inclusive, body, .. } => {
                 let rounds = last.range.high - first.range.low + if *inclusive { 1.0 } else { 0.0 };
                 let rounds = if rounds.is_finite() { rounds.max(0.0) as u64 } else { u64::MAX };
-                sum([self.exprs([first, last]), self.rounds(stmt.span, rounds, body, vars)])
+                sum([self.exprs([first, last]), self.rounds(stmt.span, rounds, 0, body, vars)])
             }
             StmtKind::ForList { list, body, .. } => {
                 let held = capacity(Some(&list.ty));
-                sum([self.expr(list), held, self.rounds(stmt.span, held, body, vars)])
+                // An element is looked up, and becomes the value of the loop's name.
+                let element = if let Type::List(inner, _) = &list.ty { self.moved(inner).saturating_mul(2) } else { 0 };
+                sum([self.expr(list), held, self.rounds(stmt.span, held, element, body, vars)])
             }
             StmtKind::ForEdges { area, body, .. } => {
-                sum([self.expr(area), self.rounds(stmt.span, CORNERS, body, vars)])
+                sum([self.expr(area), self.rounds(stmt.span, CORNERS, 0, body, vars)])
             }
             StmtKind::ForRows { area, step, near, body, .. } => {
-                sum([self.exprs([area, step, near]), self.rounds(stmt.span, u64::from(ROWS_MAX), body, vars)])
+                // A row is held against each edge, twice: how far off it is, and where they cross.
+                let rows = self.rounds(stmt.span, u64::from(ROWS_MAX), 2 * CORNERS, body, vars);
+                sum([self.exprs([area, step, near]), ACROSS * CORNERS, rows])
             }
             // Each round takes time: in a tick one ends and the next begins.
             StmtKind::While { condition, body, .. } => {
@@ -248,9 +254,9 @@ impl<'a> Work<'a> {
         steps.saturating_add(1)
     }
 
-    /// The rounds of a loop within a tick: one, when each takes time.
-    fn rounds(&mut self, span: Span, rounds: u64, body: &'a Block, vars: &'a [Var]) -> u64 {
-        let round = self.instant(body, vars).saturating_add(1);
+    /// The rounds of a loop within a tick: one, when each takes time. Each takes so much to find what it is about.
+    fn rounds(&mut self, span: Span, rounds: u64, finding: u64, body: &'a Block, vars: &'a [Var]) -> u64 {
+        let round = sum([1, finding, self.instant(body, vars)]);
         if takes_time(body) {
             return round;
         }
@@ -265,9 +271,11 @@ impl<'a> Work<'a> {
         let Some(order) = &var.order else { return 0 };
         let held = capacity(Some(&var.ty));
         let compared = held.saturating_mul(u64::from(held.max(1).ilog2() + 1));
-        // Each element is put where its key finds it, and back.
+        // Each element is put where its key finds it, and back; and all of them are put where they belong.
         let moved = self.moved(&var.ty).saturating_mul(4);
-        sum([held.saturating_mul(self.expr(&order.key)), compared, moved])
+        // The keys are computed to see whether there is anything to do, and to do it.
+        let keys = held.saturating_mul(self.expr(&order.key)).saturating_mul(2);
+        sum([keys, compared, moved])
     }
 
     /// The arguments and setpoints of `with`; what the overlays do is their own.
@@ -464,7 +472,7 @@ fn weight(op: Builtin, operands: &[Expr]) -> u64 {
         Builtin::Polygon => 1 + CORNERS * CORNERS,
         // Outside, the edges are looked at twice.
         Builtin::Gap => 1 + 2 * CORNERS,
-        Builtin::Corner | Builtin::NearestEdge | Builtin::Exit | Builtin::Run => 1 + CORNERS,
+        Builtin::Center | Builtin::Corner | Builtin::NearestEdge | Builtin::Exit | Builtin::Run => 1 + CORNERS,
         _ => 1,
     }
 }

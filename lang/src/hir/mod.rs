@@ -7,7 +7,7 @@ mod walk;
 
 pub use activity::*;
 pub use albacore_arithmetic::Interval;
-pub use same::{mentions_done, same_condition};
+pub use same::{mentions_done, same_condition, same_value};
 pub use simulated::*;
 pub use walk::{activity_children, block_children, calls_in, children};
 

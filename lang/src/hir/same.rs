@@ -38,21 +38,27 @@ pub fn same_condition(a: &Expr, b: &Expr) -> bool {
 }
 
 /// Whether two expressions surely have one value.
-fn same_value(a: &Expr, b: &Expr) -> bool {
+pub fn same_value(a: &Expr, b: &Expr) -> bool {
     match (&a.kind, &b.kind) {
         (ExprKind::Done, ExprKind::Done) => true,
         (ExprKind::Var(x), ExprKind::Var(y)) => x == y,
         (ExprKind::Number(x), ExprKind::Number(y)) => x == y,
         (ExprKind::Input(x, p), ExprKind::Input(y, q)) => x == y && same_part(p, q),
-        (ExprKind::IsPresent(x), ExprKind::IsPresent(y)) | (ExprKind::Unwrap(x), ExprKind::Unwrap(y)) => {
-            same_value(x, y)
-        }
+        (ExprKind::IsPresent(x), ExprKind::IsPresent(y))
+        | (ExprKind::Unwrap(x), ExprKind::Unwrap(y))
+        | (ExprKind::Present(x), ExprKind::Present(y)) => same_value(x, y),
+        (ExprKind::Else(x, a), ExprKind::Else(y, b)) => same_value(x, y) && same_value(a, b),
+        // A function gives the same for the same.
+        (ExprKind::Call(f, xs), ExprKind::Call(g, ys)) => f == g && all_same(xs, ys),
+        (ExprKind::List(xs), ExprKind::List(ys)) | (ExprKind::Record(xs), ExprKind::Record(ys)) => all_same(xs, ys),
         (ExprKind::Part(x, p), ExprKind::Part(y, q)) => p == q && same_value(x, y),
-        (ExprKind::Do(op, xs), ExprKind::Do(other, ys)) => {
-            op == other && xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| same_value(x, y))
-        }
+        (ExprKind::Do(op, xs), ExprKind::Do(other, ys)) => op == other && all_same(xs, ys),
         _ => false,
     }
+}
+
+fn all_same(xs: &[Expr], ys: &[Expr]) -> bool {
+    xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| same_value(x, y))
 }
 
 fn is(e: &Expr, joint: Builtin) -> bool {

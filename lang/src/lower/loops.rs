@@ -5,7 +5,7 @@ use crate::check::goes_round;
 use crate::hir::{self, Block, Expr};
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
-use albacore_program::{Op, Slot};
+use albacore_program::{Op, ROWS_WORDS, Slot};
 
 impl<'a> Lowering<'a> {
     pub(super) fn for_range(&mut self, var: usize, first: &Expr, last: &Expr, inclusive: bool, body: &Block) {
@@ -76,20 +76,21 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// Each row is computed when its turn comes: there are none left when there is none of the next index.
+    /// What all rows have in common is computed at the start, each row when its turn comes: there are none left when there is none
+    /// of the next index.
     pub(super) fn for_rows(&mut self, var: usize, area: &Expr, (step, near): (&Expr, &Expr), body: &Block) {
         let area = self.walked_area(area);
-        let (apart, beginning, counter) = (self.lasting(1), self.lasting(2), self.lasting(1));
+        let (rows, counter) = (self.lasting(ROWS_WORDS), self.lasting(1));
         self.scratch(|l| {
-            l.expr_into(step, apart);
-            l.expr_into(near, beginning);
+            let (step, near) = (l.expr(step), l.expr(near));
+            l.emit(Op::Rows { to: rows, area, step, near });
         });
         self.emit(Op::Const { to: counter, value: 0.0 });
         let top = self.here();
         let to = self.frame.vars[var];
         let done = self.scratch(|l| {
             let there = l.temp(1);
-            l.emit(Op::RowAt { to, there, area, step: apart, near: beginning, index: counter });
+            l.emit(Op::RowAt { to, there, rows, area, index: counter });
             l.emit(Op::JumpUnless { unless: there, to: 0 })
         });
         self.body(body);

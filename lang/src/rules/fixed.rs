@@ -8,7 +8,7 @@ use crate::hir::{
 };
 use crate::source::Span;
 use crate::types::{Type, TypeTable};
-use albacore_geometry::{Area, Geodetic, Heading, Line, Point, TangentFrame, Vector, farthest_corner, row};
+use albacore_geometry::{Area, Geodetic, Heading, Line, Point, Rows, TangentFrame, Vector, farthest_corner};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A name stands for so many values at most; further ones are not looked at.
@@ -311,9 +311,10 @@ impl<'h> Fixed<'h> {
             Source::Rows(area, step) => {
                 let [(_, Value::Number(step))] = self.values(unit, step)[..] else { return Vec::new() };
                 // Where they begin changes their order and their direction alone.
-                let edges = |area: &Area| area.edges().collect::<Vec<_>>();
-                let nth = |area: &Area, n: u32| row(edges(area).into_iter(), step, area.center(), n);
-                let rows = |area: &Area| (0..VALUES_MAX as u32).map_while(|n| nth(area, n)).collect();
+                let rows = |area: &Area| {
+                    let across = Rows::across(area.edges(), step, area.center());
+                    (0..VALUES_MAX as u32).map_while(|n| across?.nth(area.edges(), n)).collect()
+                };
                 lines(self.values(unit, area), &rows)
             }
         }

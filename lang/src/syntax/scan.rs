@@ -156,11 +156,14 @@ impl<'a> Scanner<'a> {
         self.margin();
         while let Some(c) = self.rest().chars().next() {
             let start = self.at;
-            let is_code = !c.is_whitespace() && !["//", "/*"].iter().any(|begin| self.rest().starts_with(begin));
+            let is_code = !c.is_whitespace()
+                && !["//", "/*"].iter().any(|begin| self.rest().starts_with(begin))
+                && !self.begins_foreign_comment();
             match c {
                 '\n' => self.newline(),
                 '/' if self.rest().starts_with("//") => self.comment(),
                 '/' if self.rest().starts_with("/*") => self.bracketed_comment(),
+                '-' if self.begins_foreign_comment() => self.foreign_comment(),
                 '"' => self.text(),
                 '(' | '[' | '{' => {
                     self.open(c);
@@ -208,8 +211,7 @@ impl<'a> Scanner<'a> {
     }
 
     fn newline(&mut self) {
-        let in_brackets = matches!(self.open.last(), Some(Open { bracket: '(' | '[', .. }));
-        let goes_on = in_brackets
+        let goes_on = self.in_round_brackets()
             || (self.last == Last::Goes && !self.next_begins())
             || self.next_goes_on()
             || self.block_on_next_line();
@@ -308,6 +310,29 @@ impl<'a> Scanner<'a> {
         self.comments.push(Comment { span: self.span(start, end) });
         self.blank(start, end);
         self.at = end;
+    }
+
+    /// `-- …` on a line of its own: as in Lua, SQL or Ada. In round brackets the line before goes on, and it may be a sign and a sign.
+    fn begins_foreign_comment(&self) -> bool {
+        let begins = ["-- ", "---", "--\t", "--\n", "--\r"].iter().any(|begin| self.rest().starts_with(begin));
+        let before = self.source[..self.at].trim_end_matches([' ', '\t', '\u{feff}']);
+        begins && (before.is_empty() || before.ends_with('\n')) && !self.in_round_brackets()
+    }
+
+    /// It is taken out like a comment, so that what it says is not read as a script.
+    fn foreign_comment(&mut self) {
+        let length = self.rest().find('\n').unwrap_or(self.rest().len());
+        let (start, end) = (self.at, self.at + length);
+        self.findings.push(
+            Diagnostic::error(Code::LayoutComment, self.span(start, start + 2), "`--` begins no comment")
+                .help("comments begin with `//`"),
+        );
+        self.blank(start, end);
+        self.at = end;
+    }
+
+    fn in_round_brackets(&self) -> bool {
+        matches!(self.open.last(), Some(Open { bracket: '(' | '[', .. }))
     }
 
     /// `/* … */` is taken out like a comment, so that what it says is not read as a script.

@@ -22,4 +22,4 @@ pub use geodetic::{Geodetic, TangentFrame};
 pub use globe::{goes_round_a_pole, longitude_beside, longitude_within};
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};
-pub use rows::{ROWS_MAX, row};
+pub use rows::{ROWS_MAX, Rows};

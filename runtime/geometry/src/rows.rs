@@ -1,7 +1,7 @@
 //! The lines of a lawn-mower across an area.
 
 use crate::area::Edge;
-use crate::plane::{Line, Point};
+use crate::plane::{Line, Point, Vector};
 
 /// An area is mown in at most this many rows. Where `step` asks for more they lie farther apart.
 pub const ROWS_MAX: u32 = 1000;
@@ -15,38 +15,33 @@ const NEARER_M: f64 = 1e-3;
 /// A width that is a hair more than a whole number of steps is rounding, and no reason for one more row.
 const ROUNDING: f64 = 1e-9;
 
-/// The row of an index across a convex area that is given by its edges, clockwise; none beyond the last.
+/// The rows across a convex area that is given by its edges, clockwise: what of them does not change from one to the next.
 ///
 /// Rows lie along the area's longest edge, of several the first, at most `step` metres apart and the outermost half as far
 /// from the area's sides. They begin at the end of an outermost row that is nearest to `near`, of several the first of these:
 /// start and end of the row beside that edge, driven as the edge goes, clockwise round the area; start and end of the row
 /// opposite, driven the same way. Each next one is driven the other way. So the rows are a function of area, step and `near`.
-pub fn row(edges: impl Iterator<Item = Edge> + Clone, step: f64, near: Point, index: u32) -> Option<Line> {
-    let rows = Rows::across(edges, step)?;
-    let first = rows.first_to(near);
-    let beside = if first.is_opposite { rows.count.checked_sub(index + 1)? } else { index };
-    let line = rows.along(beside)?;
-    Some(if first.is_backward == index.is_multiple_of(2) { Line { start: line.end, end: line.start } } else { line })
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rows {
+    /// The start of the longest edge.
+    pub start: Point,
+    /// Outward over that edge, of length 1.
+    pub outward: Vector,
+    /// Along that edge, of length 1.
+    pub ray: Vector,
+    /// Metres from one row to the next.
+    pub apart: f64,
+    /// How many there are.
+    pub count: u32,
+    /// Whether the first is the one opposite the longest edge.
+    pub is_opposite: bool,
+    /// Whether the first is driven against the longest edge.
+    pub is_backward: bool,
 }
 
-/// The rows across an area, from the one beside its longest edge to the one opposite.
-struct Rows<E> {
-    edges: E,
-    longest: Edge,
-    /// Metres from one to the next.
-    apart: f64,
-    count: u32,
-}
-
-/// Where the first row lies, and which way it is driven.
-#[derive(Clone, Copy)]
-struct First {
-    is_opposite: bool,
-    is_backward: bool,
-}
-
-impl<E: Iterator<Item = Edge> + Clone> Rows<E> {
-    fn across(edges: E, step: f64) -> Option<Self> {
+impl Rows {
+    /// None across an area without edges.
+    pub fn across(edges: impl Iterator<Item = Edge> + Clone, step: f64, near: Point) -> Option<Self> {
         let mut edges_left = edges.clone();
         let mut longest = edges_left.next()?;
         for edge in edges_left {
@@ -59,27 +54,38 @@ impl<E: Iterator<Item = Edge> + Clone> Rows<E> {
         let wanted = (width / step - ROUNDING).ceil();
         let most = f64::from(ROWS_MAX);
         let count = if step > 0.0 && wanted <= most { wanted.max(1.0) } else { most };
-        Some(Rows { edges, longest, apart: width / count, count: count as u32 })
+        let (start, outward, ray) = (longest.line.start, longest.normal, longest.line.heading().unit());
+        let (apart, count) = (width / count, count as u32);
+        let rows = Rows { start, outward, ray, apart, count, is_opposite: false, is_backward: false };
+        Some(rows.beginning_nearest(edges, near))
     }
 
-    /// The row of an index, driven as the longest edge goes.
-    fn along(&self, index: u32) -> Option<Line> {
+    /// The row of an index, across the same edges; none beyond the last.
+    pub fn nth(&self, edges: impl Iterator<Item = Edge>, index: u32) -> Option<Line> {
+        let beside = if self.is_opposite { self.count.checked_sub(index.checked_add(1)?)? } else { index };
+        let line = self.along(edges, beside)?;
+        let turns = self.is_backward == index.is_multiple_of(2);
+        Some(if turns { Line { start: line.end, end: line.start } } else { line })
+    }
+
+    /// The row of an index counted from the longest edge, driven as that goes.
+    fn along(&self, edges: impl Iterator<Item = Edge>, index: u32) -> Option<Line> {
         if index >= self.count {
             return None;
         }
         let inward = (f64::from(index) + 0.5) * self.apart;
-        chord(self.edges.clone(), self.longest, self.longest.line.start - inward * self.longest.normal)
+        chord(edges, self.ray, self.start - inward * self.outward)
     }
 
-    fn first_to(&self, near: Point) -> First {
-        let mut first = First { is_opposite: false, is_backward: false };
+    fn beginning_nearest(self, edges: impl Iterator<Item = Edge> + Clone, near: Point) -> Self {
+        let mut first = self;
         let mut nearest = f64::INFINITY;
         for is_opposite in [false, true] {
-            let Some(line) = self.along(if is_opposite { self.count - 1 } else { 0 }) else { continue };
+            let Some(line) = self.along(edges.clone(), if is_opposite { self.count - 1 } else { 0 }) else { continue };
             for (is_backward, end) in [(false, line.start), (true, line.end)] {
                 let away = near.distance(end);
                 if away < nearest - NEARER_M {
-                    (nearest, first) = (away, First { is_opposite, is_backward });
+                    (nearest, first) = (away, Rows { is_opposite, is_backward, ..self });
                 }
             }
         }
@@ -87,9 +93,8 @@ impl<E: Iterator<Item = Edge> + Clone> Rows<E> {
     }
 }
 
-/// What of the line through a point, along an edge, lies inside.
-fn chord(edges: impl Iterator<Item = Edge>, along: Edge, through: Point) -> Option<Line> {
-    let ray = along.line.heading().unit();
+/// What of the line through a point, along a ray, lies inside.
+fn chord(edges: impl Iterator<Item = Edge>, ray: Vector, through: Point) -> Option<Line> {
     let (mut back, mut ahead) = (f64::NEG_INFINITY, f64::INFINITY);
     for edge in edges {
         let (gap, outward) = (edge.gap(through), ray.dot(edge.normal));
@@ -108,8 +113,8 @@ mod tests {
     use crate::{Area, Heading};
 
     fn rows_near(area: &Area, step: f64, near: Point) -> Vec<Line> {
-        let edges: Vec<Edge> = area.edges().collect();
-        (0..).map_while(|i| row(edges.iter().copied(), step, near, i)).collect()
+        let rows = Rows::across(area.edges(), step, near).unwrap();
+        (0..).map_while(|i| rows.nth(area.edges(), i)).collect()
     }
 
     fn rows(area: &Area, step: f64) -> Vec<Line> {
@@ -194,6 +199,6 @@ mod tests {
         let rounded = Area::rectangle(Point::ORIGIN, Heading::from_degrees(17.0), 300.0, 200.0);
         assert_eq!(rows(&rounded, 40.0).len(), 5);
         assert_eq!(rows(&area, f64::INFINITY).len(), 1);
-        assert_eq!(row(std::iter::empty(), 10.0, Point::ORIGIN, 0), None);
+        assert_eq!(Rows::across(std::iter::empty(), 10.0, Point::ORIGIN), None);
     }
 }

@@ -409,3 +409,43 @@ fn a_pause_of_ours_is_no_silence_of_the_vehicle() {
     }
     assert_eq!(snapshot.control, Control::Released, "it was heard again: {:?}", vehicle.notices());
 }
+
+/// What is told of a computer that takes so long to compute each tick, or every second one, until the vehicle has left it.
+fn computing(ticks: [Duration; 2]) -> Vec<String> {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    vehicle.notices();
+    let mut told = Vec::new();
+    for tick in (0..1000).map(|i| ticks[i % 2]) {
+        vehicle.sense(&mut snapshot).unwrap();
+        told.extend(vehicle.notices());
+        if snapshot.control == Control::Released {
+            return told;
+        }
+        wire.now.set(wire.now.get() + tick);
+        vehicle.command(&AHEAD).unwrap();
+        told.extend(vehicle.notices());
+    }
+    told.push("it has not left".to_string());
+    told
+}
+
+/// The attack: all that was told was that the vehicle had left.
+#[test]
+fn a_computer_that_is_too_slow_is_told_why_the_vehicle_leaves() {
+    let ms = Duration::from_millis;
+    let left = "the vehicle has left override by itself: the commands of its last ";
+    // Nor is the vehicle's clock to blame.
+    for (ticks, mean) in [([150, 150], "0.15"), ([300, 300], "0.30"), ([2000, 2000], "2.00"), ([301, 19], "0.16")] {
+        let told = computing(ticks.map(ms));
+        assert_eq!(told.len(), 2, "{told:?}");
+        assert!(
+            told[0].starts_with("a tick takes ") && told[0].contains(" s to compute here, and lasts 0.10 s"),
+            "{told:?}"
+        );
+        assert!(told[0].contains("`albacore check --cost`"), "{told:?}");
+        let because = format!("came too late to be sent: a tick takes {mean} s to compute here");
+        assert!(told[1].starts_with(left) && told[1].contains(&because), "{told:?}");
+    }
+    let quick = computing([ms(60), ms(90)]);
+    assert_eq!(quick, ["it has not left"]);
+}

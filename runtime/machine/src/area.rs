@@ -1,9 +1,10 @@
 //! Areas in words: a count of corners, then for each its point and the outward normal of the edge that begins there.
 
+use crate::execute::truth;
 use crate::state::Run;
 use albacore_arithmetic::bounded;
-use albacore_geometry::{Area, Edge, Heading, Line, Point, Vector, farthest_corner, gap, nearest_edge, row};
-use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Slot};
+use albacore_geometry::{Area, Edge, Heading, Line, Point, Rows, Vector, farthest_corner, gap, nearest_edge};
+use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, ROWS_WORDS, Slot};
 
 impl Run {
     pub fn point(&self, at: Slot) -> Point {
@@ -59,8 +60,40 @@ impl Run {
         Edge { line, normal: self.vector(area + 1 + AREA_CORNER_WORDS * i + 2) }
     }
 
-    pub fn row_of(&self, area: Slot, step: f64, near: Point, index: u32) -> Option<Line> {
-        row((0..self.corners(area)).map(|i| self.edge_of(area, i)), step, near, index)
+    fn edges_of(&self, area: Slot) -> impl Iterator<Item = Edge> + Clone + '_ {
+        (0..self.corners(area)).map(move |i| self.edge_of(area, i))
+    }
+
+    pub fn rows_across(&self, area: Slot, step: f64, near: Point) -> Option<Rows> {
+        Rows::across(self.edges_of(area), step, near)
+    }
+
+    pub fn set_rows(&mut self, at: Slot, rows: Option<Rows>) {
+        self.state.words[at as usize..(at + ROWS_WORDS) as usize].fill(0.0);
+        let Some(Rows { start, outward, ray, apart, count, is_opposite, is_backward }) = rows else { return };
+        self.set(at, f64::from(count));
+        self.set(at + 1, bounded(apart));
+        self.set(at + 2, truth(is_opposite));
+        self.set(at + 3, truth(is_backward));
+        self.set_point(at + 4, start);
+        self.set_vector(at + 6, outward);
+        self.set_vector(at + 8, ray);
+    }
+
+    fn rows(&self, at: Slot) -> Rows {
+        Rows {
+            count: self.get(at) as u32,
+            apart: self.get(at + 1),
+            is_opposite: self.get(at + 2) != 0.0,
+            is_backward: self.get(at + 3) != 0.0,
+            start: self.point(at + 4),
+            outward: self.vector(at + 6),
+            ray: self.vector(at + 8),
+        }
+    }
+
+    pub fn row_of(&self, rows: Slot, area: Slot, index: u32) -> Option<Line> {
+        self.rows(rows).nth(self.edges_of(area), index)
     }
 
     pub fn edge(&self, at: Slot) -> Edge {
@@ -79,12 +112,11 @@ impl Run {
     }
 
     pub fn gap(&self, area: Slot, p: Point) -> f64 {
-        bounded(gap((0..self.corners(area)).map(|i| self.edge_of(area, i)), p))
+        bounded(gap(self.edges_of(area), p))
     }
 
     pub fn nearest_edge(&self, area: Slot, p: Point) -> Edge {
-        let edges = (0..self.corners(area)).map(|i| self.edge_of(area, i));
-        nearest_edge(edges, p).unwrap_or_else(|| self.edge_of(area, 0))
+        nearest_edge(self.edges_of(area), p).unwrap_or_else(|| self.edge_of(area, 0))
     }
 
     /// The corner that lies farthest along a heading; of those equally far the one nearest to a point.
@@ -97,8 +129,7 @@ impl Run {
     pub fn exit(&self, area: Slot, from: Point, heading: Heading) -> Point {
         let ray = heading.unit();
         let mut run = f64::INFINITY;
-        for i in 0..self.corners(area) {
-            let edge = self.edge_of(area, i);
+        for edge in self.edges_of(area) {
             if edge.gap(from) < 0.0 {
                 return from;
             }

@@ -87,9 +87,12 @@ impl Run {
                     let corner = self.farthest_corner(b(area), self.heading_at(b(heading)), self.point(b(near)));
                     self.set_point(b(to), corner);
                 }
-                Op::RowAt { to, there, area, step, near, index } => {
-                    let (near, index) = (self.point(b(near)), self.get(b(index)) as u32);
-                    let row = self.row_of(b(area), self.get(b(step)), near, index);
+                Op::Rows { to, area, step, near } => {
+                    let rows = self.rows_across(b(area), self.get(b(step)), self.point(b(near)));
+                    self.set_rows(b(to), rows);
+                }
+                Op::RowAt { to, there, rows, area, index } => {
+                    let row = self.row_of(b(rows), b(area), self.get(b(index)) as u32);
                     self.set(b(there), truth(row.is_some()));
                     if let Some(row) = row {
                         self.set_line(b(to), row);

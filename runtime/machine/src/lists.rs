@@ -4,6 +4,7 @@ use crate::state::Run;
 use albacore_arithmetic::{Operation, Spread, bounded};
 use albacore_geometry::Vector;
 use albacore_program::{Addr, Program, Slot};
+use std::cmp::Ordering;
 
 /// The order of a list: `key` computes the word at `value` from the element at `it`.
 #[derive(Clone, Copy)]
@@ -15,9 +16,10 @@ pub(crate) struct Order {
 }
 
 impl Order {
-    /// Whether an element may stand before another, by their keys.
-    fn holds(self, first: f64, second: f64) -> bool {
-        if self.most { first >= second } else { first <= second }
+    /// Which of two elements comes first, by their keys.
+    fn compare(self, a: f64, b: f64) -> Ordering {
+        let by_size = a.partial_cmp(&b).unwrap_or(Ordering::Equal);
+        if self.most { by_size.reverse() } else { by_size }
     }
 }
 
@@ -83,23 +85,19 @@ impl Run {
         Some((keys[0], keys[1], most))
     }
 
-    /// Insertion sort: lists are short and nearly in order. Stable, so that ties keep the older first.
+    /// Stable, so that ties keep the older first. Elements may be large: each is moved once.
     pub fn sort(&mut self, program: &Program, base: Slot, list: Slot, words: u32, by: Order) {
-        let count = self.count(list);
         if self.in_order(program, base, list, words, by) {
             return;
         }
-        let mut keys: Vec<f64> = (0..count).map(|i| self.key(program, base, list + 1 + i * words, words, by)).collect();
-        for i in 1..count {
-            let mut j = i;
-            while j > 0 && !by.holds(keys[j as usize - 1], keys[j as usize]) {
-                keys.swap(j as usize - 1, j as usize);
-                for w in 0..words {
-                    let (x, y) = ((list + 1 + (j - 1) * words + w) as usize, (list + 1 + j * words + w) as usize);
-                    self.state.words.swap(x, y);
-                }
-                j -= 1;
-            }
+        let elements = (0..self.count(list)).map(|i| list + 1 + i * words);
+        let mut keyed: Vec<(f64, Slot)> =
+            elements.map(|element| (self.key(program, base, element, words, by), element - list - 1)).collect();
+        keyed.sort_by(|(a, _), (b, _)| by.compare(*a, *b));
+        let unsorted = self.slice(list + 1, keyed.len() as u32 * words).to_vec();
+        for ((_, from), to) in keyed.into_iter().zip((list as usize + 1..).step_by(words.max(1) as usize)) {
+            let (from, words) = (from as usize, words as usize);
+            self.state.words[to..to + words].copy_from_slice(&unsorted[from..from + words]);
         }
     }
 
@@ -112,7 +110,7 @@ impl Run {
         let mut before = self.key(program, base, list + 1, words, by);
         (1..count).all(|i| {
             let key = self.key(program, base, list + 1 + i * words, words, by);
-            by.holds(std::mem::replace(&mut before, key), key)
+            by.compare(std::mem::replace(&mut before, key), key) != Ordering::Greater
         })
     }
 

@@ -244,13 +244,19 @@ pub enum Op {
         area: Slot,
         index: Slot,
     },
-    /// The row of an index of those that lie `step` metres apart and begin at the end nearest to `near`; `there` tells whether there is one.
-    RowAt {
+    /// The rows that lie `step` metres apart and begin at the end nearest to `near`.
+    Rows {
         to: Slot,
-        there: Slot,
         area: Slot,
         step: Slot,
         near: Slot,
+    },
+    /// The row of an index; `there` tells whether there is one.
+    RowAt {
+        to: Slot,
+        there: Slot,
+        rows: Slot,
+        area: Slot,
         index: Slot,
     },
     NearestEdge {

@@ -57,6 +57,8 @@ pub const AREA_CORNER_WORDS: u32 = 4;
 pub const AREA_WORDS: u32 = 1 + AREA_CORNER_WORDS * albacore_geometry::AREA_CORNERS_MAX as u32;
 /// Words of an edge.
 pub const EDGE_WORDS: u32 = 6;
+/// Words of the rows across an area: what of them does not change from one to the next.
+pub const ROWS_WORDS: u32 = 10;
 
 impl Shape {
     /// Whether a text is in it, which means something only beside the texts of its program.

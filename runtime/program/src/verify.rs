@@ -106,7 +106,7 @@ impl Program {
             Op::JumpUnlessLess { a, b, to: end } | Op::JumpUnlessAtMost { a, b, to: end } => {
                 a == to && stands(b, None) && leaves(end)
             }
-            Op::At { list: of, index, .. } | Op::RowAt { area: of, index, .. } => {
+            Op::At { list: of, index, .. } | Op::RowAt { rows: of, index, .. } => {
                 let next = self.ops.get(other as usize + 1);
                 let is_left = matches!(next, Some(Op::JumpUnless { to, .. }) if leaves(*to));
                 index == to && stands(of, None) && is_left

@@ -4,7 +4,7 @@ use super::expr::{Frame, Scope, exactly, holds, insert, number, sorted, text, va
 use super::timed::Underway;
 use super::value::Value;
 use super::world::World;
-use albacore_geometry::row;
+use albacore_geometry::Rows;
 use albacore_lang::hir::{Block, Expr, Stmt, StmtKind, TextPart, Timed, With};
 
 /// What a body has still to do, the next last.
@@ -122,7 +122,8 @@ fn rounds<'b>(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &'b Stmt) -> Option<(us
         }
         StmtKind::ForRows { var, area, step, near, body } => {
             let (area, step, near) = (value(w, s, area), number(w, s, step), value(w, s, near).point());
-            let rows = (0..).map_while(|i| row(area.edges().iter().copied(), step, near, i));
+            let across = Rows::across(area.edges().iter().copied(), step, near);
+            let rows = (0..).map_while(|i| across?.nth(area.edges().iter().copied(), i));
             (*var, rows.map(Value::of_line).collect(), body)
         }
         _ => return None,

@@ -21,9 +21,10 @@ impl Clocks {
         Clocks { rate: rate.max(1.0), ticks: 0, told: false }
     }
 
-    /// A tick of the vehicle's time, after so many ticks by the host's clock; what to tell, once.
-    pub fn tick(&mut self, host: u64) -> Option<String> {
-        let (vehicle, host) = (self.ticks as f64, host as f64);
+    /// A tick of the vehicle's time, after so many ticks by the host's clock; what to tell, once. So many further ones were heard and
+    /// wait for us: that we are late is not the vehicle's clock.
+    pub fn tick(&mut self, host: u64, waiting: u64) -> Option<String> {
+        let (vehicle, host) = (self.ticks.saturating_add(waiting) as f64, host as f64);
         self.ticks += 1;
         let how = if host > vehicle * SHARE + TICKS {
             "slow"
@@ -51,7 +52,7 @@ mod tests {
     fn told(speed: f64, rate: f64) -> Option<(u64, String)> {
         let mut clocks = Clocks::new(rate);
         let all: Vec<_> =
-            (0..36_000).filter_map(|tick| Some((tick, clocks.tick((tick as f64 / speed) as u64)?))).collect();
+            (0..36_000).filter_map(|tick| Some((tick, clocks.tick((tick as f64 / speed) as u64, 0)?))).collect();
         assert!(all.len() < 2, "{all:?}");
         all.into_iter().next()
     }

@@ -4,6 +4,7 @@
 //! ticks, so that the same bytes give the same samples however late they are read. What is sent is sent in the newest of them
 //! alone: a tick that is late asks for what the vehicle is past.
 
+mod late;
 mod speak;
 
 use super::allowance::Allowance;
@@ -21,6 +22,7 @@ use albacore_vehicle::channels::{
     VEHICLE_MODE, WATER_DEPTH,
 };
 use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot, TICK_S};
+use late::Late;
 use std::collections::VecDeque;
 use std::time::Duration;
 
@@ -41,6 +43,8 @@ const REQUEST_TICKS: u64 = 300;
 const LEFT_LINES: u64 = 3;
 /// Frames that wait for their tick; the oldest are given up.
 const WAITING_MAX: usize = 4096;
+/// A tick of the vehicle's time.
+const TICK: Duration = Duration::from_millis(100);
 /// Notices that wait to be read.
 const NOTICES_MAX: usize = 128;
 /// After a pause states from before it may come for as long as it was, and for so long more.
@@ -112,7 +116,13 @@ pub struct Controller {
     ours: u64,
     goals: [Goal; 3],
     /// Ticks whose commands came too late to be sent, since the last that was.
-    late: u64,
+    late: Late,
+    /// It was told that a tick takes longer to compute than it lasts.
+    told_slow: bool,
+    /// How long the command that comes next took to compute.
+    computed: Duration,
+    /// How long a tick of the vehicle lasts by the host's clock.
+    tick: Duration,
     /// Whether the tick that was taken last was late.
     was_late: bool,
     /// We were away, and no state has come that was made since then: what was heard last is from before.
@@ -160,7 +170,10 @@ impl Controller {
             over: 0,
             ours: 0,
             goals: Default::default(),
-            late: 0,
+            late: Late::default(),
+            told_slow: false,
+            computed: Duration::ZERO,
+            tick: TICK,
             was_late: false,
             away: None,
             round_trip: RoundTrip::new(1.0),
@@ -177,12 +190,17 @@ impl Controller {
 
     /// The same, of a vehicle that runs so many times faster than real time.
     pub fn at_rate(self, rate: f64) -> Self {
-        Controller { round_trip: RoundTrip::new(rate), ..self }
+        Controller { round_trip: RoundTrip::new(rate), tick: TICK.div_f64(rate.max(0.01)), ..self }
     }
 
     /// The host's time now, since any moment.
     pub fn tell_time(&mut self, host: Duration) {
         self.host = host;
+    }
+
+    /// How long it took by the host's clock to compute the command that comes next, from what was sensed.
+    pub fn tell_computed(&mut self, time: Duration) {
+        self.computed = time;
     }
 
     /// What the vehicle measures.
@@ -218,6 +236,11 @@ impl Controller {
     /// Whether the vehicle's time has come to the next tick.
     pub fn is_due(&self) -> bool {
         self.lost || self.latest_tick.is_some_and(|latest| self.next_tick <= latest)
+    }
+
+    /// How many ticks of the vehicle's time were heard and wait to be taken.
+    pub fn waiting(&self) -> u64 {
+        self.latest_tick.map_or(0, |latest| (latest + 1).saturating_sub(self.next_tick))
     }
 
     /// All that came while nobody looked, for so long, has been heard: it is old, and a state that is made from now on is the vehicle's
@@ -446,7 +469,8 @@ impl Controller {
             _ if driven && suspended => Control::Suspended,
             (Phase::InMission, _) if active && !suspended => Control::InControl,
             _ if driven && self.ours >= LEFT_LINES => {
-                self.end(Control::Released, "the vehicle has left override by itself")
+                let late = self.late.cost_us_the_vehicle(self.tick).map_or(String::new(), |why| format!(": {why}"));
+                self.end(Control::Released, &format!("the vehicle has left override by itself{late}"))
             }
             (phase, _) if self.round_trip.between(since, Moment { tick, ..self.moment() }) > REQUEST_TICKS => {
                 let why = match phase {

@@ -45,6 +45,8 @@ pub struct ReconVehicle {
     /// There was a pause before that, of so long.
     paused: Option<Duration>,
     greeted: Option<Duration>,
+    /// When what was heard for the last tick was handed on.
+    sensed: Option<Duration>,
     /// When the first tick was taken.
     begun: Option<Duration>,
     rate: f64,
@@ -78,6 +80,7 @@ impl ReconVehicle {
             looked: ticked,
             paused: None,
             greeted: None,
+            sensed: None,
             begun: None,
             rate,
             round_trip: 0,
@@ -216,8 +219,10 @@ impl Vehicle for ReconVehicle {
         let begun = *self.begun.get_or_insert(now);
         let host = host_ticks(now.saturating_sub(begun), self.rate);
         snapshot.lag.host = Some(host);
-        self.notices.extend(self.clocks.tick(host));
-        self.send()
+        self.notices.extend(self.clocks.tick(host, self.controller.waiting()));
+        let sent = self.send();
+        self.sensed = Some((self.clock)());
+        sent
     }
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
@@ -230,7 +235,10 @@ impl Vehicle for ReconVehicle {
         if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
             return Err(VehicleError("a command that is no finite number was not sent to the vehicle".into()));
         }
+        let now = (self.clock)();
+        let computed = now.saturating_sub(self.sensed.unwrap_or(now));
         self.catch_up()?;
+        self.controller.tell_computed(computed);
         self.controller.command(command);
         self.send()
     }

@@ -28,7 +28,7 @@ impl Ranges<'_> {
                 let has_size = [length, width].iter().all(|side| range(known, *side).low >= AREA_WIDTH_MIN_M);
                 must(has_size, "a rectangle may be too thin")?;
             }
-            Op::RowAt { step, .. } => must(range(known, step).low > 0.0, "rows may lie no distance apart")?,
+            Op::Rows { step, .. } => must(range(known, step).low > 0.0, "rows may lie no distance apart")?,
             Op::Begin { guide, args, .. } => {
                 if let Some((offset, may_be_zero)) = guide.radius() {
                     let radius = range(known, args + offset);

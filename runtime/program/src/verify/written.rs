@@ -1,6 +1,6 @@
 //! Where code leads and what it writes.
 
-use crate::{AREA_WORDS, Addr, EDGE_WORDS, GUIDANCE_WORDS, Op, Slot};
+use crate::{AREA_WORDS, Addr, EDGE_WORDS, GUIDANCE_WORDS, Op, ROWS_WORDS, Slot};
 
 /// Where an instruction may jump to.
 pub(super) fn jump(op: &Op) -> Option<Addr> {
@@ -38,6 +38,7 @@ pub(super) fn written(op: &Op) -> impl Iterator<Item = (Slot, u32)> {
         Op::Rectangle { to, .. } => [Some((to, AREA_WORDS)), None],
         Op::Polygon { to, ok, .. } => both((to, AREA_WORDS), (ok, 1)),
         Op::EdgeAt { to, .. } | Op::NearestEdge { to, .. } => [Some((to, EDGE_WORDS)), None],
+        Op::Rows { to, .. } => [Some((to, ROWS_WORDS)), None],
         Op::RowAt { to, there, .. } => both((to, 4), (there, 1)),
         Op::Push { list, words, capacity, .. } | Op::PushSorted { list, words, capacity, .. } => {
             [Some((list, words.saturating_mul(capacity).saturating_add(1))), None]

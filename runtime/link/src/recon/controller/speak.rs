@@ -1,11 +1,12 @@
 //! What the controller says: who is to drive, its goals, and that it is there.
 
+use super::late::Late;
 use super::{Controller, Want};
 use crate::recon::frame::seal;
 use crate::recon::message::{SpeedGoal, ToVehicle};
 use crate::recon::mode::Mode;
 use crate::recon::round_trip::Moment;
-use albacore_vehicle::{Command, Control, TICK_S, Vertical};
+use albacore_vehicle::{Command, Control, Vertical};
 
 /// Who commands nothing says this often that it is there.
 const KEEP_ALIVE_TICKS: u64 = 10;
@@ -15,8 +16,6 @@ const KEEP_ALIVE_TICKS: u64 = 10;
 const UNANSWERED_TICKS: u64 = 50;
 /// It is told something this often, the newest: a tick before it would be told that we are there.
 const SELDOM_TICKS: u64 = KEEP_ALIVE_TICKS - 1;
-/// So many late ticks one after the other are told.
-const LATE_TICKS: u64 = 10;
 
 impl Controller {
     /// Says now and then that we are here, where the mission stands still, or has not begun, and commands nothing.
@@ -44,6 +43,7 @@ impl Controller {
             self.want = Want::Drive { since: Moment { tick: self.next_tick, ..self.moment() } };
             self.round_trip.begin();
             self.ours = 0;
+            self.late = Late::default();
             self.say(&ToVehicle::Override(true));
         }
     }
@@ -61,19 +61,21 @@ impl Controller {
     /// waited longest, because vehicles lose datagrams that come at once. A command of a tick that is late is not sent, nor one
     /// for a vehicle that has said meanwhile that we do not drive it.
     pub fn command(&mut self, command: &Command) {
+        let computed = std::mem::take(&mut self.computed);
+        if self.is_late() {
+            self.late.add(computed);
+            let told = if self.told_slow { None } else { self.late.told_slow(self.tick) };
+            if let Some(told) = told {
+                self.told_slow = true;
+                self.notice(told);
+            }
+            return;
+        }
         if !self.is_ours() {
             return;
         }
-        if self.is_late() {
-            self.late += 1;
-            return;
-        }
-        let late = std::mem::take(&mut self.late);
-        if late >= LATE_TICKS {
-            let seconds = late as f64 * TICK_S;
-            self.notice(format!(
-                "we were {seconds:.1} s late: the commands of that time were left out, up to the newest"
-            ));
+        if let Some(told) = std::mem::take(&mut self.late).told() {
+            self.notice(told);
         }
         let vertical = match command.vertical {
             Vertical::Depth(depth) => ToVehicle::Depth(depth),
