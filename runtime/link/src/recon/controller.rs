@@ -4,6 +4,7 @@
 //! ticks, so that the same bytes give the same samples however late they are read. What is sent is sent in the newest of them
 //! alone: a tick that is late asks for what the vehicle is past.
 
+mod judge;
 mod late;
 mod speak;
 
@@ -21,7 +22,8 @@ use albacore_vehicle::channels::{
     self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
     VEHICLE_MODE, WATER_DEPTH,
 };
-use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot, TICK_S};
+use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot};
+use judge::is_left;
 use late::Late;
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -36,11 +38,6 @@ const DRIFT_TICKS: u64 = 50;
 /// A vehicle that goes no faster than this by its own word is at rest, m/s: a profiler that tells 0 then is in order, and one
 /// that tells 0 of a vehicle under way is not.
 const AT_REST: f64 = 0.05;
-/// A vehicle that answers, but does not let us drive for this many ticks, by its own clock or the host's, refuses.
-const REQUEST_TICKS: u64 = 300;
-/// A vehicle that says in so many lines, one after the other, that we do not drive has left: one wrong line in 256 passes a sum of
-/// 8 bits.
-const LEFT_LINES: u64 = 3;
 /// Frames that wait for their tick; the oldest are given up.
 const WAITING_MAX: usize = 4096;
 /// A tick of the vehicle's time.
@@ -438,62 +435,6 @@ impl Controller {
         Moment { tick: self.latest_tick.unwrap_or(0), host: self.host }
     }
 
-    /// Who drives, by the mode that the vehicle reports.
-    fn judge(&mut self, tick: u64) -> Control {
-        if self.lost {
-            return Control::TimedOut;
-        }
-        let mode = self.mode;
-        let active = mode.has(Mode::ACTIVE);
-        let driven = matches!(self.control, Control::InControl | Control::Suspended);
-        let since = match self.want {
-            Want::Drive { since } => since,
-            // In override although we have not asked: it hands over of its own accord, or to another.
-            Want::Listen if active && mode.phase() == Phase::InMission => return Control::Offered,
-            Want::GiveBack { .. } if !active && !mode.has(Mode::ENABLED) => {
-                self.want = Want::Listen;
-                return Control::Monitoring;
-            }
-            Want::Listen | Want::GiveBack { .. } | Want::Leave => return Control::Monitoring,
-        };
-        let suspended = is_suspended(mode);
-        if driven && (1..LEFT_LINES).contains(&self.left) {
-            return self.control;
-        }
-        match (mode.phase(), self.control) {
-            (_, ended @ (Control::Released | Control::Refused)) => ended,
-            (Phase::Over, _) if driven => self.end(Control::Released, "the vehicle's own mission is over"),
-            (Phase::Over, _) if self.over >= LEFT_LINES => {
-                self.end(Control::Refused, "the vehicle's own mission is over: nothing can be overridden")
-            }
-            _ if driven && suspended => Control::Suspended,
-            (Phase::InMission, _) if active && !suspended => Control::InControl,
-            _ if driven && self.ours >= LEFT_LINES => {
-                let late = self.late.cost_us_the_vehicle(self.tick).map_or(String::new(), |why| format!(": {why}"));
-                self.end(Control::Released, &format!("the vehicle has left override by itself{late}"))
-            }
-            (phase, _) if self.round_trip.between(since, Moment { tick, ..self.moment() }) > REQUEST_TICKS => {
-                let why = match phase {
-                    Phase::PreLaunch => "it is not launched yet",
-                    Phase::Suspended => "its mission is suspended",
-                    _ if mode.has(Mode::NOT_ALLOWED) => "it says that override is not allowed",
-                    _ => "it says that its mission goes on",
-                };
-                let seconds = REQUEST_TICKS as f64 * TICK_S;
-                self.end(Control::Refused, &format!("the vehicle did not let us drive for {seconds} s: {why}"))
-            }
-            _ => {
-                self.ours = 0;
-                Control::Requesting
-            }
-        }
-    }
-
-    fn end(&mut self, control: Control, why: &str) -> Control {
-        self.notice(why.to_string());
-        control
-    }
-
     /// The host has heard nothing for too long: the next tick says so.
     pub fn lose(&mut self, why: String) {
         self.lost = true;
@@ -516,14 +457,4 @@ impl Controller {
             self.notices.push(text);
         }
     }
-}
-
-/// Whether a vehicle that says this has suspended its mission, and whoever drives it.
-fn is_suspended(mode: Mode) -> bool {
-    mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over
-}
-
-/// Whether a vehicle that says this is driven by nobody.
-fn is_left(mode: Mode) -> bool {
-    !(is_suspended(mode) || mode.has(Mode::ACTIVE) && mode.phase() == Phase::InMission)
 }

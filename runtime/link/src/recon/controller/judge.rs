@@ -1,0 +1,80 @@
+//! Who drives, by the mode that the vehicle reports.
+
+use super::{Controller, Want};
+use crate::recon::mode::{Mode, Phase};
+use crate::recon::round_trip::Moment;
+use albacore_vehicle::{Control, TICK_S};
+
+/// A vehicle that answers, but does not let us drive for this many ticks, by its own clock or the host's, refuses.
+const REQUEST_TICKS: u64 = 300;
+/// A vehicle that says in so many lines, one after the other, that we do not drive has left: one wrong line in 256 passes a sum of
+/// 8 bits.
+const LEFT_LINES: u64 = 3;
+
+impl Controller {
+    /// Who drives, by the mode that the vehicle reports.
+    pub(super) fn judge(&mut self, tick: u64) -> Control {
+        if self.lost {
+            return Control::TimedOut;
+        }
+        let mode = self.mode;
+        let active = mode.has(Mode::ACTIVE);
+        let driven = matches!(self.control, Control::InControl | Control::Suspended);
+        let since = match self.want {
+            Want::Drive { since } => since,
+            // In override although we have not asked: it hands over of its own accord, or to another.
+            Want::Listen if active && mode.phase() == Phase::InMission => return Control::Offered,
+            Want::GiveBack { .. } if !active && !mode.has(Mode::ENABLED) => {
+                self.want = Want::Listen;
+                return Control::Monitoring;
+            }
+            Want::Listen | Want::GiveBack { .. } | Want::Leave => return Control::Monitoring,
+        };
+        let suspended = is_suspended(mode);
+        if driven && (1..LEFT_LINES).contains(&self.left) {
+            return self.control;
+        }
+        match (mode.phase(), self.control) {
+            (_, ended @ (Control::Released | Control::Refused)) => ended,
+            (Phase::Over, _) if driven => self.end(Control::Released, "the vehicle's own mission is over"),
+            (Phase::Over, _) if self.over >= LEFT_LINES => {
+                self.end(Control::Refused, "the vehicle's own mission is over: nothing can be overridden")
+            }
+            _ if driven && suspended => Control::Suspended,
+            (Phase::InMission, _) if active && !suspended => Control::InControl,
+            _ if driven && self.ours >= LEFT_LINES => {
+                let late = self.late.cost_us_the_vehicle(self.tick).map_or(String::new(), |why| format!(": {why}"));
+                self.end(Control::Released, &format!("the vehicle has left override by itself{late}"))
+            }
+            (phase, _) if self.round_trip.between(since, Moment { tick, ..self.moment() }) > REQUEST_TICKS => {
+                let why = match phase {
+                    Phase::PreLaunch => "it is not launched yet",
+                    Phase::Suspended => "its mission is suspended",
+                    _ if mode.has(Mode::NOT_ALLOWED) => "it says that override is not allowed",
+                    _ => "it says that its mission goes on",
+                };
+                let seconds = REQUEST_TICKS as f64 * TICK_S;
+                self.end(Control::Refused, &format!("the vehicle did not let us drive for {seconds} s: {why}"))
+            }
+            _ => {
+                self.ours = 0;
+                Control::Requesting
+            }
+        }
+    }
+
+    fn end(&mut self, control: Control, why: &str) -> Control {
+        self.notice(why.to_string());
+        control
+    }
+}
+
+/// Whether a vehicle that says this has suspended its mission, and whoever drives it.
+fn is_suspended(mode: Mode) -> bool {
+    mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over
+}
+
+/// Whether a vehicle that says this is driven by nobody.
+pub(super) fn is_left(mode: Mode) -> bool {
+    !(is_suspended(mode) || mode.has(Mode::ACTIVE) && mode.phase() == Phase::InMission)
+}
