@@ -73,12 +73,17 @@ fn no_altitude_that_is_asked_for_leads_deeper_than_the_depth_may_be() {
         let text = text.replace("vehicle(kinematic", &format!("vehicle({hull}"));
         let script = load_text(Source { name: "deep.alb".into(), text: text.into() });
         assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
-        for scenario in ["told_less", "share", "biased", "silent", "falling", "falling_biased"] {
+        for scenario in ["told_less", "share", "biased", "silent", "falling", "falling_biased", "stuck", "late"] {
             let plan = Plan::new(&script, "deep.alb", None, Some(scenario)).unwrap();
             let mut run = Run::new(&plan, 1).unwrap();
             run.to_end();
             let trace = run.trace().to_string();
-            assert!(!trace.contains("below 16 m") && !trace.contains("grounded at"), "{hull} in {scenario}:\n{trace}");
+            // Each minute's line tells the true depth.
+            let deepest =
+                trace.lines().filter_map(|line| line.split_once(" depth ")?.1.split_whitespace().next()?.parse().ok());
+            let deepest = deepest.fold(0.0, f64::max);
+            assert!(!trace.contains("below 16 m") && deepest > 0.5 && deepest < 16.0, "{hull} in {scenario}:\n{trace}");
+            assert!(!trace.contains("grounded at"), "{hull} in {scenario}:\n{trace}");
         }
     }
 }

@@ -49,6 +49,8 @@ pub(crate) struct Bottom {
     slope: Slope,
     /// The tick from which limits are held: an echo may be on its way.
     begun: Option<u64>,
+    /// The deepest water that was told, m.
+    water_max: f64,
     /// An altitude that was asked for has led too deep, and deeper than by what we hear of it by so much, m.
     below: f64,
     /// It was told that the bottom is lost.
@@ -103,6 +105,7 @@ impl Run {
             self.state.bottom.heard.is_some_and(|heard| (tick - heard.tick) as f64 * TICK_S <= LIMIT_FRESH_S);
         let (at, way) = (self.place(), self.way());
         self.state.bottom.slope.sound(water, way);
+        self.state.bottom.water_max = self.state.bottom.water_max.max(water);
         (self.state.bottom.doubted, self.state.bottom.way) = (false, 0.0);
         self.state.bottom.heard = Some(Heard {
             tick,
@@ -154,7 +157,7 @@ impl Run {
                 let given = self.limit(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
                 let given = given.max(self.ahead(altitude.0)).min(highest);
-                match self.too_deep_by_altitude(water - given, deepest) {
+                match self.may_lead_too_deep(given, water, deepest) {
                     true if is_low => Vertical::Depth(depth.0),
                     true => Vertical::Depth((water - given).min(floor).max(0.0)),
                     false => Vertical::Altitude(given),
@@ -174,20 +177,20 @@ impl Run {
         }
     }
 
-    /// Whether an altitude that is asked for would lead deeper than the vehicle may be, by the depth (m) that it comes to: then it is
-    /// held by that depth. The vehicle may measure another altitude than we hear, or go by an older one: once that has led too deep,
-    /// it would again.
-    fn too_deep_by_altitude(&mut self, goal: f64, deepest: f64) -> bool {
+    /// Whether an altitude may lead deeper than the vehicle may be, in water of a depth, m: then it is held by the depth that it comes to.
+    /// The vehicle may measure another altitude than we hear, or go by an older one: once that has led too deep, it would again. And a
+    /// depth that is stuck or late in a dive makes the water seem to become shallower: it counts as deep as it ever was.
+    fn may_lead_too_deep(&mut self, altitude: f64, water: f64, deepest: f64) -> bool {
         let depth = self.depth();
-        let below = &mut self.state.bottom.below;
+        let bottom = &mut self.state.bottom;
         if depth > deepest + SUNK_M {
-            *below = below.max(depth - goal);
+            bottom.below = bottom.below.max(depth - (water - altitude));
         }
-        let is_too_deep = goal + *below > deepest;
-        if !is_too_deep {
-            *below = 0.0;
+        let may = bottom.water_max - altitude + bottom.below > deepest;
+        if !may {
+            bottom.below = 0.0;
         }
-        is_too_deep
+        may
     }
 
     /// Whether the altitude by itself is less than the limit lets it be.

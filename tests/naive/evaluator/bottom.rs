@@ -30,6 +30,8 @@ pub(super) struct Bottom {
     /// The water that was sounded on the last 2 m and on the last 12 m of way, m.
     lately: Option<[f64; 2]>,
     lost: bool,
+    /// The deepest water, m.
+    deep: f64,
     /// An altitude has led deeper than it may, by so much more than it was told to, m.
     below: f64,
     begun: Option<u64>,
@@ -84,7 +86,7 @@ impl Evaluator<'_> {
                         if let Some(depth) = self.w.depth().filter(|depth| *depth > high + 0.5) {
                             self.bottom.below = self.bottom.below.max(depth - goal);
                         }
-                        if goal + self.bottom.below > high {
+                        if self.bottom.deep - given + self.bottom.below > high {
                             Vertical::Depth(if is_low { low } else { goal.min(deepest).max(0.0) })
                         } else {
                             self.bottom.below = 0.0;
@@ -131,6 +133,7 @@ impl Bottom {
         let (gone, place) = (self.gone(w), w.place(FRESH_TICKS));
         self.way = 0.0;
         let sum = depth + altitude;
+        self.deep = self.deep.max(sum);
         let goal = self.commanded.map(|command| command.vertical);
         let held = matches!(goal, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
         let confirmed = self.echo.is_some_and(|old| w.tick - old.tick <= FRESH_TICKS);
