@@ -224,6 +224,7 @@ impl Table {
         // Into one that is complete nothing has to be written, and nothing is.
         let is_complete = lines.len() as u64 > seeds.count() && lines.iter().all(Option::is_some) && changed.is_empty();
         if !is_complete {
+            alone_of_name(path)?;
             file.may_grow()?;
         }
         let mut foreign = Vec::new();
@@ -414,6 +415,14 @@ fn left_by(path: &Path, origin: &Origin) -> Result<Option<Vec<u8>>, Trouble> {
     let [of, sums] = neighbours(path);
     let changed = if is_there(&of) { belongs(path, origin)? } else { None };
     if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(alone(path)) } else { Ok(changed) }
+}
+
+/// What is written into a table that is gone on with would be in a backup, too, that is another name of it or of what lies beside it.
+fn alone_of_name(path: &Path) -> Result<(), Trouble> {
+    let [of, sums] = neighbours(path);
+    let Some(linked) = [path, &of, &sums].into_iter().find(|path| disk::names(path) > 1) else { return Ok(()) };
+    let message = format!("`{}` has another name (a hard link), under which it would be changed too", linked.display());
+    Err(Trouble::Asked(message, "go on with a copy of the table, its `.origin` and its `.sums` as `--out`".to_string()))
 }
 
 /// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.

@@ -543,6 +543,25 @@ fn into_a_table_that_is_complete_nothing_is_written() {
     }
 }
 
+/// An attack: a backup by hard links (`cp -al`) grew with the table that it was to keep.
+#[test]
+fn a_table_of_several_names_is_not_gone_on_with() {
+    let files = five_rows("linked");
+    let backups =
+        files.each_ref().map(|file| file.with_file_name(format!("backup-{}", file.file_name().unwrap().display())));
+    let before = files.each_ref().map(|file| std::fs::read(file).unwrap());
+    for (file, backup) in files.iter().zip(&backups) {
+        std::fs::hard_link(file, backup).unwrap();
+        let output = command(BOX, "1..8", &files[0], &["--resume"]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        assert!(stderr(&output).contains("has another name (a hard link)"), "{}", stderr(&output));
+        assert_eq!(files.each_ref().map(|file| std::fs::read(file).unwrap()), before);
+        std::fs::remove_file(backup).unwrap();
+    }
+    let output = command(BOX, "1..8", &files[0], &["--resume"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
 /// A campaign that ends at any moment of its beginning, and then at any of its being taken up again, has changed nothing of its own.
 #[test]
 fn a_table_that_was_cut_at_its_first_line_was_not_changed() {

@@ -113,7 +113,6 @@ impl Expectations<'_> {
 
     fn range(&self, e: &Expr) -> Interval {
         match &e.kind {
-            ExprKind::Var(id) if *id == self.names.time => Interval::NOT_NEGATIVE,
             // The count of a list that is written out.
             ExprKind::Part(list, 0) if e.ty == Type::Int => match &list.kind {
                 ExprKind::List(elements) => Interval::exactly(elements.len() as f64),

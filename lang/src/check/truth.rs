@@ -10,6 +10,7 @@ use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind, Item};
 use crate::types::Type;
+use std::collections::BTreeMap;
 
 /// What stands after `truth`.
 const TRUTHS: [&str; 5] = ["position", "nearest_source", "start", "deepest", "depth_at"];
@@ -21,8 +22,13 @@ const NO_DEEPEST: &str = "no point of the mission's area is the deepest";
 
 /// The test whose expectations are being checked.
 pub(super) struct TestScope {
-    /// The mission that it runs.
+    /// The mission that it runs, and the name of its area.
     mission: usize,
+    area: Option<String>,
+    /// The types of what that reports, by name.
+    reports: BTreeMap<String, Vec<Type>>,
+    /// The variables that hold where and when something was reported, by its name.
+    report_vars: [BTreeMap<String, usize>; 2],
     /// What its expectations speak of.
     pub names: TestNames<usize>,
     /// The points whose true water depth they ask for, and the variables of the answers.
@@ -47,7 +53,18 @@ impl<'t> Checker<'t> {
             reported: Vec::new(),
             reported_at: Vec::new(),
         };
-        self.test = Some(TestScope { mission, names: vars, depths: Vec::new(), needs: Vec::new() });
+        // It has run for no time yet, or for some.
+        self.scope.vars[vars.time].range = Interval::NOT_NEGATIVE;
+        let area = self.area_name(self.mission_name(mission));
+        self.test = Some(TestScope {
+            mission,
+            area,
+            reports: self.hir.reports(mission),
+            report_vars: Default::default(),
+            names: vars,
+            depths: Vec::new(),
+            needs: Vec::new(),
+        });
     }
 
     /// `truth.position` and the like, and the area of the mission by the mission's name.
@@ -74,10 +91,8 @@ impl<'t> Checker<'t> {
                 return Some(self.unknown(span));
             }
             _ => {
-                let full = &self.activity_signatures[test.mission].name;
-                let mission = full.rsplit('.').next().unwrap_or(full);
-                let own = name == mission && self.area_name(mission).as_deref() == Some(&member.node);
-                own.then_some(test.names.area)?
+                let is_own = name == self.mission_name(test.mission) && test.area.as_ref() == Some(&member.node);
+                is_own.then_some(test.names.area)?
             }
         };
         Some(self.variable(id, span))
@@ -106,6 +121,11 @@ impl<'t> Checker<'t> {
         Some(self.variable(id, span))
     }
 
+    fn mission_name(&self, mission: usize) -> &str {
+        let full = &self.activity_signatures[mission].name;
+        full.rsplit('.').next().unwrap_or(full)
+    }
+
     /// The name that a mission gives its operating area.
     fn area_name(&self, mission: &str) -> Option<String> {
         self.modules.iter().flat_map(|m| &m.tree.items).find_map(|item| match item {
@@ -122,13 +142,13 @@ impl<'t> Checker<'t> {
     /// `reported("source")`: where that was first reported, `reported_at("source")`: when, `has_reported("source")`: whether.
     /// Where no `has_reported` shows that there is one, an expectation without such a report fails, and says so.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
-        let mission = self.test.as_ref()?.mission;
+        self.test.as_ref()?;
         if !matches!(name, "reported" | "reported_at" | "has_reported") {
             return None;
         }
         let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
         let what = self.plain_text(&text);
-        let values = self.hir.reported_by(mission, &what);
+        let values = self.test.as_ref().and_then(|test| test.reports.get(&what).cloned()).unwrap_or_default();
         let is_place = |ty: &Type| self.types.shape(ty).first_point().is_some();
         // What is reported as a place each time is one whenever it was reported.
         let all_places = values.iter().all(is_place);
@@ -186,16 +206,14 @@ impl<'t> Checker<'t> {
 
     /// The variable that holds where or when something was reported: one for each name.
     fn report_var(&mut self, what: &str, when: bool, span: Span) -> usize {
-        let known = self.test.as_ref().and_then(|test| {
-            let table = if when { &test.names.reported_at } else { &test.names.reported };
-            table.iter().find(|(name, _)| name == what).map(|(_, id)| *id)
-        });
+        let known = self.test.as_ref().and_then(|test| test.report_vars[usize::from(when)].get(what));
         if let Some(id) = known {
-            return id;
+            return *id;
         }
         let (ty, of) = if when { (Type::Quantity(Dimension::TIME), "at") } else { (Type::Point, "place") };
         let id = self.declare_hidden(format!("report \"{what}\" {of}"), VarKind::Signal, ty.optional(), span);
-        if let Some(TestScope { names, .. }) = &mut self.test {
+        if let Some(TestScope { names, report_vars, .. }) = &mut self.test {
+            report_vars[usize::from(when)].insert(what.to_string(), id);
             let table = if when { &mut names.reported_at } else { &mut names.reported };
             table.push((what.to_string(), id));
         }

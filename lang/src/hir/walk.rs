@@ -5,7 +5,7 @@ use super::{
     TextPart, With,
 };
 use crate::types::Type;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Hir {
     /// An activity and all to which it leads: its own behaviors, what it calls, the overlays that it puts on.
@@ -22,14 +22,10 @@ impl Hir {
 }
 
 impl Hir {
-    /// The values that a mission, with all that it calls, reports under a name: their types.
-    pub fn reported_by(&self, mission: ActivityId, name: &str) -> Vec<Type> {
-        let mut types = Vec::new();
-        self.each_report(mission, &mut |reported, value| {
-            if reported == name {
-                types.push(value.ty.clone());
-            }
-        });
+    /// The types of what a mission and all that it calls report, by name.
+    pub fn reports(&self, mission: ActivityId) -> BTreeMap<String, Vec<Type>> {
+        let mut types = BTreeMap::<String, Vec<Type>>::new();
+        self.each_report(mission, &mut |name, value| types.entry(name.to_string()).or_default().push(value.ty.clone()));
         types
     }
 
