@@ -73,7 +73,9 @@ fn no_altitude_that_is_asked_for_leads_deeper_than_the_depth_may_be() {
         let text = text.replace("vehicle(kinematic", &format!("vehicle({hull}"));
         let script = load_text(Source { name: "deep.alb".into(), text: text.into() });
         assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
-        for scenario in ["told_less", "share", "biased", "silent", "falling", "falling_biased", "stuck", "late"] {
+        for scenario in
+            ["told_less", "share", "biased", "silent", "falling", "falling_biased", "stuck", "late", "stuck_early"]
+        {
             let plan = Plan::new(&script, "deep.alb", None, Some(scenario)).unwrap();
             let mut run = Run::new(&plan, 1).unwrap();
             run.to_end();

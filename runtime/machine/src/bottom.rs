@@ -6,7 +6,7 @@
 //! come it rises to the surface, but for what a chart says.
 
 use crate::Event;
-use crate::slope::Slope;
+use crate::slope::{SLOPE_MAX, Slope};
 use crate::state::{Limits, Run};
 use albacore_geometry::Point;
 use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program, Slot};
@@ -26,8 +26,6 @@ const DOUBTFUL_S: f64 = 1.0;
 /// Where nothing came for 5 s but what is not believed, the dive that it led to is undone by so many metres: by that a true echo shows
 /// itself, too.
 pub(crate) const UNDONE_M: f64 = 2.5;
-/// A bottom of which nothing is heard is taken to rise by so much in each metre of way, through the water or over ground.
-const RISE: f64 = 0.25;
 /// An altitude that is below the least by this share of it, or by so much, m, is no noise: it leads up, whatever the depth is told
 /// to be.
 const LOW_SHARE: f64 = 0.25;
@@ -53,6 +51,8 @@ pub(crate) struct Bottom {
     water_max: f64,
     /// An altitude that was asked for has led too deep, and deeper than by what we hear of it by so much, m.
     below: f64,
+    /// The depth that is told again and again, if it is.
+    still: Option<Still>,
     /// It was told that the bottom is lost.
     lost: bool,
     /// Where the vehicle is is not known: a chart tells nothing of the water there.
@@ -74,6 +74,16 @@ struct Heard {
     at: Option<Point>,
 }
 
+/// A depth (m) since it changed last: from then on it tells nothing of how deep an altitude may have led.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Still {
+    depth: f64,
+    /// The way through the water that was commanded since, m.
+    way: f64,
+    /// Where the vehicle was, as far as it was known.
+    at: Option<Point>,
+}
+
 impl Bottom {
     /// A position has come, which may be doubted.
     pub fn doubt_place(&mut self, is_doubted: bool) {
@@ -85,7 +95,13 @@ impl Run {
     /// Takes in the altitude that has come in this tick, if one has; and the water below, if it is an echo of that.
     pub fn sound(&mut self, is_echo: bool) {
         let tick = self.state.tick;
-        self.state.bottom.way += self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
+        let way = self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
+        self.state.bottom.way += way;
+        let still = Still { depth: self.depth(), way: 0.0, at: self.place() };
+        self.state.bottom.still = match self.state.bottom.still.filter(|before| before.depth == still.depth) {
+            Some(before) => Some(Still { way: before.way + way, ..before }),
+            None => Some(still),
+        };
         let told = |at: Option<u32>, ticks: f64| {
             let at = at.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
             (tick as f64 - self.get(at + Input::STAMP) <= ticks).then(|| self.get(at + Input::VALUE))
@@ -127,9 +143,17 @@ impl Run {
     /// The way since the latest echo, m: through the water as commanded, or over ground, if that is more. A current carries who stands
     /// still, too.
     fn way(&self) -> f64 {
-        let from = self.state.bottom.heard.and_then(|heard| heard.at);
+        self.way_from(self.state.bottom.way, self.state.bottom.heard.and_then(|heard| heard.at))
+    }
+
+    /// The way since the depth changed last, m.
+    fn still_way(&self) -> f64 {
+        self.state.bottom.still.map_or(0.0, |still| self.way_from(still.way, still.at))
+    }
+
+    fn way_from(&self, commanded: f64, from: Option<Point>) -> f64 {
         let over_ground = from.zip(self.place()).map_or(0.0, |(from, here)| here.distance(from));
-        self.state.bottom.way.max(over_ground)
+        commanded.max(over_ground)
     }
 
     /// An altitude has come that is not believed.
@@ -179,14 +203,15 @@ impl Run {
 
     /// Whether an altitude may lead deeper than the vehicle may be, in water of a depth, m: then it is held by the depth that it comes to.
     /// The vehicle may measure another altitude than we hear, or go by an older one: once that has led too deep, it would again. And a
-    /// depth that is stuck or late in a dive makes the water seem to become shallower: it counts as deep as it ever was.
+    /// depth that is stuck or late in a dive makes the water seem to become shallower: it counts as deep as it ever was. A depth that
+    /// is stuck while the altitude is held hides a bottom that falls.
     fn may_lead_too_deep(&mut self, altitude: f64, water: f64, deepest: f64) -> bool {
-        let depth = self.depth();
+        let (depth, hidden) = (self.depth(), SLOPE_MAX * self.still_way());
         let bottom = &mut self.state.bottom;
         if depth > deepest + SUNK_M {
             bottom.below = bottom.below.max(depth - (water - altitude));
         }
-        let may = bottom.water_max - altitude + bottom.below > deepest;
+        let may = bottom.water_max + hidden - altitude + bottom.below > deepest;
         if !may {
             bottom.below = 0.0;
         }
@@ -249,7 +274,7 @@ impl Run {
 
     /// How deep the vehicle may go if the bottom has risen on the way since an echo, m.
     fn risen(&self, heard: Heard, altitude_min: f64) -> f64 {
-        heard.water - self.ahead(altitude_min) - RISE * self.way()
+        heard.water - self.ahead(altitude_min) - SLOPE_MAX * self.way()
     }
 
     /// How deep the vehicle may go by a least altitude, m.

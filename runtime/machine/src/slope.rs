@@ -7,8 +7,8 @@ const NEAR_M: f64 = 2.0;
 const FAR_M: f64 = 12.0;
 /// The way on which the bottom is taken to rise on as it did, m: at 1.5 m/s a hull has its nose up by then.
 const AHEAD_M: f64 = 15.0;
-/// A bottom that rises more steeply is a step.
-const RISE_MAX: f64 = 0.25;
+/// How steep a bottom may be. One that rises more steeply is a step.
+pub(crate) const SLOPE_MAX: f64 = 0.25;
 
 /// Means of the depth of the water on the way behind, m.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -27,6 +27,6 @@ impl Slope {
     /// How much the bottom rises ahead, m.
     pub fn rises(&self) -> f64 {
         let (near, far) = self.means.unwrap_or_default();
-        AHEAD_M * ((far - near) / (FAR_M - NEAR_M)).clamp(0.0, RISE_MAX)
+        AHEAD_M * ((far - near) / (FAR_M - NEAR_M)).clamp(0.0, SLOPE_MAX)
     }
 }

@@ -38,6 +38,8 @@ pub(super) struct Bottom {
     pub commanded: Option<Command>,
     /// The way that was commanded since the echo, m.
     way: f64,
+    /// The depth, the way that was commanded since it changed, and where that was.
+    still: (f64, f64, Option<Point>),
 }
 
 impl Evaluator<'_> {
@@ -86,7 +88,7 @@ impl Evaluator<'_> {
                         if let Some(depth) = self.w.depth().filter(|depth| *depth > high + 0.5) {
                             self.bottom.below = self.bottom.below.max(depth - goal);
                         }
-                        if self.bottom.deep - given + self.bottom.below > high {
+                        if self.bottom.deep + self.bottom.hidden(&self.w) - given + self.bottom.below > high {
                             Vertical::Depth(if is_low { low } else { goal.min(deepest).max(0.0) })
                         } else {
                             self.bottom.below = 0.0;
@@ -115,9 +117,13 @@ impl Evaluator<'_> {
 impl Bottom {
     /// The way since the echo, m: as commanded, or over ground.
     fn gone(&self, w: &World) -> f64 {
-        let echo = self.echo.and_then(|echo| echo.place);
-        let apart = echo.zip(w.place(FRESH_TICKS)).map_or(0.0, |(there, here)| there.distance(here));
-        self.way.max(apart)
+        apart(w, self.echo.and_then(|echo| echo.place)).max(self.way)
+    }
+
+    /// By how much the bottom may have fallen since the depth changed, m.
+    fn hidden(&self, w: &World) -> f64 {
+        let (_, way, place) = self.still;
+        0.25 * apart(w, place).max(way)
     }
 
     /// The altitude, if it was told lately.
@@ -126,7 +132,12 @@ impl Bottom {
     }
 
     pub fn hear(&mut self, w: &World) {
-        self.way += self.commanded.map_or(0.0, |command| command.speed) * TICK_S;
+        let way = self.commanded.map_or(0.0, |command| command.speed) * TICK_S;
+        self.way += way;
+        match w.depth().unwrap_or(0.0) {
+            depth if depth == self.still.0 => self.still.1 += way,
+            depth => self.still = (depth, 0.0, w.place(FRESH_TICKS)),
+        }
         let Some(altitude) = w.lately("altitude", 0) else { return };
         let before = self.altitude.replace((w.tick, altitude));
         let Some(depth) = w.lately("depth", FRESH_TICKS) else { return };
@@ -151,4 +162,9 @@ impl Bottom {
             _ => new,
         });
     }
+}
+
+/// How far it is from there, m.
+fn apart(w: &World, there: Option<Point>) -> f64 {
+    there.zip(w.place(FRESH_TICKS)).map_or(0.0, |(there, here)| there.distance(here))
 }

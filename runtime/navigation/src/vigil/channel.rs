@@ -10,7 +10,8 @@ const PERIOD_SAMPLES: u64 = 10;
 /// Silence is so many periods long, and at least so many ticks: 2 s.
 const SILENT_PERIODS: u64 = 5;
 const SILENT_TICKS: u64 = 20;
-/// Changes from which it is learnt whether a channel is noisy.
+/// Changes from which it is learnt whether a channel is noisy: so many at least, and the latest of these.
+const NOISE_CHANGES_MIN: u64 = 100;
 const NOISE_CHANGES: u64 = 300;
 /// A channel is noisy where neighbouring differences correlate by less than this: of white noise it is -1/2, of a random walk 0, of
 /// a smooth motion 1. What they are on the mean of so many counts as no difference: a steady dive hides no noise.
@@ -271,7 +272,7 @@ impl Channel {
             _ => {
                 let least = NOISE_MIN.max(NOISE_STEPS * self.step);
                 !self.moves
-                    && self.changes >= NOISE_CHANGES
+                    && self.changes >= NOISE_CHANGES_MIN
                     && self.covariance < NOISE_CORRELATION * self.variance
                     && self.alternates > NOISE_ALTERNATES
                     && self.variance > least * least

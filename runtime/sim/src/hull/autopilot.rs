@@ -32,6 +32,8 @@ pub struct Gains {
     pub depth_integral: f64,
     /// Steerage way: what a stalled hull makes, to bring its nose up by the stern plane, m/s.
     pub steerage: f64,
+    /// What it makes to leave the surface, m/s: a light hull does not come under at less.
+    pub dive: f64,
 }
 
 impl Gains {
@@ -46,6 +48,7 @@ impl Gains {
         depth: 0.1,
         depth_integral: 0.006,
         steerage: 1.2,
+        dive: 1.0,
     };
     /// For the plant after Prestero, which is unstable without.
     pub const PRESTERO: Gains = Gains {
@@ -58,6 +61,7 @@ impl Gains {
         depth: 0.1,
         depth_integral: 0.01,
         steerage: 1.2,
+        dive: 1.5,
     };
 }
 
@@ -81,6 +85,8 @@ const BOTTOM_TIME: f64 = 1.0;
 const FALL_MAX: f64 = 0.5;
 /// Less deep than this a hull is at the surface, m.
 const AT_SURFACE: f64 = 0.1;
+/// One that is to be deeper than that has left it when it is this deep, m, or as deep as it is to be.
+const LEFT_SURFACE: f64 = 1.0;
 /// A hull this much too deep, in m, has stalled where its stern plane can do no more and its nose is still this much down,
 /// in rad: the light one after Prestero sinks so, nose down, at 0.8 m/s. It has recovered when it is no more than this too deep.
 const STALLED: f64 = 0.2;
@@ -124,6 +130,8 @@ pub struct Autopilot {
     speed_trim: f64,
     /// Whether it sinks against its fins for want of way.
     stalled: bool,
+    /// Whether it is on its way from the surface.
+    leaves_surface: bool,
 }
 
 impl Autopilot {
@@ -141,6 +149,7 @@ impl Autopilot {
             pitch_trim: 0.0,
             speed_trim: 0.0,
             stalled: false,
+            leaves_surface: false,
         }
     }
 
@@ -157,11 +166,17 @@ impl Autopilot {
             Vertical::Altitude(altitude) => (sensed.water_depth - altitude, self.bottom_falls),
         };
         let stern = self.stern(wanted_depth.max(0.0) - sensed.depth, sinking / speed, sensed, speed);
-        // A hull that is to make no way keeps none: what it has of buoyancy takes it up.
-        let way = match self.stalled && command.speed > 0.0 {
-            true => command.speed.max(self.gains.steerage),
-            false => command.speed,
+        self.leaves_surface = match self.leaves_surface {
+            true => sensed.depth < wanted_depth.min(LEFT_SURFACE),
+            false => sensed.depth < AT_SURFACE && wanted_depth > 2.0 * AT_SURFACE,
         };
+        let least = match (self.stalled, self.leaves_surface) {
+            (_, true) => self.gains.dive,
+            (true, false) => self.gains.steerage,
+            (false, false) => 0.0,
+        };
+        // A hull that is to make no way keeps none: what it has of buoyancy takes it up.
+        let way = if command.speed > 0.0 { command.speed.max(least) } else { command.speed };
         Controls {
             rudder: self.rudder(command.heading - sensed.heading, sensed.yaw_rate, speed),
             stern,
@@ -172,7 +187,7 @@ impl Autopilot {
     /// Forgets what errors have lasted: of what held the hull meanwhile nothing is to be held against it.
     pub fn start_afresh(&mut self) {
         (self.rudder_trim, self.pitch_trim, self.speed_trim) = (0.0, 0.0, 0.0);
-        self.stalled = false;
+        (self.stalled, self.leaves_surface) = (false, false);
     }
 
     fn rudder(&mut self, error: f64, rate: f64, speed: f64) -> f64 {

@@ -330,6 +330,27 @@ fn a_hull_that_goes_slowly_sinks_by_little() {
     }
 }
 
+/// At less than 1.3 m/s the light hull stayed at the surface for good, and the other at 0.3 m/s.
+#[test]
+fn a_hull_that_goes_slowly_leaves_the_surface() {
+    for (name, hull) in HULLS {
+        for speed in [0.8, 1.0, 1.2, 1.5] {
+            for depth in [0.5, 1.0, 3.0, 10.0] {
+                let mut trial = Trial::at(hull(), 0.0);
+                let way = trial.go(0.0, speed, Vertical::Depth(depth), 600.0);
+                let deepest = way.iter().map(|m| m.depth).fold(0.0, f64::max);
+                let last = way[way.len() - 1].depth;
+                println!("{name} at {speed} m/s to {depth} m: {deepest:.2} m at most, then {last:.2} m");
+                assert!(
+                    deepest > 0.9 * depth && deepest < depth + 2.5,
+                    "{name} at {speed} m/s to {depth} m: {deepest} m"
+                );
+                assert!((last - depth).abs() < 1.0, "{name} at {speed} m/s to {depth} m: {last} m");
+            }
+        }
+    }
+}
+
 /// On the way down an error of depth is none that lasts: what it added to the trim in a long dive led 3 m too deep for a minute.
 #[test]
 fn a_long_dive_ends_where_a_short_one_does() {
