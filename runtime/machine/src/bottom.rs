@@ -23,6 +23,10 @@ const HELD_M: f64 = 0.5;
 const SUNK_M: f64 = 0.5;
 /// An echo counts for so long, s, that no other has confirmed, or after which came what is not believed.
 const DOUBTFUL_S: f64 = 1.0;
+/// Echoes agree that tell of the same depth of the water but for so much, m, and for the slope of the bottom on so much of the way
+/// between them at most, m.
+const AGREE_M: f64 = 2.0;
+const AGREE_WAY_M: f64 = 20.0;
 /// Where nothing came for 5 s but what is not believed, the dive that it led to is undone by so many metres: by that a true echo shows
 /// itself, too.
 pub(crate) const UNDONE_M: f64 = 2.5;
@@ -44,6 +48,9 @@ pub(crate) struct Bottom {
     doubted: bool,
     /// The way through the water that was commanded since it came, m; what the current adds is told by the position.
     way: f64,
+    /// An echo that does not fit the one before: another has to agree with it. And the way since it came.
+    lone: Option<Heard>,
+    lone_way: f64,
     slope: Slope,
     /// The tick from which limits are held: an echo may be on its way.
     begun: Option<u64>,
@@ -68,8 +75,10 @@ struct Heard {
     water: f64,
     /// Depth and altitude of the latest, added up.
     water_now: f64,
-    /// Whether another has confirmed it.
+    /// Whether another has confirmed it: one that came shortly before.
     confirmed: bool,
+    /// Whether it agrees with another, whenever that came. One that does not tells nothing once it is too old to count.
+    agrees: bool,
     /// Where the vehicle was, as far as it was known.
     at: Option<Point>,
 }
@@ -82,6 +91,13 @@ struct Still {
     way: f64,
     /// Where the vehicle was, as far as it was known.
     at: Option<Point>,
+}
+
+impl Heard {
+    /// Whether another echo, which tells of so much water, m, so much way later, m, tells of the same bottom.
+    fn agrees_with(&self, water: f64, way: f64) -> bool {
+        (water - self.water_now).abs() <= AGREE_M + SLOPE_MAX * way.min(AGREE_WAY_M)
+    }
 }
 
 impl Bottom {
@@ -97,6 +113,7 @@ impl Run {
         let tick = self.state.tick;
         let way = self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
         self.state.bottom.way += way;
+        self.state.bottom.lone_way += way;
         let still = Still { depth: self.depth(), way: 0.0, at: self.place() };
         self.state.bottom.still = match self.state.bottom.still.filter(|before| before.depth == still.depth) {
             Some(before) => Some(Still { way: before.way + way, ..before }),
@@ -117,20 +134,34 @@ impl Run {
         let water = depth + altitude;
         let again = last.is_some_and(|(_, last)| last == altitude) && !held;
         let before = self.state.bottom.heard.filter(|_| again);
-        let confirmed =
-            self.state.bottom.heard.is_some_and(|heard| (tick - heard.tick) as f64 * TICK_S <= LIMIT_FRESH_S);
         let (at, way) = (self.place(), self.way());
-        self.state.bottom.slope.sound(water, way);
-        self.state.bottom.water_max = self.state.bottom.water_max.max(water);
-        (self.state.bottom.doubted, self.state.bottom.way) = (false, 0.0);
-        self.state.bottom.heard = Some(Heard {
+        let Bottom { heard, lone, lone_way, .. } = self.state.bottom;
+        let lone_way = lone.map_or(0.0, |lone| self.way_from(lone_way, lone.at));
+        let agreed = heard.filter(|heard| heard.agrees_with(water, way));
+        let agreed = agreed.or(lone.filter(|lone| lone.agrees_with(water, lone_way)));
+        let heard_now = Heard {
             tick,
             depth: before.map_or(depth, |before| before.depth.min(depth)),
             water: before.map_or(water, |before| before.water.min(water)),
             water_now: water,
-            confirmed,
+            confirmed: agreed.is_some_and(|agreed| (tick - agreed.tick) as f64 * TICK_S <= LIMIT_FRESH_S),
+            agrees: agreed.is_some(),
             at,
-        });
+        };
+        let bottom = &mut self.state.bottom;
+        bottom.doubted = false;
+        if agreed.is_none() && heard.is_some_and(|heard| heard.agrees) {
+            (bottom.lone, bottom.lone_way) = (Some(heard_now), 0.0);
+            return;
+        }
+        if heard.is_some() && agreed.is_none() {
+            bottom.slope = Slope::default();
+        }
+        bottom.slope.sound(water, way);
+        if heard_now.agrees {
+            bottom.water_max = bottom.water_max.max(water);
+        }
+        (bottom.heard, bottom.lone, bottom.way) = (Some(heard_now), None, 0.0);
     }
 
     /// Where the vehicle is, unless that is not known any more.
@@ -167,8 +198,7 @@ impl Run {
         let Limits { altitude, depth, .. } = self.state.limits;
         self.state.bottom.begun.get_or_insert(self.state.tick);
         let known = self.heard_lately(p);
-        let deepest = self.deepest();
-        let bounded = altitude.0 > 0.0 || deepest < f64::MAX;
+        let (deepest, bounded) = (self.deepest(), self.bounds_vertical());
         let floor = self.floor(p, altitude.0).min(deepest);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
         let is_low = self.is_low();
@@ -211,7 +241,7 @@ impl Run {
         if depth > deepest + SUNK_M {
             bottom.below = bottom.below.max(depth - (water - altitude));
         }
-        let may = bottom.water_max + hidden - altitude + bottom.below > deepest;
+        let may = bottom.water_max.max(water) + hidden - altitude + bottom.below > deepest;
         if !may {
             bottom.below = 0.0;
         }
@@ -242,7 +272,24 @@ impl Run {
         let doubted = self.state.bottom.doubted;
         let fresh = |heard: &Heard| if heard.confirmed && !doubted { fresh } else { fresh.min(DOUBTFUL_S / TICK_S) };
         let age = |heard: &Heard| (self.state.tick - heard.tick + self.state.lag.round_trip) as f64;
-        self.state.bottom.heard.filter(|heard| age(heard) <= fresh(heard))
+        let counts = |heard: &Heard| (heard.agrees || self.has_just_begun()) && age(heard) <= fresh(heard);
+        let heard = self.state.bottom.heard.filter(counts)?;
+        // One that does not fit it may yet be the bottom, which is nearer then.
+        let lone = self.state.bottom.lone.filter(|lone| age(lone) <= DOUBTFUL_S / TICK_S);
+        Some(match lone.filter(|lone| lone.water < heard.water) {
+            Some(lone) => Heard { water: lone.water, water_now: lone.water_now.min(heard.water_now), ..heard },
+            None => heard,
+        })
+    }
+
+    /// The latest echo that tells of the bottom though it is too old to count: another agreed with it.
+    fn heard_before(&self) -> Option<Heard> {
+        self.state.bottom.heard.filter(|heard| heard.agrees)
+    }
+
+    /// Whether depth or altitude has a limit that leads up.
+    pub fn bounds_vertical(&self) -> bool {
+        self.state.limits.altitude.0 > 0.0 || self.deepest() < f64::MAX
     }
 
     /// How deep the vehicle may go whatever the water is, m.
@@ -258,12 +305,16 @@ impl Run {
         let told = |stamp: f64| stamp >= 0.0;
         let fresh = |stamp: f64| told(stamp) && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
         let stamp = self.get(self.senses.depth? + Input::STAMP);
-        match self.sounded() {
-            Some(altitude) if !fresh(stamp) => return Some(least - altitude),
-            None if !told(stamp) => return None,
+        match (self.sounded(), told(stamp)) {
+            (None, false) => return None,
+            (Some(altitude), false) => return Some(least - altitude),
+            // The depth that was told last is the best that is known of it.
+            (Some(altitude), true) if !fresh(stamp) => {
+                return Some((least - altitude).max(self.depth() - self.deepest()));
+            }
             _ => {}
         }
-        let by_altitude = match (self.state.bottom.heard, self.heard_lately(p)) {
+        let by_altitude = match (self.heard_before(), self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - self.ahead(least),
             (Some(heard), None) if least > 0.0 && self.risen(heard, least) < heard.depth => self.risen(heard, least),
             (None, None) if least > 0.0 => self.charted().map_or(self.unheard(), |water| water - least),
@@ -279,8 +330,7 @@ impl Run {
 
     /// How deep the vehicle may go by a least altitude, m.
     fn floor(&self, p: &Program, altitude_min: f64) -> f64 {
-        let heard = self.state.bottom.heard;
-        let floor = match (heard, self.heard_lately(p)) {
+        let floor = match (self.heard_before(), self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - self.ahead(altitude_min),
             _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
             (Some(heard), None) => {

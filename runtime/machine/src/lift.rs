@@ -27,8 +27,8 @@ pub(crate) enum Lift {
     Clear,
     /// By how much it is too deep, m, and the tick from which that has to become less.
     Deep { by: f64, since: u64 },
-    /// It did not: it makes way, and has to rise from there.
-    Lifted { by: f64, since: u64 },
+    /// It did not: it makes way, and has to rise from there, or from the depth at which it was, m.
+    Lifted { by: f64, depth: f64, since: u64 },
     /// It made way in vain, so much too deep, m.
     InVain { by: f64 },
 }
@@ -44,7 +44,7 @@ impl Run {
                 (true, _) => Some(PATIENCE_LOW_S),
                 (false, sunk) => sunk.then_some(PATIENCE_S),
             };
-            self.state.lift = before.after(self.state.tick, too_deep, patience);
+            self.state.lift = before.after(self.state.tick, too_deep, self.depth(), patience);
         }
         let lifted = self.state.lift.is_lifted();
         if lifted != before.is_lifted() {
@@ -63,17 +63,20 @@ impl Lift {
         matches!(self, Lift::Lifted { .. })
     }
 
-    fn after(self, tick: u64, too_deep: f64, patience: Option<f64>) -> Lift {
+    /// Where it may be rises with the bottom: who rises more slowly than that makes no way in vain.
+    fn after(self, tick: u64, too_deep: f64, depth: f64, patience: Option<f64>) -> Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match self {
             Lift::Lifted { .. } | Lift::InVain { .. } if too_deep <= LIFTED_M => Lift::Clear,
-            Lift::Lifted { by, .. } if too_deep <= by - RISEN_M => Lift::Lifted { by: too_deep, since: tick },
+            Lift::Lifted { by, depth: before, .. } if too_deep <= by - RISEN_M || depth <= before - RISEN_M => {
+                Lift::Lifted { by: too_deep, depth, since: tick }
+            }
             Lift::Lifted { since, .. } if lasts(since) > IN_VAIN_S => Lift::InVain { by: too_deep },
             Lift::Lifted { .. } => self,
             Lift::InVain { by } if too_deep <= by + SUNK_M => self,
             Lift::Deep { by, since } if patience.is_some() && too_deep > by - RISEN_M => {
                 if patience.is_some_and(|patience| lasts(since) > patience) {
-                    Lift::Lifted { by: too_deep, since: tick }
+                    Lift::Lifted { by: too_deep, depth, since: tick }
                 } else {
                     self
                 }

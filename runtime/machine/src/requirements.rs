@@ -3,8 +3,8 @@
 use crate::activity::Status;
 use crate::state::{Phase, Requirement, Run};
 use crate::{Event, Outcome};
-use albacore_program::{Input, Program, Slot};
-use albacore_vehicle::Command;
+use albacore_program::{Input, LIMIT_FRESH_S, Program, Slot};
+use albacore_vehicle::{Command, TICK_S};
 
 impl Run {
     /// Begins once every required input has come that has no `at first`. One that never came is as old as the mission: what
@@ -46,7 +46,10 @@ impl Run {
         // a depth that is told otherwise than it is held would lead further and further down.
         if !self.state.stands {
             let knows = |at: Option<Slot>| at.is_some_and(|at| self.get(at + Input::STAMP) >= 0.0);
-            if !(knows(self.senses.heading) && knows(self.senses.depth)) {
+            let knows_both = knows(self.senses.heading) && knows(self.senses.depth);
+            // Limits of depth and altitude do not wait for them: of what is not known it is north, and the surface.
+            let limits_wait = !self.bounds_vertical() || lived * TICK_S <= LIMIT_FRESH_S;
+            if !knows_both && limits_wait {
                 return None;
             }
             self.stand();

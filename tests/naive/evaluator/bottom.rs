@@ -19,12 +19,15 @@ struct Echo {
     water: f64,
     sum: f64,
     confirmed: bool,
+    agrees: bool,
     place: Option<Point>,
 }
 
 #[derive(Default)]
 pub(super) struct Bottom {
     echo: Option<Echo>,
+    /// One that does not agree with that, and the way since.
+    other: Option<(Echo, f64)>,
     /// The latest altitude, and when it came.
     altitude: Option<(u64, f64)>,
     /// The water that was sounded on the last 2 m and on the last 12 m of way, m.
@@ -52,9 +55,17 @@ impl Evaluator<'_> {
         let own = self.required.iter().filter(|r| names.contains(&&*self.w.hir.inputs[r.input].name)).map(|r| r.fresh);
         let fresh = own.min().unwrap_or(FRESH_TICKS);
         let young = self.w.tick - *self.bottom.begun.get_or_insert(self.w.tick) <= FRESH_TICKS;
-        let echo = self.bottom.echo;
+        let echo = self.bottom.echo.filter(|echo| echo.agrees);
         let lone = fresh.min(LONE_TICKS);
-        let known = echo.filter(|echo| self.w.tick - echo.tick <= if echo.confirmed { fresh } else { lone });
+        let known = self.bottom.echo.filter(|echo| {
+            (echo.agrees || young) && self.w.tick - echo.tick <= if echo.confirmed { fresh } else { lone }
+        });
+        let known = known.map(|echo| match self.bottom.other {
+            Some((other, _)) if self.w.tick - other.tick <= LONE_TICKS && other.water < echo.water => {
+                Echo { water: other.water, sum: other.sum.min(echo.sum), ..echo }
+            }
+            _ => echo,
+        });
         let floor = match (known, echo) {
             (Some(echo), _) => Some(echo.water - self.ahead(lowest)),
             (None, _) if lowest == 0.0 && matches!(asked, Vertical::Depth(_)) => None,
@@ -66,7 +77,7 @@ impl Evaluator<'_> {
         };
         let high = self.shoal().map_or(high, |shoal| high.min(shoal));
         let deepest = floor.map_or(high, |floor| floor.max(0.0).min(high));
-        let lost = known.is_none() && lowest > 0.0 && !(echo.is_none() && young);
+        let lost = known.is_none() && lowest > 0.0 && !(self.bottom.echo.is_none() && young);
         if lost != std::mem::replace(&mut self.bottom.lost, lost) {
             self.w.say(if lost { format!("bottom lost {:?}", deepest + 0.0) } else { "bottom found".into() });
         }
@@ -88,7 +99,9 @@ impl Evaluator<'_> {
                         if let Some(depth) = self.w.depth().filter(|depth| *depth > high + 0.5) {
                             self.bottom.below = self.bottom.below.max(depth - goal);
                         }
-                        if self.bottom.deep + self.bottom.hidden(&self.w) - given + self.bottom.below > high {
+                        if self.bottom.deep.max(echo.sum) + self.bottom.hidden(&self.w) - given + self.bottom.below
+                            > high
+                        {
                             Vertical::Depth(if is_low { low } else { goal.min(deepest).max(0.0) })
                         } else {
                             self.bottom.below = 0.0;
@@ -134,6 +147,9 @@ impl Bottom {
     pub fn hear(&mut self, w: &World) {
         let way = self.commanded.map_or(0.0, |command| command.speed) * TICK_S;
         self.way += way;
+        if let Some((_, since)) = &mut self.other {
+            *since += way;
+        }
         match w.depth().unwrap_or(0.0) {
             depth if depth == self.still.0 => self.still.1 += way,
             depth => self.still = (depth, 0.0, w.place(FRESH_TICKS)),
@@ -142,25 +158,40 @@ impl Bottom {
         let before = self.altitude.replace((w.tick, altitude));
         let Some(depth) = w.lately("depth", FRESH_TICKS) else { return };
         let (gone, place) = (self.gone(w), w.place(FRESH_TICKS));
-        self.way = 0.0;
         let sum = depth + altitude;
-        self.deep = self.deep.max(sum);
         let goal = self.commanded.map(|command| command.vertical);
         let held = matches!(goal, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
-        let confirmed = self.echo.is_some_and(|old| w.tick - old.tick <= FRESH_TICKS);
-        let new = Echo { tick: w.tick, depth, water: sum, sum, confirmed, place };
-        let mut lately = self.lately.unwrap_or([sum; 2]);
-        for (mean, over) in lately.iter_mut().zip([2.0, 12.0]) {
-            *mean += (sum - *mean) * (gone / (gone + over));
-        }
-        self.lately = Some(lately);
-        self.echo = Some(match self.echo {
+        // Another tells of the same bottom, but for 2 m and for what 20 m of way at most may change.
+        let same = |old: &Echo, way: f64| (sum - old.sum).abs() <= 2.0 + 0.25 * way.min(20.0);
+        let other = self.other.filter(|(old, since)| same(old, apart(w, old.place).max(*since))).map(|(old, _)| old);
+        let agreed = self.echo.filter(|old| same(old, gone)).or(other);
+        let confirmed = agreed.is_some_and(|old| w.tick - old.tick <= FRESH_TICKS);
+        let new = Echo { tick: w.tick, depth, water: sum, sum, confirmed, agrees: agreed.is_some(), place };
+        let new = match self.echo {
             // It may be an old one.
             Some(old) if before.is_some_and(|(_, before)| before == altitude) && !held => {
                 Echo { depth: old.depth.min(depth), water: old.water.min(sum), ..new }
             }
             _ => new,
-        });
+        };
+        if agreed.is_none() && self.echo.is_some_and(|old| old.agrees) {
+            self.other = Some((new, 0.0));
+            return;
+        }
+        if agreed.is_none() && self.echo.is_some() {
+            self.lately = None;
+        }
+        if new.agrees {
+            self.deep = self.deep.max(sum);
+        }
+        self.other = None;
+        self.way = 0.0;
+        let mut lately = self.lately.unwrap_or([sum; 2]);
+        for (mean, over) in lately.iter_mut().zip([2.0, 12.0]) {
+            *mean += (sum - *mean) * (gone / (gone + over));
+        }
+        self.lately = Some(lately);
+        self.echo = Some(new);
     }
 }
 

@@ -263,7 +263,13 @@ impl<'p> Evaluator<'p> {
             return self.over("aground", Cause::Aborted);
         }
         if !self.stands {
-            self.w.depth().filter(|_| self.w.knows_heading())?;
+            let [depth, altitude] = [Channel::Depth, Channel::Altitude].map(|channel| self.limits[channel as usize]);
+            let is_bounded = altitude.0 > 0.0 || depth.1 < f64::MAX;
+            let knows_both = self.w.depth().is_some() && self.w.knows_heading();
+            // Limits do not wait for more than 5 s.
+            if !knows_both && !(is_bounded && lived > 50) {
+                return None;
+            }
             self.stand();
         }
         Some(self.command())

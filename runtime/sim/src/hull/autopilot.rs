@@ -176,7 +176,7 @@ impl Autopilot {
             (false, false) => 0.0,
         };
         // A hull that is to make no way keeps none: what it has of buoyancy takes it up.
-        let way = if command.speed > 0.0 { command.speed.max(least) } else { command.speed };
+        let way = if command.speed > 0.0 || self.stalled { command.speed.max(least) } else { command.speed };
         Controls {
             rudder: self.rudder(command.heading - sensed.heading, sensed.yaw_rate, speed),
             stern,
@@ -223,6 +223,7 @@ impl Autopilot {
         };
         // Where fin or pitch is at its limit on the way there, an error tells nothing of the trim: to go on counting would only wind it up.
         let more = |asked: f64, given: f64| asked != given && (asked > 0.0) == (error > 0.0);
+        // Nor where it has no way by which its fins lift it.
         let helps = !more(asked, stern) && !more(wanted, down);
         // At the surface it can rise no further.
         if helps && (error > 0.0 || sensed.depth > AT_SURFACE) {
