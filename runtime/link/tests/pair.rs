@@ -471,3 +471,67 @@ fn how_bytes_are_cut_and_when_they_are_read_changes_nothing() {
     let single: Vec<usize> = (0..bytes.len()).collect();
     assert!(run(&single) == whole, "a byte at a time");
 }
+
+/// Asks for control over a wire that takes 8 ticks each way, and gives up after so many, again and again.
+fn impatient(patience: usize, times: usize) -> Pair {
+    let mut pair = Pair::new("400x20x2", 1, 0.0);
+    (pair.there, pair.back) = (Delay::of(8), Delay::of(8));
+    pair.ticks(40, None);
+    for _ in 0..times {
+        pair.controller.take_over();
+        pair.send();
+        pair.ticks(patience, Some(&east()));
+        pair.controller.give_back();
+        pair.send();
+        pair.ticks(patience, None);
+    }
+    pair.ticks(100, None);
+    pair
+}
+
+/// An attack: the vehicle lets us drive when we have given up, and was taken to offer what we had asked for.
+#[test]
+fn the_late_answer_to_a_question_of_our_own_is_no_offer() {
+    for (patience, times) in [(10, 1), (14, 1), (12, 4), (7, 4), (20, 4)] {
+        let pair = impatient(patience, times);
+        let Pair { controls, happenings, .. } = &pair;
+        assert!(happenings.iter().any(|h| matches!(h, Happening::Taken(..))), "{happenings:?}");
+        assert!(!happenings.contains(&Happening::TimedOut), "{happenings:?}");
+        for wrong in [Control::Offered, Control::Released, Control::Refused] {
+            assert!(!controls.contains(&wrong), "{patience} ticks, {times} times: {controls:?}");
+        }
+        assert_eq!(controls.last(), Some(&Control::Monitoring));
+    }
+}
+
+/// An attack: who gave up while the answer was on its way ended before it knew that it was heard, and left the vehicle in override.
+#[test]
+fn a_question_that_is_still_under_way_is_released_until_it_is_heard() {
+    let mut pair = Pair::new("400x20x2", 1, 0.0);
+    (pair.there, pair.back) = (Delay::of(3), Delay::of(3));
+    pair.ticks(40, None);
+    pair.controller.take_over();
+    pair.send();
+    pair.ticks(1, None);
+    let mut is_released = false;
+    for round in 0..60 {
+        is_released |= pair.controller.release();
+        // The first word of it is lost.
+        let said = pair.controller.take_output();
+        if round > 0 {
+            pair.to_vehicle.extend(said);
+        }
+        let bytes = pair.there.carry(std::mem::take(&mut pair.to_vehicle));
+        pair.vehicle.tick(&bytes).unwrap();
+        pair.happenings.extend(pair.vehicle.take_happenings());
+        let bytes = pair.back.carry(pair.vehicle.take_output());
+        pair.controller.hear(&bytes);
+        if is_released {
+            break;
+        }
+    }
+    assert!(is_released);
+    pair.to_vehicle.clear();
+    pair.until(80, |h| *h == Happening::Released);
+    assert!(!pair.happenings.contains(&Happening::TimedOut), "{:?}", pair.happenings);
+}

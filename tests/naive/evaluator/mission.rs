@@ -267,7 +267,7 @@ impl<'p> Evaluator<'p> {
             let is_bounded = altitude.0 > 0.0 || depth.1 < f64::MAX;
             let knows_both = self.w.depth().is_some() && self.w.knows_heading();
             // Limits do not wait for more than 5 s.
-            if !knows_both && !(is_bounded && lived > 50) {
+            if !(knows_both || is_bounded && lived > 50) {
                 return None;
             }
             self.stand();

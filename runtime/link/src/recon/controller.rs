@@ -59,11 +59,20 @@ enum Want {
     Drive {
         since: Moment,
     },
-    /// To listen, once the vehicle says that it drives itself.
+    /// To listen, once the vehicle drives itself; or to drive again.
     GiveBack {
-        since: Moment,
+        given: Given,
+        again: bool,
     },
-    Leave,
+    Leave(Given),
+}
+
+/// Control that was given back, or that is not asked for any more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Given {
+    since: Moment,
+    /// Whether the vehicle has let us drive. Until it has, its word that nobody drives may be older than our question.
+    driven: bool,
 }
 
 /// What the vehicle said up to a tick.
@@ -302,7 +311,7 @@ impl Controller {
             Stamp::Tick(tick) => tick,
             Stamp::ClockSet(tick) => {
                 // Who has lost the vehicle hears later what it said meanwhile: that tells nothing of its clock.
-                if !self.lost && self.want != Want::Leave {
+                if !self.lost && !matches!(self.want, Want::Leave(_)) {
                     self.notice_of_vehicle(
                         "the vehicle's time leapt: its clock was set; the mission's time goes on".to_string(),
                     );

@@ -1,12 +1,14 @@
 //! Who drives, by the mode that the vehicle reports.
 
-use super::{Controller, Want};
+use super::{Controller, Given, Want};
 use crate::recon::mode::{Mode, Phase};
 use crate::recon::round_trip::Moment;
 use albacore_vehicle::{Control, TICK_S};
 
 /// A vehicle that answers, but does not let us drive for this many ticks, by its own clock or the host's, refuses.
 const REQUEST_TICKS: u64 = 300;
+/// What was asked of a vehicle and not answered for so many ticks will not be: no link is driven over that is slower.
+const ANSWER_TICKS: u64 = 25;
 /// A vehicle that says in so many lines, one after the other, that we do not drive has left: one wrong line in 256 passes a sum of
 /// 8 bits.
 const LEFT_LINES: u64 = 3;
@@ -24,11 +26,20 @@ impl Controller {
             Want::Drive { since } => since,
             // In override although we have not asked: it hands over of its own accord, or to another.
             Want::Listen if active && mode.phase() == Phase::InMission => return Control::Offered,
-            Want::GiveBack { .. } if !active && !mode.has(Mode::ENABLED) => {
+            Want::GiveBack { given, again } => {
+                let given = given.hear(mode);
+                if !self.is_taken(given, mode) {
+                    self.want = Want::GiveBack { given, again };
+                    return if again { Control::Requesting } else { Control::Monitoring };
+                }
                 self.want = Want::Listen;
-                return Control::Monitoring;
+                if !again {
+                    return Control::Monitoring;
+                }
+                self.take_over();
+                return Control::Requesting;
             }
-            Want::Listen | Want::GiveBack { .. } | Want::Leave => return Control::Monitoring,
+            Want::Listen | Want::Leave(_) => return Control::Monitoring,
         };
         let suspended = is_suspended(mode);
         if driven && (1..LEFT_LINES).contains(&self.left) {
@@ -63,9 +74,22 @@ impl Controller {
         }
     }
 
+    /// Whether the vehicle has taken back what was given, by its latest word.
+    pub(super) fn is_taken(&self, given: Given, mode: Mode) -> bool {
+        let is_old = !given.driven && self.round_trip.between(given.since, self.moment()) <= ANSWER_TICKS;
+        !is_old && !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)
+    }
+
     fn end(&mut self, control: Control, why: &str) -> Control {
         self.notice(why.to_string());
         control
+    }
+}
+
+impl Given {
+    /// The same after another word of the vehicle.
+    pub(super) fn hear(self, mode: Mode) -> Self {
+        Given { driven: self.driven || mode.has(Mode::ACTIVE), ..self }
     }
 }
 

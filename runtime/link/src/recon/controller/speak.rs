@@ -1,10 +1,9 @@
 //! What the controller says: who is to drive, its goals, and that it is there.
 
 use super::late::Late;
-use super::{Controller, Want};
+use super::{Controller, Given, Want};
 use crate::recon::frame::seal;
 use crate::recon::message::{SpeedGoal, ToVehicle};
-use crate::recon::mode::Mode;
 use crate::recon::round_trip::Moment;
 use albacore_vehicle::{Command, Control, Vertical};
 
@@ -31,7 +30,7 @@ impl Controller {
             Want::Drive { since } if self.control == Control::Requesting => {
                 self.round_trip.between(since, self.moment())
             }
-            Want::GiveBack { since } => self.round_trip.between(since, self.moment()),
+            Want::GiveBack { given: Given { since, .. }, .. } => self.round_trip.between(since, self.moment()),
             _ => self.round_trip.waits(self.moment()),
         };
         unanswered >= UNANSWERED_TICKS && tick.saturating_sub(self.spoke) < SELDOM_TICKS
@@ -39,21 +38,35 @@ impl Controller {
 
     /// Asks for control; the following ticks tell how that goes.
     pub fn take_over(&mut self) {
-        if matches!(self.want, Want::Listen | Want::GiveBack { .. }) {
-            self.want = Want::Drive { since: Moment { tick: self.next_tick, ..self.moment() } };
-            self.round_trip.begin();
-            self.ours = 0;
-            self.late = Late::default();
-            self.say(&ToVehicle::Override(true));
+        match &mut self.want {
+            Want::Listen => {
+                self.want = Want::Drive { since: Moment { tick: self.next_tick, ..self.moment() } };
+                self.round_trip.begin();
+                self.ours = 0;
+                self.late = Late::default();
+                self.say(&ToVehicle::Override(true));
+            }
+            // What the vehicle says of the question before would be taken for the answer to this one.
+            Want::GiveBack { again, .. } => *again = true,
+            Want::Drive { .. } | Want::Leave(_) => {}
         }
     }
 
     /// Gives control back and listens on; the following ticks say so again until the vehicle drives itself.
     pub fn give_back(&mut self) {
-        if let Want::Drive { .. } = self.want {
-            self.want = Want::GiveBack { since: self.moment() };
-            self.control = Control::Monitoring;
-            self.say(&ToVehicle::Override(false));
+        match &mut self.want {
+            Want::Drive { .. } => {
+                let driven = self.drives() || self.control == Control::Released;
+                let given = Given { since: self.moment(), driven };
+                self.want = Want::GiveBack { given, again: false };
+                self.control = Control::Monitoring;
+                self.say(&ToVehicle::Override(false));
+            }
+            Want::GiveBack { again, .. } => {
+                *again = false;
+                self.control = Control::Monitoring;
+            }
+            Want::Listen | Want::Leave(_) => {}
         }
     }
 
@@ -115,11 +128,16 @@ impl Controller {
         match self.want {
             Want::Listen => return true,
             // What was heard before we asked is no answer.
-            Want::Drive { .. } | Want::GiveBack { .. } => self.want = Want::Leave,
-            Want::Leave => {
-                if heard.is_some_and(|mode| !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)) {
-                    self.control = Control::Released;
-                    return true;
+            Want::Drive { .. } => self.want = Want::Leave(Given { since: self.moment(), driven: self.drives() }),
+            Want::GiveBack { given, .. } => self.want = Want::Leave(given),
+            Want::Leave(given) => {
+                if let Some(mode) = heard {
+                    let given = given.hear(mode);
+                    if self.is_taken(given, mode) {
+                        self.control = Control::Released;
+                        return true;
+                    }
+                    self.want = Want::Leave(given);
                 }
             }
         }
