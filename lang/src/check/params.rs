@@ -177,7 +177,8 @@ impl<'t> Checker<'t> {
 
     /// Checks that a value is in a parameter's range, as far as the value is known.
     pub(super) fn in_range(&mut self, value: &hir::Expr, range: Interval, param: &str, declared: Span) {
-        if value.ty == Type::Unknown || range.covers(value.range) {
+        let is_absent = matches!(value.kind, hir::ExprKind::None);
+        if value.ty == Type::Unknown || is_absent || range.covers(value.range) {
             return;
         }
         // Where a range ends at 1 or before, it is of shares: `4 %`.
@@ -221,7 +222,7 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn shown_number(&self, x: f64, ty: &Type) -> String {
-        let display = match ty {
+        let display = match ty.present() {
             // Whole minutes, as they are spoken of.
             Type::Quantity(Dimension::TIME) if x >= 120.0 && x % 60.0 == 0.0 => return format!("{} min", x / 60.0),
             Type::Quantity(d) if !d.is_none() => d.display(),

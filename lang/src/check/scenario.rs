@@ -133,13 +133,12 @@ impl<'t> Checker<'t> {
     /// A clause whose first parameter is a name may stand several times: each is another thing. So may one of what happens
     /// from a time to another. All others stand once.
     pub(super) fn clauses_once(&mut self, clauses: &[ClauseUse]) {
-        let is_time = |arg: &(String, ClauseArg), name: &str| {
-            arg.0 == name && matches!(&arg.1, ClauseArg::Value(value) if value.ty == Type::Quantity(Dimension::TIME))
-        };
+        let is_time = |(_, value): &(String, ClauseArg)| matches!(value, ClauseArg::Value(value) if value.ty == Type::Quantity(Dimension::TIME));
         for (i, clause) in clauses.iter().enumerate() {
             let first = clauses[..i].iter().find(|c| c.name == clause.name);
             let has_name = clause.args.first().is_some_and(|(param, _)| param == "name");
-            let happens = ["from", "to"].iter().all(|name| clause.args.iter().any(|arg| is_time(arg, name)));
+            let arg = |name: &str| clause.args.iter().find(|(param, _)| param == name);
+            let happens = arg("from").is_some_and(is_time) && arg("to").is_some();
             if let Some(first) = first.filter(|_| !has_name && !happens) {
                 let message = format!("a scenario has one `{}`", clause.name);
                 let finding = Diagnostic::error(Code::ScenariosTwice, clause.span, message);

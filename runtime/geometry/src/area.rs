@@ -33,8 +33,23 @@ const EQUALLY_FAR_M: f64 = 1.0;
 
 /// A convex polygon in the tangent plane, its corners clockwise seen from above.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Corners")]
 pub struct Area {
     corners: Vec<Point>,
+}
+
+/// An area as it is read.
+#[derive(Deserialize)]
+struct Corners {
+    corners: Vec<Point>,
+}
+
+impl TryFrom<Corners> for Area {
+    type Error = AreaError;
+
+    fn try_from(read: Corners) -> Result<Self, Self::Error> {
+        Area::polygon(&read.corners)
+    }
 }
 
 /// One side of an area.

@@ -301,9 +301,12 @@ fn the_front_seat_answers_as_its_scenario_says() {
         (Handover { after: 2.0, ..handover.clone() }, &[Monitoring, Requesting, InControl]),
         (Handover { refuses: true, ..handover.clone() }, &[Monitoring, Requesting, Refused]),
         (Handover { silent: true, ..handover.clone() }, &[Monitoring, Requesting, Refused]),
-        (Handover { suspends: 4.0, lasting: 2.0, ..handover.clone() }, &[Monitoring, InControl, Suspended, InControl]),
-        (Handover { takes_back: 5.0, ..handover.clone() }, &[Monitoring, InControl, Released]),
-        (Handover { offers: 0.5, ..handover.clone() }, &[Monitoring, Offered, InControl]),
+        (
+            Handover { suspends: Some(4.0), lasting: Some(2.0), ..handover.clone() },
+            &[Monitoring, InControl, Suspended, InControl],
+        ),
+        (Handover { takes_back: Some(5.0), ..handover.clone() }, &[Monitoring, InControl, Released]),
+        (Handover { offers: Some(0.5), ..handover.clone() }, &[Monitoring, Offered, InControl]),
     ] {
         let turns = turns(handover.clone(), 400);
         let controls: Vec<Control> = turns.iter().map(|(_, control)| *control).collect();
@@ -318,7 +321,7 @@ fn the_front_seat_answers_as_its_scenario_says() {
 /// What it offers again, who gave it back has seen it take.
 #[test]
 fn a_vehicle_that_offers_takes_control_back_before_it_offers_again() {
-    let (mut vehicle, _) = answering(Handover { offers: 0.5, ..Handover::default() });
+    let (mut vehicle, _) = answering(Handover { offers: Some(0.5), ..Handover::default() });
     let mut snapshot = Snapshot::default();
     for _ in 0..2 {
         (0..100).for_each(|_| vehicle.sense(&mut snapshot).unwrap());

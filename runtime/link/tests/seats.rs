@@ -40,8 +40,15 @@ struct Case {
 }
 
 const SHALLOW: Limits = Limits { depth: Some(20.0), altitude: 3.0, speed: Some(2.0) };
-const AT_ONCE: Handover =
-    Handover { after: 0.0, refuses: false, silent: false, suspends: 0.0, lasting: 0.0, takes_back: 0.0, offers: 0.0 };
+const AT_ONCE: Handover = Handover {
+    after: 0.0,
+    refuses: false,
+    silent: false,
+    suspends: None,
+    lasting: None,
+    takes_back: None,
+    offers: None,
+};
 
 /// Too deep, too low and too fast is what the scenario says, and no more than that is done.
 const CASES: &[Case] = &[
@@ -133,7 +140,7 @@ const CASES: &[Case] = &[
     Case {
         name: "who suspends its guest lets it drive again",
         limits: None,
-        handover: Handover { suspends: 5.0, lasting: 3.0, ..AT_ONCE },
+        handover: Handover { suspends: Some(5.0), lasting: Some(3.0), ..AT_ONCE },
         rows: &[
             (TakeOver, 5, InControl, None, ""),
             (Ask(45.0, 2.0, Depth(6.0)), 20, InControl, Some((45.0, 2.0, 6.0)), ""),
@@ -144,7 +151,7 @@ const CASES: &[Case] = &[
     Case {
         name: "who takes itself back is not driven any more",
         limits: None,
-        handover: Handover { takes_back: 4.0, ..AT_ONCE },
+        handover: Handover { takes_back: Some(4.0), ..AT_ONCE },
         rows: &[
             (TakeOver, 5, InControl, None, ""),
             (Ask(0.0, 2.0, Depth(6.0)), 20, InControl, Some((0.0, 2.0, 6.0)), ""),

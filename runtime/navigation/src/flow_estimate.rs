@@ -16,7 +16,6 @@ const REJECTIONS_MAX: usize = 30;
 
 /// What a message must be to enter the mean; the defaults are the paper's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
 pub struct FlowGates {
     /// The first gate: a flow sample's speed stays below this, m/s. Default 0.35.
     pub fastest: f64,

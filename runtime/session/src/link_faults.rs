@@ -8,7 +8,6 @@ use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::source::Source;
 use albacore_link::LinkFault;
-use std::time::Duration;
 
 /// The scenario that the clauses make.
 const SCENARIO: &str = "command_line";
@@ -36,23 +35,9 @@ pub fn link_faults(script: &Script) -> Result<Vec<LinkFault>, PlanError> {
         if clause.name != CLAUSE {
             let message = format!("`--link-faults` takes what a link suffers from, not `{}`", clause.name);
             let finding = Diagnostic::error(Code::ScenariosClause, clause.span, message);
-            return Err(finding.help("write `loss: 5 %, delay: 200 ms`, for example"));
+            return Err(vec![finding.help("write `loss: 5 %, delay: 200 ms`, for example")]);
         }
-        fault(&c).map_err(|what| Diagnostic::error(Code::ScenariosClause, clause.span, what))
+        c.read().map_err(|unread| unread.of(clause).collect())
     };
-    lowered.clauses.iter().map(read).collect::<Result<_, _>>().map_err(|finding| wrong(vec![finding]))
-}
-
-fn fault(c: &Clause) -> Result<LinkFault, String> {
-    let seconds = |name: &str| Ok::<_, String>(Duration::from_secs_f64(c.number(name)?.max(0.0)));
-    Ok(LinkFault {
-        loss: c.number("loss")?,
-        corrupt: c.number("corrupt")?,
-        split: c.number("split")?,
-        repeat: c.number("repeat")?,
-        reorder: c.number("reorder")?,
-        delay: seconds("delay")?,
-        from: seconds("from")?,
-        to: Some(seconds("to")?).filter(|to| !to.is_zero()),
-    })
+    lowered.clauses.iter().map(read).collect::<Result<_, _>>().map_err(wrong)
 }

@@ -2,13 +2,9 @@
 
 mod bottom;
 mod clause;
-mod fault;
-mod flow;
 mod objected;
-mod plume;
 mod recorded;
-mod sensors;
-mod vehicle;
+mod unsaid;
 
 use crate::files::{FileError, Files};
 use albacore_geometry::TangentFrame;
@@ -21,7 +17,8 @@ use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 pub(crate) use clause::Clause;
 pub(crate) use objected::objected;
-use std::path::Path;
+use serde::Deserialize;
+pub(crate) use unsaid::UNSAID;
 
 /// A scenario that was understood.
 pub(crate) struct Understood {
@@ -36,15 +33,15 @@ pub(crate) struct Understood {
 /// The simulator's scenario; else what of it cannot be understood, and where.
 pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
-    let mut understood = Understood { world: Scenario::default(), dialect: None, files: Vec::new() };
+    let mut understood = Understood { world: UNSAID.world.clone(), dialect: None, files: Vec::new() };
     let pairs = [["bottom", "bottom_grid"], ["rows", "waypoints"]];
     let twice = pairs.into_iter().filter_map(|pair| one_of(program, pair));
     let mut findings: Vec<Diagnostic> = twice.chain(two_plumes(program)).collect();
     let frame = program.origin.map(|origin| TangentFrame { origin });
     for clause in &program.clauses {
         let clause = Clause { clause, words: &words };
-        if let Err(Wrong(faults)) = read(&mut understood, &clause, files, frame) {
-            findings.extend(faults.into_iter().map(|fault| fault.at(&clause)));
+        if let Err(wrong) = read(&mut understood, clause, files, frame) {
+            findings.extend(wrong.of(clause.clause));
         }
     }
     if findings.is_empty() {
@@ -53,23 +50,26 @@ pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Under
     if findings.is_empty() { Ok(understood) } else { Err(findings) }
 }
 
-/// Whether a world would be as it is if its scenario said this too.
-pub(crate) fn changes_nothing(world: &Scenario, clause: &ScenarioClause, words: &[f64]) -> bool {
-    let mut understood = Understood { world: world.clone(), dialect: None, files: Vec::new() };
-    let read = read(&mut understood, &Clause { clause, words }, &Files::around(Path::new("")), None);
-    read.is_ok() && understood.world == *world && understood.dialect.is_none()
+/// Adds what a clause says.
+fn read(understood: &mut Understood, c: Clause, files: &Files, frame: Option<TangentFrame>) -> Result<(), Wrong> {
+    match c.clause.name.as_str() {
+        "bottom_grid" => bottom::grid(understood, c.read()?, files, frame),
+        "recorded_plume" => recorded::recorded_plume(understood, c.read()?, files),
+        "dialect" => dialect(c.read()?).map(|dialect| understood.dialect = Some(dialect)),
+        "link_fault" => Err(cannot_be("it is what `albacore vehicle --link-faults` takes, not part of a world")),
+        _ => c.read().map(|setting| understood.world.set(setting)),
+    }
 }
 
-/// Adds what a clause says.
-fn read(understood: &mut Understood, c: &Clause, files: &Files, frame: Option<TangentFrame>) -> Result<(), Wrong> {
-    match c.clause.name.as_str() {
-        "bottom_grid" => bottom::grid(understood, c, files, frame),
-        "recorded_plume" => recorded::recorded_plume(understood, c, files),
-        "vehicle" => vehicle::vehicle(&mut understood.world, c),
-        "fault" => fault::fault(&mut understood.world, c),
-        "dialect" => vehicle::dialect(c).map(|dialect| understood.dialect = Some(dialect)),
-        _ => apply(&mut understood.world, c).map_err(Into::into),
-    }
+/// `dialect(…)`: what the vehicle's computer speaks at the end of a link.
+#[derive(Deserialize)]
+struct Speaks {
+    speaks: Option<String>,
+}
+
+fn dialect(clause: Speaks) -> Result<Dialect, Wrong> {
+    let speaks = clause.speaks.ok_or_else(|| Wrong::with("`dialect` needs a protocol", "write `dialect(recon)`"))?;
+    Dialect::named(&speaks).map_err(|error| cannot_be(&error.message))
 }
 
 /// The ground is a plane or a survey, the vehicle's own mission rows or waypoints: of two that are said, neither can be the one
@@ -92,7 +92,7 @@ fn two_plumes(program: &ScenarioProgram) -> Option<Diagnostic> {
 }
 
 /// All that is wrong with a clause.
-struct Wrong(Vec<Fault>);
+pub(crate) struct Wrong(Vec<Fault>);
 
 /// What is wrong, and its mend if that is known.
 struct Fault {
@@ -101,10 +101,24 @@ struct Fault {
 }
 
 impl Wrong {
+    /// The same at its clause.
+    pub fn of(self, clause: &ScenarioClause) -> impl Iterator<Item = Diagnostic> {
+        let span = clause.span;
+        self.0.into_iter().map(move |Fault { message, help }| {
+            let finding = Diagnostic::error(Code::ScenariosClause, span, message);
+            help.into_iter().fold(finding, Diagnostic::help)
+        })
+    }
+
     /// What is wrong, and its mend.
     fn with(message: impl Into<String>, mend: impl Into<String>) -> Self {
         Wrong(vec![Fault { message: message.into(), help: Some(mend.into()) }])
     }
+}
+
+/// What is wrong with a clause as a whole.
+fn cannot_be(what: &str) -> Wrong {
+    Wrong(vec![Fault { message: format!("this clause cannot be: {what}"), help: None }])
 }
 
 impl From<FileError> for Wrong {
@@ -113,60 +127,9 @@ impl From<FileError> for Wrong {
     }
 }
 
-impl From<String> for Wrong {
-    fn from(what: String) -> Wrong {
-        Wrong(vec![Fault { message: format!("this clause cannot be: {what}"), help: None }])
-    }
-}
-
-impl Fault {
-    fn at(self, clause: &Clause) -> Diagnostic {
-        let finding = Diagnostic::error(Code::ScenariosClause, clause.clause.span, self.message);
-        match self.help {
-            Some(help) => finding.help(help),
-            None => finding,
-        }
-    }
-}
-
 /// The words that the clauses' arguments point into.
 pub(crate) fn words(program: &ScenarioProgram) -> Vec<f64> {
     let mut evaluation = Evaluation::new(&program.program);
     evaluation.run(&program.program, program.program.mission.activity);
     evaluation.words(0, program.program.words).to_vec()
-}
-
-fn apply(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    match c.clause.name.as_str() {
-        "flow" => flow::flow(scenario, c),
-        "turning" => flow::turning(scenario, c),
-        "tide" => flow::tide(scenario, c),
-        "waves" => flow::waves(scenario, c),
-        "upper_layer" => flow::upper_layer(scenario, c),
-        "stratification" => flow::stratification(scenario, c),
-        "region" => flow::region(scenario, c),
-        "bottom" => bottom::bottom(scenario, c),
-        "pit" => bottom::pit(scenario, c),
-        "no_go" => bottom::no_go(scenario, c),
-        "plume" => plume::plume(scenario, c),
-        "source" => plume::source(scenario, c),
-        "leak" => plume::leak(scenario, c),
-        "patch" => plume::patch(scenario, c),
-        "limits" => vehicle::limits(scenario, c),
-        "rows" => vehicle::rows(scenario, c),
-        "waypoints" => vehicle::waypoints(scenario, c),
-        "handover" => vehicle::handover(scenario, c),
-        "navigation" => sensors::navigation(scenario, c),
-        "fluorometer" => sensors::fluorometer(scenario, c),
-        "adcp" => sensors::adcp(scenario, c),
-        "compass" => sensors::compass(scenario, c),
-        "pressure" => sensors::pressure(scenario, c),
-        "dvl" => sensors::dvl(scenario, c),
-        "gps" => sensors::gps(scenario, c),
-        "battery" => sensors::battery(scenario, c),
-        "ctd" => sensors::ctd(scenario, c),
-        "sounder" => sensors::sounder(scenario, c),
-        "link_fault" => Err("it is what `albacore vehicle --link-faults` takes, not part of a world".to_string()),
-        other => Err(format!("the simulator knows no `{other}`")),
-    }
 }

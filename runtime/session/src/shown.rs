@@ -2,17 +2,15 @@
 
 mod record;
 mod teller;
-mod unsaid;
 mod view;
 
 use crate::plan::PlanError;
-use crate::scenario;
+use crate::scenario::{self, UNSAID};
 use crate::world::{self, place_of};
 use albacore_geometry::TangentFrame;
-use albacore_lang::Script;
+use albacore_lang::{Script, doc};
 use albacore_sim::{Ground, Simulator};
 use teller::Teller;
-use unsaid::Unsaid;
 
 /// A scenario, laid open.
 #[derive(Clone, Debug)]
@@ -74,20 +72,28 @@ impl Shown {
                 _ => {}
             }
         }
-        let unsaid = Unsaid::read();
-        let teller = Teller { words: &unsaid.words, ..teller };
+        let teller = Teller { words: &UNSAID.words, ..teller };
         let mut absent = Vec::new();
-        for name in &unsaid.names {
-            match unsaid.in_force(name, &world) {
-                _ if clauses.iter().any(|told| told.name == *name) => {}
+        for name in clause_names() {
+            match UNSAID.in_force(&name, &world) {
+                _ if clauses.iter().any(|told| told.name == name) => {}
                 Some(clause) => teller.tell(clause, "", Whence::Default, &mut clauses),
-                None => absent.push(name.clone()),
+                None => absent.push(name),
             }
         }
         let filaments = world.has_plume().then(|| simulator.filaments().count());
         let svg = view::svg(&lowered.name, &world, &simulator, seed);
         Ok(Shown { name: lowered.name, clauses, absent, filaments, svg })
     }
+}
+
+/// The clauses of the standard library that stand on a line of their own, in order.
+fn clause_names() -> impl Iterator<Item = String> {
+    let everywhere = crate::standard_modules().filter(|module| crate::is_known_everywhere(module));
+    let scripts = everywhere.filter_map(|module| crate::load_or_module(module.as_ref()).ok());
+    let pages = scripts.filter_map(|script| script.sources.iter().next().and_then(doc::page));
+    let declared = pages.flat_map(|page| page.declarations);
+    declared.filter(|d| d.word == "clause" && d.result.is_none()).map(|d| d.name)
 }
 
 /// Which scenario of a script is meant.

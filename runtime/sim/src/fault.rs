@@ -4,6 +4,7 @@
 //! sensors that it has. Which channels a sensor has, and what each disorder makes of them, is said at [`Sensor`] and
 //! [`Disorder`]. The kinds are those of PX4's failure injection.
 
+mod clause;
 mod filter;
 mod sensor;
 mod under_way;
@@ -13,12 +14,12 @@ pub(crate) use under_way::Faults;
 
 use crate::scenario::{Bounds, HullSetup, Objections, OfClause, Scenario, told};
 use albacore_geometry::Vector;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::fmt;
 
 /// Something that goes wrong for a while.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "clause::FaultClause")]
 pub struct Fault {
     /// What.
     pub trouble: Trouble,
@@ -29,7 +30,7 @@ pub struct Fault {
 }
 
 /// What can go wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trouble {
     /// A sensor tells something else than what it measures.
     Sensor(Sensor, Disorder),
@@ -51,7 +52,7 @@ pub enum Trouble {
 }
 
 /// What a sensor's samples become. Where a disorder needs the last sample before it and there was none, it lets the first pass.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Disorder {
     /// No samples come.
     Off,

@@ -31,7 +31,8 @@ pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, Recording
 pub use scenario::{
     Adcp, Battery, Bottom, Bounds, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, HullSetup, KinematicHull,
     Lbl, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
-    ScenarioError, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup, Waves, Why,
+    ScenarioError, Setting, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
+    Waves, Why,
 };
 pub use simulator::{Simulator, Truth};
 pub use survey::Survey;

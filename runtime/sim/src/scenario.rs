@@ -6,6 +6,7 @@ mod instruments;
 mod objections;
 mod plume;
 mod sensors;
+mod setting;
 mod source;
 mod stratification;
 mod vehicle;
@@ -17,6 +18,7 @@ pub use objections::{Bounds, Objection, ScenarioError, Why};
 pub(crate) use objections::{FLOW_MAX, Objections, OfClause, rounded_down, told};
 pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
+pub use setting::Setting;
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
 pub use stratification::Stratification;
@@ -26,7 +28,6 @@ use crate::fault::{self, Fault};
 use crate::recorded::{self, RecordedPlume};
 use albacore_geometry::Area;
 use albacore_vehicle::{Channel, Handover, Limits, channels};
-use serde::{Deserialize, Serialize};
 
 /// The most clauses of one name in a scenario.
 const CLAUSES_MAX: usize = 1024;
@@ -34,8 +35,7 @@ const CLAUSES_MAX: usize = 1024;
 /// The world of a simulated run. SI units and radians throughout; points in the mission's tangent frame.
 ///
 /// The default is still water, 20 m deep, without a plume, and a vehicle with perfect sensors of position.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenario {
     /// Where the flow meanders and filaments live, widened by [`Meander::margin`]. A meander or a plume needs it.
     pub region: Option<Area>,
@@ -54,7 +54,6 @@ pub struct Scenario {
     /// What was left in the water before the run.
     pub patches: Vec<Patch>,
     /// A plume that was computed elsewhere, and the flow that carries it, instead of those of our own.
-    #[serde(skip)]
     pub recording: Option<RecordedPlume>,
     /// The vehicle.
     pub vehicle: VehicleSetup,

@@ -3,9 +3,9 @@
 use crate::Control;
 use serde::{Deserialize, Serialize};
 
-/// The answers. Times are seconds since tick 0; 0 is never.
+/// The answers. Times are seconds since tick 0; none is never.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Handover {
     /// How long it takes to give way, s.
     pub after: f64,
@@ -14,13 +14,13 @@ pub struct Handover {
     /// Whether it never answers.
     pub silent: bool,
     /// When it stops listening to who drives, s.
-    pub suspends: f64,
+    pub suspends: Option<f64>,
     /// For how long, s.
-    pub lasting: f64,
+    pub lasting: Option<f64>,
     /// When it takes control back from who drives by then, s.
-    pub takes_back: f64,
+    pub takes_back: Option<f64>,
     /// From when on it offers to be driven, s.
-    pub offers: f64,
+    pub offers: Option<f64>,
 }
 
 /// Who drives, as the computer sees it.
@@ -74,10 +74,10 @@ impl Gate {
     /// Who drives at a time in seconds. A vehicle whose own mission is over lets nobody drive any more.
     pub fn answer(&mut self, now: f64, is_over: bool) -> Control {
         let h = &self.handover;
-        // A time that is not given is 0: that never comes.
-        let since = |at: f64, begun: f64| at > 0.0 && begun < at && now >= at;
+        let since = |at: Option<f64>, begun: f64| at.is_some_and(|at| begun < at && now >= at);
+        let suspended = h.suspends.zip(h.lasting).map(|(at, lasting)| at..at + lasting);
         match self.guest {
-            Guest::None if h.offers > 0.0 && now >= h.offers => Control::Offered,
+            Guest::None if h.offers.is_some_and(|at| now >= at) => Control::Offered,
             Guest::None => Control::Monitoring,
             Guest::Asks(_) if h.refuses || is_over => self.send_away(Control::Refused),
             Guest::Asks(_) if h.silent => Control::Requesting,
@@ -87,9 +87,7 @@ impl Gate {
                 Control::InControl
             }
             Guest::Drives(begun) if since(h.takes_back, begun) => self.send_away(Control::Released),
-            Guest::Drives(_) if h.suspends > 0.0 && (h.suspends..h.suspends + h.lasting).contains(&now) => {
-                Control::Suspended
-            }
+            Guest::Drives(_) if suspended.is_some_and(|suspended| suspended.contains(&now)) => Control::Suspended,
             Guest::Drives(_) => Control::InControl,
             Guest::Gone(answer) => answer,
         }

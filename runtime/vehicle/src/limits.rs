@@ -11,7 +11,7 @@ const SLACK: f64 = 1e-6;
 
 /// The vehicle's own limits, whoever commands it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Limits {
     /// It goes no deeper than this, m. Default none.
     pub depth: Option<f64>,

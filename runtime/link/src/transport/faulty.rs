@@ -4,6 +4,7 @@
 use super::Transport;
 use crate::error::LinkError;
 use crate::recon::LINE_MAX;
+use serde::{Deserialize, Deserializer, de};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -17,7 +18,8 @@ const BITS_MAX: u64 = 3;
 const UNDER_WAY_MAX: usize = 100_000;
 
 /// What goes wrong with the messages that are sent within a time. Shares are from 0 to 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LinkFault {
     /// So many are lost.
     pub loss: f64,
@@ -30,11 +32,23 @@ pub struct LinkFault {
     /// So many are overtaken by later ones.
     pub reorder: f64,
     /// All come so late.
+    #[serde(deserialize_with = "seconds")]
     pub delay: Duration,
     /// When it begins.
+    #[serde(deserialize_with = "seconds")]
     pub from: Duration,
     /// When it is over; none is never.
+    #[serde(deserialize_with = "seconds_or_none")]
     pub to: Option<Duration>,
+}
+
+fn seconds<'de, D: Deserializer<'de>>(from: D) -> Result<Duration, D::Error> {
+    Duration::try_from_secs_f64(f64::deserialize(from)?).map_err(de::Error::custom)
+}
+
+fn seconds_or_none<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Duration>, D::Error> {
+    let seconds: Option<f64> = Option::deserialize(from)?;
+    seconds.map(|seconds| Duration::try_from_secs_f64(seconds).map_err(de::Error::custom)).transpose()
 }
 
 impl LinkFault {

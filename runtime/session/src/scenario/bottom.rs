@@ -1,4 +1,4 @@
-//! What a scenario says of the water's depth, and of where the vehicle must not be.
+//! A bottom that was surveyed: its file, and whether the vehicle starts over it.
 
 use super::clause::Clause;
 use super::{Fault, Understood, Wrong};
@@ -8,31 +8,32 @@ use albacore_geometry::{Point, TangentFrame};
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_sim::{Grid, Ground, NoGo, Pit, Plane, Scenario};
+use albacore_sim::{Grid, Ground, Scenario};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
+use serde::Deserialize;
 use std::sync::Arc;
 
-/// `bottom(…)`: a plane.
-pub fn bottom(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.bottom.ground = Ground::Plane(Plane {
-        from: c.number("from")?,
-        to: c.number("to")?,
-        toward: c.heading("toward")?,
-        across: c.number("across")?,
-    });
-    Ok(())
+/// `bottom_grid(…)`: what was surveyed.
+#[derive(Deserialize)]
+pub struct BottomGrid {
+    file: String,
+    at: Option<Point>,
+    northward: f64,
+    eastward: f64,
+    scale: f64,
+    depth_scale: f64,
 }
 
-/// `bottom_grid(…)`: what was surveyed.
-pub fn grid(understood: &mut Understood, c: &Clause, files: &Files, frame: Option<TangentFrame>) -> Result<(), Wrong> {
-    let path = c.text("file")?;
-    let depth_scale = c.number("depth_scale")?;
-    let placing = Placing {
-        at: c.optional_point("at")?,
-        share: (c.number("northward")?, c.number("eastward")?),
-        scale: c.number("scale")?,
-    };
+/// Reads the survey.
+pub fn grid(
+    understood: &mut Understood,
+    clause: BottomGrid,
+    files: &Files,
+    frame: Option<TangentFrame>,
+) -> Result<(), Wrong> {
+    let BottomGrid { file: path, at, northward, eastward, scale, depth_scale } = clause;
+    let placing = Placing { at, share: (northward, eastward), scale };
     let bytes = files.data(&path, FILE_BYTES_MAX)?;
     let in_file = |fault: albacore_bathymetry::Fault| Fault {
         message: format!("`{path}`: {}", fault.message),
@@ -76,7 +77,8 @@ pub fn elsewhere(program: &ScenarioProgram, world: &Scenario) -> Option<Diagnost
         south_west.east,
         north_east.east,
     );
-    let is_laid = Clause { clause, words: &super::words(program) }.optional_point("at").is_ok_and(|at| at.is_some());
+    let survey = Clause { clause, words: &super::words(program) }.read::<BottomGrid>();
+    let is_laid = survey.is_ok_and(|survey| survey.at.is_some());
     let finding = Diagnostic::error(Code::ScenariosClause, clause.span, message);
     Some(match program.clauses.iter().find(|clause| clause.name == "vehicle") {
         Some(vehicle) => finding.label(vehicle.span, "the vehicle"),
@@ -87,21 +89,4 @@ pub fn elsewhere(program: &ScenarioProgram, world: &Scenario) -> Option<Diagnost
     } else {
         "without `at` it lies where it was surveyed: say where its middle is to lie, such as `at: point(north: 0 m, east: 0 m)`"
     }))
-}
-
-/// `pit(…)`: a hollow in the ground.
-pub fn pit(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.bottom.pits.push(Pit {
-        name: c.text("name")?,
-        at: c.point("at")?,
-        depth: c.number("depth")?,
-        radius: c.number("radius")?,
-    });
-    Ok(())
-}
-
-/// `no_go(…)`: where the vehicle must not be.
-pub fn no_go(scenario: &mut Scenario, c: &Clause) -> Result<(), String> {
-    scenario.no_go.push(NoGo { name: c.text("name")?, area: c.area("area")? });
-    Ok(())
 }

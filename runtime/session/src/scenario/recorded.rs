@@ -1,11 +1,11 @@
 //! What a scenario says of a plume that was computed elsewhere.
 
-use super::clause::Clause;
 use super::{Fault, Understood, Wrong};
 use crate::files::Files;
 use albacore_sim::{RecordedKernel, RecordedPlume, RecordingError, RecordingHeader};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// A header is no larger than this, bytes.
@@ -14,9 +14,19 @@ const HEADER_BYTES_MAX: u64 = 4 * 1024 * 1024;
 /// The clauses that a record takes the place of.
 pub const BROUGHT: [&str; 8] = ["flow", "turning", "tide", "region", "plume", "source", "leak", "patch"];
 
-/// `recorded_plume(…)`: the record, and all that it brings.
-pub fn recorded_plume(understood: &mut Understood, c: &Clause, files: &Files) -> Result<(), Wrong> {
-    let path = c.text("file")?;
+/// `recorded_plume(…)`.
+#[derive(Deserialize)]
+pub struct RecordedPlumeClause {
+    file: String,
+    kernel: RecordedKernel,
+    start: f64,
+    start_spread: f64,
+    threshold: f64,
+}
+
+/// Reads the record, and all that it brings.
+pub fn recorded_plume(understood: &mut Understood, clause: RecordedPlumeClause, files: &Files) -> Result<(), Wrong> {
+    let RecordedPlumeClause { file: path, kernel, start, start_spread, threshold } = clause;
     let header = files.data(&path, HEADER_BYTES_MAX)?;
     let header = String::from_utf8(header).map_err(|_| not_utf8(&path))?;
     let header = RecordingHeader::read(&header).map_err(|e| told(&path, e))?;
@@ -25,17 +35,7 @@ pub fn recorded_plume(understood: &mut Understood, c: &Clause, files: &Files) ->
     let binary = format!("{folder}{}", header.binary());
     let bytes = files.data(&binary, RecordingHeader::BINARY_BYTES_MAX)?;
     let recording = header.decode(&bytes).map_err(|error| told(&path, error))?;
-    let kernel = match c.clause("kernel").map(|kernel| kernel.clause.name.as_str()) {
-        Some("flat") => RecordedKernel::Flat,
-        _ => RecordedKernel::Pompy,
-    };
-    let recorded = RecordedPlume {
-        recording: Arc::new(recording),
-        kernel,
-        start: c.number("start")?,
-        start_spread: c.number("start_spread")?,
-        threshold: c.number("threshold")?,
-    };
+    let recorded = RecordedPlume { recording: Arc::new(recording), kernel, start, start_spread, threshold };
     let mut digest = Digest::new();
     digest.text(recorded.recording.sha256());
     understood.files.push(SourceDigest { name: path, digest: digest.value() });

@@ -4,12 +4,13 @@ use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::Reading;
 use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// A sensor that can fail, with the channels that come from it alone.
 ///
 /// `water_depth` is the sum of depth and altitude: it fails with either, and stays away where one of them does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Sensor {
     /// Dead reckoning and fixes: `position` with its standard deviation. Wrong: 50 m off, somewhere.
     Position,

@@ -89,10 +89,10 @@ const CLEARS_S: f64 = 1.0;
 /// Exact, so that two half steps are one whole step.
 fn turned(from: Heading, to: Heading, settings: &KinematicHull, time: f64) -> Heading {
     let error = to - from;
-    let linear = settings.turn_rate * settings.heading_time;
+    let linear = settings.turn_rate * KinematicHull::HEADING_TIME_S;
     let saturated = ((error.abs() - linear) / settings.turn_rate).clamp(0.0, time);
     let turn = settings.turn_rate * saturated;
-    let rest = (error.abs() - turn) * (1.0 - exp(-(time - saturated) / settings.heading_time));
+    let rest = (error.abs() - turn) * (1.0 - exp(-(time - saturated) / KinematicHull::HEADING_TIME_S));
     from + if error < 0.0 { -(turn + rest) } else { turn + rest }
 }
 

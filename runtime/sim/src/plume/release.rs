@@ -73,7 +73,7 @@ mod tests {
         };
         let always = moments(Times::default());
         assert!(always.iter().any(|&t| t < 0.0));
-        let pulses = Times { begins: 100.0, ends: 500.0, on: 30.0, off: 20.0 };
+        let pulses = Times { begins: Some(100.0), ends: Some(500.0), on: Some(30.0), off: Some(20.0) };
         let pulsed = moments(pulses);
         let on = |&t: &f64| (100.0..500.0).contains(&t) && (t - 100.0) % 50.0 < 30.0;
         assert_eq!(pulsed, always.iter().copied().filter(on).collect::<Vec<_>>());

@@ -2,13 +2,15 @@
 
 use super::Recording;
 use crate::scenario::{Objections, Scenario, Source, told};
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// The papers' threshold of detection, ratio of full scale: with it a record saturates the sensor at 25 thresholds.
 const THRESHOLD: f64 = 0.04;
 
 /// How a filament thins as it grows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RecordedKernel {
     /// With its radius cubed: a Gaussian in three dimensions, the kernel of the model that made the record.
     #[default]

@@ -2,12 +2,11 @@
 
 use crate::scenario::{Objections, Scenario, told};
 use albacore_geometry::{Area, Heading, Point};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// The bottom: its ground, with pits in it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bottom {
     /// Its shape at large. Default a level plane.
     pub ground: Ground,
@@ -16,7 +15,7 @@ pub struct Bottom {
 }
 
 /// The shape of a bottom at large.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Ground {
     /// A plane.
     Plane(Plane),
@@ -31,8 +30,8 @@ impl Default for Ground {
 }
 
 /// A plane bottom, level beyond either end of its slope.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Plane {
     /// Water depth where the slope begins, m. Default 20.
     pub from: f64,
@@ -51,8 +50,7 @@ impl Default for Plane {
 }
 
 /// Depths of the water on an even grid; beyond it each is that of the nearest edge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// The place of the first depth.
     pub south_west: Point,
@@ -77,8 +75,8 @@ impl Grid {
 }
 
 /// A smooth round hollow in the bottom: a Gaussian.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Pit {
     /// What it is called.
     pub name: String,
@@ -97,7 +95,7 @@ impl Default for Pit {
 }
 
 /// A place where the vehicle must not be: a wreck, a mooring, a shipping lane. The water does not know of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NoGo {
     /// What it is called.

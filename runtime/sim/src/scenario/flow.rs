@@ -1,15 +1,13 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
-use crate::plume::LONGEST_PLUME_STEP_S;
 use crate::scenario::{Bounds, FLOW_MAX, Objections, Scenario, rounded_down, told};
 use crate::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
 use albacore_geometry::{Heading, Vector};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// The water's motion.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Flow {
     /// The mean flow, m/s toward. Default none.
     pub mean: Vector,
@@ -32,13 +30,35 @@ impl Flow {
     }
 }
 
+/// The water's mean motion, and how it wanders.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeanFlow {
+    mean: Vector,
+    meander: f64,
+    period: f64,
+    damping: f64,
+    viscosity: f64,
+    margin: f64,
+    cell: f64,
+}
+
+impl From<MeanFlow> for (Vector, Option<Meander>) {
+    fn from(flow: MeanFlow) -> Self {
+        let MeanFlow { mean, meander, period, damping, viscosity, margin, cell } = flow;
+        let wanders = Meander { direction_sd: meander, period, damping, viscosity, cell, margin };
+        (mean, (meander > 0.0).then_some(wanders))
+    }
+}
+
 /// A tide that runs to and fro on a line: one constituent.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Tide {
     /// What it is called.
     pub name: String,
     /// Its velocity where it runs strongest, m/s toward. Default none.
+    #[serde(rename = "flood")]
     pub amplitude: Vector,
     /// Its period, s. Default 12.42 h: the principal lunar one, M2.
     pub period: f64,
@@ -53,8 +73,8 @@ impl Default for Tide {
 }
 
 /// Surface waves that run one way: a sea of Bretschneider's spectrum.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Waves {
     /// Significant height, m. Default 0.5.
     pub height: f64,
@@ -74,10 +94,11 @@ impl Default for Waves {
 ///
 /// The 2005 paper's own main source of wrong flow (Sec. IV): the upward profiler measures above the vehicle, and where the
 /// boundary is low it measures this instead.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct UpperFlow {
     /// Its velocity, m/s toward. Default 0.225 m/s northward.
+    #[serde(rename = "flow")]
     pub mean: Vector,
     /// Height above the bottom where it begins, m, on average. Default 3.5.
     pub above: f64,
@@ -104,8 +125,7 @@ impl Default for UpperFlow {
 ///
 /// Each velocity component at the four corners is the mean plus coloured noise of standard deviation
 /// `direction_sd` times the greatest speed of mean and tides; inside, du/dt = -(u . grad) u + `viscosity`/2 lap u.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Meander {
     /// Standard deviation of the flow's direction at a corner, rad. The field damps it on its way in. Default 8 degrees.
     pub direction_sd: f64,
@@ -119,8 +139,11 @@ pub struct Meander {
     pub cell: f64,
     /// How far the grid reaches beyond the region on every side, m. Default 60.
     pub margin: f64,
-    /// Time step of the field, s. Default 5.
-    pub step: f64,
+}
+
+impl Meander {
+    /// Time step of the field, s.
+    pub const STEP_S: f64 = 5.0;
 }
 
 impl Default for Meander {
@@ -132,7 +155,6 @@ impl Default for Meander {
             viscosity: 27.0,
             cell: 20.0,
             margin: 60.0,
-            step: 5.0,
         }
     }
 }
@@ -241,15 +263,6 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
     of.positive("viscosity", meander.viscosity);
     of.positive("cell", meander.cell);
     of.not_negative("margin", meander.margin);
-    // A plume whose own step cannot be is told of there.
-    let plume = scenario.plume.as_ref().map_or(0.0, |plume| plume.step.min(LONGEST_PLUME_STEP_S));
-    let least = plume.max(LONGEST_PLUME_STEP_S / 2.0);
-    of.unless(
-        None,
-        meander.step >= least && meander.step <= FLOW_STEP_MAX_S,
-        format!("the time step of the meander is {} s", told(meander.step)),
-        format!("it must be {} s to {FLOW_STEP_MAX_S} s", told(least)),
-    );
     if objections.0.len() == before {
         let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
         if let Some(fault) = mesh_fault(meander, &frame, scenario.flow.speed()) {
@@ -262,5 +275,3 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
 const DIRECTION_SD_MAX: f64 = 60.0 * (PI / 180.0);
 /// The fastest turning of the mean flow, rad/s: once round in a quarter of an hour.
 const TURNING_MAX: f64 = 0.007;
-/// The longest step of the flow field, s.
-const FLOW_STEP_MAX_S: f64 = 60.0;

@@ -5,14 +5,14 @@ use crate::scenario::{Objections, Scenario};
 use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::TICK_S;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Samples a second of what is read at every tick.
 pub(crate) const EVERY_TICK: f64 = 1.0 / TICK_S;
 
 /// The compass: its error turns heading, course, dead reckoning and the flow estimate alike.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Compass {
     /// Samples of the heading a second. Default 10.
     pub rate: f64,
@@ -36,8 +36,8 @@ impl Default for Compass {
 }
 
 /// The pressure gauge, which tells the depth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Pressure {
     /// Samples a second. Default 10.
     pub rate: f64,
@@ -56,8 +56,8 @@ impl Default for Pressure {
 }
 
 /// The Doppler log, which tells speed and course over ground.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Dvl {
     /// Samples a second. Default 10.
     pub rate: f64,
@@ -79,8 +79,8 @@ impl Default for Dvl {
 }
 
 /// Satellite fixes at the surface, taken by dead reckoning.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Gps {
     /// Time between fixes, s. Default 1.
     pub every: f64,
@@ -101,8 +101,8 @@ impl Default for Gps {
 }
 
 /// The gauge of the battery's charge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Battery {
     /// Samples a second. Default 0.1.
     pub rate: f64,
@@ -119,8 +119,8 @@ impl Default for Battery {
 }
 
 /// The CTD: conductivity and temperature, and the practical salinity that is derived from them and the pressure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Ctd {
     /// Samples a second. Default 1.
     pub rate: f64,

@@ -3,11 +3,11 @@
 use crate::plume::{LONGEST_PLUME_STEP_S, stays_in_layer};
 use crate::scenario::{Objections, Scenario, told};
 use albacore_vehicle::TICK_S;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// How the chemical spreads: filaments that drift, diffuse and grow (Farrell et al. 2002).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Plume {
     /// Growth of a filament's squared radius, m2/s: r2 = `initial_radius`^2 + `growth` age. Default 1e-4.
     pub growth: f64,
@@ -61,7 +61,6 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     of.within("diffusivity", plume.diffusivity, 0.0..=100.0);
     of.within("vertical", plume.vertical, 0.0..=1.0);
     match plume.layer {
-        // A script says 0 m for a flat plume.
         Some(layer) => {
             of.not_negative("layer", layer);
             of.unless(

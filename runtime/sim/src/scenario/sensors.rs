@@ -5,17 +5,29 @@ use crate::scenario::{Objections, Scenario, told};
 use albacore_geometry::Vector;
 use albacore_navigation::FlowGates;
 use albacore_vehicle::TICK_S;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer};
 
 /// How the vehicle knows its position: dead reckoning from a known start, and acoustic fixes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Navigation {
     /// Growth of the position error, m/s^0.5: its standard deviation an axis after t seconds is this times the root of t.
     /// Default 0.05. 0 is perfect.
+    #[serde(default, rename = "dead_reckoning", deserialize_with = "walk")]
     pub walk: f64,
     /// Long-baseline fixes. Default none.
+    #[serde(rename = "fixes")]
     pub lbl: Option<Lbl>,
+}
+
+/// Dead reckoning as a script says it.
+#[derive(Deserialize)]
+struct DeadReckoning {
+    walk: f64,
+}
+
+fn walk<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    DeadReckoning::deserialize(from).map(|reckoning| reckoning.walk)
 }
 
 impl Default for Navigation {
@@ -25,8 +37,8 @@ impl Default for Navigation {
 }
 
 /// Long-baseline acoustic fixes, applied as jumps.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Lbl {
     /// Time between fixes, s; the first comes after one such time. Default 120.
     pub every: f64,
@@ -51,8 +63,8 @@ impl Default for Lbl {
 }
 
 /// The chemical sensor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Fluorometer {
     /// Samples a second; more than one may come in a tick. Default 10.
     pub rate: f64,
@@ -78,8 +90,7 @@ impl Default for Fluorometer {
 
 /// The flow sensor: an acoustic Doppler current profiler that looks up and down by turns. Its defaults are those of the
 /// 2005 paper's Appendix B.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Adcp {
     /// Standard deviation of each component of the velocity of one bin, m/s. Default 0.05.
     pub noise: f64,
@@ -98,6 +109,7 @@ pub struct Adcp {
     /// Between a look and the estimate that it enters, s. Default 0.
     pub delay: f64,
     /// What a look must be to enter the estimate. Default that of the 2005 paper.
+    #[serde(flatten)]
     pub gates: FlowGates,
 }
 
@@ -119,7 +131,7 @@ impl Default for Adcp {
 }
 
 /// The looks of the profiler that the flow is estimated from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Looks {
     /// Upward: every other one, as the 2005 paper has it.
@@ -132,8 +144,8 @@ pub enum Looks {
 }
 
 /// The echo sounder: the height above the bottom, and with the vehicle's depth that of the water.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Sounder {
     /// Echoes a second. Default 10: at every tick.
     pub rate: f64,

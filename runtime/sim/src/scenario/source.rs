@@ -3,17 +3,17 @@
 use crate::plume::spin_up_begin;
 use crate::scenario::{Bounds, Flow, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::Point;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// What releases chemical.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Source {
     /// What it is called.
     pub name: String,
     /// Where it stands. Default the frame's origin.
     pub at: Point,
     /// The other end of a leak that is a line, where each place releases as much. Default none: a point.
+    #[serde(skip)]
     pub to: Option<Point>,
     /// Metres above the bottom. Default 0.2.
     pub height: f64,
@@ -23,42 +23,72 @@ pub struct Source {
     /// Default 0.08: twice a 4 % threshold.
     pub peak: f64,
     /// The age that `peak` is for, s. Default 8752: 1094 m at 12.5 cm/s.
+    #[serde(rename = "peak_age")]
     pub reference_age: f64,
     /// When it releases. Default always.
+    #[serde(flatten)]
     pub when: Times,
 }
 
-/// When a source releases. Seconds after tick 0; 0 stands for no such time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+/// What releases chemical along a line.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Leak {
+    from: Point,
+    to: Point,
+    #[serde(flatten)]
+    source: Released,
+}
+
+/// What a source and a leak have in common.
+#[derive(Clone, Debug, Deserialize)]
+struct Released {
+    name: String,
+    height: f64,
+    rate: f64,
+    peak: f64,
+    peak_age: f64,
+    #[serde(flatten)]
+    when: Times,
+}
+
+impl From<Leak> for Source {
+    fn from(leak: Leak) -> Self {
+        let Released { name, height, rate, peak, peak_age, when } = leak.source;
+        Source { name, at: leak.from, to: Some(leak.to), height, rate, peak, reference_age: peak_age, when }
+    }
+}
+
+/// When a source releases. Seconds after tick 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 pub struct Times {
-    /// It begins then. Default long before the run.
-    pub begins: f64,
-    /// It ends then. Default never.
-    pub ends: f64,
-    /// It is on for so long at a time, the first from `begins` or tick 0. Default all the time.
-    pub on: f64,
+    /// It begins then; none: long before the run.
+    pub begins: Option<f64>,
+    /// It ends then; none: never.
+    pub ends: Option<f64>,
+    /// It is on for so long at a time, the first from `begins` or tick 0; none: all the time.
+    pub on: Option<f64>,
     /// And then off for so long.
-    pub off: f64,
+    pub off: Option<f64>,
 }
 
 impl Times {
     /// Whether it releases at a time, s.
     pub fn hold(&self, time: f64) -> bool {
-        let begun = self.begins == 0.0 || time >= self.begins;
-        let ended = self.ends != 0.0 && time >= self.ends;
-        let round = self.on + self.off;
-        let on = self.off == 0.0 || {
-            let turns = (time - self.begins) / round;
-            (turns - turns.floor()) * round < self.on
+        let begun = self.begins.is_none_or(|begins| time >= begins);
+        let ended = self.ends.is_some_and(|ends| time >= ends);
+        let (on, off) = (self.on.unwrap_or(0.0), self.off.unwrap_or(0.0));
+        let is_on = off == 0.0 || {
+            let round = on + off;
+            let turns = (time - self.begins.unwrap_or(0.0)) / round;
+            (turns - turns.floor()) * round < on
         };
-        begun && !ended && on
+        begun && !ended && is_on
     }
 }
 
 /// Chemical that was left in the water before the run: a round cloud of filaments, Gaussian in the horizontal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Patch {
     /// What it is called.
     pub name: String,
@@ -75,6 +105,7 @@ pub struct Patch {
     /// As of a source. Default 0.08.
     pub peak: f64,
     /// As of a source. Default 8752.
+    #[serde(rename = "peak_age")]
     pub reference_age: f64,
 }
 
@@ -161,22 +192,23 @@ fn check_source(source: &Source, of: &mut OfClause) {
     of.bounds("peak", source.peak, PEAKS);
     of.not_negative("peak_age", source.reference_age);
     let times = &source.when;
-    of.finite("begins", [times.begins, 0.0]);
     // One that has begun long before the run may have ended before it.
-    of.unless(
-        Some("ends"),
-        times.ends == 0.0 || times.begins == 0.0 || times.ends > times.begins,
-        format!("`{}` ends at {} s, and begins at {} s", source.name, told(times.ends), told(times.begins)),
-        "let it begin before it ends",
-    );
-    of.not_negative("on", times.on);
-    of.not_negative("off", times.off);
-    of.unless(
-        Some("off"),
-        times.off == 0.0 || times.on > 0.0,
-        format!("`{}` is off for {} s at a time, and never on", source.name, told(times.off)),
-        "say for how long it is `on`, such as `on: 5 min`",
-    );
+    if let (Some(begins), Some(ends)) = (times.begins, times.ends) {
+        of.unless(
+            Some("ends"),
+            ends > begins,
+            format!("`{}` ends at {} s, and begins at {} s", source.name, told(ends), told(begins)),
+            "let it begin before it ends",
+        );
+    }
+    if let Some(off) = times.off {
+        of.unless(
+            Some("off"),
+            off == 0.0 || times.on.is_some_and(|on| on > 0.0),
+            format!("`{}` is off for {} s at a time, and never on", source.name, told(off)),
+            "say for how long it is `on`, such as `on: 5 min`",
+        );
+    }
 }
 
 /// Whether chemical can be at a place, so high above the bottom.

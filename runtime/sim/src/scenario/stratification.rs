@@ -2,15 +2,15 @@
 
 use crate::scenario::{Bounds, Objections, Scenario};
 use albacore_geometry::math::tanh;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Two water masses, one above the other, and the layer between them in which the one passes into the other: everywhere and
 /// always the same. Between them temperature and salinity go as the hyperbolic tangent of the depth, the profile of the mixing
 /// layer in the stability theory of stratified flows (Hazel 1972, J. Fluid Mech. 51, 39-61).
 ///
 /// The default is mixed water of 10 degrees and a practical salinity of 35.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stratification {
     /// Temperature far above the thermocline, degrees Celsius.
     pub surface: f64,

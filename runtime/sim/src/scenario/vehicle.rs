@@ -5,14 +5,14 @@ use crate::scenario::bottom::DEEPEST_M;
 use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Point};
-use albacore_guidance::{Route, Waypoints};
+use albacore_guidance::{Route, Rows, Waypoints};
 use albacore_vehicle::{TICK_S, Vertical};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::ops::RangeInclusive;
 
 /// The vehicle, and where it is when the run begins.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "VehicleClause")]
 pub struct VehicleSetup {
     /// How it moves. Default [`KinematicHull`].
     pub hull: HullSetup,
@@ -41,8 +41,61 @@ impl Default for VehicleSetup {
     }
 }
 
+/// The same as a script says it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VehicleClause {
+    model: Option<Model>,
+    start: Point,
+    heading: Heading,
+    depth: f64,
+    spread: f64,
+}
+
+/// A hull as a script says it, with its battery.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Model {
+    Kinematic(Powered<KinematicHull>),
+    Fossen(Powered<SubmersibleHull>),
+    Prestero(Powered<PresteroHull>),
+}
+
+#[derive(Deserialize)]
+struct Powered<T> {
+    #[serde(flatten)]
+    hull: T,
+    endurance: f64,
+}
+
+#[derive(Deserialize)]
+struct PresteroHull {
+    #[serde(flatten)]
+    hull: SubmersibleHull,
+    as_printed: bool,
+}
+
+impl TryFrom<VehicleClause> for VehicleSetup {
+    type Error = &'static str;
+
+    fn try_from(clause: VehicleClause) -> Result<Self, Self::Error> {
+        let VehicleClause { model, start, heading, depth, spread: start_spread } = clause;
+        let model = model
+            .ok_or("this does not say how the vehicle moves\nwrite `vehicle(kinematic, start: …)`, for example")?;
+        let (hull, endurance) = match model {
+            Model::Kinematic(Powered { hull, endurance }) => (HullSetup::Kinematic(hull), endurance),
+            Model::Fossen(Powered { hull, endurance }) => (HullSetup::Fossen(hull), endurance),
+            Model::Prestero(Powered { hull: PresteroHull { hull, as_printed }, endurance }) => {
+                let crossflow = if as_printed { Crossflow::AsPrinted } else { Crossflow::Corrected };
+                (HullSetup::Prestero(hull, crossflow), endurance)
+            }
+        };
+        Ok(VehicleSetup { hull, start, start_spread, heading, depth, endurance })
+    }
+}
+
 /// How a vehicle moves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum HullSetup {
     /// It follows its commands at once but for limits on its rates.
     Kinematic(KinematicHull),
@@ -78,25 +131,30 @@ impl HullSetup {
 }
 
 /// A vehicle that follows its commands at once but for limits on its rates: no forces.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct KinematicHull {
     /// Its greatest speed through the water, m/s. Default 2.6 (REMUS 100).
     pub speed_max: f64,
     /// Its greatest rate of turn, rad/s. Default 10 degrees a second.
     pub turn_rate: f64,
-    /// Time constant with which the heading closes a small error, s. Default 0.2: the command filter's is before it.
-    pub heading_time: f64,
     /// Its greatest change of speed, m/s2. Default 0.25.
     pub acceleration: f64,
     /// Its greatest rate of climb and dive, m/s. Default 0.5.
     pub depth_rate: f64,
     /// Standard deviation of its wobble about a commanded altitude, m. Default 0: none.
+    #[serde(rename = "wobble")]
     pub altitude_jitter: f64,
     /// The wobble never exceeds this, m. Default 0.7 (the 2005 paper's, Sec. IV).
+    #[serde(rename = "wobble_max")]
     pub altitude_jitter_max: f64,
     /// Correlation time of the wobble, s. Default 10.
+    #[serde(rename = "wobble_time")]
     pub altitude_jitter_time: f64,
+}
+
+impl KinematicHull {
+    /// Time constant with which the heading closes a small error, s: the command filter's is before it.
+    pub const HEADING_TIME_S: f64 = 0.2;
 }
 
 impl Default for KinematicHull {
@@ -104,7 +162,6 @@ impl Default for KinematicHull {
         KinematicHull {
             speed_max: 2.6,
             turn_rate: 10.0 * PI / 180.0,
-            heading_time: 0.2,
             acceleration: 0.25,
             depth_rate: 0.5,
             altitude_jitter: 0.0,
@@ -115,8 +172,7 @@ impl Default for KinematicHull {
 }
 
 /// What can be set of a hull that forces move.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct SubmersibleHull {
     /// Its autopilot asks for no more speed through the water than this, m/s.
     pub speed_max: f64,
@@ -188,12 +244,55 @@ impl SubmersibleHull {
 }
 
 /// A vehicle's own mission.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct OwnMission {
     /// Where it goes, from where it starts: of rows the first runs along its heading there.
     pub route: Route,
     /// What it holds on the way.
     pub vertical: Vertical,
+}
+
+/// Rows as a script says them.
+#[derive(Clone, Debug, Deserialize)]
+pub struct OwnRows {
+    #[serde(flatten)]
+    rows: Rows,
+    #[serde(flatten)]
+    held: Held,
+}
+
+/// Waypoints as a script says them.
+#[derive(Clone, Debug, Deserialize)]
+pub struct OwnWaypoints {
+    #[serde(flatten)]
+    waypoints: Waypoints,
+    #[serde(flatten)]
+    held: Held,
+}
+
+/// What is held on a route: the depth, else the altitude, m.
+#[derive(Clone, Debug, Deserialize)]
+struct Held {
+    depth: Option<f64>,
+    altitude: f64,
+}
+
+impl From<Held> for Vertical {
+    fn from(held: Held) -> Self {
+        held.depth.map_or(Vertical::Altitude(held.altitude), Vertical::Depth)
+    }
+}
+
+impl From<OwnRows> for OwnMission {
+    fn from(own: OwnRows) -> Self {
+        OwnMission { route: Route::Rows(own.rows), vertical: own.held.into() }
+    }
+}
+
+impl From<OwnWaypoints> for OwnMission {
+    fn from(own: OwnWaypoints) -> Self {
+        OwnMission { route: Route::Waypoints(own.waypoints), vertical: own.held.into() }
+    }
 }
 
 /// What of the vehicle cannot be.
@@ -226,8 +325,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
     if let Some(handover) = &scenario.handover {
         objections.of("handover").unless(
-            Some(if handover.lasting > 0.0 { "lasting" } else { "suspends" }),
-            (handover.suspends > 0.0) == (handover.lasting > 0.0),
+            Some(if handover.lasting.is_some() { "lasting" } else { "suspends" }),
+            handover.suspends.is_some() == handover.lasting.is_some(),
             "the vehicle would suspend nobody: that takes a time and a while",
             "say both `suspends` and `lasting`, or neither",
         );
@@ -321,8 +420,6 @@ fn check_kinematic(hull: &KinematicHull, of: &mut OfClause) {
         ("wobble", hull.altitude_jitter, 0.0..=10.0),
         ("wobble_max", hull.altitude_jitter_max, 0.0..=10.0),
         ("wobble_time", hull.altitude_jitter_time, TICK_S..=3600.0),
-        // No script says it.
-        ("heading_time", hull.heading_time, TICK_S..=60.0),
     ] {
         of.within(name, value, bounds);
     }

@@ -32,17 +32,17 @@ impl Field {
         let mesh = Mesh::new(meander, frame, speed);
         let noise = Noise::new(seed, Stream::FlowCorners);
         let sigma = meander.direction_sd * speed;
-        let corners = ColouredNoise::new(noise, sigma, TAU / meander.period, meander.damping, meander.step);
+        let corners = ColouredNoise::new(noise, sigma, TAU / meander.period, meander.damping, Meander::STEP_S);
         let blank = Nodes { u: vec![0.0; mesh.nodes()], v: vec![0.0; mesh.nodes()] };
-        let spin_up = (frame.length / speed / meander.step).ceil();
+        let spin_up = (frame.length / speed / Meander::STEP_S).ceil();
         let mut field = Field {
             mesh,
             mean: mean_speed,
             half_viscosity: 0.5 * meander.viscosity,
-            step: meander.step,
+            step: Meander::STEP_S,
             corners,
             frames: [blank.clone(), blank.clone(), blank],
-            newest: ((begin / meander.step).floor() - spin_up) as i64,
+            newest: ((begin / Meander::STEP_S).floor() - spin_up) as i64,
         };
         let start = field.boundary();
         field.frames.iter_mut().for_each(|nodes| fill(nodes, &field.mesh, &start, Part::All));

@@ -71,7 +71,7 @@ pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Opti
         return fault("cell", message, "make `cell` larger, or `viscosity` smaller".into());
     }
     let transit = frame.length / mean_speed;
-    let work = transit / meander.step * mesh.substeps * mesh.nodes() as f64;
+    let work = transit / Meander::STEP_S * mesh.substeps * mesh.nodes() as f64;
     if work > SPIN_UP_WORK_MAX {
         let message = format!(
             "the flow is so slow that it takes {} to cross the region: its meander is computed for as long before a run",
@@ -106,7 +106,7 @@ impl Mesh {
         // Forward in time, centred in space: 2 D dt (1/dx^2 + 1/dy^2) <= 1 and u^2 dt <= 2 D.
         let speed = fastest(meander, mean_speed);
         let rate = (2.0 * d * (1.0 / (dx * dx) + 1.0 / (dy * dy))).max(2.0 * speed * speed / (2.0 * d));
-        let substeps = (meander.step * rate / STABILITY).ceil().max(1.0);
+        let substeps = (Meander::STEP_S * rate / STABILITY).ceil().max(1.0);
         Mesh { columns: nx as usize + 1, rows: ny as usize + 1, dx, dy, substeps }
     }
 

@@ -73,8 +73,9 @@ fn chemical_where_there_is_no_water_is_refused() {
     assert_eq!(changed(&|s| twin(s, 1.0)), [("leak", 0, Some("name"))]);
     assert_eq!(changed(&|s| twin(s, 0.0)), [("leak", 0, Some("name")), ("leak", 0, Some("to"))]);
     // What has always released may have ceased before the run; what begins later may not.
-    assert_eq!(changed(&|s| s.sources[0].when.ends = -1000.0), []);
-    let backward = |s: &mut Scenario| s.sources[0].when = Times { begins: 10.0, ends: 5.0, ..Times::default() };
+    assert_eq!(changed(&|s| s.sources[0].when.ends = Some(-1000.0)), []);
+    let backward =
+        |s: &mut Scenario| s.sources[0].when = Times { begins: Some(10.0), ends: Some(5.0), ..Times::default() };
     assert_eq!(changed(&backward), [("source", 0, Some("ends"))]);
     let ashore = Scenario { limits: Some(Limits { altitude: 100.0, ..Limits::default() }), ..scenario() };
     assert_eq!(objected(&ashore), [("limits", 0, Some("altitude"))]);
