@@ -204,6 +204,7 @@ impl<'t> Checker<'t> {
                 (None, Type::Quantity(Dimension::ANGLE)) => {
                     format!("choose a value {among} {bounds}; a radian is 57.2958 deg")
                 }
+                _ if value.ty.is_optional() => format!("choose a value {among} {bounds}, or leave it out"),
                 _ => format!("choose a value {among} {bounds}"),
             }),
             None => Diagnostic::error(
@@ -223,7 +224,10 @@ impl<'t> Checker<'t> {
 
     pub(super) fn shown_number(&self, x: f64, ty: &Type) -> String {
         let display = match ty.present() {
-            // Whole minutes, as they are spoken of.
+            // Whole hours and minutes, as they are spoken of.
+            Type::Quantity(Dimension::TIME) if x >= 36_000.0 && x % 3600.0 == 0.0 => {
+                return format!("{} h", x / 3600.0);
+            }
             Type::Quantity(Dimension::TIME) if x >= 120.0 && x % 60.0 == 0.0 => return format!("{} min", x / 60.0),
             Type::Quantity(d) if !d.is_none() => d.display(),
             Type::Heading => Dimension::ANGLE.display(),

@@ -29,8 +29,8 @@ pub use fault::{Disorder, Fault, Sensor, Trouble};
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Battery, Bottom, Bounds, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, HullSetup, KinematicHull,
-    Lbl, Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
+    Adcp, Battery, Bottom, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, HullSetup, KinematicHull, Lbl,
+    Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
     ScenarioError, Setting, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
     Waves, Why,
 };

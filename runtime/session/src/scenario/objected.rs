@@ -15,11 +15,10 @@ pub fn objected(scenario: &ScenarioProgram, objection: &Objection) -> Diagnostic
     let span = written.map(|arg| arg.span).or(clause.map(|clause| clause.span)).unwrap_or(scenario.span);
     let (message, mend) = match &objection.why {
         Why::Said(message, mend) => (message.clone(), mend.clone()),
-        Why::Outside(value, bounds) => {
-            let number = |x: f64| in_units(arg, x);
+        Why::Over(value, most) => {
             let param = objection.param.unwrap_or_default();
-            let message = format!("`{param}` of `{}` is {}", objection.clause, number(*value));
-            (message, format!("it must be {}", bounds.told(number)))
+            let message = format!("`{param}` of `{}` is {}", objection.clause, in_units(arg, *value));
+            (message, format!("it must be {} at most", in_units(arg, *most)))
         }
     };
     Diagnostic::error(Code::ScenariosWorld, span, message).help(mend)

@@ -82,9 +82,6 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         "`recorded_plume` brings its own plume and its own flow",
         "leave out `plume`, and all of `flow` but an upper layer and waves",
     );
-    of.positive("threshold", recorded.threshold);
-    of.not_negative("start", recorded.start);
-    of.not_negative("start_spread", recorded.start_spread);
     let (latest, duration) = (recorded.start + recorded.start_spread, recorded.recording.duration());
     of.unless(
         Some("start"),

@@ -104,41 +104,29 @@ pub struct NoGo {
     pub area: Area,
 }
 
-/// The least water, and the deepest trench, m.
-const SHALLOWEST_M: f64 = 0.01;
-pub(crate) const DEEPEST_M: f64 = 11_000.0;
+/// The deepest trench, m.
+const DEEPEST_M: f64 = 11_000.0;
 /// The depth of a hollow over its radius: beyond it a slope is steeper than 80 degrees.
 const STEEPEST: f64 = 10.0;
 
 /// What of the bottom cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    match &scenario.bottom.ground {
-        Ground::Plane(plane) => {
-            let mut of = objections.of("bottom");
-            of.within("from", plane.from, SHALLOWEST_M..=DEEPEST_M);
-            of.within("to", plane.to, SHALLOWEST_M..=DEEPEST_M);
-            of.positive("across", plane.across);
-            of.finite("toward", [plane.toward.radians(), 0.0]);
-        }
-        Ground::Grid(grid) => check_grid(grid, objections),
+    if let Ground::Grid(grid) = &scenario.bottom.ground {
+        check_grid(grid, objections);
     }
     for (i, pit) in scenario.bottom.pits.iter().enumerate() {
         let mut of = objections.nth("pit", i);
         of.name(&pit.name, &scenario.bottom.pits[..i].iter().map(|p| p.name.as_str()).collect::<Vec<_>>());
-        of.finite("at", [pit.at.north, pit.at.east]);
-        // A pit only deepens, so that the water is nowhere shallower than the ground lets it be.
-        of.positive("depth", pit.depth);
-        of.positive("radius", pit.radius);
         of.unless(
             Some("radius"),
-            pit.depth <= STEEPEST * pit.radius || !pit.depth.is_finite() || pit.radius <= 0.0,
+            pit.depth <= STEEPEST * pit.radius,
             format!("a pit {} m deep with a radius of {} m is a shaft", told(pit.depth), told(pit.radius)),
             format!("make `radius` {} m at least", told(pit.depth / STEEPEST)),
         );
         let deepest = scenario.bottom.depth_at(pit.at);
         of.unless(
             Some("depth"),
-            deepest <= DEEPEST_M || !deepest.is_finite(),
+            deepest <= DEEPEST_M,
             format!("here, with all pits, the water is {deepest:.0} m deep: no sea is"),
             format!("make them shallower: {DEEPEST_M} m at most"),
         );

@@ -1,6 +1,6 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{Bounds, FLOW_MAX, Objections, Scenario, rounded_down, told};
+use crate::scenario::{FLOW_MAX, Objections, Scenario, rounded_down, told};
 use crate::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
 use albacore_geometry::{Heading, Vector};
@@ -171,7 +171,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         let highest = BREAKING * start;
         objections.of("waves").unless(
             Some("height"),
-            waves.height <= highest || start <= 0.0 || !waves.height.is_finite() || !start.is_finite(),
+            waves.height <= highest || start <= 0.0 || !start.is_finite(),
             format!(
                 "waves {} m high break where the vehicle starts, in {} m of water",
                 told(waves.height),
@@ -183,17 +183,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let (speed, tides) = (scenario.flow.speed(), !scenario.flow.tides.is_empty());
     let message = format!("with its tides the water runs as fast as {} m/s: no sea does", told(speed));
     let mend = format!("make flow and tides less: {FLOW_MAX} m/s at most, all together");
-    objections.of("flow").unless(Some("mean"), !tides || speed <= FLOW_MAX || !speed.is_finite(), message, mend);
+    objections.of("flow").unless(Some("mean"), !tides || speed <= FLOW_MAX, message, mend);
     if let Some(upper) = &scenario.flow.upper {
         let mut layer = objections.of("upper_layer");
         layer.flow("flow", upper.mean);
-        layer.not_negative("above", upper.above);
-        layer.not_negative("moves", upper.moves);
-        layer.positive("period", upper.period);
         let deepest = scenario.bottom.deepest_possible();
         layer.unless(
             Some("above"),
-            upper.above <= deepest || !upper.above.is_finite() || !deepest.is_finite(),
+            upper.above <= deepest || !deepest.is_finite(),
             format!(
                 "{} m above the bottom is out of the water, which is {} m deep at most",
                 told(upper.above),
@@ -203,7 +200,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         );
         layer.unless(
             Some("moves"),
-            upper.moves <= upper.above || !upper.moves.is_finite() || !upper.above.is_finite(),
+            upper.moves <= upper.above,
             format!("the boundary moves by {} m, and is {} m above the bottom", told(upper.moves), told(upper.above)),
             "let it move less: it stays above the bottom",
         );
@@ -212,24 +209,18 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 
 /// What the whole water does alike.
 fn check_current(flow: &Flow, objections: &mut Objections) {
-    objections.of("turning").bounds("rate", flow.turning, Bounds::Within(-TURNING_MAX, TURNING_MAX));
     for (i, tide) in flow.tides.iter().enumerate() {
         let mut of = objections.nth("tide", i);
         of.name(&tide.name, &flow.tides[..i].iter().map(|t| t.name.as_str()).collect::<Vec<_>>());
         of.flow("flood", tide.amplitude);
-        of.positive("period", tide.period);
-        of.finite("high", [tide.high, 0.0]);
     }
     let Some(waves) = &flow.waves else { return };
     let mut of = objections.of("waves");
-    of.positive("period", waves.period);
-    of.finite("toward", [waves.toward.radians(), 0.0]);
-    of.not_negative("height", waves.height);
     // Steeper waves than one in ten break; their length is at most that in deep water.
     let steepest = 0.1 * 9.81 * waves.period * waves.period / TAU;
     of.unless(
         Some("height"),
-        waves.height <= steepest || steepest.is_nan(),
+        waves.height <= steepest,
         format!("waves {} m high break when their period is {} s", told(waves.height), told(waves.period)),
         format!("make them {} m high at most, or their `period` longer", rounded_down(steepest)),
     );
@@ -252,17 +243,12 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
         "a flow of 0 m/s cannot meander",
         "give it a speed, or leave `meander` out",
     );
-    of.bounds("meander", meander.direction_sd, Bounds::Within(0.0, DIRECTION_SD_MAX));
-    of.positive("period", meander.period);
     of.unless(
         Some("damping"),
         meander.damping > 0.0 && meander.damping < 1.0,
         format!("`damping` of `flow` is {}", told(meander.damping)),
         "it must be between 0 and 1",
     );
-    of.positive("viscosity", meander.viscosity);
-    of.positive("cell", meander.cell);
-    of.not_negative("margin", meander.margin);
     if objections.0.len() == before {
         let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
         if let Some(fault) = mesh_fault(meander, &frame, scenario.flow.speed()) {
@@ -270,8 +256,3 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
         }
     }
 }
-
-/// The widest meander, rad: 60 degrees. Beyond it the flow turns round, and the plume with it.
-const DIRECTION_SD_MAX: f64 = 60.0 * (PI / 180.0);
-/// The fastest turning of the mean flow, rad/s: once round in a quarter of an hour.
-const TURNING_MAX: f64 = 0.007;

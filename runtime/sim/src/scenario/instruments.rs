@@ -2,7 +2,6 @@
 //! them, and what of that cannot be. Their defaults are perfect.
 
 use crate::scenario::{Objections, Scenario};
-use albacore_geometry::math::{PI, radians};
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
@@ -154,38 +153,9 @@ impl Default for Ctd {
 
 /// What of the instruments cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    let Scenario { compass, pressure, dvl, gps, battery, ctd, .. } = scenario;
-    let mut of = objections.of("compass");
-    of.rate("rate", compass.rate);
-    of.delay("delay", compass.delay);
-    of.within("noise", compass.noise, 0.0..=radians(45.0));
-    of.within("bias", compass.bias, -PI..=PI);
-    of.within("deviation", compass.deviation, 0.0..=radians(90.0));
-    of.finite("greatest_at", [compass.greatest_at.radians(), 0.0]);
-    let mut of = objections.of("pressure");
-    of.rate("rate", pressure.rate);
-    of.delay("delay", pressure.delay);
-    of.within("noise", pressure.noise, 0.0..=10.0);
-    of.within("bias", pressure.bias, -100.0..=100.0);
-    let mut of = objections.of("battery");
-    of.rate("rate", battery.rate);
-    of.within("noise", battery.noise, 0.0..=1.0);
-    of.within("bias", battery.bias, -1.0..=1.0);
-    let mut of = objections.of("dvl");
-    of.rate("rate", dvl.rate);
-    of.delay("delay", dvl.delay);
-    of.within("noise", dvl.noise, 0.0..=1.0);
-    of.within("bias", dvl.bias, -1.0..=1.0);
-    if let Some(range) = dvl.range {
-        of.within("range", range, 0.0..=1000.0);
-    }
-    if let Some(gps) = gps {
+    if let Some(gps) = &scenario.gps {
         let mut of = objections.of("gps");
-        of.within("every", gps.every, TICK_S..=3600.0);
-        of.within("sigma", gps.sigma, 0.0..=1000.0);
-        of.within("above", gps.above, 0.0..=10.0);
-        of.within("bias", gps.bias.length(), 0.0..=1000.0);
-        of.delay("delay", gps.delay);
+        of.at_most("bias", gps.bias.length(), GPS_BIAS_MAX);
         of.unless(
             None,
             scenario.navigation.is_some(),
@@ -193,14 +163,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             "add `navigation(dead_reckoning())` to the scenario, or leave `gps` out",
         );
     }
-    if let Some(ctd) = ctd {
-        let mut of = objections.of("ctd");
-        of.rate("rate", ctd.rate);
-        of.within("temperature_noise", ctd.temperature_noise, 0.0..=10.0);
-        of.within("salinity_noise", ctd.salinity_noise, 0.0..=10.0);
-        of.within("temperature_bias", ctd.temperature_bias, -10.0..=10.0);
-        of.within("salinity_bias", ctd.salinity_bias, -10.0..=10.0);
-        of.within("above", ctd.above, 0.0..=10.0);
-        of.delay("delay", ctd.delay);
-    }
 }
+
+/// No constant error of a fix is larger, m.
+const GPS_BIAS_MAX: f64 = 1000.0;

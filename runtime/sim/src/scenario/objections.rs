@@ -2,9 +2,7 @@
 //! parameters, so that whoever has the script can show the place.
 
 use albacore_geometry::Vector;
-use albacore_vehicle::TICK_S;
 use std::fmt;
-use std::ops::RangeInclusive;
 
 /// Why a scenario cannot be simulated: all that was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -30,61 +28,18 @@ pub struct Objection {
 /// What is wrong with a clause or a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Why {
-    /// A number, in SI units and radians, is not within its bounds.
-    Outside(f64, Bounds),
+    /// A size, in SI units, is greater than it may be.
+    Over(f64, f64),
     /// What is wrong, and the mend.
     Said(String, String),
-}
-
-/// Bounds of a number, in SI units and radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bounds {
-    /// Greater than this.
-    Above(f64),
-    /// This or more.
-    AtLeast(f64),
-    /// This or less.
-    AtMost(f64),
-    /// From the one to the other, both among them.
-    Within(f64, f64),
-    /// From the one, which is not among them, to the other, which is.
-    UpTo(f64, f64),
-}
-
-impl Bounds {
-    fn hold(self, x: f64) -> bool {
-        x.is_finite()
-            && match self {
-                Bounds::Above(low) => x > low,
-                Bounds::AtLeast(low) => x >= low,
-                Bounds::AtMost(high) => x <= high,
-                // What was computed to be one of them is within them, but for rounding.
-                Bounds::Within(low, high) => {
-                    let slack = ROUNDING * low.abs().max(high.abs());
-                    x >= low - slack && x <= high + slack
-                }
-                Bounds::UpTo(low, high) => x > low && x <= high,
-            }
-    }
-
-    /// In words, its numbers written as `number` writes them.
-    pub fn told(self, number: impl Fn(f64) -> String) -> String {
-        match self {
-            Bounds::Above(low) => format!("above {}", number(low)),
-            Bounds::AtLeast(low) => format!("{} or more", number(low)),
-            Bounds::AtMost(high) => format!("{} at most", number(high)),
-            Bounds::Within(low, high) => format!("{} to {}", number(low), number(high)),
-            Bounds::UpTo(low, high) => format!("above {} and {} at most", number(low), number(high)),
-        }
-    }
 }
 
 impl fmt::Display for Objection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.why {
-            Why::Outside(value, bounds) => {
-                let (param, must) = (self.param.unwrap_or_default(), bounds.told(told));
-                write!(f, "`{param}` of `{}` is {}: it must be {must}", self.clause, told(*value))
+            Why::Over(value, most) => {
+                let (param, value, most) = (self.param.unwrap_or_default(), told(*value), told(*most));
+                write!(f, "`{param}` of `{}` is {value}: it must be {most} at most", self.clause)
             }
             Why::Said(message, _) => f.write_str(message),
         }
@@ -144,52 +99,18 @@ impl OfClause<'_> {
         }
     }
 
-    pub fn bounds(&mut self, param: &'static str, value: f64, bounds: Bounds) {
-        if !bounds.hold(value) {
-            self.add(Some(param), Why::Outside(value, bounds));
+    /// The size of a vector, in SI units.
+    pub fn at_most(&mut self, param: &'static str, size: f64, most: f64) {
+        if size > most * (1.0 + ROUNDING) {
+            self.add(Some(param), Why::Over(size, most));
         }
     }
 
-    pub fn positive(&mut self, param: &'static str, value: f64) {
-        self.bounds(param, value, Bounds::Above(0.0));
-    }
-
-    pub fn not_negative(&mut self, param: &'static str, value: f64) {
-        self.bounds(param, value, Bounds::AtLeast(0.0));
-    }
-
-    pub fn within(&mut self, param: &'static str, value: f64, bounds: RangeInclusive<f64>) {
-        let (low, high) = bounds.into_inner();
-        self.bounds(param, value, Bounds::Within(low, high));
-    }
-
-    /// Samples a second of what is read at ticks: one a tick at most.
-    pub fn rate(&mut self, param: &'static str, rate: f64) {
-        self.bounds(param, rate, Bounds::UpTo(0.0, 1.0 / TICK_S));
-    }
-
-    /// A share of a whole.
-    pub fn share(&mut self, param: &'static str, value: f64) {
-        self.bounds(param, value, Bounds::Within(0.0, 1.0));
-    }
-
-    /// The way from a sensor to who reads it, s.
-    pub fn delay(&mut self, param: &'static str, value: f64) {
-        self.bounds(param, value, Bounds::Within(0.0, DELAY_MAX_S));
-    }
-
-    pub fn finite(&mut self, param: &'static str, values: [f64; 2]) {
-        let message = format!("`{param}` of `{}` is not finite", self.clause);
-        self.unless(Some(param), values.iter().all(|v| v.is_finite()), message, "give a number");
-    }
-
     pub fn flow(&mut self, param: &'static str, flow: Vector) {
-        self.bounds(param, flow.length(), Bounds::AtMost(FLOW_MAX));
+        self.at_most(param, flow.length(), FLOW_MAX);
     }
 }
 
-/// The longest delay of a sensor, s.
-const DELAY_MAX_S: f64 = 600.0;
 /// The fastest flow, m/s: tidal races reach 8.
 pub(crate) const FLOW_MAX: f64 = 10.0;
 /// What units of a script may lose, as a share.

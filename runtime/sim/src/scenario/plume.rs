@@ -56,13 +56,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         "`plume` needs a `flow` that carries it",
         "give the scenario one: `flow(12 cm/s toward 140 deg)`, for example",
     );
-    of.within("growth", plume.growth, 0.0..=1.0);
-    of.within("initial_radius", plume.initial_radius, 0.001..=100.0);
-    of.within("diffusivity", plume.diffusivity, 0.0..=100.0);
-    of.within("vertical", plume.vertical, 0.0..=1.0);
     match plume.layer {
         Some(layer) => {
-            of.not_negative("layer", layer);
             of.unless(
                 Some("vertical"),
                 stays_in_layer(plume, LONGEST_PLUME_STEP_S) || layer <= 0.0,

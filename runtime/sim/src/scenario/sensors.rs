@@ -4,7 +4,6 @@ use crate::scenario::instruments::EVERY_TICK;
 use crate::scenario::{Objections, Scenario, told};
 use albacore_geometry::Vector;
 use albacore_navigation::FlowGates;
-use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Deserializer};
 
 /// How the vehicle knows its position: dead reckoning from a known start, and acoustic fixes.
@@ -171,59 +170,19 @@ impl Default for Sounder {
 
 /// What of the sensors cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
-    if let Some(navigation) = &scenario.navigation {
-        objections.of("dead_reckoning").within("walk", navigation.walk, 0.0..=10.0);
-        if let Some(lbl) = &navigation.lbl {
-            let mut of = objections.of("lbl");
-            of.within("every", lbl.every, TICK_S..=DAY_S);
-            of.within("sigma", lbl.sigma, 0.0..=1000.0);
-            of.within("gate", lbl.gate, 0.0..=10_000.0);
-            of.share("outliers", lbl.outliers);
-            of.within("outlier", lbl.outlier, 0.0..=10_000.0);
-            of.within("drift", lbl.drift.length(), 0.0..=LBL_DRIFT_MAX);
-            of.delay("delay", lbl.delay);
-        }
+    if let Some(lbl) = scenario.navigation.as_ref().and_then(|navigation| navigation.lbl.as_ref()) {
+        objections.of("lbl").at_most("drift", lbl.drift.length(), LBL_DRIFT_MAX);
     }
     let fluorometer = &scenario.fluorometer;
-    let mut of = objections.of("fluorometer");
-    for (name, value, bounds) in [
-        ("rate", fluorometer.rate, 0.01..=1000.0),
-        ("noise", fluorometer.noise, 0.0..=1.0),
-        ("false_alarms", fluorometer.false_alarms, 0.0..=1000.0),
-        ("ahead", fluorometer.ahead, -10.0..=10.0),
-        ("bias", fluorometer.bias, -1.0..=1.0),
-        ("saturation", fluorometer.saturation, 0.0..=1.0),
-    ] {
-        of.within(name, value, bounds);
-    }
-    of.delay("delay", fluorometer.delay);
-    of.unless(
+    objections.of("fluorometer").unless(
         Some("false_alarms"),
-        fluorometer.false_alarms <= fluorometer.rate || fluorometer.rate.is_nan(),
+        fluorometer.false_alarms <= fluorometer.rate,
         format!("`fluorometer` has more `false_alarms` than samples: its `rate` is {} Hz", told(fluorometer.rate)),
         "make them fewer: a sample gives one alarm at most",
     );
-    let adcp = &scenario.adcp;
-    let mut of = objections.of("adcp");
-    of.within("noise", adcp.noise, 0.0..=1.0);
-    of.within("bias", adcp.bias, -1.0..=1.0);
-    of.within("blanking", adcp.blanking, 0.0..=100.0);
-    of.within("bin", adcp.bin, 0.1..=100.0);
-    of.within("count", f64::from(adcp.count), 1.0..=f64::from(BINS_MAX));
-    of.rate("rate", adcp.rate);
-    of.delay("delay", adcp.delay);
-    of.within("fastest", adcp.gates.fastest, 0.01..=20.0);
-    of.within("over_ground", adcp.gates.over_ground, 0.0..=5.0);
-    of.within("depth", adcp.gates.depth, 0.0..=100.0);
-    of.within("altitude", adcp.gates.altitude, 0.0..=100.0);
     let sounder = &scenario.sounder;
-    let mut of = objections.of("sounder");
-    of.rate("rate", sounder.rate);
-    of.within("noise", sounder.noise, 0.0..=10.0);
-    of.within("bias", sounder.bias, -100.0..=100.0);
-    of.within("nearest", sounder.nearest, 0.0..=100.0);
     if let Some(farthest) = sounder.farthest {
-        of.unless(
+        objections.of("sounder").unless(
             Some("farthest"),
             farthest > sounder.nearest,
             format!(
@@ -234,13 +193,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             "make `farthest` greater than `nearest`, or it hears nothing",
         );
     }
-    of.share("dropouts", sounder.dropouts);
-    of.delay("delay", sounder.delay);
 }
 
-/// A profiler has at most this many bins.
-const BINS_MAX: u32 = 128;
 /// Transponders drift no faster than this, m/s.
 const LBL_DRIFT_MAX: f64 = 1.0;
-/// The longest time between fixes, s.
-const DAY_S: f64 = 86_400.0;

@@ -1,7 +1,7 @@
 //! What releases chemical, or has released it: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::spin_up_begin;
-use crate::scenario::{Bounds, Flow, Objections, OfClause, Scenario, rounded_down, told};
+use crate::scenario::{Flow, Objections, OfClause, Scenario, rounded_down, told};
 use albacore_geometry::Point;
 use serde::Deserialize;
 
@@ -172,10 +172,6 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         of.name(&patch.name, &names);
         names.push(patch.name.as_str());
         check_place(scenario, &mut of, "at", patch.at, patch.height);
-        of.within("radius", patch.radius, 0.0..=10_000.0);
-        of.not_negative("age", patch.age);
-        of.bounds("peak", patch.peak, PEAKS);
-        of.not_negative("peak_age", patch.reference_age);
     }
     check_layer(scenario, objections);
     if objections.0.len() == before && scenario.plume.is_some() && scenario.flow.speed() > 0.0 {
@@ -183,14 +179,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
 }
 
-/// What a filament may read, of full scale.
-const PEAKS: Bounds = Bounds::UpTo(0.0, 1000.0);
-
 /// A source by itself.
 fn check_source(source: &Source, of: &mut OfClause) {
-    of.positive("rate", source.rate);
-    of.bounds("peak", source.peak, PEAKS);
-    of.not_negative("peak_age", source.reference_age);
     let times = &source.when;
     // One that has begun long before the run may have ended before it.
     if let (Some(begins), Some(ends)) = (times.begins, times.ends) {
@@ -219,13 +209,11 @@ fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: 
         format!("a `{}` needs a `plume`: without one nothing spreads", of.clause()),
         "add `plume()` to the scenario",
     );
-    of.finite(param, [at.north, at.east]);
-    of.not_negative("height", height);
     if let Some(region) = &scenario.region {
         let gap = region.gap(at);
         of.unless(
             Some(param),
-            gap >= 0.0 || gap.is_nan(),
+            gap >= 0.0,
             format!("this is {:.1} m outside the `region`", -gap),
             "move it into the region, or make that larger: outside nothing spreads",
         );
@@ -234,14 +222,14 @@ fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: 
     of.unless(Some(param), water > 0.0 || water.is_nan(), "this is on land", "move it into the water");
     of.unless(
         Some("height"),
-        height <= water || water <= 0.0 || !height.is_finite(),
+        height <= water || water <= 0.0,
         format!("this is {} m above the bottom, where the water is {} m deep", told(height), rounded_down(water)),
         format!("make `height` {} m at most", rounded_down(water)),
     );
     if let Some(layer) = scenario.plume.as_ref().and_then(|plume| plume.layer) {
         of.unless(
             Some("height"),
-            height <= layer || height > water || layer <= 0.0 || height.is_nan(),
+            height <= layer || height > water,
             format!("this is {} m above the bottom, and the `layer` of the plume {} m high", told(height), told(layer)),
             "make `height` smaller, or the layer higher",
         );

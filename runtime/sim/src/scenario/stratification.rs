@@ -1,6 +1,6 @@
 //! The temperature and the salinity of the water over its depth: what a scenario says of them, and what of that cannot be.
 
-use crate::scenario::{Bounds, Objections, Scenario};
+use crate::scenario::{Objections, Scenario};
 use albacore_geometry::math::tanh;
 use serde::Deserialize;
 
@@ -52,19 +52,10 @@ impl Stratification {
 /// What of the water's layers cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     let s = &scenario.stratification;
-    let mut of = objections.of("stratification");
-    for (name, value) in [("surface", s.surface), ("bottom", s.bottom)] {
-        of.bounds(name, value, TEMPERATURES);
-    }
-    for (name, value) in [("surface_salinity", s.surface_salinity), ("bottom_salinity", s.bottom_salinity)] {
-        of.bounds(name, value, SALINITIES);
-    }
-    of.within("thermocline", s.thermocline, 0.0..=DEEPEST_THERMOCLINE_M);
-    of.positive("thickness", s.thickness);
     let (above, below) = (density(s.surface, s.surface_salinity), density(s.bottom, s.bottom_salinity));
-    of.unless(
+    objections.of("stratification").unless(
         None,
-        below >= above - SAME_DENSITY || !(above - below).is_finite(),
+        below >= above - SAME_DENSITY,
         format!("this water is lighter below ({below:.1} kg/m3) than above ({above:.1} kg/m3): it would turn over"),
         "make it colder below, or saltier",
     );
@@ -82,13 +73,6 @@ fn density(temperature: f64, salinity: f64) -> f64 {
 
 /// Water is not told to turn over for less, kg/m3.
 const SAME_DENSITY: f64 = 0.01;
-
-/// Below this depth no sea has a thermocline, m.
-const DEEPEST_THERMOCLINE_M: f64 = 1500.0;
-/// Sea water freezes below, and no sea is warmer, degrees Celsius.
-const TEMPERATURES: Bounds = Bounds::Within(-2.0, 40.0);
-/// The practical salinity scale ends at 42.
-const SALINITIES: Bounds = Bounds::Within(0.0, 42.0);
 
 #[cfg(test)]
 mod tests {

@@ -1,9 +1,8 @@
 //! The vehicle, its own mission and its computer: what a scenario says of them, and what of that cannot be.
 
 use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
-use crate::scenario::bottom::DEEPEST_M;
-use crate::scenario::{Bounds, Objections, OfClause, Scenario, rounded_down, told};
-use albacore_geometry::math::{PI, radians};
+use crate::scenario::{Objections, OfClause, Scenario, rounded_down, told};
+use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::{Route, Rows, Waypoints};
 use albacore_vehicle::{TICK_S, Vertical};
@@ -219,12 +218,9 @@ impl SubmersibleHull {
 
     /// What of it cannot be; `possible` is the speed that its greatest turns give, m/s.
     fn check(&self, possible: f64, of: &mut OfClause) {
-        of.within("speed_max", self.speed_max, Self::SPEED_MAX);
-        of.bounds("fin_max", self.fin_max, Bounds::UpTo(0.0, FIN_MAX));
-        of.within("turns_max", self.turns_max, Self::TURNS_MAX);
         of.unless(
             Some("speed_max"),
-            self.speed_max <= possible || !possible.is_finite(),
+            self.speed_max <= possible,
             format!(
                 "`{}` cannot swim {} m/s: its `turns_max` of {} Hz gives {possible:.2} m/s at most",
                 of.clause(),
@@ -309,11 +305,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     check_start(v, if has_water { water } else { f64::NAN }, &mut objections.of("vehicle"));
     if let Some(limits) = &scenario.limits {
         let mut of = objections.of("limits");
-        of.within("depth", limits.depth.unwrap_or(0.0), DEPTHS);
-        of.within("altitude", limits.altitude, ALTITUDES);
         of.unless(
             Some("altitude"),
-            !(limits.altitude > water && water > 0.0 && ALTITUDES.contains(&limits.altitude)),
+            !(limits.altitude > water && water > 0.0),
             format!(
                 "the vehicle keeps {} m from the bottom, and starts where the water is {} m deep",
                 told(limits.altitude),
@@ -321,7 +315,6 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             ),
             format!("make `altitude` {} m at most, or start in deeper water", rounded_down(water)),
         );
-        of.within("speed", limits.speed.unwrap_or(0.0), 0.0..=20.0);
     }
     if let Some(handover) = &scenario.handover {
         objections.of("handover").unless(
@@ -335,9 +328,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
         check_own_mission(scenario, own, objections);
     }
     let mut of = objections.of(v.hull.clause());
-    of.within("endurance", v.endurance, 1.0..=ENDURANCE_MAX_S);
     match &v.hull {
-        HullSetup::Kinematic(hull) => check_kinematic(hull, &mut of),
+        HullSetup::Kinematic(_) => {}
         HullSetup::Fossen(hull) => hull.check(hull::speed_possible(&Fossen::new(), hull.rpm_max()), &mut of),
         HullSetup::Prestero(hull, crossflow) => {
             hull.check(hull::speed_possible(&Prestero::new(*crossflow), hull.rpm_max()), &mut of);
@@ -376,16 +368,12 @@ fn check_own_mission(scenario: &Scenario, own: &OwnMission, objections: &mut Obj
 fn check_waypoints(waypoints: &Waypoints, v: &VehicleSetup, of: &mut OfClause) {
     let (message, mend) = ("there is nowhere to swim to", "give a point at least");
     of.unless(Some("points"), !waypoints.points.is_empty(), message, mend);
-    for point in &waypoints.points {
-        of.finite("points", [point.north, point.east]);
-    }
-    of.positive("speed", waypoints.speed);
     let ways = std::iter::once(&v.start).chain(&waypoints.points).zip(&waypoints.points);
     let length: f64 = ways.map(|(from, to)| from.distance(*to)).sum();
     let most = waypoints.speed * v.endurance;
     of.unless(
         Some("points"),
-        length <= most || !length.is_finite() || !most.is_finite(),
+        length <= most,
         format!("this way is {:.0} km long, and the battery is empty after {:.0} km", length / 1000.0, most / 1000.0),
         "move the points nearer, or let the vehicle have more `endurance`",
     );
@@ -393,10 +381,6 @@ fn check_waypoints(waypoints: &Waypoints, v: &VehicleSetup, of: &mut OfClause) {
 
 /// Whether it can start there; `water` is the depth of the water (m), the least that it may be.
 fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
-    of.finite("start", [v.start.north, v.start.east]);
-    of.finite("heading", [v.heading.radians(), 0.0]);
-    of.not_negative("spread", v.start_spread);
-    of.within("depth", v.depth, DEPTHS);
     let (may, most) = (if v.start_spread > 0.0 { "may start" } else { "starts" }, rounded_down(water));
     let mend = match v.start_spread > 0.0 {
         true => "make `spread` less, or move `start` farther into the water",
@@ -405,33 +389,11 @@ fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
     of.unless(Some("start"), water != 0.0, format!("the vehicle {may} on land"), mend);
     of.unless(
         Some("depth"),
-        v.depth <= water || water == 0.0 || !water.is_finite() || !v.depth.is_finite(),
+        v.depth <= water || water == 0.0 || !water.is_finite(),
         format!("the vehicle {may} below the bottom: {} m deep in {most} m of water", told(v.depth)),
         format!("make `depth` {most} m at most, or start in deeper water"),
     );
 }
 
-fn check_kinematic(hull: &KinematicHull, of: &mut OfClause) {
-    for (name, value, bounds) in [
-        ("speed_max", hull.speed_max, 0.1..=20.0),
-        ("turn_rate", hull.turn_rate, radians(0.1)..=radians(360.0)),
-        ("acceleration", hull.acceleration, 0.001..=10.0),
-        ("depth_rate", hull.depth_rate, 0.01..=10.0),
-        ("wobble", hull.altitude_jitter, 0.0..=10.0),
-        ("wobble_max", hull.altitude_jitter_max, 0.0..=10.0),
-        ("wobble_time", hull.altitude_jitter_time, TICK_S..=3600.0),
-    ] {
-        of.within(name, value, bounds);
-    }
-}
-
-/// The greatest angle of a fin, rad: beyond it no fin lifts.
-const FIN_MAX: f64 = 1.0;
 /// So many steps of integration in a tick: with fewer the roll of a hull is not followed, with more nothing is gained.
 const STEPS: RangeInclusive<f64> = 2.0..=100.0;
-/// From the surface to the deepest trench, m.
-const DEPTHS: RangeInclusive<f64> = 0.0..=DEEPEST_M;
-/// What an echo sounder of such a vehicle could see, m.
-const ALTITUDES: RangeInclusive<f64> = 0.0..=1000.0;
-/// The longest that a battery lasts, s: longer than any vehicle's has.
-const ENDURANCE_MAX_S: f64 = 1e4 * 3600.0;
