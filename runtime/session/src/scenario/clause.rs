@@ -45,6 +45,16 @@ impl de::Error for Unreadable {
             None => Unreadable { what, mend: None },
         }
     }
+
+    fn unknown_variant(variant: &str, _: &'static [&'static str]) -> Self {
+        let mend =
+            "it knows those of the standard library: see `albacore doc world`, `craft`, `instruments` and `faults`";
+        Unreadable { what: format!("the simulator knows no `{variant}`"), mend: Some(mend.into()) }
+    }
+
+    fn missing_field(field: &'static str) -> Self {
+        Unreadable { what: format!("it has no `{field}`"), mend: None }
+    }
 }
 
 impl fmt::Display for Unreadable {
