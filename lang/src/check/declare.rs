@@ -350,6 +350,11 @@ impl<'t> Checker<'t> {
             Item::Scenario { name, params, .. } => {
                 if let Some(&Def::Scenario(id)) = self.names[m].get(&name.node) {
                     let infos = self.params(m, params, Some(&name.node));
+                    for info in infos.iter().filter(|info| info.default.is_none() && info.ty != Type::Unknown) {
+                        let message = format!("`{}` of a scenario needs a value", info.name);
+                        let finding = Diagnostic::error(Code::ArgsMissing, info.span, message);
+                        self.report(finding.help("give it a default, which `--set` changes"));
+                    }
                     let scenario = &mut self.hir.scenarios[id];
                     for info in infos {
                         scenario.vars.push(hir::Var {
@@ -367,10 +372,22 @@ impl<'t> Checker<'t> {
             }
             Item::Clause { name, params, .. } => {
                 if let Some(&Def::Clause(id)) = self.names[m].get(&name.node) {
+                    self.clause_is_new(m, name);
                     self.declare_clause(m, id, params);
                 }
             }
             _ => {}
+        }
+    }
+
+    /// The simulator goes by the ranges of the clauses that every script knows: none can be declared anew, with others.
+    fn clause_is_new(&mut self, m: usize, name: &tree::Name) {
+        let mut preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
+        let is_known = preludes.any(|m| matches!(self.names[m].get(&name.node), Some(Def::Clause(_))));
+        if is_known && !self.modules[m].prelude {
+            let message = format!("`{}` is the name of a clause already", name.node);
+            let finding = Diagnostic::error(Code::NamesShadowed, name.span, message);
+            self.report(finding.here("nothing can be shadowed").help("choose another name"));
         }
     }
 
