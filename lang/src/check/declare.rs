@@ -481,8 +481,10 @@ impl<'t> Checker<'t> {
         let message =
             format!("`{}` has more than {CONSTANT_PARTS_MAX} parts, with those of the constants in it", name.node);
         let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
-        self.report(finding.help("hold fewer constants in one another: each stands for all that it is made of, wherever it is read; write the number that it comes to, or \
-             declare it with `let` in a mission or a behavior"));
+        self.report(finding.help(
+            "hold fewer constants in one another: each stands for all that it is made of, wherever it is read; write the number \
+             that it comes to, or declare it with `let` in a mission or a behavior",
+        ));
         self.unknown(name.span)
     }
 

@@ -133,7 +133,8 @@ impl<'t> Checker<'t> {
     /// A clause whose first parameter is a name may stand several times: each is another thing. So may one of what happens
     /// from a time to another. All others stand once.
     pub(super) fn clauses_once(&mut self, clauses: &[ClauseUse]) {
-        let is_time = |(_, value): &(String, ClauseArg)| matches!(value, ClauseArg::Value(value) if value.ty == Type::Quantity(Dimension::TIME));
+        let time = Type::Quantity(Dimension::TIME);
+        let is_time = |(_, arg): &(String, ClauseArg)| matches!(arg, ClauseArg::Value(value) if value.ty == time);
         for (i, clause) in clauses.iter().enumerate() {
             let first = clauses[..i].iter().find(|c| c.name == clause.name);
             let has_name = clause.args.first().is_some_and(|(param, _)| param == "name");

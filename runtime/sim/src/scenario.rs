@@ -126,7 +126,8 @@ impl Scenario {
         }
     }
 
-    /// Lists impossible physics, all of it at once.
+    /// Lists impossible physics, all of it at once: what several numbers come to. That each is within its range, and finite, is the
+    /// checker's: ranges stand in the standard library's declarations.
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let mut objections = Objections::default();
         self.check_counts(&mut objections);

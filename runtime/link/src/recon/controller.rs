@@ -424,7 +424,8 @@ impl Controller {
         }
         match (self.want, self.control) {
             _ if self.waits_for_answer(tick) => {}
-            (Want::Drive { .. }, Control::Requesting) => self.say(&ToVehicle::Override(true)),
+            // Who asks again when it was given back has just asked.
+            (Want::Drive { .. }, Control::Requesting) if self.spoke < tick => self.say(&ToVehicle::Override(true)),
             (Want::GiveBack { .. }, _) => self.say(&ToVehicle::Override(false)),
             // After late ticks a command comes first.
             (Want::Drive { .. }, Control::InControl | Control::Suspended)

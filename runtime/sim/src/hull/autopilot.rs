@@ -175,7 +175,7 @@ impl Autopilot {
             (true, false) => self.gains.steerage,
             (false, false) => 0.0,
         };
-        // A hull that is to make no way keeps none: what it has of buoyancy takes it up.
+        // A hull that is to make no way keeps none, unless it swims down: what it has of buoyancy takes it up.
         let way = if command.speed > 0.0 || self.stalled { command.speed.max(least) } else { command.speed };
         Controls {
             rudder: self.rudder(command.heading - sensed.heading, sensed.yaw_rate, speed),
