@@ -90,9 +90,18 @@ impl Check {
     }
 }
 
+/// Of the missions of a script so many are named.
+const NAMED_MAX: usize = 20;
+
 /// What is said of a script in which nothing was found: on standard error, as all findings are.
 fn nothing_wrong(path: &Path, script: &Script) -> String {
     let missions: Vec<String> = script.missions().map(|mission| format!("mission {}", mission.name)).collect();
-    let held = if missions.is_empty() { String::new() } else { format!(" ({})", missions.join(", ")) };
+    let held = match missions.get(..NAMED_MAX) {
+        _ if missions.is_empty() => String::new(),
+        Some(first) if missions.len() > first.len() => {
+            format!(" ({} and {} more)", first.join(", "), missions.len() - first.len())
+        }
+        _ => format!(" ({})", missions.join(", ")),
+    };
     format!("{}: no errors{held}", path.display())
 }

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 #[test]
@@ -45,10 +45,15 @@ fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
 /// What takes about a second where its cost grows with the script takes this long and much longer where it grows with its square, s.
 const TIME: u32 = 10;
 
+/// Where the script of a test is while that runs.
+fn file_of(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("albacore-{}-{name}.alb", std::process::id()))
+}
+
 /// Runs `albacore` on a script. It is ended, and the test fails, once it has computed for TIME: its own time, however busy
 /// the machine is, and no other program's. `stack`: what it may take of it, KiB.
 fn run_within(arguments: &[&str], name: &str, script: &str, stack: Option<u32>) -> (Output, String) {
-    let file = std::env::temp_dir().join(format!("albacore-{}-{name}.alb", std::process::id()));
+    let file = file_of(name);
     std::fs::write(&file, script).unwrap();
     let stack = stack.map_or_else(String::new, |kib| format!("ulimit -s {kib}; "));
     let output = Command::new("sh")
@@ -114,6 +119,33 @@ fn large_scripts_are_checked_in_time() {
         let (output, told) = run_within(&["check"], name, &script, None);
         let refused = told.contains("limits::rules");
         assert!(output.status.code() == Some(0) || name == "any" && refused, "{name}: {told:.2000}");
+    }
+}
+
+/// What many missions and tests share is looked at for each of them: beyond a limit they are refused, before anything is made of them.
+#[test]
+fn what_missions_share_is_checked_so_often_at_most() {
+    let large =
+        format!("behavior large() {{ {} }}", lines(200, |i| format!("if depth > {i} m {{ goto point({i} m, 2 m) }}")));
+    let missions =
+        |count| lines(count, |i| script("", "large()").replace("mission large", &format!("mission m{i}"))) + &large;
+    let reports = lines(1000, |i| format!("report \"r{i}\": 1 m")) + "wait for 1 s";
+    let tests = |count| {
+        script("", &reports)
+            + &lines(count, |i| {
+                let asked = i % 1000;
+                format!("test \"a{i}\" {{ run large in calm seeds 1..1\n expect has_reported(\"r{asked}\") }}")
+            })
+    };
+    for (name, few, many) in [("shared", missions(2), missions(4000)), ("asked", tests(2), tests(20_000))] {
+        let (output, told) = run_within(&["check"], name, &few, None);
+        assert_eq!(output.status.code(), Some(0), "{name}: {told:.2000}");
+        let (output, told) = run_within(&["check"], name, &many, None);
+        assert_eq!(output.status.code(), Some(3), "{name}: {told:.2000}");
+        insta::assert_snapshot!(
+            format!("too_much_{name}"),
+            told.replace(&file_of(name).display().to_string(), "large.alb")
+        );
     }
 }
 

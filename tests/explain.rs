@@ -16,7 +16,7 @@ const PAGE_LINES_MAX: usize = 40;
 const PAGE_COLUMNS_MAX: usize = 80;
 
 /// What no single script can show: several files, the command line, the prompt, or a script longer than a page.
-const IN_WORDS: [&str; 15] = [
+const IN_WORDS: [&str; 16] = [
     "areas::file",
     "areas::swapped",
     "imports::cycle",
@@ -24,6 +24,7 @@ const IN_WORDS: [&str; 15] = [
     "imports::twice",
     "limits::calls",
     "limits::instructions",
+    "limits::missions",
     "limits::rules",
     "prompt::misplaced",
     "prompt::value",

@@ -13,7 +13,7 @@ pub struct Broken {
     /// The activities that have one or lead to one that has.
     reaching: BTreeSet<ActivityId>,
     /// There is an error in what anything may be made of: a function, a constant, a type, a stretch that nothing could read.
-    everywhere: bool,
+    pub everywhere: bool,
 }
 
 impl Broken {

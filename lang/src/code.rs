@@ -92,6 +92,7 @@ codes! {
         LimitsConstants = "constants",
         LimitsInstructions = "instructions",
         LimitsMemory = "memory",
+        LimitsMissions = "missions",
         LimitsRange = "range",
         LimitsRecord = "record",
         LimitsRules = "rules",

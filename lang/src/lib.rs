@@ -155,7 +155,16 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     let errors: Vec<Span> = findings.iter().filter(is_error).map(Diagnostic::span).collect();
     findings.extend(checked.unused.into_iter().filter(|f| !errors.iter().any(|e| e.file == f.span().file)));
     // A mission is looked at as a whole when its parts are sound: half-understood parts would be found wanting twice.
-    let broken = Broken::of(modules, &errors, &checked.hir);
+    let mut broken = Broken::of(modules, &errors, &checked.hir);
+    let scenarios = checked.hir.scenarios.iter().enumerate().rev();
+    let scenario_ids: BTreeMap<String, usize> = scenarios.map(|(id, scenario)| (scenario.name.clone(), id)).collect();
+    let scenario = |name: &String| scenario_ids.get(own_name(name)).map(|id| &checked.hir.scenarios[*id]);
+    let with_scenarios: Vec<_> =
+        missions.iter().map(|(info, id)| (*id, info.scenario.as_ref().and_then(scenario))).collect();
+    if let Some(too_much) = cost::together::check(&checked.hir, ENTRY, &with_scenarios) {
+        findings.push(too_much);
+        broken.everywhere = true;
+    }
     for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(*id)) {
         findings.extend(rules::check(&checked.hir, &checked.types, *id));
     }
@@ -177,8 +186,6 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
     let mission_ids = missions.iter().map(|(info, id)| (info.name.clone(), *id)).collect();
-    let scenarios = checked.hir.scenarios.iter().enumerate().rev();
-    let scenario_ids = scenarios.map(|(id, scenario)| (scenario.name.clone(), id)).collect();
     let Checked { hir, types, .. } = checked;
     Script { sources: sources.clone(), findings, hir, types, missions, mission_ids, scenario_ids, overrides, broken }
 }
@@ -202,7 +209,7 @@ impl Script {
 
     /// Whether a scenario has no error.
     pub fn scenario_is_sound(&self, name: &str) -> bool {
-        self.scenario_ids.get(name).is_some_and(|id| !self.broken.holds(self.hir.scenarios[*id].span))
+        self.scenario_ids.get(own_name(name)).is_some_and(|id| !self.broken.holds(self.hir.scenarios[*id].span))
     }
 
     /// The missions of the script's own file.
@@ -265,10 +272,14 @@ impl Script {
 
     /// A scenario, ready to be computed, in the frame about `origin`.
     pub fn scenario(&self, name: &str, origin: Option<Geodetic>) -> Option<Result<ScenarioProgram, Vec<Diagnostic>>> {
-        let name = name.rsplit('.').next().unwrap_or(name);
-        let id = self.scenario_ids.get(name)?;
+        let id = self.scenario_ids.get(own_name(name))?;
         Some(lower::scenario(&self.hir, &self.types, &self.sources, *id, origin))
     }
+}
+
+/// The name of a scenario without that of its module.
+fn own_name(scenario: &str) -> &str {
+    scenario.rsplit('.').next().unwrap_or(scenario)
 }
 
 /// `maneuver.bowtie(…)` where nothing is named `maneuver`: there may be such a module to import.

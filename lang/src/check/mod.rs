@@ -53,6 +53,7 @@ use crate::types::{EnumId, RecordId, Type, TypeTable};
 use crate::{FileFault, Library};
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 use visible::Visible;
 
 /// Beyond this many findings no name is searched for what it may have meant: each search looks at all names, and nobody
@@ -259,6 +260,8 @@ pub struct Checker<'t> {
     scope: Scope,
     /// The tests of each module, by their names as those of files.
     tests_named: BTreeMap<(usize, String), Span>,
+    /// What the mission of the last test reports.
+    reports: Option<(usize, Rc<truth::Reports>)>,
     /// The test that is being checked, while its expectations are.
     test: Option<truth::TestScope>,
     findings: Vec<Diagnostic>,
@@ -306,6 +309,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         hir: Hir::default(),
         scope: Scope::new(0, Setting::Constant),
         tests_named: BTreeMap::new(),
+        reports: None,
         test: None,
         findings: Vec::new(),
         names_used: unused::NamesUsed::default(),

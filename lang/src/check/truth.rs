@@ -11,6 +11,7 @@ use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind, Item};
 use crate::types::Type;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// What stands after `truth`.
 const TRUTHS: [&str; 5] = ["position", "nearest_source", "start", "deepest", "depth_at"];
@@ -20,13 +21,16 @@ const NO_SOURCE: &str = "the scenario has no source";
 /// What is said without a deepest point.
 const NO_DEEPEST: &str = "no point of the mission's area is the deepest";
 
+/// The types of what a mission reports, by name.
+pub(super) type Reports = BTreeMap<String, Vec<Type>>;
+
 /// The test whose expectations are being checked.
 pub(super) struct TestScope {
     /// The mission that it runs, and the name of its area.
     mission: usize,
     area: Option<String>,
     /// The types of what that reports, by name.
-    reports: BTreeMap<String, Vec<Type>>,
+    reports: Rc<Reports>,
     /// The variables that hold where and when something was reported, by its name.
     report_vars: [BTreeMap<String, usize>; 2],
     /// What its expectations speak of.
@@ -59,12 +63,24 @@ impl<'t> Checker<'t> {
         self.test = Some(TestScope {
             mission,
             area,
-            reports: self.hir.reports(mission),
+            reports: self.reports_of(mission),
             report_vars: Default::default(),
             names: vars,
             depths: Vec::new(),
             needs: Vec::new(),
         });
+    }
+
+    /// What a mission reports: looked through once for the tests of one mission that stand together.
+    fn reports_of(&mut self, mission: usize) -> Rc<Reports> {
+        match &self.reports {
+            Some((of, reports)) if *of == mission => Rc::clone(reports),
+            _ => {
+                let reports = Rc::new(self.hir.reports(mission));
+                self.reports = Some((mission, Rc::clone(&reports)));
+                reports
+            }
+        }
     }
 
     /// `truth.position` and the like, and the area of the mission by the mission's name.

@@ -8,6 +8,7 @@ mod bill;
 pub(crate) mod limits;
 mod memory;
 mod places;
+pub(crate) mod together;
 mod work;
 
 pub use memory::{Held, Memory};

@@ -1,20 +1,23 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
 use crate::plan::{Plan, PlanError};
+use crate::scenario::Understood;
 use crate::suit::{self, Held};
 use crate::wanted::Wanted;
 use crate::world;
+use albacore_geometry::Geodetic;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::{MissionInfo, Script};
+use albacore_lang::{MissionInfo, ScenarioProgram, Script};
 use albacore_program::Program;
 
 /// All that is wrong with a script's sound missions, in the scenarios that they name, and with its own sound scenarios, and notes
 /// of what is worth knowing.
 pub fn findings(script: &Script) -> Vec<Diagnostic> {
     let mut findings = of_scenarios(script);
+    let mut world = None;
     for mission in sound_missions(script) {
         match script.mission(&mission.name) {
-            Some(Ok(program)) => findings.extend(own_misfits(script, mission, &program)),
+            Some(Ok(program)) => findings.extend(own_misfits(script, mission, &program, &mut world)),
             Some(Err(found)) => findings.extend(found),
             None => {}
         }
@@ -48,15 +51,32 @@ fn of_scenarios(script: &Script) -> Vec<Diagnostic> {
     own.flat_map(|name| scenario(script, name)).collect()
 }
 
-/// What a mission misses in the scenario that it names.
-fn own_misfits(script: &Script, mission: &MissionInfo, program: &Program) -> Vec<Diagnostic> {
-    let Some(named) = &mission.scenario else { return Vec::new() };
-    // A scenario that is wrong in itself has been told of, where it stands.
-    if !script.scenario_is_sound(named.rsplit('.').next().unwrap_or(named)) {
+/// The world of a scenario in the frame of a mission: missions that share both share it, with its files.
+struct Computed {
+    scenario: String,
+    origin: Option<Geodetic>,
+    /// None for a scenario that is wrong in itself, which is told of where it stands.
+    world: Option<(ScenarioProgram, Understood)>,
+}
+
+/// What a mission misses in the scenario that it names. `last`: the world of the mission before it.
+fn own_misfits(
+    script: &Script,
+    mission: &MissionInfo,
+    program: &Program,
+    last: &mut Option<Computed>,
+) -> Vec<Diagnostic> {
+    let Some(named) = mission.scenario.as_ref().filter(|named| script.scenario_is_sound(named)) else {
         return Vec::new();
-    }
+    };
     let origin = program.mission.origin;
-    let Ok((lowered, understood)) = world::scenario(script, named, origin) else { return Vec::new() };
+    let same = last.take().filter(|last| last.scenario == *named && last.origin == origin);
+    let computed = last.insert(same.unwrap_or_else(|| Computed {
+        scenario: named.clone(),
+        origin,
+        world: world::scenario(script, named, origin).ok(),
+    }));
+    let Some((lowered, understood)) = &computed.world else { return Vec::new() };
     let held = Held { name: &lowered.name, world: &understood.world, places: &lowered.places, origin };
     suit::findings(script, &mission.name, &held)
 }
