@@ -16,13 +16,16 @@ const SCENARIO: &str = "command_line";
 /// The script that the texts of `--fault` make: its findings tell what is wrong with them. A text is a clause,
 /// `fault(position, off, from: 120 s, to: 180 s)`, or what stands between its parentheses.
 pub fn load_faults(texts: &[String]) -> Script {
-    let clause = |text: &String| {
-        let text = text.trim();
-        if text.starts_with("fault(") { format!("    {text}\n") } else { format!("    fault({text})\n") }
-    };
-    let clauses: String = texts.iter().map(clause).collect();
+    let clauses: String = texts.iter().map(|text| format!("    {}\n", as_clause("fault", text))).collect();
     let text = format!("scenario {SCENARIO} {{\n{clauses}}}\n");
     files::load_text(Source { name: "--fault".into(), text: text.into() })
+}
+
+/// A clause of the command line, written whole or as what stands between its parentheses.
+pub(crate) fn as_clause(name: &str, text: &str) -> String {
+    let text = text.trim();
+    let is_whole = text.strip_prefix(name).is_some_and(|rest| rest.trim_start().starts_with('('));
+    if is_whole { text.to_string() } else { format!("{name}({text})") }
 }
 
 /// What goes wrong in a run beside what its scenario says.

@@ -132,6 +132,9 @@ fn a_survey_that_lies_elsewhere_is_no_level_bottom() {
     let found = refused(&folder, &format!("{laid}\n{}", start("point(north: 250 m, east: -251.5 m)")));
     assert!(found[0].message.starts_with("the vehicle starts 1.5 m outside this survey"), "{found:#?}");
     assert!(found[0].help.as_ref().unwrap().starts_with("move the one to the other"), "{found:#?}");
+    std::fs::write(folder.join("deep.csv"), "# north 0..500 n=2 east 0..500 n=2 metres\n-10,-12\n-14,-160\n").unwrap();
+    let found = refused(&folder, "bottom_grid(\"deep.csv\", at: point(north: 0 m, east: 0 m), depth_scale: 100)");
+    assert!(found[0].message.starts_with("this survey is 16000 m deep"), "{found:#?}");
     let duck = MISSION.replace("center: point(north: 0 m, east: 0 m)", "center: 36°10.8'N 75°44.4'W");
     let text = format!("{duck}scenario w {{\nbottom_grid(\"far.csv\")\n{at_origin}\n}}\n");
     let script = load_text(Source { name: folder.join("s.alb").display().to_string().into(), text: text.into() });

@@ -218,7 +218,11 @@ impl<'a> Deserializer<'a> for Value<'a> {
                 visitor.visit_seq(Items { value: self.at(1), left: count, shape, step: shape.words() })
             }
             Shape::Optional(_) => self.deserialize_option(visitor),
-            Shape::Line | Shape::Edge | Shape::Text | Shape::Enum(_) | Shape::Record(..) => {
+            Shape::Text => Err(Unreadable {
+                what: "a text is written out here".into(),
+                mend: Some("write it between quotes: a parameter of the type `Text` is no part of any clause".into()),
+            }),
+            Shape::Line | Shape::Edge | Shape::Enum(_) | Shape::Record(..) => {
                 Err(de::Error::custom("no clause takes such a value"))
             }
         }

@@ -165,6 +165,13 @@ fn check_grid(grid: &Grid, objections: &mut Objections) {
         "the grid has a depth that is not a finite number",
         "look for it in the file",
     );
+    let deepest = grid.depths.iter().copied().fold(0.0, f64::max);
+    of.unless(
+        None,
+        deepest <= DEEPEST_M || !deepest.is_finite(),
+        format!("this survey is {deepest:.0} m deep: no sea is"),
+        format!("look at `depth_scale` and at the unit of the file: {DEEPEST_M} m are the most"),
+    );
     of.unless(
         None,
         grid.depths.iter().any(|depth| *depth > 0.0 || !depth.is_finite()),
