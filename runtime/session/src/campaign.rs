@@ -11,7 +11,8 @@ pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
 pub use tally::{Tally, Within};
 
 use crate::plan::{Plan, PlanError};
-use crate::run::{Run, Running};
+use crate::recorders::results::Results;
+use crate::run::Driver;
 use crate::summary::Summary;
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -98,16 +99,12 @@ impl Campaign {
 
 /// Runs one seed to its end, unless it is stopped.
 fn summary(plan: &Plan, seed: u64, stop: &AtomicBool) -> Result<Option<Summary>, String> {
-    let mut run = Run::new(plan, seed).map_err(|error| match error {
+    let (mut driver, start) = Driver::simulated(plan, seed).map_err(|error| match error {
         PlanError::Asked(what, _) => what,
         PlanError::Script(findings, _) => findings.into_iter().map(|f| f.message).collect::<Vec<_>>().join("; "),
     })?;
-    while run.step() == Running::On {
-        if stop.load(Ordering::Relaxed) {
-            return Ok(None);
-        }
-    }
-    Ok(Some(run.summary(0.0)))
+    let mut results = Results::new(plan, seed, Some(start));
+    Ok(driver.fold(&mut results, stop).map(|_| results.summary(0.0)))
 }
 
 /// A run that panics has found a fault of the interpreter; that must not cost the other runs of a night.

@@ -53,39 +53,3 @@ impl Craft {
         }
     }
 }
-
-/// Metres driven, from position to position.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Odometer {
-    last: Option<Point>,
-    /// Steps shorter than this are not counted until they add up to it, m.
-    grain: f64,
-    length: f64,
-}
-
-/// A link's positions are 0.2 m fine: shorter steps than this would count its rounding as a way.
-const LINK_GRAIN: f64 = 2.0;
-
-impl Odometer {
-    /// Of a vehicle before its first tick.
-    pub fn new(craft: &Craft) -> Self {
-        let last = craft.truth().map(|truth| truth.position);
-        Odometer { last, grain: if last.is_some() { 0.0 } else { LINK_GRAIN }, length: 0.0 }
-    }
-
-    /// The vehicle is here now.
-    pub fn reach(&mut self, here: Point) {
-        let step = here.distance(self.last.unwrap_or(here));
-        if step >= self.grain {
-            self.length += step;
-        }
-        if step >= self.grain || self.last.is_none() {
-            self.last = Some(here);
-        }
-    }
-
-    /// The way so far, m.
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-}

@@ -7,12 +7,12 @@ mod craft;
 mod data;
 mod faults;
 mod files;
-mod journal;
 mod link;
 mod link_faults;
 mod picture;
 mod plan;
 pub mod prompt;
+mod recorders;
 mod run;
 mod scenario;
 mod shown;
@@ -42,10 +42,10 @@ pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read, read_input,
     standard_modules,
 };
-pub use journal::{Sink, is_journal, is_journal_as_left};
 pub use link::{Called, call};
 pub use link_faults::{link_faults, load_link_faults};
 pub use plan::{Plan, PlanError};
+pub use recorders::journal::{Sink, is_journal, is_journal_as_left};
 pub use run::{Ending, Lived, Means, Run, Running, Step, TickRecord, Told, WAITING_BYTES};
 pub use shown::{Shown, ShownClause, Whence};
 pub use summary::{Report, Summary};

@@ -1,10 +1,11 @@
 //! What the picture of a run is made of: what is known of its world, and what is gathered while it goes.
 
+use crate::recorders::InMemory;
 use crate::summary::{Report, Summary};
 use albacore_geometry::{Geodetic, Point, Vector};
 use albacore_program::number;
 use albacore_sim::Scenario;
-use albacore_trace::Picture;
+use albacore_trace::{Depths, Picture};
 
 /// What is so in a world before any run, with the flow that carries its plume, m/s.
 pub(crate) fn of_world(scenario: &Scenario, carrying: Vector) -> Picture {
@@ -26,58 +27,52 @@ pub(crate) fn of_world(scenario: &Scenario, carrying: Vector) -> Picture {
 /// Reports that are told beside the picture; all of them are in the trace.
 const TOLD_MAX: usize = 8;
 
-/// The track and the detections.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Sketch {
-    track: Vec<(Point, u16)>,
-    behaviors: Vec<String>,
-    detections: Vec<Point>,
+/// The picture of a run as SVG: in the world that is known, with the plume's filaments as they are at its end. Of a vehicle at the end of a
+/// link nobody knows how deep the water is.
+pub(crate) fn of_run(run: &InMemory, in_simulation: bool, plume: Vec<(Point, f64)>) -> String {
+    let InMemory { results, track, .. } = run;
+    let (summary, scenario) = (results.summary(0.0), &results.plan.scenario);
+    let deepest = results.deepest_sought();
+    let sounded = if deepest.is_some() { results.area.as_slice() } else { &[] };
+    let depth = |p| if in_simulation { scenario.bottom.depth_at(p) } else { f64::NAN };
+    let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
+    Picture {
+        title: summary.mission.clone(),
+        subtitle: subtitle(&summary, results.plan.program.mission.origin),
+        depths: Depths::sound(sounded, depth),
+        area: results.area.clone(),
+        plume,
+        deepest,
+        start: results.start,
+        track: track.points.clone(),
+        behaviors: track.behaviors.clone(),
+        detections: track.detections.clone(),
+        reports: summary.reports.iter().filter_map(place).collect(),
+        ..of_world(scenario, scenario.flow.mean)
+    }
+    .svg()
 }
 
-impl Sketch {
-    pub fn track(&mut self, at: Point, behavior: String) {
-        let index = self.behaviors.iter().position(|b| *b == behavior).unwrap_or_else(|| {
-            self.behaviors.push(behavior);
-            self.behaviors.len() - 1
-        });
-        self.track.push((at, index as u16));
+/// What a picture says of its run, about an origin on the globe if there is one.
+fn subtitle(summary: &Summary, origin: Option<Geodetic>) -> Vec<String> {
+    let mut subtitle = vec![format!(
+        "scenario {}, seed {}: {} after {}",
+        summary.scenario,
+        summary.seed,
+        summary.outcome.replace('_', " "),
+        number::seconds(summary.ticks).trim()
+    )];
+    subtitle.extend(origin.map(|origin| format!("origin (0, 0) at {origin}")));
+    for report in summary.reports.iter().take(TOLD_MAX) {
+        let error = report.error_m.zip(report.error_from);
+        let error = error.map(|(e, from)| format!(", {} from {from}", number::metres(e))).unwrap_or_default();
+        let position = report.position().map(|position| format!(", {position}")).unwrap_or_default();
+        let at = number::fixed(report.t_s, 1);
+        subtitle.push(format!("reported \"{}\" at {at} s{position}{error}", report.name));
     }
-
-    pub fn detection(&mut self, at: Point) {
-        self.detections.push(at);
+    match summary.reports_beyond(TOLD_MAX) {
+        0 => {}
+        more => subtitle.push(format!("and {more} more reports, in the trace")),
     }
-
-    /// The picture of all that was gathered, in the world that is known, about an origin on the globe if there is one.
-    pub fn svg(&self, summary: &Summary, world: Picture, origin: Option<Geodetic>) -> String {
-        let mut subtitle = vec![format!(
-            "scenario {}, seed {}: {} after {}",
-            summary.scenario,
-            summary.seed,
-            summary.outcome.replace('_', " "),
-            number::seconds(summary.ticks).trim()
-        )];
-        subtitle.extend(origin.map(|origin| format!("origin (0, 0) at {origin}")));
-        for report in summary.reports.iter().take(TOLD_MAX) {
-            let error = report.error_m.zip(report.error_from);
-            let error = error.map(|(e, from)| format!(", {} from {from}", number::metres(e))).unwrap_or_default();
-            let position = report.position().map(|position| format!(", {position}")).unwrap_or_default();
-            let at = number::fixed(report.t_s, 1);
-            subtitle.push(format!("reported \"{}\" at {at} s{position}{error}", report.name));
-        }
-        match summary.reports_beyond(TOLD_MAX) {
-            0 => {}
-            more => subtitle.push(format!("and {more} more reports, in the trace")),
-        }
-        let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
-        Picture {
-            title: summary.mission.clone(),
-            subtitle,
-            track: self.track.clone(),
-            behaviors: self.behaviors.clone(),
-            detections: self.detections.clone(),
-            reports: summary.reports.iter().filter_map(place).collect(),
-            ..world
-        }
-        .svg()
-    }
+    subtitle
 }

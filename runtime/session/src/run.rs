@@ -6,37 +6,32 @@ mod driver;
 mod live;
 mod queue;
 mod record;
-mod recorder;
-mod report;
 
-use crate::craft::{Craft, Odometer};
-use crate::journal::Keeper;
+use crate::craft::Craft;
 use crate::picture;
 use crate::plan::{Plan, PlanError};
+use crate::recorders::journal::Journal;
+use crate::recorders::{InMemory, Recorder};
 use crate::summary::Summary;
-use crate::world;
 use albacore_geometry::Point;
 use albacore_machine::Outcome;
 use albacore_program::PROGRAM_VERSION;
-use albacore_sim::Simulator;
+use albacore_trace::BehaviorTrace;
 use albacore_trace::journal::JournalHeader;
-use albacore_trace::{BehaviorTrace, Depths, Picture};
 use albacore_vehicle::{TICK_S, Vehicle, VehicleError};
-use driver::Driver;
-use recorder::Recorder;
-use report::Reports;
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+pub(crate) use driver::Driver;
 pub use live::{Lived, Means, Told, WAITING_BYTES};
+pub(crate) use record::corners;
 pub use record::{Ending, Step, TickRecord};
 
 /// A run under way.
 pub struct Run {
-    seed: u64,
     driver: Driver,
-    recorder: Recorder,
-    journal: Keeper,
+    memory: InMemory,
+    journal: Journal,
     record: TickRecord,
 }
 
@@ -52,20 +47,18 @@ pub enum Running {
 impl Run {
     /// A run in the plan's world with a seed, at its first tick.
     pub fn new(plan: &Plan, seed: u64) -> Result<Self, PlanError> {
-        let simulator = Simulator::new(&plan.scenario, seed).map_err(|error| world::cannot_be(&error))?;
-        let start = simulator.truth().position;
-        Run::with(plan, seed, Craft::Simulated(Box::new(simulator)), Some(start))
+        let (driver, start) = Driver::simulated(plan, seed)?;
+        Ok(Run::with(plan, seed, driver, Some(start)))
     }
 
     /// A run on a vehicle at the end of a link, at its first tick; the seed only names it.
     pub fn on_link(plan: &Plan, seed: u64, vehicle: Box<dyn Vehicle + Send>) -> Result<Self, PlanError> {
-        Run::with(plan, seed, Craft::Linked(vehicle), None)
+        Ok(Run::with(plan, seed, Driver::new(plan, Craft::Linked(vehicle))?, None))
     }
 
-    fn with(plan: &Plan, seed: u64, vehicle: Craft, start: Option<Point>) -> Result<Self, PlanError> {
-        let recorder = Recorder::new(plan, seed, vehicle.channels(), Odometer::new(&vehicle), start);
-        let driver = Driver::new(plan, vehicle)?;
-        Ok(Run { seed, driver, recorder, journal: Keeper::default(), record: TickRecord::default() })
+    fn with(plan: &Plan, seed: u64, driver: Driver, start: Option<Point>) -> Self {
+        let memory = InMemory::new(plan, seed, driver.vehicle().channels(), start);
+        Run { driver, memory, journal: Journal::default(), record: TickRecord::default() }
     }
 
     /// Keeps a journal from here on: one write call a tick, as it ends. `set` are the texts of the parameters changed for
@@ -76,12 +69,12 @@ impl Run {
     }
 
     fn header(&self, set: &[String]) -> JournalHeader {
-        let plan = &self.recorder.plan;
+        let plan = &self.memory.results.plan;
         JournalHeader {
             program_version: PROGRAM_VERSION,
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
-            seed: self.seed,
+            seed: self.memory.results.seed,
             tick_s: TICK_S,
             sources: plan.sources.clone(),
             set: set.to_vec(),
@@ -101,12 +94,7 @@ impl Run {
 
     /// How the mission ended, once it has.
     pub fn outcome(&self) -> Option<Outcome> {
-        self.recorder.outcome
-    }
-
-    /// What has been reported so far.
-    pub(crate) fn reports(&self) -> &Reports {
-        &self.recorder.reports
+        self.memory.results.outcome()
     }
 
     /// The names of the active activities, from outside in.
@@ -124,22 +112,17 @@ impl Run {
 
     /// What a person should hear of the link; taken once.
     pub fn take_notices(&mut self) -> Vec<String> {
-        self.recorder.take_notices()
+        self.memory.notices.take_all()
     }
 
     /// Whether the vehicle has not said that it took control back at the end.
     pub fn release_failed(&self) -> bool {
-        self.recorder.release_failed
-    }
-
-    /// The place of a true source that is nearest to another.
-    pub fn nearest_source(&self, to: Point) -> Option<Point> {
-        self.recorder.nearest_source(to)
+        self.memory.results.release_failed()
     }
 
     /// Where the vehicle started.
     pub fn start(&self) -> Point {
-        self.recorder.start.unwrap_or(Point::ORIGIN)
+        self.memory.results.start.unwrap_or(Point::ORIGIN)
     }
 
     /// How deep the water truly is at a point, in metres; no number where the truth is not known.
@@ -147,22 +130,12 @@ impl Run {
         self.driver.vehicle().water_depth(at).unwrap_or(f64::NAN)
     }
 
-    /// The deepest point of the mission's area, once it has one; none where the water is equally deep everywhere.
-    pub fn deepest(&self) -> Option<Point> {
-        self.recorder.deepest
-    }
-
-    /// The words of the mission's area, once it has one.
-    pub(crate) fn area_words(&self) -> Option<&[f64]> {
-        driver::area_words(self.driver.machine())
-    }
-
     /// Lets one tick go by. On a link the vehicle's time may not have come to it yet: then only some hundredths of a second of
     /// ours go by, so that who steps can look at other things.
     pub fn step(&mut self) -> Running {
         loop {
             let running = self.driver.step(&mut self.record);
-            self.recorder.take(&self.record);
+            self.memory.take(&self.record);
             self.journal.take(&self.record);
             if !self.driver.is_ending() {
                 return running;
@@ -197,43 +170,16 @@ impl Run {
 
     /// The result; `wall_s` is measured by who ran it.
     pub fn summary(&self, wall_s: f64) -> Summary {
-        let (plan, kept) = (&self.recorder.plan, &self.recorder);
-        Summary {
-            mission: plan.program.mission.name.clone(),
-            scenario: plan.scenario_name.clone(),
-            seed: self.seed,
-            outcome: kept.outcome.map_or("running", Outcome::name),
-            reason: kept.reason.clone(),
-            ticks: self.tick(),
-            sim_time_s: self.tick() as f64 / (1.0 / TICK_S),
-            wall_s,
-            path_length_m: kept.odometer.length(),
-            switches: kept.switches,
-            reports: kept.reports.listed.clone(),
-            more_reports: kept.reports.more,
-            digest: self.driver.digest().to_string(),
-        }
+        self.memory.results.summary(wall_s)
     }
 
     /// The behavior trace so far.
     pub fn trace(&self) -> &BehaviorTrace {
-        &self.recorder.trace
+        self.memory.trace.lines()
     }
 
     /// The picture of the run so far, as SVG.
     pub fn svg(&self) -> String {
-        let summary = self.summary(0.0);
-        let scenario = &self.recorder.plan.scenario;
-        let (area, deepest) = (self.recorder.area.clone(), self.recorder.deepest_sought());
-        let sounded = if deepest.is_some() { area.as_slice() } else { &[] };
-        let world = Picture {
-            depths: Depths::sound(sounded, |p| self.water_depth(p)),
-            area,
-            plume: self.driver.vehicle().filaments(),
-            deepest,
-            start: self.recorder.start,
-            ..picture::of_world(scenario, scenario.flow.mean)
-        };
-        self.recorder.sketch.svg(&summary, world, self.recorder.plan.program.mission.origin)
+        picture::of_run(&self.memory, self.driver.vehicle().truth().is_some(), self.driver.vehicle().filaments())
     }
 }

@@ -2,14 +2,13 @@
 
 use crate::faults::Faults;
 use crate::plan::{Plan, PlanError};
-use crate::run::{Run, Running};
-use albacore_geometry::Point;
-use albacore_lang::{ExpectProgram, Script, TestProgram};
-use albacore_machine::{Evaluation, Outcome};
-use albacore_program::{AREA_WORDS, number};
-use albacore_vehicle::TICK_S;
+use crate::recorders::expectations::Expectations;
+use crate::recorders::trace::Trace;
+use crate::run::Driver;
+use albacore_lang::{Script, TestProgram};
 use rayon::prelude::*;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// What became of a test.
 #[derive(Clone, Debug)]
@@ -106,100 +105,12 @@ struct Judged {
 }
 
 fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError> {
-    let mut run = Run::new(plan, seed)?;
-    let mut evaluation = Evaluation::new(&test.program);
-    let mut breaches: Vec<Option<String>> = vec![None; test.expects.len()];
-    let always: Vec<usize> = (0..test.expects.len()).filter(|&i| test.expects[i].share.is_none()).collect();
-    loop {
-        let over = matches!(run.step(), Running::Over(_));
-        if over || !always.is_empty() {
-            tell(&mut evaluation, test, &run, over);
-        }
-        for &i in always.iter().filter(|&&i| (run.tick() > 1 || over) && breaches[i].is_none()).collect::<Vec<_>>() {
-            breaches[i] = breach(&mut evaluation, test, &test.expects[i], &run);
-        }
-        if over {
-            break;
-        }
-    }
-    for (i, expect) in test.expects.iter().enumerate().filter(|(_, e)| e.share.is_some()) {
-        breaches[i] = breach(&mut evaluation, test, expect, &run);
-    }
-    let failed =
-        (run.outcome() == Some(Outcome::Failed)).then(|| format!("{} ({})", run.summary(0.0).reason, time(&run)));
-    let trace = test.snapshots.contains(&seed).then(|| run.trace().to_string());
-    Ok(Judged { seed, breaches, failed, trace })
-}
-
-/// How long a run has lasted.
-fn time(run: &Run) -> String {
-    number::seconds(run.tick().saturating_sub(1)).trim().to_string()
-}
-
-/// What was found, when an expectation does not hold.
-fn breach(evaluation: &mut Evaluation, test: &TestProgram, expect: &ExpectProgram, run: &Run) -> Option<String> {
-    let when = || {
-        let ending = expect.share.and_then(|_| ending(run));
-        ending.map_or_else(|| time(run), |ending| format!("{}, {ending}", time(run)))
-    };
-    for (need, without) in &expect.needs {
-        if evaluation.words(*need, 1)[0] == 0.0 {
-            return Some(format!("{without} ({})", when()));
-        }
-    }
-    for (point, answer) in &expect.depths {
-        evaluation.run(&test.program, point.entry);
-        let words = evaluation.words(point.value, 2);
-        let depth = run.water_depth(Point::new(words[0], words[1]));
-        evaluation.set(*answer, &[depth]);
-    }
-    evaluation.run(&test.program, expect.holds.entry);
-    if evaluation.words(expect.holds.value, 1)[0] != 0.0 {
-        return None;
-    }
-    let mut found: Vec<String> = Vec::new();
-    for (name, code, shape) in &expect.watched {
-        evaluation.run(&test.program, code.entry);
-        let value = number::value(shape, evaluation.words(code.value, shape.words()));
-        found.push(format!("{name} = {value}"));
-    }
-    let found = if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") };
-    Some(format!("{found} ({})", when()))
-}
-
-/// How a run ended that did not come to its own end, and why.
-fn ending(run: &Run) -> Option<String> {
-    let crate::Summary { outcome, reason, .. } = run.summary(0.0);
-    let why = if reason.is_empty() || reason == outcome { String::new() } else { format!(": {reason}") };
-    (outcome != Outcome::Completed.name()).then(|| format!("{}{why}", outcome.replace('_', " ")))
-}
-
-/// Puts what is true now where the expectations look for it.
-fn tell(evaluation: &mut Evaluation, test: &TestProgram, run: &Run, over: bool) {
-    let slots = &test.slots;
-    let position = run.true_position();
-    evaluation.set(slots.position, &[position.north, position.east]);
-    let start = run.start();
-    evaluation.set(slots.start, &[start.north, start.east]);
-    evaluation.set(slots.deepest, &if_any(run.deepest()));
-    evaluation.set(slots.time, &[run.tick().saturating_sub(1) as f64 * TICK_S]);
-    evaluation.set(slots.area, run.area_words().unwrap_or(&[0.0; AREA_WORDS as usize]));
-    let reports = run.reports();
-    evaluation.set(slots.completed, &[f64::from(u8::from(over && run.outcome() == Some(Outcome::Completed)))]);
-    let place = |r: &crate::Report| Some(Point::new(r.north_m?, r.east_m?));
-    let from = reports.latest.unwrap_or(position);
-    evaluation.set(slots.nearest_source, &if_any(run.nearest_source(from)));
-    for (name, slot) in &slots.reported {
-        let first = reports.listed.iter().find(|r| r.name == *name).and_then(place);
-        evaluation.set(*slot, &if_any(first));
-    }
-    for (name, slot) in &slots.reported_at {
-        let first = reports.listed.iter().find(|r| r.name == *name);
-        evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), first.map_or(0.0, |r| r.t_s)]);
-    }
-}
-
-/// The words of a place that may be absent.
-fn if_any(place: Option<Point>) -> [f64; 3] {
-    place.map_or([0.0; 3], |place| [1.0, place.north, place.east])
+    let (mut driver, start) = Driver::simulated(plan, seed)?;
+    let expectations = Expectations::new(plan, test, seed, start);
+    let trace = test.snapshots.contains(&seed).then(|| Trace::new(plan, seed, driver.vehicle().channels()));
+    let mut recorders = (expectations, trace);
+    driver.fold(&mut recorders, &AtomicBool::new(false));
+    let (expectations, trace) = recorders;
+    let failed = expectations.failure();
+    Ok(Judged { seed, breaches: expectations.breaches, failed, trace: trace.map(|trace| trace.lines().to_string()) })
 }

@@ -5,13 +5,18 @@ use super::Running;
 use super::record::{Ending, Step, TickRecord};
 use crate::craft::Craft;
 use crate::plan::{Plan, PlanError};
+use crate::recorders::Recorder;
+use crate::recorders::digest::RunDigest;
+use crate::world;
 use albacore_geometry::Point;
 use albacore_machine::{Event, Machine, Outcome, Wish};
 use albacore_navigation::Trust;
-use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS};
+use albacore_program::AREA_WORDS;
+use albacore_sim::Simulator;
 use albacore_trace::{Digest, Release};
-use albacore_vehicle::{Lag, VehicleError, Vertical};
+use albacore_vehicle::VehicleError;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A run takes this many ticks at most: ten days.
 const TICKS_MAX: u64 = 8_640_000;
@@ -21,7 +26,7 @@ pub(crate) struct Driver {
     machine: Machine,
     vehicle: Craft,
     trust: Trust,
-    digest: Digest,
+    digest: RunDigest,
     /// Whether the vehicle has been asked to let us drive, and not been given back since.
     asked_for_control: bool,
     /// Why the mission ends, when that is known.
@@ -64,7 +69,7 @@ impl Driver {
             machine,
             vehicle,
             trust: Trust::default(),
-            digest: Digest::new(),
+            digest: RunDigest::default(),
             asked_for_control: false,
             reason: String::new(),
             last_notice: String::new(),
@@ -73,16 +78,33 @@ impl Driver {
         })
     }
 
+    /// In the plan's world with a seed; and where the vehicle starts.
+    pub fn simulated(plan: &Plan, seed: u64) -> Result<(Self, Point), PlanError> {
+        let simulator = Simulator::new(&plan.scenario, seed).map_err(|error| world::cannot_be(&error))?;
+        let start = simulator.truth().position;
+        Ok((Driver::new(plan, Craft::Simulated(Box::new(simulator)))?, start))
+    }
+
+    /// Steps to the end while a recorder folds over the records. None: it was stopped before.
+    pub fn fold(&mut self, recorder: &mut dyn Recorder, stop: &AtomicBool) -> Option<Outcome> {
+        let mut record = TickRecord::default();
+        loop {
+            let running = self.step(&mut record);
+            recorder.take(&record);
+            match running {
+                Running::Over(outcome) => return Some(outcome),
+                Running::On if stop.load(Ordering::Relaxed) => return None,
+                Running::On => {}
+            }
+        }
+    }
+
     pub fn machine(&self) -> &Machine {
         &self.machine
     }
 
     pub fn vehicle(&self) -> &Craft {
         &self.vehicle
-    }
-
-    pub fn digest(&self) -> &Digest {
-        &self.digest
     }
 
     /// Whether the vehicle's time has come to the next tick; on a link it waits some hundredths of a second for that.
@@ -148,6 +170,7 @@ impl Driver {
         let sent = sent.and_then(|()| self.follow_wish());
         record.step = Step::Tick;
         self.note_events(record);
+        self.digest.take(record);
         self.hear(record);
         record.notices.extend(doubts);
         self.describe(record);
@@ -156,6 +179,7 @@ impl Driver {
         } else if let Some(outcome) = self.machine.outcome() {
             self.next = Next::End(Cause::Mission(outcome));
         }
+        record.is_last = self.is_ending();
         Ok(())
     }
 
@@ -184,7 +208,7 @@ impl Driver {
             }
         };
         self.describe(record);
-        record.area = area_corners(&self.machine);
+        record.area = self.area();
         let heard = matches!(outcome, Outcome::Refused | Outcome::ReleasedByVehicle | Outcome::LinkLost);
         if heard && self.reason.is_empty() && record.truth.is_none() {
             self.reason.clone_from(&self.last_notice);
@@ -198,7 +222,11 @@ impl Driver {
             Ok(()) => (Release::Done, None),
         };
         let reason = self.reason.clone();
-        record.step = Step::End(Ending { outcome, reason, release, trouble, digest: self.digest });
+        let mut ending = Ending { outcome, reason, release, trouble, digest: Digest::new() };
+        record.step = Step::End(ending.clone());
+        self.digest.take(record);
+        ending.digest = self.digest.digest();
+        record.step = Step::End(ending);
         self.next = Next::Nothing(outcome);
         outcome
     }
@@ -211,7 +239,7 @@ impl Driver {
         }
     }
 
-    /// What happened, and the digest of it.
+    /// What happened, and why the mission ends if it does.
     fn note_events(&mut self, record: &mut TickRecord) {
         record.events.extend_from_slice(self.machine.events());
         for event in &record.events {
@@ -226,7 +254,6 @@ impl Driver {
                 _ => {}
             }
         }
-        self.hash(record);
     }
 
     /// How things are after the step.
@@ -235,48 +262,16 @@ impl Driver {
         record.believed = self.machine.position();
         record.active = self.machine.active();
         if !self.knows_area {
-            record.area = area_corners(&self.machine);
+            record.area = self.area();
             self.knows_area = !record.area.is_empty();
         }
     }
 
-    /// The full-rate run: every sample, every command, every event.
-    fn hash(&mut self, record: &TickRecord) {
-        let digest = &mut self.digest;
-        digest.word(record.tick);
-        let Lag { round_trip, host } = record.snapshot.lag;
-        if record.snapshot.lag != Lag::default() {
-            digest.word(round_trip);
-            digest.word(host.unwrap_or(0));
-        }
-        for sample in &record.snapshot.samples {
-            digest.word(u64::from(sample.channel));
-            digest.numbers(&sample.reading);
-        }
-        if let Some(command) = self.machine.state().command {
-            digest.number(command.heading.radians());
-            digest.number(command.speed);
-            match command.vertical {
-                Vertical::Depth(metres) => digest.number(metres),
-                Vertical::Altitude(metres) => digest.number(-metres),
-            }
-        }
-        for event in &record.events {
-            digest.text(&format!("{event:?}"));
-        }
+    /// The words of the mission's area, once it has one.
+    fn area(&self) -> Vec<f64> {
+        let program = self.machine.program();
+        let at = program.mission.area.map(|area| (program.mission.base + area) as usize);
+        let words = at.and_then(|at| self.machine.state().words.get(at..at + AREA_WORDS as usize));
+        words.filter(|words| words[0] > 0.0).map(<[f64]>::to_vec).unwrap_or_default()
     }
-}
-
-/// The words of the mission's area, once it has one.
-pub(crate) fn area_words(machine: &Machine) -> Option<&[f64]> {
-    let program = machine.program();
-    let at = (program.mission.base + program.mission.area?) as usize;
-    machine.state().words.get(at..at + AREA_WORDS as usize)
-}
-
-/// The corners of the mission's area, once it has one.
-fn area_corners(machine: &Machine) -> Vec<Point> {
-    let Some(words) = area_words(machine) else { return Vec::new() };
-    let corner = |i: usize| 1 + AREA_CORNER_WORDS as usize * i;
-    (0..words[0] as usize).map(|i| Point::new(words[corner(i)], words[corner(i) + 1])).collect()
 }

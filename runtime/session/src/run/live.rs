@@ -6,8 +6,9 @@
 
 use super::queue::{Feed, Intake, queue};
 use super::record::{Step, TickRecord};
-use super::{Driver, Keeper, Recorder, Run, Running};
-use crate::journal::Sink;
+use super::{Driver, Run, Running};
+use crate::recorders::journal::{Journal, Sink};
+use crate::recorders::{InMemory, Recorder};
 use albacore_machine::Outcome;
 use albacore_trace::journal::{Gap, JournalHeader};
 use std::io;
@@ -66,21 +67,21 @@ impl Run {
     /// then nothing was sent.
     pub fn live(self, means: Means<'_>) -> io::Result<Lived> {
         let Means { journal, interrupted, tell, waiting_bytes } = means;
-        let (memory, records) = queue(waiting_bytes);
-        let mut lines = Lines { memory, unseen: 0, journal: None, gap: None };
+        let (feed, records) = queue(waiting_bytes);
+        let mut lines = Lines { memory: feed, unseen: 0, journal: None, gap: None };
         let mut journalist = None;
         if let Some((sink, set)) = journal {
             let (feed, waits) = queue(waiting_bytes);
             lines.journal = Some(feed);
             journalist = Some(Journalist::begin(waits, self.header(&set), sink)?);
         }
-        let Run { seed, driver, mut recorder, journal, record } = self;
+        let Run { driver, mut memory, journal, record } = self;
         let driving = Builder::new().name("driver".into()).spawn(move || drive(driver, &interrupted, lines))?;
-        fold(&mut recorder, &records, journalist.as_ref(), tell);
+        fold(&mut memory, &records, journalist.as_ref(), tell);
         let driver = driving.join().map_err(|_| io::Error::other("the driver has panicked: report this"))?;
         let journal_stalled = journalist.is_some_and(|journalist| !journalist.ends(tell));
-        let outcome = recorder.outcome.unwrap_or(Outcome::Failed);
-        Ok(Lived { run: Run { seed, driver, recorder, journal, record }, outcome, journal_stalled })
+        let outcome = memory.results.outcome().unwrap_or(Outcome::Failed);
+        Ok(Lived { run: Run { driver, memory, journal, record }, outcome, journal_stalled })
     }
 }
 
@@ -159,7 +160,7 @@ impl Lines {
 
 /// Takes in what is kept in memory, and tells what a person should hear.
 fn fold(
-    recorder: &mut Recorder,
+    memory: &mut InMemory,
     records: &Intake<(u64, Arc<TickRecord>)>,
     journalist: Option<&Journalist>,
     tell: &mut dyn FnMut(Told<'_>),
@@ -167,13 +168,15 @@ fn fold(
     loop {
         match records.take(LOOK) {
             Ok((unseen, record)) => {
-                recorder.miss(unseen, record.tick);
-                recorder.take(&record);
-                for notice in recorder.take_notices() {
+                if unseen > 0 {
+                    memory.miss(unseen, record.tick);
+                }
+                memory.take(&record);
+                for notice in memory.notices.take_all() {
                     tell(Told::Notice(&notice));
                 }
                 if matches!(record.step, Step::Tick) && record.tick.is_multiple_of(PROGRESS_TICKS) {
-                    let activities = &recorder.plan.program.activities;
+                    let activities = &memory.results.plan.program.activities;
                     let names: Vec<&str> =
                         record.active.iter().map(|id| activities[*id as usize].name.as_str()).collect();
                     tell(Told::Progress(record.tick, &names));
@@ -224,16 +227,16 @@ impl Journalist {
 
 /// Writes a journal to its end, or until it is given up.
 fn write_all(waits: &Intake<Line>, header: &JournalHeader, sink: Sink, told: &Sender<io::Error>) {
-    let mut keeper = Keeper::default();
-    keeper.begin(sink, header);
+    let mut journal = Journal::default();
+    journal.begin(sink, header);
     loop {
-        if let Some(error) = keeper.failure() {
+        if let Some(error) = journal.failure() {
             // Nobody listens any more when the run is over.
             let _ = told.send(error);
         }
         match waits.take(LOOK) {
-            Ok(Line::Step(record)) => keeper.take(&record),
-            Ok(Line::Gap(gap)) => keeper.gap(&gap),
+            Ok(Line::Step(record)) => journal.take(&record),
+            Ok(Line::Gap(gap)) => journal.gap(&gap),
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => return,
         }

@@ -2,7 +2,7 @@
 
 use albacore_geometry::Point;
 use albacore_machine::{Event, Outcome};
-use albacore_program::ActivityId;
+use albacore_program::{AREA_CORNER_WORDS, ActivityId};
 use albacore_sim::Truth;
 use albacore_trace::{Digest, Release};
 use albacore_vehicle::{Command, Snapshot};
@@ -28,8 +28,10 @@ pub struct TickRecord {
     pub believed: Option<Point>,
     /// The active activities, from outside in.
     pub active: Vec<ActivityId>,
-    /// The corners of the mission's area: in the first tick that knows them, and at the end again.
-    pub area: Vec<Point>,
+    /// The words of the mission's area: in the first tick that knows it, and at the end again.
+    pub area: Vec<f64>,
+    /// Whether the run's end follows at once.
+    pub is_last: bool,
 }
 
 /// What kind of step it was.
@@ -73,6 +75,7 @@ impl TickRecord {
         self.believed = None;
         self.active.clear();
         self.area.clear();
+        self.is_last = false;
     }
 
     /// About how much memory it takes.
@@ -83,9 +86,16 @@ impl TickRecord {
     }
 
     /// Where the vehicle is, as well as that is known.
-    pub(super) fn here(&self) -> Option<Point> {
+    pub(crate) fn here(&self) -> Option<Point> {
         self.truth.map(|truth| truth.position).or(self.believed)
     }
+}
+
+/// The corners of an area, of its words.
+pub(crate) fn corners(area: &[f64]) -> Vec<Point> {
+    let count = area.first().map_or(0, |count| *count as usize);
+    let corners = area.get(1..).unwrap_or_default().chunks_exact(AREA_CORNER_WORDS as usize);
+    corners.take(count).map(|words| Point::new(words[0], words[1])).collect()
 }
 
 /// The bytes of what an event has to say.

@@ -1,5 +1,6 @@
 //! The journal of a run under way: kept as long as it can be written, and given up without harm to the run.
 
+use super::Recorder;
 use crate::run::{Ending, Step, TickRecord};
 use albacore_trace::journal::{self, Closing, Gap, JournalHeader, Reader, Unreadable, Writer, is_beginning};
 use std::io::{self, Read};
@@ -28,32 +29,16 @@ pub fn is_journal_as_left(mut file: impl Read) -> bool {
 
 /// A journal, or what became of it.
 #[derive(Default)]
-pub(crate) struct Keeper {
+pub(crate) struct Journal {
     writer: Option<Writer<Sink>>,
     failure: Option<io::Error>,
 }
 
-impl Keeper {
+impl Journal {
     pub(crate) fn begin(&mut self, sink: Sink, header: &JournalHeader) {
         match Writer::new(sink, header) {
             Ok(writer) => self.writer = Some(writer),
             Err(error) => self.failure = Some(error),
-        }
-    }
-
-    /// Takes down a step.
-    pub(crate) fn take(&mut self, record: &TickRecord) {
-        let TickRecord { tick, snapshot, command, events, .. } = record;
-        match &record.step {
-            Step::Wait => {}
-            Step::Tick => self.write(|writer| writer.tick(*tick, snapshot, command.as_ref(), events)),
-            Step::End(Ending { outcome, reason, digest, .. }) => {
-                let (reason, events, digest) = (reason.clone(), events.clone(), digest.value());
-                let closing = Closing { outcome: *outcome, reason, ticks: *tick, events, digest };
-                self.write(|writer| writer.close(&closing));
-                // Nothing follows the end.
-                self.writer = None;
-            }
         }
     }
 
@@ -74,6 +59,23 @@ impl Keeper {
             // What was written last may be half a record: nothing that follows it could be read.
             self.writer = None;
             self.failure = Some(error);
+        }
+    }
+}
+
+impl Recorder for Journal {
+    fn take(&mut self, record: &TickRecord) {
+        let TickRecord { tick, snapshot, command, events, .. } = record;
+        match &record.step {
+            Step::Wait => {}
+            Step::Tick => self.write(|writer| writer.tick(*tick, snapshot, command.as_ref(), events)),
+            Step::End(Ending { outcome, reason, digest, .. }) => {
+                let (reason, events, digest) = (reason.clone(), events.clone(), digest.value());
+                let closing = Closing { outcome: *outcome, reason, ticks: *tick, events, digest };
+                self.write(|writer| writer.close(&closing));
+                // Nothing follows the end.
+                self.writer = None;
+            }
         }
     }
 }

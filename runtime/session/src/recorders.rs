@@ -1,0 +1,110 @@
+//! What folds over the records of a run. Each recorder keeps one thing; a run, a campaign, a test and a journal that is read back
+//! feed the same ones.
+
+pub(crate) mod digest;
+pub(crate) mod expectations;
+pub(crate) mod journal;
+pub(crate) mod notices;
+pub(crate) mod results;
+pub(crate) mod trace;
+pub(crate) mod track;
+
+use crate::plan::Plan;
+use crate::run::TickRecord;
+use albacore_geometry::Point;
+use albacore_vehicle::{Channel, Snapshot};
+use notices::Notices;
+use results::Results;
+use trace::Trace;
+use track::Track;
+
+/// Folds over the records of a run.
+pub(crate) trait Recorder {
+    /// Takes in a step.
+    fn take(&mut self, record: &TickRecord);
+
+    /// So many steps before a tick were not taken in.
+    fn miss(&mut self, _steps: u64, _tick: u64) {}
+}
+
+impl<A: Recorder, B: Recorder> Recorder for (A, B) {
+    fn take(&mut self, record: &TickRecord) {
+        self.0.take(record);
+        self.1.take(record);
+    }
+
+    fn miss(&mut self, steps: u64, tick: u64) {
+        self.0.miss(steps, tick);
+        self.1.miss(steps, tick);
+    }
+}
+
+impl<R: Recorder> Recorder for Option<R> {
+    fn take(&mut self, record: &TickRecord) {
+        if let Some(recorder) = self {
+            recorder.take(record);
+        }
+    }
+
+    fn miss(&mut self, steps: u64, tick: u64) {
+        if let Some(recorder) = self {
+            recorder.miss(steps, tick);
+        }
+    }
+}
+
+/// All that is kept of a run in memory.
+pub(crate) struct InMemory {
+    pub results: Results,
+    pub trace: Trace,
+    pub track: Track,
+    pub notices: Notices,
+}
+
+impl InMemory {
+    /// Of a run with a seed, on a vehicle with these channels, that starts there if that is known.
+    pub fn new(plan: &Plan, seed: u64, channels: &[Channel], start: Option<Point>) -> Self {
+        InMemory {
+            results: Results::new(plan, seed, start),
+            trace: Trace::new(plan, seed, channels),
+            track: Track::new(plan, channels),
+            notices: Notices::default(),
+        }
+    }
+}
+
+impl Recorder for InMemory {
+    fn take(&mut self, record: &TickRecord) {
+        self.results.take(record);
+        self.trace.take(record);
+        self.track.take(record);
+        self.notices.take(record);
+    }
+
+    fn miss(&mut self, steps: u64, tick: u64) {
+        self.results.miss(steps, tick);
+        self.trace.miss(steps, tick);
+        self.track.miss(steps, tick);
+        self.notices.miss(steps, tick);
+    }
+}
+
+/// What is said of steps that were not taken in.
+fn missed(steps: u64) -> String {
+    format!("{steps} ticks before this are not in trace and picture: the host was too slow")
+}
+
+/// A channel of the vehicle by its name.
+struct Sensor(Option<usize>);
+
+impl Sensor {
+    fn new(channels: &[Channel], name: &str) -> Self {
+        Sensor(channels.iter().position(|channel| channel.name == name))
+    }
+
+    /// The latest number of it in a tick, believed or not.
+    fn latest(&self, snapshot: &Snapshot) -> Option<f64> {
+        let is_ours = |sample: &&albacore_vehicle::Sample| Some(usize::from(sample.input_channel())) == self.0;
+        snapshot.samples.iter().rev().find(is_ours).map(|sample| sample.reading[0])
+    }
+}

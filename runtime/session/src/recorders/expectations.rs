@@ -1,0 +1,158 @@
+//! What a test expects of a run, looked at as the run goes.
+
+use super::Recorder;
+use super::results::Results;
+use crate::plan::Plan;
+use crate::run::{Step, TickRecord};
+use albacore_geometry::Point;
+use albacore_lang::{ExpectProgram, TestProgram};
+use albacore_machine::{Evaluation, Outcome};
+use albacore_program::{AREA_WORDS, number};
+use albacore_vehicle::TICK_S;
+
+/// Looks at what is expected always on each tick, and at the rest when the run is over.
+pub(crate) struct Expectations<'t> {
+    test: &'t TestProgram,
+    results: Results,
+    evaluation: Evaluation,
+    /// Where the vehicle truly is.
+    position: Point,
+    /// The words of the mission's area.
+    area: Vec<f64>,
+    /// For each expectation what was found where it first did not hold.
+    pub breaches: Vec<Option<String>>,
+}
+
+impl<'t> Expectations<'t> {
+    /// Of a run with a seed, that starts there.
+    pub fn new(plan: &Plan, test: &'t TestProgram, seed: u64, start: Point) -> Self {
+        Expectations {
+            test,
+            results: Results::new(plan, seed, Some(start)),
+            evaluation: Evaluation::new(&test.program),
+            position: start,
+            area: vec![0.0; AREA_WORDS as usize],
+            breaches: vec![None; test.expects.len()],
+        }
+    }
+
+    /// Why the run could not go on, and when, if it could not.
+    pub fn failure(&self) -> Option<String> {
+        let failed = self.results.outcome() == Some(Outcome::Failed);
+        failed.then(|| format!("{} ({})", self.results.reason(), self.time()))
+    }
+
+    /// Looks at those that are expected always, or at the others.
+    fn look(&mut self, always: bool) {
+        let test = self.test;
+        for (i, expect) in test.expects.iter().enumerate().filter(|(_, expect)| expect.share.is_none() == always) {
+            if self.breaches[i].is_none() {
+                self.breaches[i] = self.breach(expect);
+            }
+        }
+    }
+
+    /// The last tick that was lived, s.
+    fn time_s(&self) -> f64 {
+        self.results.ticks.saturating_sub(1) as f64 * TICK_S
+    }
+
+    /// How long the run has lasted.
+    fn time(&self) -> String {
+        number::seconds(self.results.ticks.saturating_sub(1)).trim().to_string()
+    }
+
+    /// What was found, when an expectation does not hold.
+    fn breach(&mut self, expect: &ExpectProgram) -> Option<String> {
+        let ending = expect.share.and_then(|_| self.ending());
+        let when = ending.map_or_else(|| self.time(), |ending| format!("{}, {ending}", self.time()));
+        let (test, evaluation) = (self.test, &mut self.evaluation);
+        for (need, without) in &expect.needs {
+            if evaluation.words(*need, 1)[0] == 0.0 {
+                return Some(format!("{without} ({when})"));
+            }
+        }
+        for (point, answer) in &expect.depths {
+            evaluation.run(&test.program, point.entry);
+            let words = evaluation.words(point.value, 2);
+            let depth = self.results.plan.scenario.bottom.depth_at(Point::new(words[0], words[1]));
+            evaluation.set(*answer, &[depth]);
+        }
+        evaluation.run(&test.program, expect.holds.entry);
+        if evaluation.words(expect.holds.value, 1)[0] != 0.0 {
+            return None;
+        }
+        let mut found: Vec<String> = Vec::new();
+        for (name, code, shape) in &expect.watched {
+            evaluation.run(&test.program, code.entry);
+            let value = number::value(shape, evaluation.words(code.value, shape.words()));
+            found.push(format!("{name} = {value}"));
+        }
+        let found = if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") };
+        Some(format!("{found} ({when})"))
+    }
+
+    /// How a run ended that did not come to its own end, and why.
+    fn ending(&self) -> Option<String> {
+        let outcome = self.results.outcome().filter(|outcome| *outcome != Outcome::Completed)?.name();
+        let reason = self.results.reason();
+        let why = if reason.is_empty() || reason == outcome { String::new() } else { format!(": {reason}") };
+        Some(format!("{}{why}", outcome.replace('_', " ")))
+    }
+
+    /// Puts what is true now where the expectations look for it.
+    fn tell(&mut self) {
+        let (slots, results, position, time) = (&self.test.slots, &self.results, self.position, self.time_s());
+        let start = results.start.unwrap_or(Point::ORIGIN);
+        let completed = results.outcome() == Some(Outcome::Completed);
+        let nearest = results.nearest_source(results.reports.latest.unwrap_or(position));
+        let evaluation = &mut self.evaluation;
+        evaluation.set(slots.position, &[position.north, position.east]);
+        evaluation.set(slots.start, &[start.north, start.east]);
+        evaluation.set(slots.deepest, &if_any(results.deepest));
+        evaluation.set(slots.time, &[time]);
+        evaluation.set(slots.area, &self.area);
+        evaluation.set(slots.completed, &[f64::from(u8::from(completed))]);
+        evaluation.set(slots.nearest_source, &if_any(nearest));
+        let first = |name: &str| results.reports.listed.iter().find(|report| report.name == name);
+        let place = |report: &crate::Report| Some(Point::new(report.north_m?, report.east_m?));
+        for (name, slot) in &slots.reported {
+            evaluation.set(*slot, &if_any(first(name).and_then(place)));
+        }
+        for (name, slot) in &slots.reported_at {
+            let first = first(name);
+            evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), first.map_or(0.0, |report| report.t_s)]);
+        }
+    }
+}
+
+impl Recorder for Expectations<'_> {
+    fn take(&mut self, record: &TickRecord) {
+        self.results.take(record);
+        self.position = record.here().unwrap_or(self.position);
+        if !record.area.is_empty() {
+            self.area.clone_from(&record.area);
+        }
+        match record.step {
+            Step::Wait => {}
+            // On the first tick nothing has happened yet, and the last one is looked at with the end.
+            Step::Tick if record.tick == 0 || record.is_last => {}
+            Step::Tick => {
+                if self.test.expects.iter().any(|expect| expect.share.is_none()) {
+                    self.tell();
+                    self.look(true);
+                }
+            }
+            Step::End(_) => {
+                self.tell();
+                self.look(true);
+                self.look(false);
+            }
+        }
+    }
+}
+
+/// The words of a place that may be absent.
+fn if_any(place: Option<Point>) -> [f64; 3] {
+    place.map_or([0.0; 3], |place| [1.0, place.north, place.east])
+}

@@ -1,0 +1,222 @@
+//! The result of a run: how it ended, what it reported and how far that is from what there is to be found, and the way it took.
+
+use super::Recorder;
+use crate::plan::Plan;
+use crate::run::{Ending, Step, TickRecord, corners};
+use crate::summary::{Report, Summary};
+use albacore_geometry::{Area, Point};
+use albacore_machine::{Event, Outcome};
+use albacore_trace::Release;
+use albacore_vehicle::TICK_S;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Reports that a result lists; of more only the first of each place of the program that reports, and their number.
+const REPORTS_LISTED_MAX: usize = 10_000;
+/// A link's positions are 0.2 m fine: shorter steps than this, m, would count its rounding as a way.
+const LINK_GRAIN: f64 = 2.0;
+
+/// What a run has reported so far.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Reports {
+    /// The first ones, and the first of each place of the program.
+    pub listed: Vec<Report>,
+    /// How many there were beside those.
+    pub more: u64,
+    /// The place that was reported last.
+    pub latest: Option<Point>,
+    sites: BTreeSet<u32>,
+}
+
+impl Reports {
+    /// Whether there is room for one more, of a place of the program.
+    fn admits(&mut self, site: u32) -> bool {
+        let first = self.sites.insert(site);
+        let admits = first || self.listed.len() < REPORTS_LISTED_MAX;
+        self.more += u64::from(!admits);
+        admits
+    }
+}
+
+/// Metres driven, from position to position.
+struct Odometer {
+    last: Option<Point>,
+    /// Steps shorter than this are not counted until they add up to it, m.
+    grain: f64,
+    length: f64,
+}
+
+impl Odometer {
+    /// Of a vehicle that starts there; where that is not known it is at the end of a link.
+    fn new(start: Option<Point>) -> Self {
+        Odometer { last: start, grain: if start.is_some() { 0.0 } else { LINK_GRAIN }, length: 0.0 }
+    }
+
+    /// The vehicle is here now.
+    fn reach(&mut self, here: Point) {
+        let step = here.distance(self.last.unwrap_or(here));
+        if step >= self.grain {
+            self.length += step;
+        }
+        if step >= self.grain || self.last.is_none() {
+            self.last = Some(here);
+        }
+    }
+}
+
+/// Gathers the result.
+pub(crate) struct Results {
+    pub plan: Plan,
+    pub seed: u64,
+    pub reports: Reports,
+    /// The corners of the mission's area, once it has one.
+    pub area: Vec<Point>,
+    /// The deepest point of that, once it has one; none where the water is equally deep everywhere.
+    pub deepest: Option<Point>,
+    /// Where the vehicle was first.
+    pub start: Option<Point>,
+    /// Ticks so far.
+    pub ticks: u64,
+    /// How the run ended, once it has.
+    pub ending: Option<Ending>,
+    switches: u64,
+    odometer: Odometer,
+}
+
+impl Results {
+    pub fn new(plan: &Plan, seed: u64, start: Option<Point>) -> Self {
+        Results {
+            plan: plan.clone(),
+            seed,
+            reports: Reports::default(),
+            area: Vec::new(),
+            deepest: None,
+            start,
+            ticks: 0,
+            ending: None,
+            switches: 0,
+            odometer: Odometer::new(start),
+        }
+    }
+
+    /// How the run ended, once it has.
+    pub fn outcome(&self) -> Option<Outcome> {
+        self.ending.as_ref().map(|ending| ending.outcome)
+    }
+
+    /// Why it ended so, in words.
+    pub fn reason(&self) -> &str {
+        self.ending.as_ref().map_or("", |ending| &ending.reason)
+    }
+
+    /// Whether the vehicle has not said that it took control back at the end.
+    pub fn release_failed(&self) -> bool {
+        self.ending.as_ref().is_some_and(|ending| ending.release == Release::Failed)
+    }
+
+    /// The result; `wall_s` is measured by who ran it.
+    pub fn summary(&self, wall_s: f64) -> Summary {
+        Summary {
+            mission: self.plan.program.mission.name.clone(),
+            scenario: self.plan.scenario_name.clone(),
+            seed: self.seed,
+            outcome: self.outcome().map_or("running", Outcome::name),
+            reason: self.reason().to_string(),
+            ticks: self.ticks,
+            sim_time_s: self.ticks as f64 / (1.0 / TICK_S),
+            wall_s,
+            path_length_m: self.odometer.length,
+            switches: self.switches,
+            reports: self.reports.listed.clone(),
+            more_reports: self.reports.more,
+            digest: self.ending.as_ref().map(|ending| ending.digest.to_string()).unwrap_or_default(),
+        }
+    }
+
+    /// The place of a true source that is nearest to another.
+    pub fn nearest_source(&self, to: Point) -> Option<Point> {
+        let sources = self.plan.scenario.sources.iter().map(|source| source.nearest(to));
+        sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
+    }
+
+    /// The deepest point, where that is what is sought: there are hollows to be found, and no sources.
+    pub fn deepest_sought(&self) -> Option<Point> {
+        let world = &self.plan.scenario;
+        self.deepest.filter(|_| world.sources.is_empty() && world.bottom.has_hollows())
+    }
+
+    /// What there is to be found, as far as anybody knows: the place that is nearest to another, and what it is.
+    fn sought(&self, to: Point) -> Option<(Point, &'static str)> {
+        let source = match self.plan.scenario.sources.as_slice() {
+            [_] => "the source",
+            _ => "the nearest source",
+        };
+        let nearest = self.nearest_source(to).map(|at| (at, source));
+        nearest.or(self.deepest_sought().map(|at| (at, "the deepest point of the area")))
+    }
+
+    /// Takes down what was reported at a place of the program.
+    fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
+        let program = Arc::clone(&self.plan.program);
+        let (id, site) = (site, &program.reports[site as usize]);
+        let at = site.fields.first().and_then(|(_, value)| value.shape.first_point());
+        let place = at.and_then(|at| Some(Point::new(*words.get(at)?, *words.get(at + 1)?)));
+        self.reports.latest = place.or(self.reports.latest);
+        if !self.reports.admits(id) {
+            return;
+        }
+        let frame = self.plan.frame();
+        let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
+        let sought = place.and_then(|p| self.sought(p));
+        self.reports.listed.push(Report {
+            name: site.name.clone(),
+            t_s: tick as f64 / (1.0 / TICK_S),
+            north_m: place.map(|p| p.north),
+            east_m: place.map(|p| p.east),
+            latitude_deg: globe.map(|g| g.latitude_deg()),
+            longitude_deg: globe.map(|g| g.longitude_deg()),
+            error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
+            error_from: sought.map(|(_, what)| what),
+        });
+    }
+
+    /// Where the vehicle is, and what happened.
+    fn note(&mut self, record: &TickRecord) {
+        let here = record.here();
+        self.start = self.start.or(here);
+        if let Some(here) = here {
+            self.odometer.reach(here);
+        }
+        for event in &record.events {
+            match event {
+                Event::Switched { .. } => self.switches += 1,
+                Event::Reported(site, words) => self.report(record.tick, *site, words),
+                _ => {}
+            }
+        }
+    }
+}
+
+impl Recorder for Results {
+    fn take(&mut self, record: &TickRecord) {
+        if self.area.is_empty() && !record.area.is_empty() {
+            self.area = corners(&record.area);
+            let (bottom, area) = (&self.plan.scenario.bottom, Area::polygon(&self.area).ok());
+            self.deepest = area.filter(|_| !bottom.is_level()).map(|area| bottom.deepest(&area));
+        }
+        match &record.step {
+            Step::Wait => {}
+            Step::Tick => {
+                self.note(record);
+                self.ticks = record.tick + 1;
+            }
+            Step::End(ending) => {
+                if !record.events.is_empty() {
+                    self.note(record);
+                }
+                self.ticks = record.tick;
+                self.ending = Some(ending.clone());
+            }
+        }
+    }
+}

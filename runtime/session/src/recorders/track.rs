@@ -1,0 +1,88 @@
+//! The way that a run took, and where it detected chemical: what its picture shows.
+
+use super::Recorder;
+use crate::plan::Plan;
+use crate::run::{Step, TickRecord};
+use albacore_geometry::Point;
+use albacore_program::{ActivityId, Body, Program};
+use albacore_vehicle::Channel;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Ticks between the points of the track.
+const TRACK_EVERY_TICKS: u64 = 5;
+/// Detections: readings at or above this share of full scale, the papers' threshold.
+const DETECTION: f64 = 0.04;
+
+/// Gathers the track and the detections.
+pub(crate) struct Track {
+    program: Arc<Program>,
+    /// The behaviors of all tables.
+    in_tables: BTreeSet<ActivityId>,
+    chemical: Option<usize>,
+    /// A simulated world without a plume has nothing to detect; of a real one we know no better.
+    has_plume: bool,
+    /// The points of the track, each with the index of its behavior.
+    pub points: Vec<(Point, u16)>,
+    /// The names of the behaviors.
+    pub behaviors: Vec<String>,
+    /// Where something was detected.
+    pub detections: Vec<Point>,
+}
+
+impl Track {
+    pub fn new(plan: &Plan, channels: &[Channel]) -> Self {
+        let program = Arc::clone(&plan.program);
+        let of_table = |body: &Body| match body {
+            Body::Table(table) => table.behaviors.iter().map(|behavior| behavior.activity).collect(),
+            _ => Vec::new(),
+        };
+        Track {
+            in_tables: program.activities.iter().flat_map(|activity| of_table(&activity.body)).collect(),
+            program,
+            chemical: channels.iter().position(|channel| channel.name == "chemical"),
+            has_plume: plan.scenario.has_plume(),
+            points: Vec::new(),
+            behaviors: Vec::new(),
+            detections: Vec::new(),
+        }
+    }
+
+    /// What the track is coloured by: the innermost behavior of a table, else the outermost activity inside the mission.
+    fn shown(&self, active: &[ActivityId]) -> Option<ActivityId> {
+        let in_table = active.iter().rev().find(|id| self.in_tables.contains(id));
+        in_table.or(active.get(1)).or(active.first()).copied()
+    }
+
+    fn index_of(&mut self, behavior: ActivityId) -> u16 {
+        let name = &self.program.activities[behavior as usize].name;
+        let known = self.behaviors.iter().position(|known| known == name);
+        known.unwrap_or_else(|| {
+            self.behaviors.push(name.clone());
+            self.behaviors.len() - 1
+        }) as u16
+    }
+}
+
+impl Recorder for Track {
+    fn take(&mut self, record: &TickRecord) {
+        let happened = !record.events.is_empty();
+        match record.step {
+            Step::Tick => {}
+            Step::End(_) if happened => {}
+            _ => return,
+        }
+        let Some(at) = record.believed.or(record.here()) else { return };
+        if (record.tick.is_multiple_of(TRACK_EVERY_TICKS) || happened)
+            && let Some(behavior) = self.shown(&record.active)
+        {
+            let index = self.index_of(behavior);
+            self.points.push((at, index));
+        }
+        let mut samples = record.snapshot.samples.iter();
+        let detected = samples.any(|s| Some(s.channel as usize) == self.chemical && s.reading[0] >= DETECTION);
+        if detected && (record.truth.is_none() || self.has_plume) {
+            self.detections.push(at);
+        }
+    }
+}
