@@ -79,8 +79,8 @@ fn a_run_leaves_journal_trace_and_picture() {
     let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
     assert!(trace.starts_with("mission box  scenario tidal_stream  seed 1"), "{trace}");
     assert!(std::fs::read_to_string(out.join("run.svg")).unwrap().contains("</svg>"));
-    let Ending::Complete(closing) = journal(&out).ending else { panic!("the journal is not complete") };
-    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("digest {:016x}", closing.digest)));
+    let Ending::Complete(end) = journal(&out).ending else { panic!("the journal is not complete") };
+    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("digest {:016x}", end.ending().unwrap().digest)));
 }
 
 #[test]
@@ -92,11 +92,12 @@ fn who_interrupts_a_run_has_all_of_it_up_to_there() {
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{signal}: {}", stderr(&output));
         let journal = journal(&out);
-        let Ending::Complete(closing) = journal.ending else { panic!("{signal}: {:?}", journal.ending) };
-        assert_eq!((closing.outcome.name(), closing.ticks), ("interrupted", journal.records.len() as u64));
+        let Ending::Complete(end) = journal.ending else { panic!("{signal}: {:?}", journal.ending) };
+        let ending = end.ending().unwrap();
+        assert_eq!((ending.outcome.name(), end.tick), ("interrupted", journal.ticks.len() as u64));
         let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
         assert!(trace.contains("interrupted"), "{signal}: {trace}");
-        assert!(trace.contains(&format!("{:016x}", closing.digest)), "{signal}: {trace}");
+        assert!(trace.contains(&format!("{:016x}", ending.digest)), "{signal}: {trace}");
         assert!(out.join("run.svg").exists());
     }
 }
@@ -111,7 +112,7 @@ fn who_kills_a_run_has_a_valid_prefix() {
         let journal = journal(&out);
         assert!(matches!(journal.ending, Ending::CutShort(_)), "{:?}", journal.ending);
         assert_eq!(journal.header.mission, "long");
-        assert!(bytes < 5_000 || !journal.records.is_empty());
+        assert!(bytes < 5_000 || !journal.ticks.is_empty());
     }
 }
 

@@ -4,7 +4,8 @@ use crate::desk::{Desk, Sent};
 use crate::weather::Fate;
 use albacore_link::recon::{Happening, SpeedGoal, ToVehicle};
 use albacore_session::Outcome;
-use albacore_trace::journal::{Ending, Journal, Record};
+use albacore_trace::TickRecord;
+use albacore_trace::journal::{Ending, Journal};
 use albacore_vehicle::{Command, Vertical};
 use std::collections::BTreeMap;
 
@@ -47,8 +48,8 @@ pub fn broken(desk: &Desk, journal: &[u8], outcome: Option<Outcome>, fate: Fate)
     broken.extend(desk.states.iter().find_map(beyond).map(|what| format!("the vehicle {what}")));
     match Journal::read(journal) {
         Ok(journal) => {
-            broken.extend(sent(&desk.sent, &journal.records));
-            let complete = matches!(&journal.ending, Ending::Complete(closing) if Some(closing.outcome) == outcome);
+            broken.extend(sent(&desk.sent, &journal.ticks));
+            let complete = matches!(&journal.ending, Ending::Complete(end) if end.ending().map(|ending| ending.outcome) == outcome);
             let cut = matches!(&journal.ending, Ending::CutShort(_)) && outcome.is_none();
             if !(complete || cut) {
                 broken.push(format!("the journal ends with {:?}", journal.ending));
@@ -73,7 +74,7 @@ fn beyond(state: &albacore_link::recon::State) -> Option<String> {
 }
 
 /// What of that which was sent should not have been: the first of each kind.
-fn sent(sent: &[Sent], records: &[Record]) -> Vec<String> {
+fn sent(sent: &[Sent], records: &[TickRecord]) -> Vec<String> {
     let goals = || sent.iter().filter_map(|s| Some((s, goal(s.message.as_ref()?)?)));
     let mut broken = Vec::new();
     if sent.iter().any(|s| s.message.is_none()) {
@@ -136,7 +137,7 @@ impl Goal {
 }
 
 /// Whether a goal that was sent before a tick of the mission's is what it commanded then.
-fn is_new(records: &[Record], tick: u64, goal: Goal) -> bool {
+fn is_new(records: &[TickRecord], tick: u64, goal: Goal) -> bool {
     // Records have no gaps: each is at the place of its tick.
     let end = records.len().min(tick as usize + 1);
     let of = &records[end.min(tick.saturating_sub(AGE_TICKS) as usize)..end];

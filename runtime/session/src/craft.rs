@@ -1,8 +1,8 @@
 //! What a run drives: a simulated vehicle, of which the truth is known, or one behind a link, of which it is not.
 
 use albacore_geometry::Point;
-use albacore_sim::{Simulator, Truth};
-use albacore_vehicle::{Channel, Vehicle};
+use albacore_sim::Simulator;
+use albacore_vehicle::{Channel, Truth, Vehicle};
 
 /// A vehicle and what is known of it besides.
 pub(crate) enum Craft {

@@ -10,8 +10,8 @@ pub(crate) mod trace;
 pub(crate) mod track;
 
 use crate::plan::Plan;
-use crate::run::TickRecord;
 use albacore_geometry::Point;
+use albacore_trace::TickRecord;
 use albacore_vehicle::{Channel, Snapshot};
 use notices::Notices;
 use results::Results;

@@ -5,7 +5,6 @@
 mod driver;
 mod live;
 mod queue;
-mod record;
 
 use crate::craft::Craft;
 use crate::picture;
@@ -16,16 +15,14 @@ use crate::summary::Summary;
 use albacore_geometry::Point;
 use albacore_machine::Outcome;
 use albacore_program::PROGRAM_VERSION;
-use albacore_trace::BehaviorTrace;
 use albacore_trace::journal::JournalHeader;
+use albacore_trace::{BehaviorTrace, TickRecord};
 use albacore_vehicle::{TICK_S, Vehicle, VehicleError};
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) use driver::Driver;
 pub use live::{Lived, Means, Told, WAITING_BYTES};
-pub(crate) use record::corners;
-pub use record::{Ending, Step, TickRecord};
 
 /// A run under way.
 pub struct Run {
@@ -79,6 +76,7 @@ impl Run {
             sources: plan.sources.clone(),
             set: set.to_vec(),
             channels: self.driver.vehicle().channels().to_vec(),
+            start: self.memory.results.start,
         }
     }
 
@@ -170,7 +168,8 @@ impl Run {
 
     /// The result; `wall_s` is measured by who ran it.
     pub fn summary(&self, wall_s: f64) -> Summary {
-        self.memory.results.summary(wall_s)
+        let summary = self.memory.results.summary(wall_s);
+        Summary { digest: format!("{:016x}", self.driver.digest()), ..summary }
     }
 
     /// The behavior trace so far.

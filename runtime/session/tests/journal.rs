@@ -3,8 +3,9 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_machine::{Machine, Outcome};
-use albacore_session::{Faults, Plan, Run, Running, load, load_faults};
-use albacore_trace::journal::{Closing, Ending, Journal, Record};
+use albacore_session::{Faults, PastRun, Plan, Run, Running, load, load_faults};
+use albacore_trace::TickRecord;
+use albacore_trace::journal::{Ending, Journal};
 use albacore_vehicle::Sample;
 use std::io;
 use std::path::Path;
@@ -52,9 +53,9 @@ fn read(sink: &Sink) -> Journal {
 }
 
 #[track_caller]
-fn closing(journal: &Journal) -> Closing {
+fn end(journal: &Journal) -> TickRecord {
     match &journal.ending {
-        Ending::Complete(closing) => closing.clone(),
+        Ending::Complete(end) => *end.clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -70,18 +71,19 @@ fn a_machine_fed_with_the_journal_does_the_same_again() {
     let (journal, summary) = (read(&sink), run.summary(0.0));
     assert_eq!((journal.header.mission.as_str(), &journal.header.set), ("duck_single", &vec!["lambda=5s".into()]));
     assert!(journal.header.sources[0].name.ends_with("duck_single.alb"));
-    let closing = closing(&journal);
-    assert_eq!((closing.outcome, closing.ticks), (Outcome::Completed, journal.records.len() as u64));
-    assert_eq!(format!("{:016x}", closing.digest), summary.digest);
+    let end = end(&journal);
+    let ending = end.ending().unwrap();
+    assert_eq!((ending.outcome, end.tick), (Outcome::Completed, journal.ticks.len() as u64));
+    assert_eq!(format!("{:016x}", ending.digest), summary.digest);
 
     let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.channels).unwrap();
-    for record in &journal.records {
+    for record in &journal.ticks {
         assert_eq!(machine.step(&record.snapshot), record.command, "tick {}", record.tick);
         assert_eq!(machine.events(), record.events, "tick {}", record.tick);
     }
     assert_eq!(machine.outcome(), Some(Outcome::Completed));
 
-    let per_tick = sink.bytes.lock().unwrap().len() / journal.records.len();
+    let per_tick = sink.bytes.lock().unwrap().len() / journal.ticks.len();
     println!("{per_tick} bytes a tick");
     assert!(per_tick < BYTES_A_TICK, "{per_tick} bytes a tick");
 }
@@ -96,13 +98,41 @@ fn a_machine_fed_with_a_wrong_sample_withholds_it_again() {
     run.with_journal(Box::new(sink.clone()), &[]);
     assert_eq!(run.to_end(), Outcome::Completed);
     let journal = read(&sink);
-    let withheld = |record: &Record| record.snapshot.samples.iter().any(Sample::is_withheld);
-    let ticks: Vec<u64> = journal.records.iter().filter(|r| withheld(r)).map(|r| r.tick).collect();
+    let withheld = |record: &TickRecord| record.snapshot.samples.iter().any(Sample::is_withheld);
+    let ticks: Vec<u64> = journal.ticks.iter().filter(|r| withheld(r)).map(|r| r.tick).collect();
     assert_eq!(ticks, [600]);
     let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.channels).unwrap();
-    for record in &journal.records {
+    for record in &journal.ticks {
         assert_eq!(machine.step(&record.snapshot), record.command, "tick {}", record.tick);
         assert_eq!(machine.events(), record.events, "tick {}", record.tick);
+    }
+}
+
+/// What a run left in memory is the same when its journal is read back: after its end, after an interruption, and of half a journal up
+/// to where that ends.
+#[test]
+fn a_journal_that_is_read_back_feeds_the_same_recorders() {
+    for (mission, ticks) in [("duck_single", None), ("thermocline", None), ("woods_hole", None), ("box", Some(700))] {
+        let plan = plan(mission);
+        let sink = Sink::default();
+        let mut run = Run::new(&plan, 4).unwrap();
+        run.with_journal(Box::new(sink.clone()), &[]);
+        match ticks {
+            Some(ticks) => (0..ticks).for_each(|_| assert_eq!(run.step(), Running::On)),
+            None => _ = run.to_end(),
+        }
+        run.interrupt();
+        let bytes = sink.bytes.lock().unwrap();
+        let past = PastRun::read(&plan, &bytes).unwrap();
+        assert!(matches!(past.ending(), Ending::Complete(_)), "{mission}: {:?}", past.ending());
+        assert_eq!(past.summary(), run.summary(0.0), "{mission}");
+        assert_eq!(past.trace().to_string(), run.trace().to_string(), "{mission}");
+        // The plume is not in the journal.
+        assert!(plan.scenario.has_plume() || past.svg() == run.svg(), "{mission}: the pictures differ");
+        let half = PastRun::read(&plan, &bytes[..bytes.len() / 2]).unwrap();
+        let (trace, whole) = (half.trace().to_string(), run.trace().to_string());
+        assert!(matches!(half.ending(), Ending::CutShort(_)) && trace.lines().count() > 3, "{mission}: {trace}");
+        assert!(whole.starts_with(&trace), "{mission}");
     }
 }
 
@@ -115,10 +145,11 @@ fn an_interrupted_run_closes_its_journal() {
     (0..100).for_each(|_| assert_eq!(run.step(), Running::On));
     run.interrupt();
     let journal = read(&sink);
-    let closing = closing(&journal);
-    assert_eq!((closing.outcome, closing.reason.as_str(), closing.ticks), (Outcome::Interrupted, "interrupted", 100));
-    assert_eq!(journal.records.len(), 100);
-    assert!(!closing.events.is_empty());
+    let end = end(&journal);
+    let ending = end.ending().unwrap();
+    assert_eq!((ending.outcome, ending.reason.as_str(), end.tick), (Outcome::Interrupted, "interrupted", 100));
+    assert_eq!(journal.ticks.len(), 100);
+    assert!(!end.events.is_empty());
 }
 
 #[test]
@@ -157,7 +188,7 @@ fn a_disk_that_fills_at_any_write_leaves_the_run_alone() {
         match Journal::read(&sink.bytes.lock().unwrap()) {
             Err(_) => assert_eq!(k, 1),
             Ok(journal) => {
-                assert_eq!(journal.records.len(), k - 2, "disk full at write {k}");
+                assert_eq!(journal.ticks.len(), k - 2, "disk full at write {k}");
                 assert!(matches!(journal.ending, Ending::CutShort(_)), "disk full at write {k}");
             }
         }

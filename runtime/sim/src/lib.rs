@@ -34,5 +34,5 @@ pub use scenario::{
     ScenarioError, Setting, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
     Waves, Why,
 };
-pub use simulator::{Simulator, Truth};
+pub use simulator::Simulator;
 pub use survey::Survey;

@@ -8,44 +8,19 @@ use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{Battery, Compass, Ctd, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
 use crate::world::World;
-use albacore_geometry::{Heading, Point, Vector};
+use albacore_geometry::{Point, Vector};
 use albacore_vehicle::channels::{
     ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE, VEHICLE_MODE,
     WATER_DEPTH,
 };
 use albacore_vehicle::{
-    Beyond, Channel, Command, Control, LimitWatch, Limits, Snapshot, TICK_S, Vehicle, VehicleError, Vertical,
+    Beyond, Channel, Command, Control, LimitWatch, Limits, Snapshot, TICK_S, Truth, Vehicle, VehicleError, Vertical,
 };
 
 /// Ticks between what the vehicle tells of its own mission.
 const MODE_TICKS: u64 = 10;
 /// A sample this near a tick, in ticks, is taken on it.
 const ON_THE_TICK: f64 = 1e-6;
-
-/// What is so, whatever the sensors say.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Truth {
-    /// Where the vehicle is.
-    pub position: Point,
-    /// Where its nose points.
-    pub heading: Heading,
-    /// Nose up, rad.
-    pub pitch: f64,
-    /// Starboard side down, rad.
-    pub roll: f64,
-    /// Its direction over ground.
-    pub course: Heading,
-    /// Its speed over ground, m/s.
-    pub speed_over_ground: f64,
-    /// Its depth, m.
-    pub depth: f64,
-    /// Its height above the bottom, m.
-    pub altitude: f64,
-    /// The water's velocity where it is, m/s toward.
-    pub flow: Vector,
-    /// What a perfect chemical sensor without saturation would read, ratio of full scale.
-    pub concentration: f64,
-}
 
 /// What a vehicle lets go of that gives up, kg in the water: it floats up then though it be as heavy as the water.
 const DROP_WEIGHT_KG: f64 = 2.0;

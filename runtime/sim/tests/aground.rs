@@ -4,8 +4,8 @@
 
 use albacore_geometry::{Heading, Point};
 use albacore_sim::hull::Crossflow;
-use albacore_sim::{Bottom, Grid, Ground, HullSetup, Scenario, Simulator, SubmersibleHull, Truth, VehicleSetup};
-use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
+use albacore_sim::{Bottom, Grid, Ground, HullSetup, Scenario, Simulator, SubmersibleHull, VehicleSetup};
+use albacore_vehicle::{Command, Snapshot, Truth, Vehicle, Vertical};
 use std::sync::Arc;
 
 fn hulls() -> [(&'static str, HullSetup); 3] {

@@ -1,6 +1,8 @@
 //! Which activities are active, outermost first, as the events of a run tell it.
 
-use albacore_program::ActivityId;
+use crate::names::is_overlay;
+use albacore_machine::Event;
+use albacore_program::{ActivityId, Program};
 
 /// The chain of active activities, and those that wait (`then back`).
 #[derive(Clone, Debug, Default)]
@@ -21,13 +23,24 @@ impl Active {
         self.chain.iter().rposition(|&active| active == id).unwrap_or(self.chain.len())
     }
 
+    /// Takes in what happened.
+    pub fn follow(&mut self, event: &Event, program: &Program) {
+        match event {
+            Event::Entered(id) if !is_overlay(program, *id) => self.enter(*id),
+            Event::Left(id, _) => self.leave(*id),
+            Event::Suspended(id) => self.suspend(*id),
+            Event::Resumed(id) => self.resume(*id),
+            _ => {}
+        }
+    }
+
     /// Innermost from now on.
-    pub fn enter(&mut self, id: ActivityId) {
+    fn enter(&mut self, id: ActivityId) {
         self.chain.push(id);
     }
 
     /// Gone, whether it was active or waiting. Only itself: what was inside has its own leaving, before or after.
-    pub fn leave(&mut self, id: ActivityId) {
+    fn leave(&mut self, id: ActivityId) {
         if let Some(at) = self.chain.iter().rposition(|&active| active == id) {
             self.chain.remove(at);
             return;
@@ -39,14 +52,14 @@ impl Active {
     }
 
     /// Set aside, with all that is active in it.
-    pub fn suspend(&mut self, id: ActivityId) {
+    fn suspend(&mut self, id: ActivityId) {
         if let Some(at) = self.chain.iter().rposition(|&active| active == id) {
             self.waiting.push(self.chain.split_off(at));
         }
     }
 
     /// Taken up again, with all that was active in it.
-    pub fn resume(&mut self, id: ActivityId) {
+    fn resume(&mut self, id: ActivityId) {
         if let Some(at) = self.waiting.iter().rposition(|group| group.first() == Some(&id)) {
             self.chain.extend(self.waiting.remove(at));
         }

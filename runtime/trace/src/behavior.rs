@@ -7,6 +7,7 @@ use albacore_machine::{Event, Outcome};
 use albacore_program::number;
 use albacore_program::seen::one_line;
 use albacore_program::{Cause, Program};
+use serde::{Deserialize, Serialize};
 
 /// Ticks between samples unless told otherwise: a minute.
 const SAMPLE_EVERY_TICKS: u64 = 600;
@@ -35,7 +36,7 @@ enum Kind {
 }
 
 /// How a run gave its vehicle back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Release {
     /// It did.
     Done,
@@ -129,7 +130,7 @@ impl BehaviorTrace {
 
     /// Ends the trace: with the outcome, unless an event has told it, whether the vehicle was given back, the length of the
     /// run, and the digest of all of it.
-    pub fn finish(&mut self, outcome: Outcome, release: Release, ticks: u64, digest: &crate::Digest) {
+    pub fn finish(&mut self, outcome: Outcome, release: Release, ticks: u64, digest: u64) {
         if self.ended != Some(outcome) {
             self.say(Kind::Event, ticks, "end", outcome.name());
             self.last_event = ticks;
@@ -144,7 +145,7 @@ impl BehaviorTrace {
         if self.left_out > 0 {
             self.lines.push((Kind::Digest, format!("{} more lines not written", self.left_out)));
         }
-        self.lines.push((Kind::Digest, format!("digest {digest}  {ticks} ticks")));
+        self.lines.push((Kind::Digest, format!("digest {digest:016x}  {ticks} ticks")));
     }
 
     /// The event lines alone: no header, no samples, no digest.
@@ -169,13 +170,9 @@ impl BehaviorTrace {
 
     /// Keeps track of what is active.
     fn follow(&mut self, event: &Event) {
-        match event {
-            Event::Entered(id) if !self.wording.names.is_overlay(*id) => self.active.enter(*id),
-            Event::Left(id, _) => self.active.leave(*id),
-            Event::Suspended(id) => self.active.suspend(*id),
-            Event::Resumed(id) => self.active.resume(*id),
-            Event::Ended(outcome) => self.ended = Some(*outcome),
-            _ => {}
+        self.active.follow(event, &self.wording.names.program);
+        if let Event::Ended(outcome) = event {
+            self.ended = Some(*outcome);
         }
     }
 

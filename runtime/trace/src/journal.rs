@@ -1,7 +1,7 @@
-//! The journal: every tick's inputs, command and events, in a file that stays readable wherever the writing of it stops.
+//! The journal: every step's inputs, command, events, notices and truth, in a file that stays readable wherever the writing of it stops.
 //!
 //! A journal is eight bytes (`ALBJ` and the version of this form), then records one after the other: the first tells what
-//! is run, one follows for each tick, the last tells how it ended. A run in real time does not wait for a disk: where ticks were
+//! is run, one follows for each step ([`TickRecord`]), the last of which tells how it ended. A run in real time does not wait for a disk: where ticks were
 //! not written, a record tells which, with the state of the machine after them, from which a replay can go on. A record is
 //!
 //! ```text
@@ -13,19 +13,21 @@
 //! The length has a check of its own, because a wrong one would pass for a journal that was cut short.
 
 mod read;
-mod snapshot;
+pub(crate) mod snapshot;
 mod write;
 
 pub use read::{Reader, is_beginning};
 pub use write::Writer;
 
-use albacore_machine::{Event, Outcome, State};
-use albacore_vehicle::{Channel, Command, Snapshot};
+use crate::record::{Step, TickRecord};
+use albacore_geometry::Point;
+use albacore_machine::State;
+use albacore_vehicle::Channel;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form: one more whenever a record, or what a record holds (such as [`Snapshot`], [`Event`] or [`State`]),
 /// is laid out otherwise. Postcard's form names no fields, and would read the older as something else.
-pub const JOURNAL_VERSION: u32 = 2;
+pub const JOURNAL_VERSION: u32 = 3;
 
 /// How every journal begins.
 const MAGIC: [u8; 4] = *b"ALBJ";
@@ -55,6 +57,8 @@ pub struct JournalHeader {
     pub set: Vec<String>,
     /// What the vehicle measures: a sample's channel is an index into it.
     pub channels: Vec<Channel>,
+    /// Where the vehicle starts, where that is known.
+    pub start: Option<Point>,
 }
 
 /// A source file by its name and the digest of its text, so that a replay can say which of them has changed since.
@@ -64,20 +68,6 @@ pub struct SourceDigest {
     pub name: String,
     /// The digest of its text.
     pub digest: u64,
-}
-
-/// One tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Record {
-    /// Which one; the first is 0.
-    pub tick: u64,
-    /// All that came from the vehicle.
-    #[serde(with = "snapshot")]
-    pub snapshot: Snapshot,
-    /// What it was told, if anything.
-    pub command: Option<Command>,
-    /// What happened.
-    pub events: Vec<Event>,
 }
 
 /// Ticks that were not written: the disk did not take them in time.
@@ -91,28 +81,13 @@ pub struct Gap {
     pub state: Box<State>,
 }
 
-/// What stands between the beginning of a journal and its end.
+/// What a journal is made of behind its beginning.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Entry {
-    /// A tick.
-    Tick(Record),
+    /// A step of the run; the last is its end.
+    Step(Box<TickRecord>),
     /// Ticks that were not written.
     Gap(Gap),
-}
-
-/// How a run ended.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Closing {
-    /// The outcome.
-    pub outcome: Outcome,
-    /// Why, in words; empty when there is nothing to say.
-    pub reason: String,
-    /// How many ticks went by.
-    pub ticks: u64,
-    /// What happened after the last tick, when the end came from outside the mission: a person, a vehicle that failed.
-    pub events: Vec<Event>,
-    /// The digest of the full-rate run, with the ticks that were not written.
-    pub digest: u64,
 }
 
 /// A journal that has been read: as much of it as is whole.
@@ -121,7 +96,7 @@ pub struct Journal {
     /// What was run.
     pub header: JournalHeader,
     /// Its ticks, in order.
-    pub records: Vec<Record>,
+    pub ticks: Vec<TickRecord>,
     /// What is missing between them, in order: mostly nothing.
     pub gaps: Vec<Gap>,
     /// How the journal ends.
@@ -132,7 +107,7 @@ pub struct Journal {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
     /// With the end of the run.
-    Complete(Closing),
+    Complete(Box<TickRecord>),
     /// In the middle: the writing stopped.
     CutShort(Flaw),
     /// With something that was never written so.
@@ -160,18 +135,20 @@ pub enum Unreadable {
 }
 
 impl Journal {
-    /// Reads a whole journal. One that fits memory badly is better read tick by tick, with [`Reader`].
+    /// Reads a whole journal, but for what was only noticed between ticks. One that fits memory badly is better read step by step, with
+    /// [`Reader`].
     pub fn read(bytes: &[u8]) -> Result<Self, Unreadable> {
         let mut reader = Reader::new(bytes)?;
-        let (mut records, mut gaps) = (Vec::new(), Vec::new());
+        let (mut ticks, mut gaps) = (Vec::new(), Vec::new());
         for entry in reader.by_ref() {
             match entry {
-                Entry::Tick(record) => records.push(record),
+                Entry::Step(record) if matches!(record.step, Step::Tick) => ticks.push(*record),
+                Entry::Step(_) => {}
                 Entry::Gap(gap) => gaps.push(gap),
             }
         }
         let header = reader.header().clone();
-        Ok(Journal { header, records, gaps, ending: reader.into_ending() })
+        Ok(Journal { header, ticks, gaps, ending: reader.into_ending() })
     }
 }
 
@@ -202,9 +179,8 @@ impl std::error::Error for Unreadable {}
 /// A payload as it is read.
 #[derive(Deserialize)]
 enum Payload {
-    Header(JournalHeader),
-    Tick(Record),
-    Closing(Closing),
+    Header(Box<JournalHeader>),
+    Step(Box<TickRecord>),
     Gap(Gap),
 }
 
@@ -212,14 +188,7 @@ enum Payload {
 #[derive(Serialize)]
 enum Written<'a> {
     Header(&'a JournalHeader),
-    Tick {
-        tick: u64,
-        #[serde(serialize_with = "snapshot::serialize")]
-        snapshot: &'a Snapshot,
-        command: Option<&'a Command>,
-        events: &'a [Event],
-    },
-    Closing(&'a Closing),
+    Step(&'a TickRecord),
     Gap(&'a Gap),
 }
 

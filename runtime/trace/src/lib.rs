@@ -9,10 +9,13 @@ mod digest;
 pub mod journal;
 mod names;
 mod picture;
+mod record;
 mod wording;
 mod words;
 
+pub use active::Active;
 pub use behavior::{BehaviorTrace, Header, Release};
 pub use compare::{Difference, first_difference, first_foreign_line, same_behavior};
 pub use digest::Digest;
 pub use picture::{Depths, Picture};
+pub use record::{Ending, Step, TickRecord};

@@ -87,13 +87,18 @@ impl Names {
 
     /// Whether an activity runs beside the chain rather than in it.
     pub fn is_overlay(&self, id: ActivityId) -> bool {
-        use ActivityKind::{AmendsCourse, SetsSpeed, SetsVertical};
-        let kind = self.program.activities.get(id as usize).map(|activity| activity.kind);
-        matches!(kind, Some(AmendsCourse | SetsVertical | SetsSpeed))
+        is_overlay(&self.program, id)
     }
 
     /// An input's name.
     pub fn input(&self, id: u32) -> &str {
         self.program.inputs.get(id as usize).map_or("?", |input| &input.name)
     }
+}
+
+/// Whether an activity runs beside the chain rather than in it.
+pub fn is_overlay(program: &Program, id: ActivityId) -> bool {
+    use ActivityKind::{AmendsCourse, SetsSpeed, SetsVertical};
+    let kind = program.activities.get(id as usize).map(|activity| activity.kind);
+    matches!(kind, Some(AmendsCourse | SetsVertical | SetsSpeed))
 }

@@ -132,7 +132,7 @@ fn run(program: &Program, shift: f64) -> BehaviorTrace {
         trace.tick(tick, position, &events);
         trace.sample(tick, position, heading, Some(2.0));
     }
-    trace.finish(Outcome::Completed, Release::Done, 9600, &Digest::new());
+    trace.finish(Outcome::Completed, Release::Done, 9600, Digest::new().value());
     trace
 }
 
@@ -234,7 +234,7 @@ fn logs_and_memories_are_no_behavior() {
 #[test]
 fn the_end_is_told_once_and_always() {
     let mut trace = BehaviorTrace::new(&program(47), &header());
-    trace.finish(Outcome::LinkLost, Release::Failed, 77, &Digest::new());
+    trace.finish(Outcome::LinkLost, Release::Failed, 77, Digest::new().value());
     let not_released = "    7.7 s  control  not released: the vehicle could not be told\n";
     assert_eq!(trace.switches(), format!("    7.7 s  end      link_lost\n{not_released}"));
     assert_eq!(run(&program(47), 0.0).to_string().matches("completed").count(), 1);

@@ -2,11 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a journal that cannot be written to memory has failed the test")]
 
-use albacore_geometry::Heading;
+use albacore_geometry::{Heading, Point};
 use albacore_machine::{Event, Outcome};
 use albacore_program::Cause;
 use albacore_trace::journal::*;
-use albacore_vehicle::{Channel, Command, Control, Snapshot, Vertical};
+use albacore_trace::{Release, Step, TickRecord};
+use albacore_vehicle::{Channel, Command, Control, Snapshot, Truth, Vertical};
 
 fn header() -> JournalHeader {
     JournalHeader {
@@ -18,10 +19,12 @@ fn header() -> JournalHeader {
         sources: vec![SourceDigest { name: "missions/box.alb".into(), digest: 0x1234_5678_9abc_def0 }],
         set: vec!["patience=3min".into()],
         channels: vec![Channel { name: "position".into(), width: 2 }, Channel { name: "chemical".into(), width: 1 }],
+        start: Some(Point::new(3.0, -4.0)),
     }
 }
 
-fn records() -> Vec<Record> {
+fn records() -> Vec<TickRecord> {
+    let tick = |tick| TickRecord { tick, step: Step::Tick, ..TickRecord::default() };
     let snapshot = |readings: &[(u16, &[f64])]| {
         let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
         readings.iter().for_each(|(channel, numbers)| snapshot.push(*channel, numbers));
@@ -29,28 +32,33 @@ fn records() -> Vec<Record> {
     };
     let command = |speed| Command { heading: Heading::from_degrees(270.0), speed, vertical: Vertical::Depth(3.0) };
     vec![
-        Record { tick: 0, snapshot: Snapshot::default(), command: None, events: vec![] },
-        Record {
-            tick: 1,
+        TickRecord { notices: vec!["heard".into()], ..tick(0) },
+        TickRecord {
             snapshot: snapshot(&[(0, &[12.5, -0.0]), (1, &[0.0, 0.0, 0.0, 1e300]), (1, &[])]),
             command: Some(command(1.8)),
             events: vec![Event::Control(Control::InControl), Event::Entered(0), Event::Logged("under way".into())],
+            area: vec![1.0, 2.0, 3.0, 0.0, 1.0],
+            ..tick(1)
         },
-        Record {
-            tick: 2,
+        TickRecord {
             snapshot: snapshot(&[(0, &[f64::INFINITY, 4.0]), (0, &[0.0, 1.0])]),
             command: Some(command(2.0)),
             events: vec![
                 Event::Switched { rule: 1, from: 2, exit: 0, values: vec![0.25, 1.0] },
                 Event::Left(2, Cause::Done),
             ],
+            truth: Some(Truth { depth: 3.0, ..Truth::default() }),
+            ..tick(2)
         },
     ]
 }
 
-fn closing() -> Closing {
+fn end() -> TickRecord {
+    let (outcome, release) = (Outcome::Interrupted, Release::Failed);
+    let trouble = Some("the port is gone".into());
+    let ending = albacore_trace::Ending { outcome, reason: "interrupted".into(), release, trouble, digest: 42 };
     let events = vec![Event::Ended(Outcome::Interrupted)];
-    Closing { outcome: Outcome::Interrupted, reason: "interrupted".into(), ticks: 3, events, digest: 42 }
+    TickRecord { tick: 3, step: Step::End(ending), events, ..TickRecord::default() }
 }
 
 /// The bytes of a small journal, and where its records end, the header's first.
@@ -70,10 +78,7 @@ fn journal() -> (Vec<u8>, Vec<usize>) {
     }
     let writes = std::cell::RefCell::new(Vec::new());
     let mut writer = Writer::new(Part(&writes), &header()).unwrap();
-    for Record { tick, snapshot, command, events } in records() {
-        writer.tick(tick, &snapshot, command.as_ref(), &events).unwrap();
-    }
-    writer.close(&closing()).unwrap();
+    records().iter().chain([&end()]).for_each(|record| writer.step(record).unwrap());
     assert_eq!(writes.borrow().len(), 2 + records().len(), "one write call a record");
     for write in writes.into_inner() {
         bytes.extend(write);
@@ -86,9 +91,9 @@ fn journal() -> (Vec<u8>, Vec<usize>) {
 fn what_is_written_comes_back() {
     let (bytes, _) = journal();
     let read = Journal::read(&bytes).unwrap();
-    assert_eq!((read.header, &read.records), (header(), &records()));
-    assert_eq!(read.ending, Ending::Complete(closing()));
-    let zero = read.records[1].snapshot.samples[0].reading[1];
+    assert_eq!((read.header, &read.ticks), (header(), &records()));
+    assert_eq!(read.ending, Ending::Complete(Box::new(end())));
+    let zero = read.ticks[1].snapshot.samples[0].reading[1];
     assert!(zero == 0.0 && zero.is_sign_negative(), "numbers come back bit for bit");
 }
 
@@ -101,7 +106,7 @@ fn cut_anywhere_it_is_a_valid_prefix() {
             Err(Unreadable::CutShort(flaw)) => assert!(whole == 0 && flaw.at <= cut, "cut at {cut}: {flaw}"),
             Err(other) => panic!("cut at {cut}: {other}"),
             Ok(read) => {
-                assert_eq!(read.records, records()[..whole - 1], "cut at {cut}");
+                assert_eq!(read.ticks, records()[..whole - 1], "cut at {cut}");
                 let Ending::CutShort(flaw) = read.ending else { panic!("cut at {cut}: {:?}", read.ending) };
                 assert_eq!(flaw.at, ends[whole - 1], "cut at {cut}");
             }
@@ -121,7 +126,7 @@ fn every_byte_that_is_not_as_written_is_noticed() {
                 Err(Unreadable::Damaged(_) | Unreadable::Version(_)) => assert_eq!(whole, 0, "byte {at} ^ {flip}"),
                 Err(other) => panic!("byte {at} ^ {flip}: {other}"),
                 Ok(read) => {
-                    assert_eq!(read.records, records()[..(whole - 1).min(3)], "byte {at} ^ {flip}");
+                    assert_eq!(read.ticks, records()[..(whole - 1).min(3)], "byte {at} ^ {flip}");
                     let Ending::Damaged(flaw) = read.ending else { panic!("byte {at} ^ {flip}: {:?}", read.ending) };
                     assert_eq!(flaw.at, ends[whole - 1], "byte {at} ^ {flip}");
                 }
@@ -156,7 +161,7 @@ fn what_is_no_journal_is_said_to_be_none() {
     let said = |bytes: &[u8]| Journal::read(bytes).unwrap_err().to_string();
     assert_eq!(said(b""), "the journal is cut short at byte 0, where the beginning of a journal was expected");
     assert!(said(b"mission box").starts_with("this is no journal, or a damaged one: at byte 0"));
-    let expected = "the journal has the form of version 7, and this albacore reads version 2 alone: read it with the albacore that wrote it";
+    let expected = "the journal has the form of version 7, and this albacore reads version 3 alone: read it with the albacore that wrote it";
     assert_eq!(said(b"ALBJ\x07\0\0\0"), expected);
     // The form before delays, withheld samples and gaps: its records would be read as something else.
     let (good, _) = journal();

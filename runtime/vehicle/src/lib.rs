@@ -6,9 +6,11 @@
 pub mod channels;
 mod handover;
 mod limits;
+mod truth;
 
 pub use handover::{Gate, Handover};
 pub use limits::{Beyond, LimitWatch, Limits};
+pub use truth::Truth;
 
 use albacore_geometry::Heading;
 use serde::{Deserialize, Serialize};

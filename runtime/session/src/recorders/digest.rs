@@ -2,8 +2,8 @@
 //! matter of the run.
 
 use super::Recorder;
-use crate::run::{Step, TickRecord};
-use albacore_trace::Digest;
+
+use albacore_trace::{Digest, Step, TickRecord};
 use albacore_vehicle::{Command, Lag, Vertical};
 
 /// Folds the digest.
@@ -16,8 +16,8 @@ pub(crate) struct RunDigest {
 
 impl RunDigest {
     /// Of all that was taken in so far.
-    pub fn digest(&self) -> Digest {
-        self.digest
+    pub fn value(&self) -> u64 {
+        self.digest.value()
     }
 }
 

@@ -3,11 +3,11 @@
 use super::Recorder;
 use super::results::Results;
 use crate::plan::Plan;
-use crate::run::{Step, TickRecord};
 use albacore_geometry::Point;
 use albacore_lang::{ExpectProgram, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{AREA_WORDS, number};
+use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::TICK_S;
 
 /// Looks at what is expected always on each tick, and at the rest when the run is over.

@@ -1,8 +1,8 @@
 //! The journal of a run under way: kept as long as it can be written, and given up without harm to the run.
 
 use super::Recorder;
-use crate::run::{Ending, Step, TickRecord};
-use albacore_trace::journal::{self, Closing, Gap, JournalHeader, Reader, Unreadable, Writer, is_beginning};
+use albacore_trace::journal::{self, Gap, JournalHeader, Reader, Unreadable, Writer, is_beginning};
+use albacore_trace::{Step, TickRecord};
 use std::io::{self, Read};
 
 /// Where a journal's bytes go.
@@ -65,17 +65,13 @@ impl Journal {
 
 impl Recorder for Journal {
     fn take(&mut self, record: &TickRecord) {
-        let TickRecord { tick, snapshot, command, events, .. } = record;
-        match &record.step {
-            Step::Wait => {}
-            Step::Tick => self.write(|writer| writer.tick(*tick, snapshot, command.as_ref(), events)),
-            Step::End(Ending { outcome, reason, digest, .. }) => {
-                let (reason, events, digest) = (reason.clone(), events.clone(), digest.value());
-                let closing = Closing { outcome: *outcome, reason, ticks: *tick, events, digest };
-                self.write(|writer| writer.close(&closing));
-                // Nothing follows the end.
-                self.writer = None;
-            }
+        if matches!(record.step, Step::Wait) && record.notices.is_empty() {
+            return;
+        }
+        self.write(|writer| writer.step(record));
+        if record.ending().is_some() {
+            // Nothing follows the end.
+            self.writer = None;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What a person should hear of the vehicle and the link while a run goes on.
 
 use super::{Recorder, missed};
-use crate::run::{Step, TickRecord};
+use albacore_trace::{Step, TickRecord};
 
 /// Notices that wait to be taken; the oldest are dropped.
 const NOTICES_MAX: usize = 64;

@@ -2,11 +2,10 @@
 
 use super::Recorder;
 use crate::plan::Plan;
-use crate::run::{Ending, Step, TickRecord, corners};
 use crate::summary::{Report, Summary};
 use albacore_geometry::{Area, Point};
 use albacore_machine::{Event, Outcome};
-use albacore_trace::Release;
+use albacore_trace::{Ending, Release, Step, TickRecord};
 use albacore_vehicle::TICK_S;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -129,7 +128,7 @@ impl Results {
             switches: self.switches,
             reports: self.reports.listed.clone(),
             more_reports: self.reports.more,
-            digest: self.ending.as_ref().map(|ending| ending.digest.to_string()).unwrap_or_default(),
+            digest: self.ending.as_ref().map(|ending| format!("{:016x}", ending.digest)).unwrap_or_default(),
         }
     }
 
@@ -200,7 +199,7 @@ impl Results {
 impl Recorder for Results {
     fn take(&mut self, record: &TickRecord) {
         if self.area.is_empty() && !record.area.is_empty() {
-            self.area = corners(&record.area);
+            self.area = record.corners();
             let (bottom, area) = (&self.plan.scenario.bottom, Area::polygon(&self.area).ok());
             self.deepest = area.filter(|_| !bottom.is_level()).map(|area| bottom.deepest(&area));
         }

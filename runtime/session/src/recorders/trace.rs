@@ -2,9 +2,9 @@
 
 use super::{Recorder, Sensor, missed};
 use crate::plan::Plan;
-use crate::run::{Step, TickRecord};
 use albacore_geometry::Heading;
 use albacore_trace::{BehaviorTrace, Header};
+use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::{Channel, TICK_S};
 
 /// Writes the trace.
@@ -61,7 +61,7 @@ impl Recorder for Trace {
                     self.note(record);
                 }
                 self.hear(record);
-                self.lines.finish(ending.outcome, ending.release, record.tick, &ending.digest);
+                self.lines.finish(ending.outcome, ending.release, record.tick, ending.digest);
             }
         }
     }

@@ -2,9 +2,9 @@
 
 use super::Recorder;
 use crate::plan::Plan;
-use crate::run::{Step, TickRecord};
 use albacore_geometry::Point;
 use albacore_program::{ActivityId, Body, Program};
+use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::Channel;
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -2,7 +2,6 @@
 //! for the vehicle alone, and gives a record; whoever keeps the records is no concern of it.
 
 use super::Running;
-use super::record::{Ending, Step, TickRecord};
 use crate::craft::Craft;
 use crate::plan::{Plan, PlanError};
 use crate::recorders::Recorder;
@@ -13,7 +12,7 @@ use albacore_machine::{Event, Machine, Outcome, Wish};
 use albacore_navigation::Trust;
 use albacore_program::AREA_WORDS;
 use albacore_sim::Simulator;
-use albacore_trace::{Digest, Release};
+use albacore_trace::{Ending, Release, Step, TickRecord};
 use albacore_vehicle::VehicleError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -105,6 +104,11 @@ impl Driver {
 
     pub fn vehicle(&self) -> &Craft {
         &self.vehicle
+    }
+
+    /// The digest of the run so far.
+    pub fn digest(&self) -> u64 {
+        self.digest.value()
     }
 
     /// Whether the vehicle's time has come to the next tick; on a link it waits some hundredths of a second for that.
@@ -222,11 +226,10 @@ impl Driver {
             Ok(()) => (Release::Done, None),
         };
         let reason = self.reason.clone();
-        let mut ending = Ending { outcome, reason, release, trouble, digest: Digest::new() };
+        let ending = Ending { outcome, reason, release, trouble, digest: 0 };
         record.step = Step::End(ending.clone());
         self.digest.take(record);
-        ending.digest = self.digest.digest();
-        record.step = Step::End(ending);
+        record.step = Step::End(Ending { digest: self.digest.value(), ..ending });
         self.next = Next::Nothing(outcome);
         outcome
     }

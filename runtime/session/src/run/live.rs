@@ -5,12 +5,12 @@
 //! counted: in the journal a gap is a record of its own, with a checkpoint.
 
 use super::queue::{Feed, Intake, queue};
-use super::record::{Step, TickRecord};
 use super::{Driver, Run, Running};
 use crate::recorders::journal::{Journal, Sink};
 use crate::recorders::{InMemory, Recorder};
 use albacore_machine::Outcome;
 use albacore_trace::journal::{Gap, JournalHeader};
+use albacore_trace::{Step, TickRecord};
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -128,13 +128,14 @@ impl Lines {
         if is_wait && record.notices.is_empty() {
             return;
         }
-        let (bytes, is_end, record) = (record.bytes(), matches!(record.step, Step::End(_)), Arc::new(record));
+        let (bytes, is_end, record) = (record.bytes(), record.ending().is_some(), Arc::new(record));
         if is_end || self.memory.has_room(bytes) {
             self.memory.put(bytes, (std::mem::take(&mut self.unseen), Arc::clone(&record)));
         } else {
             self.unseen += 1;
         }
-        if !is_wait {
+        // What was noticed in a gap is a part of it.
+        if !is_wait || self.gap.is_none() {
             self.write(bytes, is_end, record, driver);
         }
     }

@@ -1,8 +1,9 @@
 //! Reading a journal, as far as it is whole.
 
 use super::{Ending, Entry, Flaw, Gap, JOURNAL_VERSION, JournalHeader, MAGIC, Payload, Unreadable, WORD, sealed};
+use crate::record::Step;
 
-/// Gives the ticks of a journal and what is missing between them one by one, and then how it ends.
+/// Gives the steps of a journal and what is missing between them one by one, and then how it ends.
 pub struct Reader<'a> {
     bytes: &'a [u8],
     header: JournalHeader,
@@ -40,7 +41,7 @@ impl<'a> Reader<'a> {
         }
         let start = MAGIC.len() + WORD;
         match record(bytes, start) {
-            Ok((Payload::Header(header), at)) => Ok(Reader { bytes, header, at, tick: 0, ending: None }),
+            Ok((Payload::Header(header), at)) => Ok(Reader { bytes, header: *header, at, tick: 0, ending: None }),
             Ok(_) => Err(Unreadable::Damaged(flaw(start, "what is run"))),
             Err(Fault::Short(expected)) => Err(Unreadable::CutShort(flaw(start, &expected))),
             Err(Fault::Wrong(expected)) => Err(Unreadable::Damaged(flaw(start, &expected))),
@@ -62,25 +63,30 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads the record that comes next, unless it is no tick: then the journal ends, one way or the other.
+    /// Reads the record that comes next, unless there is none: then the journal ends, one way or the other.
     fn advance(&mut self) -> Result<Entry, Ending> {
         let flaw = |expected: String| Flaw { at: self.at, expected };
         let next = format!("the record of tick {}", self.tick);
         match record(self.bytes, self.at) {
-            Ok((Payload::Tick(record), at)) if record.tick == self.tick => {
+            Ok((Payload::Step(record), at)) if record.ending().is_some() => {
+                // A copy of the file's end behind itself, or of another file's, is made of records that are each whole.
+                if at < self.bytes.len() {
+                    let expected = "nothing more, behind the end of the run".into();
+                    return Err(Ending::Damaged(Flaw { at, expected }));
+                }
                 self.at = at;
-                self.tick = self.tick.saturating_add(1);
-                Ok(Entry::Tick(record))
+                self.ending = Some(Ending::Complete(record.clone()));
+                Ok(Entry::Step(record))
+            }
+            Ok((Payload::Step(record), at)) if record.tick == self.tick => {
+                self.at = at;
+                self.tick = self.tick.saturating_add(u64::from(matches!(record.step, Step::Tick)));
+                Ok(Entry::Step(record))
             }
             Ok((Payload::Gap(gap), at)) if gap.first == self.tick && gap.last >= gap.first && follows(&gap) => {
                 self.at = at;
                 self.tick = gap.state.tick;
                 Ok(Entry::Gap(gap))
-            }
-            // A copy of the file's end behind itself, or of another file's, is made of records that are each whole.
-            Ok((Payload::Closing(closing), at)) if at == self.bytes.len() => Err(Ending::Complete(closing)),
-            Ok((Payload::Closing(_), at)) => {
-                Err(Ending::Damaged(Flaw { at, expected: "nothing more, behind the end of the run".into() }))
             }
             Ok(_) => Err(Ending::Damaged(flaw(next))),
             Err(Fault::Short(expected)) => Err(Ending::CutShort(flaw(format!("{next}, {expected}")))),

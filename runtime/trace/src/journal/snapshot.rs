@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 struct Samples<'a>(&'a [Sample]);
 struct Short<'a>(&'a Sample);
 
-pub(super) fn serialize<S: Serializer>(snapshot: &Snapshot, serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn serialize<S: Serializer>(snapshot: &Snapshot, serializer: S) -> Result<S::Ok, S::Error> {
     let mut parts = serializer.serialize_tuple(4)?;
     parts.serialize_element(&Samples(&snapshot.samples))?;
     parts.serialize_element(&snapshot.control)?;
@@ -32,7 +32,7 @@ impl Serialize for Short<'_> {
     }
 }
 
-pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Snapshot, D::Error> {
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Snapshot, D::Error> {
     let (samples, control, lag, aground) = <(Vec<(u16, Vec<f64>)>, Control, Lag, bool)>::deserialize(deserializer)?;
     let mut snapshot = Snapshot { samples: Vec::with_capacity(samples.len()), control, lag, aground };
     for (channel, numbers) in samples {

@@ -1,8 +1,7 @@
 //! Writing a journal: one write call a record.
 
-use super::{Closing, Gap, JOURNAL_VERSION, JournalHeader, MAGIC, PAYLOAD_MAX, WORD, Written, sealed};
-use albacore_machine::Event;
-use albacore_vehicle::{Command, Snapshot};
+use super::{Gap, JOURNAL_VERSION, JournalHeader, MAGIC, PAYLOAD_MAX, WORD, Written, sealed};
+use crate::record::TickRecord;
 use std::io;
 
 /// Appends records to a sink, which should not hold bytes back: what it has taken is to survive the program's end.
@@ -22,26 +21,15 @@ impl<W: io::Write> Writer<W> {
         Ok(writer)
     }
 
-    /// Takes down one tick.
-    pub fn tick(
-        &mut self,
-        tick: u64,
-        snapshot: &Snapshot,
-        command: Option<&Command>,
-        events: &[Event],
-    ) -> io::Result<()> {
-        self.append(&Written::Tick { tick, snapshot, command, events })
+    /// Takes down a step. With the last one the sink hands on all that it has.
+    pub fn step(&mut self, record: &TickRecord) -> io::Result<()> {
+        self.append(&Written::Step(record))?;
+        if record.ending().is_some() { self.sink.flush() } else { Ok(()) }
     }
 
     /// Takes down what is missing.
     pub fn gap(&mut self, gap: &Gap) -> io::Result<()> {
         self.append(&Written::Gap(gap))
-    }
-
-    /// Takes down the end of the run, and lets the sink hand on all that it has.
-    pub fn close(&mut self, closing: &Closing) -> io::Result<()> {
-        self.append(&Written::Closing(closing))?;
-        self.sink.flush()
     }
 
     /// Writes a record behind the bytes that already wait for it.

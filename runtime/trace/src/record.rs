@@ -1,20 +1,23 @@
-//! What a driver hands on: all that came in, went out and happened in one step, as one value that recorders fold over.
+//! All that came in, went out and happened in one step of a run, as one value: a driver makes it, recorders fold over it, a journal
+//! keeps it.
 
+use crate::behavior::Release;
+use crate::journal::snapshot;
 use albacore_geometry::Point;
 use albacore_machine::{Event, Outcome};
 use albacore_program::{AREA_CORNER_WORDS, ActivityId};
-use albacore_sim::Truth;
-use albacore_trace::{Digest, Release};
-use albacore_vehicle::{Command, Snapshot};
+use albacore_vehicle::{Command, Snapshot, Truth};
+use serde::{Deserialize, Serialize};
 
 /// One step of a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TickRecord {
     /// The tick it belongs to; for the end, the one that would have come next.
     pub tick: u64,
     /// What kind of step it was.
     pub step: Step,
     /// All that came from the vehicle.
+    #[serde(with = "snapshot")]
     pub snapshot: Snapshot,
     /// What it was told.
     pub command: Option<Command>,
@@ -24,18 +27,21 @@ pub struct TickRecord {
     pub notices: Vec<String>,
     /// What is so, whatever the sensors say: known in simulation only.
     pub truth: Option<Truth>,
-    /// Where the mission believes the vehicle to be.
-    pub believed: Option<Point>,
-    /// The active activities, from outside in.
-    pub active: Vec<ActivityId>,
     /// The words of the mission's area: in the first tick that knows it, and at the end again.
     pub area: Vec<f64>,
-    /// Whether the run's end follows at once.
+    /// Where the mission believes the vehicle to be. It follows from the samples: no journal keeps it.
+    #[serde(skip)]
+    pub believed: Option<Point>,
+    /// The active activities, from outside in. They follow from the events: no journal keeps them.
+    #[serde(skip)]
+    pub active: Vec<ActivityId>,
+    /// Whether the run's end follows at once. No journal keeps it.
+    #[serde(skip)]
     pub is_last: bool,
 }
 
 /// What kind of step it was.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Step {
     /// The vehicle's time has not come to the next tick: there may be notices.
     #[default]
@@ -47,7 +53,7 @@ pub enum Step {
 }
 
 /// How a run ended.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ending {
     /// The outcome.
     pub outcome: Outcome,
@@ -58,44 +64,54 @@ pub struct Ending {
     /// Why it was not, if so.
     pub trouble: Option<String>,
     /// The digest of the full-rate run.
-    pub digest: Digest,
+    pub digest: u64,
 }
 
 impl TickRecord {
     /// Nothing yet, at a tick; keeps its memory.
-    pub(super) fn clear(&mut self, tick: u64) {
-        self.tick = tick;
-        self.step = Step::Wait;
-        self.snapshot.samples.clear();
-        self.snapshot.aground = false;
-        self.command = None;
-        self.events.clear();
-        self.notices.clear();
-        self.truth = None;
-        self.believed = None;
-        self.active.clear();
-        self.area.clear();
-        self.is_last = false;
+    pub fn clear(&mut self, tick: u64) {
+        fn emptied<T>(list: &mut Vec<T>) -> Vec<T> {
+            list.clear();
+            std::mem::take(list)
+        }
+        let samples = emptied(&mut self.snapshot.samples);
+        *self = TickRecord {
+            tick,
+            snapshot: Snapshot { samples, ..Snapshot::default() },
+            events: emptied(&mut self.events),
+            notices: emptied(&mut self.notices),
+            area: emptied(&mut self.area),
+            active: emptied(&mut self.active),
+            ..TickRecord::default()
+        };
     }
 
-    /// About how much memory it takes.
-    pub(super) fn bytes(&self) -> usize {
+    /// About how much memory it takes, bytes.
+    pub fn bytes(&self) -> usize {
         let events: usize = self.events.iter().map(|event| size_of::<Event>() + said(event)).sum();
         let notices: usize = self.notices.iter().map(|notice| size_of::<String>() + notice.len()).sum();
         size_of::<Self>() + size_of_val(self.snapshot.samples.as_slice()) + events + notices
     }
 
+    /// How the run ended, if this is its end.
+    pub fn ending(&self) -> Option<&Ending> {
+        match &self.step {
+            Step::End(ending) => Some(ending),
+            Step::Wait | Step::Tick => None,
+        }
+    }
+
+    /// The corners of the mission's area, where its words are told.
+    pub fn corners(&self) -> Vec<Point> {
+        let count = self.area.first().map_or(0, |count| *count as usize);
+        let corners = self.area.get(1..).unwrap_or_default().chunks_exact(AREA_CORNER_WORDS as usize);
+        corners.take(count).map(|words| Point::new(words[0], words[1])).collect()
+    }
+
     /// Where the vehicle is, as well as that is known.
-    pub(crate) fn here(&self) -> Option<Point> {
+    pub fn here(&self) -> Option<Point> {
         self.truth.map(|truth| truth.position).or(self.believed)
     }
-}
-
-/// The corners of an area, of its words.
-pub(crate) fn corners(area: &[f64]) -> Vec<Point> {
-    let count = area.first().map_or(0, |count| *count as usize);
-    let corners = area.get(1..).unwrap_or_default().chunks_exact(AREA_CORNER_WORDS as usize);
-    corners.take(count).map(|words| Point::new(words[0], words[1])).collect()
 }
 
 /// The bytes of what an event has to say.

@@ -1,0 +1,114 @@
+//! A run that is over, read back from its journal: the records that it left feed the same recorders that it fed as it went.
+
+use crate::picture;
+use crate::plan::Plan;
+use crate::recorders::{InMemory, Recorder};
+use crate::summary::Summary;
+use albacore_geometry::Point;
+use albacore_program::Program;
+use albacore_trace::journal::{Ending, Entry, JournalHeader, Reader, Unreadable};
+use albacore_trace::{Active, BehaviorTrace, Step, TickRecord};
+use std::sync::Arc;
+
+/// A run that is over.
+pub struct PastRun {
+    memory: InMemory,
+    header: JournalHeader,
+    ending: Ending,
+    in_simulation: bool,
+}
+
+impl PastRun {
+    /// Reads the journal of a run of a plan, as far as it is whole.
+    pub fn read(plan: &Plan, journal: &[u8]) -> Result<Self, Unreadable> {
+        let mut reader = Reader::new(journal)?;
+        let header = reader.header().clone();
+        let mut memory = InMemory::new(plan, header.seed, &header.channels, header.start);
+        let mut derived = Derived::new(plan, &header);
+        let mut in_simulation = false;
+        // Nobody knows of a tick that it was the last one before what follows it is read.
+        let mut held: Option<Box<TickRecord>> = None;
+        for entry in reader.by_ref() {
+            match entry {
+                Entry::Step(mut record) => {
+                    derived.complete(&mut record);
+                    in_simulation |= record.truth.is_some();
+                    let is_end = record.ending().is_some();
+                    if let Some(mut before) = held.replace(record) {
+                        before.is_last = is_end;
+                        memory.take(&before);
+                    }
+                }
+                Entry::Gap(gap) => {
+                    held.take().iter().for_each(|before| memory.take(before));
+                    memory.miss(gap.last - gap.first + 1, gap.state.tick);
+                    derived.lose();
+                }
+            }
+        }
+        held.iter().for_each(|last| memory.take(last));
+        Ok(PastRun { memory, header, ending: reader.into_ending(), in_simulation })
+    }
+
+    /// What was run.
+    pub fn header(&self) -> &JournalHeader {
+        &self.header
+    }
+
+    /// How its journal ends.
+    pub fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    /// The result; how long it took by the clock is not in the journal.
+    pub fn summary(&self) -> Summary {
+        self.memory.results.summary(0.0)
+    }
+
+    /// The behavior trace.
+    pub fn trace(&self) -> &BehaviorTrace {
+        self.memory.trace.lines()
+    }
+
+    /// The picture as SVG, without the plume: a journal holds what the vehicle met of it alone.
+    pub fn svg(&self) -> String {
+        picture::of_run(&self.memory, self.in_simulation, Vec::new())
+    }
+}
+
+/// What of a record follows from those before it, and is not in the journal.
+struct Derived {
+    program: Arc<Program>,
+    position: Option<usize>,
+    active: Active,
+    believed: Option<Point>,
+}
+
+impl Derived {
+    fn new(plan: &Plan, header: &JournalHeader) -> Self {
+        Derived {
+            program: Arc::clone(&plan.program),
+            position: header.channels.iter().position(|channel| channel.name == "position"),
+            active: Active::default(),
+            believed: None,
+        }
+    }
+
+    fn complete(&mut self, record: &mut TickRecord) {
+        for sample in &record.snapshot.samples {
+            if Some(usize::from(sample.input_channel())) == self.position {
+                self.believed = Some(Point::new(sample.reading[0], sample.reading[1]));
+            }
+        }
+        record.events.iter().for_each(|event| self.active.follow(event, &self.program));
+        if !matches!(record.step, Step::Wait) {
+            record.believed = self.believed;
+            record.active = self.active.chain().to_vec();
+        }
+    }
+
+    /// What happened meanwhile is not known.
+    fn lose(&mut self) {
+        self.active = Active::default();
+    }
+}
