@@ -1,5 +1,9 @@
 //! The digest: 64 bits that tell two full-rate runs apart.
 
+mod form;
+
+use serde::Serialize;
+
 /// An odd number with well-mixed bits: the fraction of the golden ratio.
 const MULTIPLIER: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Where every digest begins: the first digits of pi, in hexadecimal.
@@ -64,6 +68,15 @@ impl Digest {
         for chunk in bytes.chunks(8) {
             self.word(chunk.iter().rev().fold(0, |word, &byte| (word << 8) | u64::from(byte)));
         }
+    }
+
+    /// Takes a value in, part by part (see [`form`]).
+    ///
+    /// # Errors
+    ///
+    /// It holds a list whose length is not known beforehand.
+    pub fn value_of(&mut self, value: &impl Serialize) -> Result<(), std::fmt::Error> {
+        value.serialize(self)
     }
 
     /// The digest of all that was taken in so far.

@@ -1,6 +1,12 @@
 //! The digest of a run.
 
+#![expect(clippy::unwrap_used, reason = "what has no form has failed the test")]
+
+use albacore_geometry::Heading;
+use albacore_machine::Event;
+use albacore_program::Channel;
 use albacore_trace::Digest;
+use albacore_vehicle::{Command, Vertical};
 
 fn of(words: &[u64]) -> u64 {
     let mut digest = Digest::new();
@@ -65,4 +71,20 @@ fn one_number_has_one_digest() {
     assert_eq!(number(0.0), number(-0.0));
     assert_eq!(number(f64::NAN), number(-f64::NAN));
     assert_ne!(number(1.0), number(-1.0));
+}
+
+/// The form of values in a digest never changes either: depths and altitudes, zeros of either sign, and what is absent are told apart
+/// or not as it says.
+#[test]
+fn the_form_of_values_never_changes() {
+    let of = |command: Option<Command>| {
+        let mut digest = Digest::new();
+        let events = vec![Event::Logged("36°".into()), Event::Limited(Channel::Depth, 9.0, -0.0), Event::TimedOut];
+        digest.value_of(&(7_u64, command, &events)).unwrap();
+        digest.to_string()
+    };
+    let told = |vertical| Some(Command { heading: Heading::from_degrees(90.0), speed: 1.5, vertical });
+    let given = [None, told(Vertical::Depth(3.0)), told(Vertical::Altitude(3.0)), told(Vertical::Depth(-3.0))].map(of);
+    assert_eq!(given, ["c08043fabcd32637", "46142c91067bce1c", "39f3c6169d606a9c", "fec612bfa2a786cd"]);
+    assert_eq!(of(told(Vertical::Depth(0.0))), of(told(Vertical::Depth(-0.0))));
 }

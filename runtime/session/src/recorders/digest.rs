@@ -1,10 +1,10 @@
-//! The digest of the full-rate run: every sample, every command, every event. Notices are no part of it, for when they come is no
-//! matter of the run.
+//! The digest of the full-rate run: of each tick its number, how the link lags, every sample, what the vehicle was told last, and every
+//! event, in the form that `Digest::value_of` states. Notices are no part of it, for when they come is no matter of the run.
 
 use super::Recorder;
-
-use albacore_trace::{Digest, Step, TickRecord};
-use albacore_vehicle::{Command, Lag, Vertical};
+use albacore_trace::Digest;
+use albacore_trace::{Step, TickRecord};
+use albacore_vehicle::Command;
 
 /// Folds the digest.
 #[derive(Default)]
@@ -29,27 +29,8 @@ impl Recorder for RunDigest {
             _ => return,
         }
         self.command = record.command.or(self.command);
-        let digest = &mut self.digest;
-        digest.word(record.tick);
-        let Lag { round_trip, host } = record.snapshot.lag;
-        if record.snapshot.lag != Lag::default() {
-            digest.word(round_trip);
-            digest.word(host.unwrap_or(0));
-        }
-        for sample in &record.snapshot.samples {
-            digest.word(u64::from(sample.channel));
-            digest.numbers(&sample.reading);
-        }
-        if let Some(command) = self.command {
-            digest.number(command.heading.radians());
-            digest.number(command.speed);
-            match command.vertical {
-                Vertical::Depth(metres) => digest.number(metres),
-                Vertical::Altitude(metres) => digest.number(-metres),
-            }
-        }
-        for event in &record.events {
-            digest.text(&format!("{event:?}"));
-        }
+        let TickRecord { tick, snapshot, events, .. } = record;
+        let known = self.digest.value_of(&(tick, snapshot.lag, &snapshot.samples, self.command, events));
+        debug_assert!(known.is_ok(), "all of it has a length");
     }
 }
