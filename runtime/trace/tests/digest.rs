@@ -1,7 +1,5 @@
 //! The digest of a run.
 
-#![expect(clippy::unwrap_used, reason = "what has no form has failed the test")]
-
 use albacore_geometry::Heading;
 use albacore_machine::Event;
 use albacore_program::Channel;
