@@ -207,6 +207,33 @@ fn a_line_full_of_mistakes_is_checked_in_time() {
     }
 }
 
+/// What is never closed is not looked for once more by each block that it stands in: at 40 levels that would take years.
+#[test]
+fn brackets_that_do_not_fit_are_told_in_time() {
+    let mission = |text: String| format!("mission m {{\n{text}");
+    let levels = |open: &str| open.repeat(40);
+    let scripts = [
+        ("loops", mission(levels("loop {\n"))),
+        ("cut", mission((0..40).map(|level| "  ".repeat(level + 1) + "loop {\n").collect())),
+        ("few", mission(levels("loop {\n") + &"}\n".repeat(39))),
+        ("more", mission(levels("loop {\n") + &"}\n".repeat(43))),
+        ("arms", mission("match a {\n x {\n".repeat(30))),
+        ("values", mission("let y = (if a {".repeat(30))),
+        ("elses", mission("let y = (if a {".repeat(10) + &"if a { b }\nelse {\nif a {".repeat(10))),
+        ("limits", mission("limits { depth <= if a {\n".repeat(30))),
+        ("lists", mission(levels("for i in if a {\n") + "x" + &"\n} { }".repeat(40) + "\n}\n")),
+        ("behaviors", format!("strategy s() {{\n{}", levels("behavior a {\n"))),
+    ];
+    for (name, script) in scripts {
+        for verb in ["check", "fmt"] {
+            let (output, told) = run_within(&[verb], name, &script, None);
+            // One is nested twice as a value and as a list, and well formed.
+            let well = verb == "fmt" && name == "lists";
+            assert_eq!(output.status.code(), Some(if well { 0 } else { 3 }), "{verb} {name}: {told:.2000}");
+        }
+    }
+}
+
 /// What the vehicle's sensors look through at each sample is bounded, and told before anything else is made of it.
 #[test]
 fn a_scenario_has_so_many_clauses_of_one_name_at_most() {

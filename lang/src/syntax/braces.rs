@@ -61,6 +61,14 @@ pub(super) fn mend(file: FileId, source: &str) -> Mended {
 impl Mender {
     fn declaration(&mut self, lines: &[Line], next: Option<usize>) {
         let mut last_end = lines[0].start;
+        // Where nothing is indented the margins show nothing: what is open at the end is what was not closed.
+        if lines.iter().all(|line| line.margin() == 0) {
+            for line in lines {
+                self.brackets_of(line, line.start);
+                last_end = line.end;
+            }
+            return self.close_from(0, last_end, next);
+        }
         for (index, line) in lines.iter().enumerate() {
             let closes = matches!(self.bare[line.start], b')' | b']' | b'}');
             // What is open and began no further in than this line was to be closed before it.
@@ -320,6 +328,16 @@ mod tests {
             "fn f {\n  if a {\n    if b {\n      c\n}}}",
             &["a `}` is missing after this"],
         );
+    }
+
+    #[test]
+    fn where_nothing_is_indented_the_order_of_brackets_counts() {
+        check(
+            "fn f {\nloop {\nif a {\nb\n}\n}\n\nfn g {\n}\n",
+            "fn f {\nloop {\nif a {\nb\n}\n}}\nfn g {\n}\n",
+            &["a `}` is missing after this"],
+        );
+        check("fn f {\nif a {\nb\n}\n}\n}\n", "fn f {\nif a {\nb\n}\n}\n \n", &["this `}` closes nothing"]);
     }
 
     #[test]

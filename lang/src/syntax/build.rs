@@ -219,8 +219,13 @@ fn param(b: &mut Builder, pair: P) -> Option<Param> {
 pub(super) fn range(b: &mut Builder, pair: P) -> Option<Range> {
     let mut inner = pair.into_inner();
     let first = expr(b, inner.next()?);
-    let inclusive = inner.next()?.as_str() == "..";
+    let inclusive = is_inclusive(&inner.next()?);
     Some(Range { first, last: expr(b, inner.next()?), inclusive })
+}
+
+/// Whether a range holds its end: `..<` does not.
+pub(super) fn is_inclusive(range_op: &P) -> bool {
+    range_op.as_str() == ".."
 }
 
 pub(super) fn ty(b: &mut Builder, pair: P) -> Ty {

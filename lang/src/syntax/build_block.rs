@@ -1,6 +1,6 @@
 //! From the grammar's pairs to the tree: blocks and their clauses.
 
-use super::build::{Builder, P, Place, activity, parts, range, take, ty};
+use super::build::{Builder, P, Place, activity, is_inclusive, parts, take, ty};
 use super::build_expr::{cond, expr, expr_stmt, name, text};
 use super::tree::*;
 use super::{NESTING_MAX, Rule};
@@ -102,11 +102,12 @@ fn clause(b: &mut Builder, pair: P) -> Option<ClauseKind> {
         Rule::for_stmt => ClauseKind::For {
             name: name(b, inner.next()?),
             over: {
-                let over = inner.next()?;
-                if over.as_rule() == Rule::range {
-                    ForOver::Range(range(b, over)?)
-                } else {
-                    ForOver::List(expr(b, over))
+                let first = expr(b, inner.next()?);
+                match inner.next_if(|next| next.as_rule() == Rule::range_op) {
+                    Some(op) => {
+                        ForOver::Range(Range { first, inclusive: is_inclusive(&op), last: expr(b, inner.next()?) })
+                    }
+                    None => ForOver::List(first),
                 }
             },
             block: block(b, inner.next()?),

@@ -62,7 +62,7 @@ pub struct Unread {
 /// Reads a source file.
 pub fn parse(file: FileId, source: &str) -> Parsed {
     let mut unread = Vec::new();
-    let (trees, mut findings, comments) = read(file, source, Rule::file, declarations, |b, pairs| {
+    let (trees, mut findings, comments, passed_over) = read(file, source, Rule::file, declarations, |b, pairs| {
         let before = b.bad.len();
         let tree = build::file(b, pairs);
         let bad = &b.bad[before..];
@@ -73,6 +73,7 @@ pub fn parse(file: FileId, source: &str) -> Parsed {
         );
         tree
     });
+    unread.extend(passed_over.into_iter().map(|span| Unread { span, item: None }));
     if trees.is_empty() {
         unread.push(Unread { span: Span { file, start: 0, end: source.len() as u32 }, item: None });
     }
@@ -90,7 +91,7 @@ fn declarations(scanned: &Scanned) -> Vec<Range<usize>> {
 /// Reads statements that stand in no block: the lines of a prompt.
 pub fn parse_lines(file: FileId, source: &str) -> (tree::Block, Vec<Diagnostic>) {
     let whole = |scanned: &Scanned| std::iter::once(0..scanned.text.len()).collect();
-    let (block, mut findings, comments) =
+    let (block, mut findings, comments, _) =
         read(file, source, Rule::lines, whole, |b, mut pairs| pairs.next().map(|pair| build_block::block(b, pair)));
     findings.extend(quotient::doubts(source, &comments));
     let nothing = tree::Block { clauses: Vec::new(), span: Span { file, start: 0, end: source.len() as u32 } };
@@ -133,7 +134,11 @@ pub(crate) fn concrete<T>(
     source: &str,
     build: impl FnOnce(pest::iterators::Pairs<Rule>) -> T,
 ) -> Option<T> {
-    Grammar::parse(Rule::file, &scan::scan(file, source).text).ok().map(build)
+    let scanned = scan::scan(file, source);
+    if !scanned.brackets_fit() {
+        return None;
+    }
+    Grammar::parse(Rule::file, &scanned.text).ok().map(build)
 }
 
 /// A stretch of a source with blanks for its comments.
@@ -141,26 +146,34 @@ pub(crate) fn uncommented(file: FileId, stretch: &str) -> String {
     scan::scan(file, stretch).text
 }
 
-/// Reads a source by a rule of the grammar, a part at a time: what was built of each, the findings, the comments. What the
-/// grammar makes of a text is far larger than the text: of a part it is small, and soon gone.
+/// Reads a source by a rule of the grammar, a part at a time: what was built of each, the findings, the comments, the parts that were
+/// passed over. What the grammar makes of a text is far larger than the text: of a part it is small, and soon gone. A part whose brackets
+/// do not fit, however its margins are read, is passed over: the grammar would look for the end of each block once more for each that it
+/// stands in.
 fn read<T>(
     file: FileId,
     source: &str,
     rule: Rule,
     parts: impl FnOnce(&Scanned) -> Vec<Range<usize>>,
     mut build: impl FnMut(&mut build::Builder, pest::iterators::Pairs<Rule>) -> T,
-) -> (Vec<T>, Vec<Diagnostic>, Vec<Comment>) {
+) -> (Vec<T>, Vec<Diagnostic>, Vec<Comment>, Vec<Span>) {
     let mut scanned = scan::scan_mended(file, source);
     let mut findings = std::mem::take(&mut scanned.findings);
     // Too deep: the grammar itself would be at the mercy of the thread's stack.
     if findings.iter().any(|f| f.code == Code::SyntaxNesting) {
-        return (Vec::new(), findings, scanned.comments);
+        return (Vec::new(), findings, scanned.comments, Vec::new());
     }
     let mut builder = build::Builder::new(file);
-    let mut built = Vec::new();
+    let (mut built, mut passed_over) = (Vec::new(), Vec::new());
+    let all_fit = !findings.iter().any(|f| f.code == Code::SyntaxBracket);
     for part in parts(&scanned) {
+        let span = Span { file, start: part.start as u32, end: part.end as u32 };
         builder.base = part.start;
         let text = &scanned.text[part];
+        if !(all_fit || scan::scan(file, text).brackets_fit()) {
+            passed_over.push(span);
+            continue;
+        }
         match Grammar::parse(rule, text) {
             Ok(pairs) => built.push(build(&mut builder, pairs)),
             Err(error) => findings.push(errors::finding(file, text, builder.base, &error)),
@@ -172,7 +185,7 @@ fn read<T>(
     let unread: Vec<_> = builder.bad.iter().filter(|bad| !told.touches(bad.span)).collect();
     let callable = if unread.is_empty() { BTreeSet::new() } else { errors::callable(&scanned.text) };
     findings.extend(unread.into_iter().map(|bad| errors::of_bad_stretch(file, &scanned.text, &callable, bad)));
-    (built, findings, scanned.comments)
+    (built, findings, scanned.comments, passed_over)
 }
 
 /// Reads one expression, such as the value of `--set lambda=6s`.

@@ -89,6 +89,13 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
     Scanned { text, comments: scanner.comments, findings: scanner.findings, starts: scanner.starts, goes_on }
 }
 
+impl Scanned {
+    /// Whether each bracket has its own.
+    pub(super) fn brackets_fit(&self) -> bool {
+        self.findings.iter().all(|finding| finding.code != Code::SyntaxBracket)
+    }
+}
+
 /// The same for a source whose brackets may not fit: those that the margins show to be missing are put in.
 pub(super) fn scan_mended(file: FileId, source: &str) -> Scanned {
     let scanned = scan(file, source);
