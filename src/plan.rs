@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use crate::message;
-use albacore_session::{FileError, Plan, PlanError, Script, Wanted};
+use albacore_session::{FileError, Plan, PlanError, Script, SourceDigest, Wanted};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -49,8 +49,18 @@ pub struct ScriptDigest {
 
 /// The scripts of a plan, the mission's own first. The texts of `--set` are read as scripts too, and are none of them.
 pub fn scripts(plan: &Plan) -> Vec<ScriptDigest> {
-    let scripts = plan.sources.iter().filter(|source| !source.name.starts_with("--set "));
-    scripts.map(|s| ScriptDigest { name: s.name.clone(), digest: format!("{:016x}", s.digest) }).collect()
+    plan.sources.iter().filter(|source| !source.name.starts_with("--set ")).map(ScriptDigest::of).collect()
+}
+
+/// The script that the world of a plan stands in, if it stands in one.
+pub fn world_script(plan: &Plan) -> Option<ScriptDigest> {
+    plan.scenario_script.as_ref().map(ScriptDigest::of)
+}
+
+impl ScriptDigest {
+    fn of(source: &SourceDigest) -> Self {
+        ScriptDigest { name: source.name.clone(), digest: format!("{:016x}", source.digest) }
+    }
 }
 
 /// Which mission of a script, in which world, with what changed: what every verb that drives takes.

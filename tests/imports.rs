@@ -72,3 +72,72 @@ fn the_standard_library_imports_its_own() {
     .unwrap();
     assert!(told(&folder).contains("no errors"), "{}", told(&folder));
 }
+
+/// A script with scenarios in a module of its project: what it says of the bottom, and its vehicle.
+fn with_worlds(name: &str, worlds: &str, scenario: &str) -> PathBuf {
+    let folder = folder(name);
+    std::fs::write(folder.join("wb.alb"), worlds).unwrap();
+    let mission = format!(
+        "use wb
+mission m in {scenario} within 5 min {{
+    area op = rectangle(center: point(north: 0 m, east: 0 m), along: 0 deg, length: 400 m, width: 400 m)
+    limits {{ altitude >= 2 m, speed <= 2.5 m/s }}
+    requires {{ position, course, heading fresh 5 s, else abort }}
+    recovery within 5 min {{ goto op.center }}
+    with depth 3 m, speed 1.5 m/s
+    goto op.center
+}}
+"
+    );
+    std::fs::write(folder.join("main.alb"), mission).unwrap();
+    folder
+}
+
+fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(args).current_dir(folder).env("NO_COLOR", "1").stdin(Stdio::null());
+    let output = command.output().unwrap();
+    (output.status.code(), String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap())
+}
+
+/// What `run` refuses, `check` finds, wherever the scenario stands.
+#[test]
+fn what_cannot_be_in_a_scenario_of_a_module_is_told() {
+    let (bottom, vehicle) = ("bottom(from: 9 m, to: 9 m)", "vehicle(kinematic, start: point(north: 50 m, east: 0 m))");
+    for (clauses, said) in [
+        ("bottom_grid(\"nix.csv\")".to_string(), "nix.csv"),
+        (format!("{bottom}\n{vehicle}\nsource(\"a\", at: point(north: 0 m, east: 0 m))"), "plume"),
+        (format!("{bottom}\n{vehicle}\nfault(position, off, from: 20 s, to: 10 s)"), "make `to` later than `from`"),
+        (format!("{bottom}\nvehicle(kinematic, depth: 12 m)"), "12 m"),
+    ] {
+        let folder = with_worlds("worlds", &format!("scenario deep {{\n{clauses}\n}}\n"), "wb.deep");
+        for args in [&["check", "main.alb"][..], &["run", "main.alb", "--no-out"]] {
+            let (code, told) = run(&folder, args);
+            assert!(code == Some(3) && told.contains(said) && told.contains("wb.alb:"), "{args:?} {clauses}: {told}");
+        }
+    }
+    let folder = with_worlds("worlds", &format!("scenario deep {{\n{bottom}\n{vehicle}\n}}\n"), "wb.deep");
+    assert_eq!(run(&folder, &["check", "main.alb"]).0, Some(0), "{}", told(&folder));
+}
+
+/// A name alone is never that of an imported scenario, and one with its module always is.
+#[test]
+fn scenarios_of_modules_are_called_by_their_names() {
+    let bottom = "bottom(from: 9 m, to: 9 m)";
+    let worlds = format!(
+        "scenario calm {{\n{bottom}\nvehicle(kinematic, start: point(north: 50 m, east: 0 m))\n}}
+scenario late {{\n{bottom}\n}}\n"
+    );
+    let folder = with_worlds("calm", &worlds, "calm");
+    let lasts = |args: &[&str]| {
+        let (code, told) = run(&folder, &[&["run", "main.alb", "--no-out", "--json"], args].concat());
+        assert_eq!(code, Some(0), "{args:?}: {told}");
+        let json = &told[told.find('{').unwrap()..=told.rfind('}').unwrap()];
+        serde_json::from_str::<serde_json::Value>(json).unwrap()["sim_time_s"].as_f64().unwrap()
+    };
+    let calm = lasts(&[]);
+    assert!(calm < 10.0 && lasts(&["--in", "calm"]) == calm, "it starts in the middle of the area: {calm}");
+    assert!(lasts(&["--in", "wb.calm"]) > 20.0, "it starts 50 m from there");
+    let (code, told) = run(&folder, &["run", "main.alb", "--no-out", "--in", "late"]);
+    assert!(code == Some(2) && told.contains("and `wb.late`"), "{told}");
+}

@@ -27,6 +27,8 @@ fn values_from_outside_are_checked() {
         ("trace_plume.lambda=6s", &["set::given"]),
         ("trace_plume.threshold=5%", &[]),
         ("nothing.lambda=6s", &["set::unknown"]),
+        ("duck_2003.step=2s", &[]),
+        ("sci_2002.step=2s", &["set::unreached"]),
     ] {
         assert_eq!(codes(set), expected, "{set}");
     }
@@ -35,13 +37,14 @@ fn values_from_outside_are_checked() {
 /// What a person reads when a value from outside is wrong.
 #[test]
 fn wrong_values_are_told() {
-    let wrong: [&[&str]; 6] = [
+    let wrong: [&[&str]; 7] = [
         &["lambda:6s"],
         &["lamda=6s"],
         &["lambda=6"],
         &["cpt_2005.lambda=6s"],
         &["trace_plume.lambda=6s"],
         &["lambda=6s", "lambda=7s"],
+        &["sci_2002.step=2s"],
     ];
     let told = wrong.map(|sets| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));

@@ -40,6 +40,7 @@ use cost::Cost;
 use diagnostic::Diagnostic;
 use echo::Echoes;
 use loader::{Loader, module_name};
+use rules::RunIn;
 use source::{FileId, Source, Sources, Span};
 use std::collections::BTreeMap;
 use syntax::tree::{self, ActivityKind, Item};
@@ -156,9 +157,10 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     findings.extend(checked.unused.into_iter().filter(|f| !errors.iter().any(|e| e.file == f.span().file)));
     // A mission is looked at as a whole when its parts are sound: half-understood parts would be found wanting twice.
     let mut broken = Broken::of(modules, &errors, &checked.hir);
-    let scenarios = checked.hir.scenarios.iter().enumerate().rev();
-    let scenario_ids: BTreeMap<String, usize> = scenarios.map(|(id, scenario)| (scenario.name.clone(), id)).collect();
-    let scenario = |name: &String| scenario_ids.get(own_name(name)).map(|id| &checked.hir.scenarios[*id]);
+    // A script's own comes after those that every script knows.
+    let scenarios = checked.hir.scenarios.iter().enumerate();
+    let scenario_ids: BTreeMap<String, usize> = scenarios.map(|(id, scenario)| (scenario.path.clone(), id)).collect();
+    let scenario = |name: &String| scenario_ids.get(name).map(|id| &checked.hir.scenarios[*id]);
     let with_scenarios: Vec<_> =
         missions.iter().map(|(info, id)| (*id, info.scenario.as_ref().and_then(scenario))).collect();
     if let Some(too_much) = cost::together::check(&checked.hir, ENTRY, &with_scenarios) {
@@ -181,7 +183,13 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
         .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))
         .map(|(_, id)| *id)
         .collect();
-    let unreached = rules::unreached(&checked.hir, &meant, &checked.overrides).into_iter();
+    let of_chosen = || missions.iter().find(|(info, _)| chosen.as_ref().is_some_and(|c| c.name.node == info.name));
+    let run_in = match wanted.scenario {
+        Where::Named(name) => scenario_ids.get(name).map(|id| RunIn::One(*id)),
+        Where::Own => of_chosen().and_then(|(info, _)| Some(RunIn::One(*scenario_ids.get(info.scenario.as_ref()?)?))),
+        Where::Elsewhere => Some(RunIn::Elsewhere),
+    };
+    let unreached = rules::unreached(&checked.hir, &meant, run_in, &checked.overrides).into_iter();
     // A value that is wrong has been told of: that it would change nothing is no second mistake.
     findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
@@ -209,7 +217,7 @@ impl Script {
 
     /// Whether a scenario has no error.
     pub fn scenario_is_sound(&self, name: &str) -> bool {
-        self.scenario_ids.get(own_name(name)).is_some_and(|id| !self.broken.holds(self.hir.scenarios[*id].span))
+        self.scenario_ids.get(name).is_some_and(|id| !self.broken.holds(self.hir.scenarios[*id].span))
     }
 
     /// The missions of the script's own file.
@@ -217,9 +225,9 @@ impl Script {
         self.missions.iter().map(|(info, _)| info)
     }
 
-    /// The scenarios that the script knows.
+    /// The scenarios that the script knows, by the names that it calls them.
     pub fn scenarios(&self) -> impl Iterator<Item = &str> {
-        self.hir.scenarios.iter().map(|s| s.name.as_str())
+        self.scenario_ids.keys().map(String::as_str)
     }
 
     /// The scenarios of the script's own file.
@@ -272,14 +280,9 @@ impl Script {
 
     /// A scenario, ready to be computed, in the frame about `origin`.
     pub fn scenario(&self, name: &str, origin: Option<Geodetic>) -> Option<Result<ScenarioProgram, Vec<Diagnostic>>> {
-        let id = self.scenario_ids.get(own_name(name))?;
+        let id = self.scenario_ids.get(name)?;
         Some(lower::scenario(&self.hir, &self.types, &self.sources, *id, origin))
     }
-}
-
-/// The name of a scenario without that of its module.
-fn own_name(scenario: &str) -> &str {
-    scenario.rsplit('.').next().unwrap_or(scenario)
 }
 
 /// `maneuver.bowtie(…)` where nothing is named `maneuver`: there may be such a module to import.
@@ -364,11 +367,11 @@ fn overrides(
 /// only scenario.
 fn owners_of(param: &str, wanted: &Wanted, main: &tree::File, mission: Option<&tree::Activity>) -> Vec<String> {
     let own = mission.and_then(|mission| match &mission.kind {
-        ActivityKind::Mission { scenario: Some(path), .. } => path.parts.last().map(|name| name.node.clone()),
+        ActivityKind::Mission { scenario: Some(path), .. } => Some(path.text()),
         _ => None,
     });
     let scenario = match wanted.scenario {
-        Where::Named(name) => name.rsplit('.').next().map(str::to_string),
+        Where::Named(name) => Some(name.to_string()),
         Where::Own if mission.is_none() => only_scenario(main),
         Where::Own => own,
         Where::Elsewhere => None,

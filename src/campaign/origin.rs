@@ -1,7 +1,7 @@
 //! What a table was made from, in a small file beside it: a campaign that is taken up again must be the same one.
 
 use crate::made::summed;
-use crate::plan::{ScriptDigest, scripts};
+use crate::plan::{ScriptDigest, scripts, world_script};
 use crate::{disk, output};
 use albacore_session::{Plan, SOURCE_BYTES_MAX, read_file};
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,8 @@ pub struct Origin {
     albacore: String,
     mission: String,
     scenario: String,
+    /// The script that the scenario stands in: others may have one of that name.
+    scenario_script: Option<ScriptDigest>,
     set: Vec<String>,
     fault: Vec<String>,
     sources: Vec<ScriptDigest>,
@@ -32,6 +34,7 @@ impl Origin {
             albacore: env!("CARGO_PKG_VERSION").to_string(),
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
+            scenario_script: world_script(plan),
             set: set.to_vec(),
             fault: fault.to_vec(),
             sources: scripts(plan),
@@ -75,6 +78,11 @@ impl Origin {
         let otherwise = self.sources.iter().zip(&now.sources).find(|(then, now)| then.digest != now.digest);
         if let Some((_, now)) = otherwise {
             return Some(format!("was begun before `{}` was changed", now.name));
+        }
+        if let (Some(then), Some(now)) = (&self.scenario_script, &now.scenario_script)
+            && then.digest != now.digest
+        {
+            return changed(&format!("the scenario `{}` of ", self.scenario), &then.name, &now.name);
         }
         (self.sources.len() != now.sources.len()).then(|| "was begun with other imports".to_string())
     }

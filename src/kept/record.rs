@@ -4,7 +4,7 @@
 use crate::clock::Utc;
 use crate::made::{is_as_summed, summed};
 use crate::output;
-use crate::plan::{ScriptDigest, scripts};
+use crate::plan::{ScriptDigest, scripts, world_script};
 use albacore_session::{Plan, SOURCE_BYTES_MAX, Summary, read_file};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -17,6 +17,8 @@ pub struct Record {
     albacore: &'static str,
     mission: String,
     scenario: String,
+    /// The script that the scenario stands in.
+    scenario_script: Option<ScriptDigest>,
     seed: u64,
     /// The vehicle's, if one was driven; there is no scenario then.
     link: Option<String>,
@@ -69,6 +71,7 @@ impl Record {
             albacore: env!("CARGO_PKG_VERSION"),
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
+            scenario_script: world_script(plan),
             seed: asked.seed,
             link: asked.link.map(str::to_string),
             rate: asked.rate,
@@ -153,6 +156,7 @@ mod tests {
             albacore: "",
             mission: String::new(),
             scenario: String::new(),
+            scenario_script: None,
             seed: 1,
             link: None,
             rate: None,

@@ -227,6 +227,8 @@ impl<'t> Checker<'t> {
             Item::Scenario { name, .. } => {
                 self.hir.scenarios.push(hir::Scenario {
                     name: name.node.clone(),
+                    full_name: self.full_name(m, &name.node),
+                    path: self.path_from_script(m, &name.node),
                     span: name.span,
                     vars: Vec::new(),
                     defaults: Vec::new(),

@@ -81,12 +81,26 @@ impl<'t> Checker<'t> {
 
     fn take_override(&mut self, m: usize, owner: &str, param: &str) -> Option<tree::Expr> {
         let full = format!("{}.{owner}", self.modules[m].name);
-        let found = self
-            .overrides
-            .iter_mut()
-            .find(|o| o.param == param && o.declarations.iter().any(|d| *d == owner || *d == full))?;
-        found.found = Some(if self.modules[m].name.is_empty() { owner.to_string() } else { full });
-        Some(found.value.clone())
+        let is_meant = |o: &Override| o.param == param && o.declarations.iter().any(|d| *d == owner || *d == full);
+        let at = self.overrides.iter().position(is_meant)?;
+        self.overrides[at].found = Some(self.full_name(m, owner));
+        Some(self.overrides[at].value.clone())
+    }
+
+    /// What a module declares, by its name with that of the module.
+    pub(super) fn full_name(&self, m: usize, name: &str) -> String {
+        let module = &self.modules[m].name;
+        if module.is_empty() { name.to_string() } else { format!("{module}.{name}") }
+    }
+
+    /// What the script that is run calls what a module declares.
+    pub(super) fn path_from_script(&self, m: usize, name: &str) -> String {
+        let imported = self.modules.first().and_then(|script| script.imports.iter().find(|(_, module)| **module == m));
+        match imported {
+            _ if m == 0 || self.modules[m].prelude => name.to_string(),
+            Some((module, _)) => format!("{module}.{name}"),
+            None => self.full_name(m, name),
+        }
     }
 
     /// A parameter that is to be set and that nothing has.

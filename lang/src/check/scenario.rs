@@ -75,7 +75,7 @@ impl<'t> Checker<'t> {
                 None
             }
             None => {
-                let known: Vec<String> = self.hir.scenarios.iter().map(|s| s.name.clone()).collect();
+                let known: Vec<String> = self.hir.scenarios.iter().map(|s| s.path.clone()).collect();
                 let finding = Diagnostic::error(
                     Code::ScenariosUnknown,
                     path.span,

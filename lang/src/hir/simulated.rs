@@ -8,6 +8,10 @@ use crate::source::Span;
 pub struct Scenario {
     /// Its name.
     pub name: String,
+    /// Its name with that of its module, as [`super::Activity::full_name`].
+    pub full_name: String,
+    /// What the script that is run calls it: with the module that it imports it from, alone if it is its own or every script's.
+    pub path: String,
     /// Where it is declared.
     pub span: Span,
     /// Its parameters.

@@ -19,7 +19,7 @@ pub struct TestProgram {
     pub place: String,
     /// The mission that it runs.
     pub mission: Program,
-    /// The scenario, by its name.
+    /// The scenario, by the name that the script calls it.
     pub scenario: String,
     /// The seeds, both ends included.
     pub seeds: (u64, u64),
@@ -125,7 +125,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         file_name: test_file_name(&test.name),
         place: sources.place(test.span),
         mission,
-        scenario: hir.scenarios[test.scenario].name.clone(),
+        scenario: hir.scenarios[test.scenario].path.clone(),
         seeds: test.seeds,
         expects,
         snapshots: test.snapshots.clone(),

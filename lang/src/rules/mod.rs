@@ -21,7 +21,7 @@ pub use overlaps::check as overlaps;
 pub use places::{FAR_M, operating_area};
 pub use reports::check as tests_reports;
 pub use swapped::{HELP as SWAPPED, hemisphere, of_mission as swapped};
-pub use unreached::check as unreached;
+pub use unreached::{RunIn, check as unreached};
 
 pub use inputs::read as inputs_read;
 

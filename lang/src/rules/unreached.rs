@@ -7,13 +7,24 @@ use crate::hir::{Expr, Hir};
 use crate::suggest;
 use std::collections::BTreeSet;
 
-/// Finds the overrides of behaviors, strategies and overlays to which none of the missions that are meant leads.
-pub fn check(hir: &Hir, missions: &[usize], overrides: &[Override]) -> Vec<Diagnostic> {
+/// The scenario in which a script is run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum RunIn {
+    /// One that it knows.
+    One(usize),
+    /// One of another script.
+    Elsewhere,
+}
+
+/// Finds the overrides of behaviors, strategies and overlays to which none of the missions that are meant leads, and those of scenarios
+/// in which nothing is run, as far as that is known.
+pub fn check(hir: &Hir, missions: &[usize], run_in: Option<RunIn>, overrides: &[Override]) -> Vec<Diagnostic> {
     let called: Vec<_> = missions.iter().map(|&id| hir.called_from(id)).collect();
     let mut findings = Vec::new();
     for set in overrides {
-        // What is no activity is a scenario, which another option chooses.
-        let Some(id) = set.found.as_ref().and_then(|n| hir.activities.iter().position(|a| a.full_name == *n)) else {
+        let Some(name) = &set.found else { continue };
+        let Some(id) = hir.activities.iter().position(|a| a.full_name == *name) else {
+            findings.extend(run_in.and_then(|run_in| elsewhere(hir, name, run_in, set)));
             continue;
         };
         if called.is_empty() || called.iter().any(|ids| ids.contains(&id)) {
@@ -32,6 +43,20 @@ pub fn check(hir: &Hir, missions: &[usize], overrides: &[Override]) -> Vec<Diagn
         );
     }
     findings
+}
+
+/// The finding for a parameter of a scenario in which nothing is run.
+fn elsewhere(hir: &Hir, name: &str, run_in: RunIn, set: &Override) -> Option<Diagnostic> {
+    let id = hir.scenarios.iter().position(|scenario| scenario.full_name == name)?;
+    let run_in = match run_in {
+        RunIn::One(other) if other == id => return None,
+        RunIn::One(other) => format!("`{}`", hir.scenarios[other].path),
+        RunIn::Elsewhere => "a scenario of another file".to_string(),
+    };
+    let path = &hir.scenarios[id].path;
+    let message = format!("`{path}.{}` is set, and what runs is {run_in}", set.param);
+    let help = format!("choose that scenario with `--in {path}`, or leave this out: it would change nothing");
+    Some(Diagnostic::error(Code::SetUnreached, set.value.span, message).help(help))
 }
 
 /// The finding for a default that is set and that no call takes: each gives the argument itself.

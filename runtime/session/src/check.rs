@@ -55,8 +55,21 @@ fn of_scenarios(script: &Script) -> Vec<Diagnostic> {
 struct Computed {
     scenario: String,
     origin: Option<Geodetic>,
-    /// None for a scenario that is wrong in itself, which is told of where it stands.
+    /// None for a scenario that is wrong in itself.
     world: Option<(ScenarioProgram, Understood)>,
+}
+
+impl Computed {
+    /// The world, and what is wrong with the scenario itself, where that has not been told already: of those of the script's own file it has.
+    fn new(script: &Script, scenario: &str, origin: Option<Geodetic>) -> (Self, Vec<Diagnostic>) {
+        let is_own = script.own_scenarios().any(|own| own == scenario);
+        let (world, wrong) = match world::scenario(script, scenario, origin) {
+            Ok(world) => (Some(world), Vec::new()),
+            Err(PlanError::Script(findings, _)) if !is_own => (None, findings),
+            Err(_) => (None, Vec::new()),
+        };
+        (Computed { scenario: scenario.to_string(), origin, world }, wrong)
+    }
 }
 
 /// What a mission misses in the scenario that it names. `last`: the world of the mission before it.
@@ -71,14 +84,12 @@ fn own_misfits(
     };
     let origin = program.mission.origin;
     let same = last.take().filter(|last| last.scenario == *named && last.origin == origin);
-    let computed = last.insert(same.unwrap_or_else(|| Computed {
-        scenario: named.clone(),
-        origin,
-        world: world::scenario(script, named, origin).ok(),
-    }));
-    let Some((lowered, understood)) = &computed.world else { return Vec::new() };
-    let held = Held { name: &lowered.name, world: &understood.world, places: &lowered.places, origin };
-    suit::findings(script, &mission.name, &held)
+    let (computed, mut findings) = same.map_or_else(|| Computed::new(script, named, origin), |same| (same, Vec::new()));
+    if let Some((lowered, understood)) = &last.insert(computed).world {
+        let held = Held { name: &lowered.name, world: &understood.world, places: &lowered.places, origin };
+        findings.extend(suit::findings(script, &mission.name, &held));
+    }
+    findings
 }
 
 /// What a mission misses in a world.

@@ -35,6 +35,7 @@ pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{Dialect, Faulty, LinkError, LinkFault, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;
 pub use albacore_program::seen;
+pub use albacore_trace::journal::SourceDigest;
 pub use albacore_trace::{Difference, Digest, first_difference, first_foreign_line, same_behavior};
 pub use bounded::{Unread, read_all, read_file};
 pub use check::{findings, findings_in};

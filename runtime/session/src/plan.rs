@@ -26,6 +26,8 @@ pub struct Plan {
     pub scenario: Arc<Scenario>,
     /// The world's name.
     pub scenario_name: String,
+    /// The script that the world stands in; none for a vehicle at the end of a link.
+    pub scenario_script: Option<SourceDigest>,
     /// What both were made from.
     pub sources: Vec<SourceDigest>,
     /// What the one may miss in the other, with places in the mission's script.
@@ -128,7 +130,8 @@ impl Plan {
         };
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
         let (scenario_name, sources) = (link.to_string(), sources(script));
-        Ok(Plan { program, scenario, scenario_name, sources, warnings: Vec::new(), places: Vec::new(), survey })
+        let (warnings, places, scenario_script) = (Vec::new(), Vec::new(), None);
+        Ok(Plan { program, scenario, scenario_name, scenario_script, sources, warnings, places, survey })
     }
 
     /// What is known of the water's depth beforehand, where it was surveyed. What a scenario makes up is no knowledge of a place.
@@ -167,7 +170,8 @@ impl Plan {
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();
         let (places, warnings) = (lowered.places, Vec::new());
-        Ok(Plan { program, scenario, scenario_name, sources, warnings, places, survey })
+        let scenario_script = Some(digest(script.sources.get(lowered.span.file)));
+        Ok(Plan { program, scenario, scenario_name, scenario_script, sources, warnings, places, survey })
     }
 }
 
@@ -221,10 +225,11 @@ fn survey(world: &Scenario) -> Option<Arc<Bottom>> {
 
 /// What a script was made from.
 fn sources(script: &Script) -> Vec<SourceDigest> {
-    let digest = |source: &Source| {
-        let mut digest = Digest::new();
-        digest.text(&source.text);
-        SourceDigest { name: source.name.to_string(), digest: digest.value() }
-    };
     script.sources.iter().map(digest).collect()
+}
+
+fn digest(source: &Source) -> SourceDigest {
+    let mut digest = Digest::new();
+    digest.text(&source.text);
+    SourceDigest { name: source.name.to_string(), digest: digest.value() }
 }
