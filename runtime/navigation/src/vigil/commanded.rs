@@ -29,6 +29,10 @@ const DEPTH_SAME: u64 = 200;
 const ALTITUDE_SAME: u64 = 100;
 const DEPTH_CHANGES: f64 = 1.0;
 const DEPTH_MEAN_TICKS: f64 = 200.0;
+/// While a depth stays the same altitudes that lie no farther apart, m, the last no older than so many ticks, 5 s, say that it is true: the
+/// vehicle does not dive, held by limits of its own, say.
+const LEVEL: f64 = 1.0;
+const LEVEL_TICKS: u64 = 50;
 /// An altitude so near to the one commanded, m, is held.
 const HELD: f64 = 0.5;
 
@@ -40,6 +44,16 @@ pub(super) struct Commanded {
     depth: Depth,
     /// That when the altitude was first told that is still told.
     depth_then: Option<Depth>,
+    /// The altitudes since the depth is the same.
+    altitudes: Option<Altitudes>,
+}
+
+/// The least and the greatest of altitudes, m, and when the last of them was told.
+#[derive(Clone, Copy, Debug)]
+struct Altitudes {
+    least: f64,
+    greatest: f64,
+    tick: u64,
 }
 
 /// A heading that is far off.
@@ -99,9 +113,10 @@ impl Commanded {
         if let Some(told) = heard.depth {
             self.depth.hear(heard.tick, told.reading[0]);
         }
+        self.gather_altitudes(heard);
         self.look_at_altitude(heard.altitude, command, sights);
         let Some(command) = command else {
-            *self = Commanded { depth: self.depth, ..Commanded::default() };
+            *self = Commanded { depth: self.depth, altitudes: self.altitudes, ..Commanded::default() };
             return;
         };
         if let Some(told) = heard.heading {
@@ -161,10 +176,30 @@ impl Commanded {
             sights.see(sight);
             let is_depth = matches!(vertical, Vertical::Depth(_));
             // A hull without way may well stay where it is.
-            if is_depth && has_way && told.same > DEPTH_SAME && self.depth.last >= SURFACE {
+            let is_still = has_way && told.same > DEPTH_SAME && self.depth.last >= SURFACE;
+            if is_depth && is_still && !self.is_level(heard.tick) {
                 sights.see(Sight::Stuck(Kind::Depth));
             }
         }
+    }
+
+    fn gather_altitudes(&mut self, heard: &Heard) {
+        if heard.depth.is_some_and(|told| told.same == 0) {
+            self.altitudes = None;
+        }
+        if let Some(told) = heard.altitude {
+            let (altitude, before) = (told.reading[0], self.altitudes);
+            let bound = |of: fn(&Altitudes) -> f64, pick: fn(f64, f64) -> f64| {
+                before.as_ref().map_or(altitude, |before| pick(of(before), altitude))
+            };
+            let (least, greatest) = (bound(|a| a.least, f64::min), bound(|a| a.greatest, f64::max));
+            self.altitudes = Some(Altitudes { least, greatest, tick: heard.tick });
+        }
+    }
+
+    /// Whether the altitude says that the vehicle stays as deep as it is.
+    fn is_level(&self, tick: u64) -> bool {
+        self.altitudes.is_some_and(|a| a.greatest - a.least < LEVEL && tick <= a.tick + LEVEL_TICKS)
     }
 
     /// An altitude that stays the same while the depth changes, and is not what is held.
