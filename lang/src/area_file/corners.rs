@@ -18,7 +18,8 @@ const ROUNDED_DEG: f64 = 1e-5;
 pub(super) fn sound(corners: &[Position], what: &str) -> Result<(), Vec<FileFault>> {
     let mut faults = Vec::new();
     if corners.len() < 3 {
-        let message = format!("{what} has {} corners, and an area needs at least 3", corners.len());
+        let corners = if corners.len() == 1 { "1 corner".to_string() } else { format!("{} corners", corners.len()) };
+        let message = format!("{what} has {corners}, and an area needs at least 3");
         faults.push(fault(message, "add what is missing, or export it again"));
     }
     if corners.len() > AREA_CORNERS_MAX {

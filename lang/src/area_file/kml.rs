@@ -95,6 +95,7 @@ fn uncrowded(text: &str) -> Result<(), FileFault> {
 }
 
 fn polygon(node: Node, name: Option<Name>, place: String) -> Result<Polygon, FileFault> {
+    alone(node, "outerBoundaryIs", "this polygon has two outlines")?;
     let outline = child(node, "outerBoundaryIs").and_then(|outer| child(outer, "LinearRing"));
     let corners = ring(outline, || broken(node, "this polygon has no outline with `coordinates`"))?;
     let inner = node.children().filter(|below| is(*below, "innerBoundaryIs"));
@@ -106,6 +107,7 @@ fn polygon(node: Node, name: Option<Name>, place: String) -> Result<Polygon, Fil
 /// The corners of a ring; `without` any, it says so.
 fn ring(ring: Option<Node>, without: impl FnOnce() -> FileFault) -> Result<Vec<Position>, FileFault> {
     let coordinates = ring.and_then(|ring| child(ring, "coordinates")).ok_or_else(without)?;
+    ring.map_or(Ok(()), |ring| alone(ring, "coordinates", "this ring has `coordinates` twice"))?;
     let corner = |tuple: &str| {
         let no_position = "is no longitude and latitude with a comma between them";
         let what = || broken(coordinates, &format!("`{}` {no_position}", shortened(tuple)));
@@ -126,6 +128,12 @@ fn is(node: Node, name: &str) -> bool {
 
 fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
     node.children().find(|below| is(*below, name))
+}
+
+/// That an element has no two children of a name: which of them counts nobody could tell.
+fn alone(node: Node, name: &str, what: &str) -> Result<(), FileFault> {
+    let second = node.children().filter(|below| is(*below, name)).nth(1);
+    second.map_or(Ok(()), |second| Err(broken(second, what)))
 }
 
 /// What stands in an element, comments left out.

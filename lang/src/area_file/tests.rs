@@ -137,6 +137,25 @@ fn what_is_no_polygon_is_told_with_its_place() {
     refused("a.kml", &kml(&placemark("box", "-75.74;36.18")), None, tuple, help);
     let hollow = "line 3: this polygon has no outline with `coordinates`";
     refused("a.kml", &kml("<Placemark><Polygon/></Placemark>"), None, hollow, help);
+    let square = placemark("box", KML_SQUARE);
+    let twice = |from: &str, to: &str| {
+        let (begin, end) = (square.find(from).unwrap(), square.rfind(to).unwrap() + to.len());
+        kml(&format!("{}{}{}", &square[..end], &square[begin..end], &square[end..]))
+    };
+    refused(
+        "a.kml",
+        &twice("<outerBoundaryIs>", "</outerBoundaryIs>"),
+        None,
+        "line 7: this polygon has two outlines",
+        help,
+    );
+    refused(
+        "a.kml",
+        &twice("<coordinates>", "</coordinates>"),
+        None,
+        "line 7: this ring has `coordinates` twice",
+        help,
+    );
 }
 
 #[test]
