@@ -129,15 +129,19 @@ fn scenarios_of_modules_are_called_by_their_names() {
 scenario late {{\n{bottom}\n}}\n"
     );
     let folder = with_worlds("calm", &worlds, "calm");
-    let lasts = |args: &[&str]| {
-        let (code, told) = run(&folder, &[&["run", "main.alb", "--no-out", "--json"], args].concat());
+    let lasts = |script: &str, args: &[&str]| {
+        let (code, told) = run(&folder, &[&["run", script, "--no-out", "--json"], args].concat());
         assert_eq!(code, Some(0), "{args:?}: {told}");
         let json = &told[told.find('{').unwrap()..=told.rfind('}').unwrap()];
         serde_json::from_str::<serde_json::Value>(json).unwrap()["sim_time_s"].as_f64().unwrap()
     };
-    let calm = lasts(&[]);
-    assert!(calm < 10.0 && lasts(&["--in", "calm"]) == calm, "it starts in the middle of the area: {calm}");
-    assert!(lasts(&["--in", "wb.calm"]) > 20.0, "it starts 50 m from there");
+    let calm = lasts("main.alb", &[]);
+    assert!(calm < 10.0 && lasts("main.alb", &["--in", "calm"]) == calm, "it starts in the middle of the area: {calm}");
+    assert!(lasts("main.alb", &["--in", "wb.calm"]) > 20.0, "it starts 50 m from there");
+    // A script's own hides one that every script knows.
+    let own = std::fs::read_to_string(folder.join("main.alb")).unwrap() + &worlds.replace("50 m", "90 m");
+    std::fs::write(folder.join("own.alb"), own).unwrap();
+    assert!(lasts("own.alb", &[]) > 55.0, "it starts 90 m from there");
     let (code, told) = run(&folder, &["run", "main.alb", "--no-out", "--in", "late"]);
     assert!(code == Some(2) && told.contains("and `wb.late`"), "{told}");
 }

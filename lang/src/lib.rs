@@ -157,8 +157,8 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     findings.extend(checked.unused.into_iter().filter(|f| !errors.iter().any(|e| e.file == f.span().file)));
     // A mission is looked at as a whole when its parts are sound: half-understood parts would be found wanting twice.
     let mut broken = Broken::of(modules, &errors, &checked.hir);
-    // A script's own comes after those that every script knows.
-    let scenarios = checked.hir.scenarios.iter().enumerate();
+    // The first of a name: a script's own come before those that every script knows.
+    let scenarios = checked.hir.scenarios.iter().enumerate().rev();
     let scenario_ids: BTreeMap<String, usize> = scenarios.map(|(id, scenario)| (scenario.path.clone(), id)).collect();
     let scenario = |name: &String| scenario_ids.get(name).map(|id| &checked.hir.scenarios[*id]);
     let with_scenarios: Vec<_> =

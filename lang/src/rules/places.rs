@@ -30,7 +30,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
     let Some(parts) = &activity.mission else { return Vec::new() };
     let Some(path) = &parts.scenario else { return Vec::new() };
-    let Some(scenario) = hir.scenarios.iter().rfind(|s| s.path == *path) else { return Vec::new() };
+    let Some(scenario) = hir.scenarios.iter().find(|s| s.path == *path) else { return Vec::new() };
     let Some((area, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
     let far = |clause: &ClauseUse| {
         let what = match clause.name.as_str() {
