@@ -19,7 +19,7 @@ pub struct PastRun {
 }
 
 impl PastRun {
-    /// Reads the journal of a run of a plan, as far as it is whole.
+    /// Reads the journal of a run of a plan, as far as it is whole. What the plan has no names for, since its script has changed, has `?`.
     pub fn read(plan: &Plan, journal: &[u8]) -> Result<Self, Unreadable> {
         let mut reader = Reader::new(journal)?;
         let header = reader.header().clone();

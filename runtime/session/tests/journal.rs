@@ -136,6 +136,28 @@ fn a_journal_that_is_read_back_feeds_the_same_recorders() {
     }
 }
 
+/// A journal outlives its script: what that has no names for is told as far as it can be.
+#[test]
+fn a_journal_of_another_script_can_be_read() {
+    let missions = ["duck_single", "thermocline", "woods_hole", "box", "deepest_point"];
+    let journals = missions.map(|mission| {
+        let sink = Sink::default();
+        let mut run = Run::new(&plan(mission), 1).unwrap();
+        run.with_journal(Box::new(sink.clone()), &[]);
+        (0..6000).for_each(|_| _ = run.step());
+        run.interrupt();
+        sink.bytes.lock().unwrap().clone()
+    });
+    for mission in missions {
+        let plan = plan(mission);
+        for journal in &journals {
+            let past = PastRun::read(&plan, journal).unwrap();
+            assert!(matches!(past.ending(), Ending::Complete(_)), "{mission}: {:?}", past.ending());
+            assert!(!past.trace().to_string().is_empty() && past.svg().starts_with("<svg"), "{mission}");
+        }
+    }
+}
+
 #[test]
 fn an_interrupted_run_closes_its_journal() {
     let plan = plan("box");

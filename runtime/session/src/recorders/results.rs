@@ -157,7 +157,8 @@ impl Results {
     /// Takes down what was reported at a place of the program.
     fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
         let program = Arc::clone(&self.plan.program);
-        let (id, site) = (site, &program.reports[site as usize]);
+        // A journal may be of a script that has changed since.
+        let (id, Some(site)) = (site, program.reports.get(site as usize)) else { return };
         let at = site.fields.first().and_then(|(_, value)| value.shape.first_point());
         let place = at.and_then(|at| Some(Point::new(*words.get(at)?, *words.get(at + 1)?)));
         self.reports.latest = place.or(self.reports.latest);

@@ -55,10 +55,11 @@ impl Track {
     }
 
     fn index_of(&mut self, behavior: ActivityId) -> u16 {
-        let name = &self.program.activities[behavior as usize].name;
+        // A journal may be of a script that has changed since.
+        let name = self.program.activities.get(behavior as usize).map_or("?", |activity| &activity.name);
         let known = self.behaviors.iter().position(|known| known == name);
         known.unwrap_or_else(|| {
-            self.behaviors.push(name.clone());
+            self.behaviors.push(name.to_string());
             self.behaviors.len() - 1
         }) as u16
     }
