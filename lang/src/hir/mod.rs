@@ -15,7 +15,7 @@ use crate::source::Span;
 use crate::types::Type;
 use albacore_program::{Channel, Guide};
 
-/// Index into [`Scope::vars`] of the declaration that owns it.
+/// Index into the variables of the declaration that owns it.
 pub type VarId = usize;
 /// Index of an activity.
 pub type ActivityId = usize;

@@ -1,7 +1,7 @@
 //! Surveys of the bottom: from the bytes of a file to depths on an even grid, on the globe or in local metres.
 //!
-//! Two formats are read: text, as [`mod@csv`] tells, and NetCDF classic by the COARDS and CF conventions, as
-//! [`mod@conventions`] tells. The classic format is read by hand: it is small, and the only crate for it that is alive
+//! Two formats are read: text, as `csv.rs` tells, and NetCDF classic by the COARDS and CF conventions, as
+//! `conventions.rs` tells. The classic format is read by hand: it is small, and the only crate for it that is alive
 //! (`netcdf3`) makes room for as many dimensions and attributes as a header announces before it has looked whether the bytes
 //! are there. Whatever the bytes are, reading them ends, allocates a small multiple of their number at most, and gives a
 //! whole survey or all that is wrong with it.

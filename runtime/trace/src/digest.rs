@@ -70,7 +70,7 @@ impl Digest {
         }
     }
 
-    /// Takes a value in, part by part (see [`form`]).
+    /// Takes a value in, part by part (`form.rs` states how).
     ///
     /// # Errors
     ///

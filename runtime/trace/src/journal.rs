@@ -25,7 +25,7 @@ use albacore_machine::State;
 use albacore_vehicle::Channel;
 use serde::{Deserialize, Serialize};
 
-/// The version of this form: one more whenever a record, or what a record holds (such as [`Snapshot`], [`Event`] or [`State`]),
+/// The version of this form: one more whenever a record, or what a record holds (such as a snapshot, an event or [`State`]),
 /// is laid out otherwise. Postcard's form names no fields, and would read the older as something else.
 pub const JOURNAL_VERSION: u32 = 3;
 
