@@ -234,6 +234,23 @@ fn brackets_that_do_not_fit_are_told_in_time() {
     }
 }
 
+/// The attack: an `if` behind `else` was read as its branch and, where that failed, as the value of `else` once more, at each level.
+#[test]
+fn a_mistake_within_nested_ifs_is_told_in_time() {
+    for (name, before, after, leaf) in [
+        ("value", "let x = ", "", "1 1"),
+        ("condition", "if ", " { wait }", "a a"),
+        ("missing", "let x = ", "", ""),
+        ("operator", "let x = a else ", "", "1 1"),
+    ] {
+        let nested =
+            (0..40).fold(leaf.to_owned(), |inner, _| format!("if a {{ 1 }} else if {inner} {{ 2 }} else {{ 3 }}"));
+        let script = format!("mission m {{\n{before}{nested}{after}\n}}\n");
+        let (output, told) = run_within(&["check"], name, &script, None);
+        assert_eq!(output.status.code(), Some(3), "{name}: {told:.2000}");
+    }
+}
+
 /// What the vehicle's sensors look through at each sample is bounded, and told before anything else is made of it.
 #[test]
 fn a_scenario_has_so_many_clauses_of_one_name_at_most() {
