@@ -223,6 +223,7 @@ fn brackets_that_do_not_fit_are_told_in_time() {
         ("limits", mission("limits { depth <= if a {\n".repeat(30))),
         ("lists", mission(levels("for i in if a {\n") + "x" + &"\n} { }".repeat(40) + "\n}\n")),
         ("behaviors", format!("strategy s() {{\n{}", levels("behavior a {\n"))),
+        ("holes", mission(format!("let x = \"{{{}\"{}}}\"\n}}\n", "if a { loop {".repeat(20), "} }".repeat(20)))),
     ];
     for (name, script) in scripts {
         for verb in ["check", "fmt"] {
