@@ -10,7 +10,7 @@ mod mirrored;
 mod motion;
 
 use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH};
-use albacore_vehicle::{Command, Control, Reading, Snapshot};
+use albacore_vehicle::{Command, Control, Reading, Snapshot, Vertical};
 use channel::Channel;
 use commanded::Commanded;
 use mirrored::Mirrored;
@@ -24,6 +24,9 @@ const WELL_AFTER_TICKS: u64 = 150;
 /// Depth and altitude add up to the depth of the water, but for this, m, and for a while.
 const SUM_MAX: f64 = 2.0;
 const UNEVEN_TICKS: u64 = 100;
+/// For so many ticks, 1 s, after another depth or altitude was commanded the vehicle follows; a depth that is exactly the same for as
+/// long tells nothing of how.
+const FOLLOWS_TICKS: u64 = 10;
 /// Below this speed over ground a vehicle stands still, m/s.
 const AT_REST: f64 = 0.05;
 
@@ -110,6 +113,8 @@ pub struct Vigil {
     mirrored: Mirrored,
     motion: Motion,
     commanded: Commanded,
+    /// The depth or altitude that was commanded last, and since when.
+    vertical: Option<(Vertical, u64)>,
     /// For how many ticks depth and altitude have not added up.
     uneven: u64,
     sights: Sights,
@@ -154,6 +159,7 @@ impl Default for Vigil {
             mirrored: Mirrored::default(),
             motion: Motion::default(),
             commanded: Commanded::default(),
+            vertical: None,
             uneven: 0,
             sights: Sights::default(),
         }
@@ -164,6 +170,9 @@ impl Vigil {
     /// Looks at what came in a tick. `command` is the last that was sent.
     pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<Sighting> {
         self.sights.tick = tick;
+        let is_steered = self.is_steered(tick, command);
+        let hides = |channel: &Channel| channel.is_of(Kind::Depth) && channel.rests(tick) > FOLLOWS_TICKS;
+        let is_blind = self.channels.iter().any(hides);
         let mut heard = Heard { tick, ..Heard::default() };
         let mut water_depth = None;
         for sample in &snapshot.samples {
@@ -181,6 +190,9 @@ impl Vigil {
             if channel.is_of(Kind::Depth) {
                 channel.moves(self.mirrored.is_the_vehicles());
             }
+            if channel.is_of(Kind::Altitude) {
+                channel.learns(!(is_steered && is_blind));
+            }
             // A vehicle that stands still has no course.
             if channel.is_of(Kind::Course) && self.motion.speed() < AT_REST {
                 channel.excuse(tick);
@@ -197,6 +209,17 @@ impl Vigil {
     /// Whether something is seen now.
     pub(crate) fn sees(&self, sight: Sight) -> bool {
         self.sights.sees(sight)
+    }
+
+    /// Whether the vehicle is led up or down by commands that change, by limits that follow the altitude, say: its way shows in the
+    /// altitude. Where the depth does not tell of it, it looks like noise.
+    fn is_steered(&mut self, tick: u64, command: Option<&Command>) -> bool {
+        let now = command.map(|command| command.vertical);
+        self.vertical = match (self.vertical, now) {
+            (Some((before, since)), Some(now)) if before == now => Some((before, since)),
+            _ => now.map(|now| (now, tick)),
+        };
+        self.vertical.is_some_and(|(_, since)| tick < since + FOLLOWS_TICKS)
     }
 
     /// Depth and altitude add up to the depth of the water.

@@ -149,6 +149,8 @@ pub(super) struct Channel {
     alternates: f64,
     /// What changes is the vehicle, not the noise of its sensor.
     moves: bool,
+    /// What changes may be the noise of its sensor.
+    learns: bool,
 }
 
 impl Channel {
@@ -170,6 +172,7 @@ impl Channel {
             covariance: 0.0,
             alternates: 0.0,
             moves: false,
+            learns: true,
         }
     }
 
@@ -208,7 +211,7 @@ impl Channel {
             // does what no vehicle can do.
             if !sights.sees(Sight::Stuck(self.kind)) {
                 self.same_most = self.same_most.max(self.same);
-                if follows {
+                if follows && self.learns {
                     self.learn(reading[0] - before[0]);
                 }
             }
@@ -239,6 +242,16 @@ impl Channel {
     /// Whether its changes are those of the vehicle.
     pub fn moves(&mut self, moves: bool) {
         self.moves = moves;
+    }
+
+    /// For how many ticks it has told the same.
+    pub fn rests(&self, tick: u64) -> u64 {
+        self.reading.map_or(0, |(_, since)| tick - since.min(tick))
+    }
+
+    /// Whether its changes tell of the noise of its sensor now.
+    pub fn learns(&mut self, learns: bool) {
+        self.learns = learns;
     }
 
     /// A tick has gone by.
