@@ -14,7 +14,8 @@ const SILENT_TICKS: u64 = 20;
 const NOISE_CHANGES_MIN: u64 = 100;
 const NOISE_CHANGES: u64 = 300;
 /// A channel is noisy where neighbouring differences correlate by less than this: of white noise it is -1/2, of a random walk 0, of
-/// a smooth motion 1. What they are on the mean of so many counts as no difference: a steady dive hides no noise.
+/// a smooth motion 1. What they are on the mean of so many, and as that changes, counts as no difference: a dive hides no noise, nor
+/// does its beginning or its end.
 const NOISE_CORRELATION: f64 = -0.25;
 const NOISE_DRIFT_CHANGES: u64 = 20;
 /// ... and where so many of them are of another sign than the one before, of 2/3 in white noise: that one has zigzagged once is no noise.
@@ -139,9 +140,10 @@ pub(super) struct Channel {
     changes: u64,
     /// The smallest of these changes.
     step: f64,
-    /// The mean of the latest differences of neighbours, and how far from it the last one was; means of the squares of that, and of
+    /// The mean of the latest differences of neighbours, by how much it changes from one to the next, and how far from it the last one was; means of the squares of that, and of
     /// the products of neighbours.
     drift: f64,
+    trend: f64,
     difference: f64,
     variance: f64,
     covariance: f64,
@@ -167,6 +169,7 @@ impl Channel {
             changes: 0,
             step: f64::INFINITY,
             drift: 0.0,
+            trend: 0.0,
             difference: 0.0,
             variance: 0.0,
             covariance: 0.0,
@@ -266,8 +269,12 @@ impl Channel {
         self.changes += 1;
         self.step = if difference == 0.0 { self.step } else { self.step.min(difference.abs()) };
         let share = |most: u64| 1.0 / self.changes.min(most) as f64;
-        let off = difference - self.drift;
-        self.drift += share(NOISE_DRIFT_CHANGES) * off;
+        let off = difference - (self.drift + self.trend);
+        let drift = share(NOISE_DRIFT_CHANGES);
+        self.drift += self.trend + drift * (2.0 - drift) * off;
+        if self.changes > NOISE_DRIFT_CHANGES {
+            self.trend += drift * drift * off;
+        }
         let (difference, share) = (off, share(NOISE_CHANGES));
         self.variance += share * (difference * difference - self.variance);
         let product = difference * self.difference;
