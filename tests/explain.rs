@@ -3,10 +3,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot read its pages or start the binary has failed")]
 
-mod examples;
-
+use crate::examples::{OF_A_FRAGMENT, examples};
 use albacore_session::Code;
-use examples::{OF_A_FRAGMENT, examples};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;

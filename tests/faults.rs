@@ -2,18 +2,16 @@
 //! its limits, and each fault is named in the trace. More seeds, and the page of what was noticed, are made by
 //!
 //! ```text
-//! FAULT_SEEDS=100 FAULT_PAGE=docs/faults.md cargo test --release --test faults
+//! FAULT_SEEDS=100 FAULT_PAGE=docs/faults.md cargo test --release --test scripts faults::
 //! ```
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
-mod faults {
-    pub mod guard;
-    pub mod page;
-}
+mod guard;
+mod page;
 
 use albacore_session::{Diagnostic, Faults, Outcome, Plan, PlanError, Run, Running, load, load_faults};
-use faults::guard::{Guard, Problems};
+use guard::{Guard, Problems};
 use std::path::Path;
 
 const SURVEY: &str = "tests/faults/survey.alb";
@@ -157,12 +155,12 @@ fn every_fault_is_survived_and_named() {
         for (told, seed) in told.iter().zip(1..) {
             broken.extend(told.broken.iter().map(|what| format!("{fault}, seed {seed}: {what}")));
         }
-        rows.push(faults::page::row(fault, &told));
+        rows.push(page::row(fault, &told));
     }
     assert_eq!(all.len(), 56 + OTHERS.len());
     assert!(broken.is_empty(), "{} violations:\n{}", broken.len(), broken.join("\n"));
     if let Ok(page) = std::env::var("FAULT_PAGE") {
-        faults::page::write(Path::new(&page), &rows, seeds());
+        page::write(Path::new(&page), &rows, seeds());
     }
 }
 

@@ -3,16 +3,12 @@
 //!
 //! Nothing is timed: what is waited for is waited for long.
 
-#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot start its own programs has failed")]
+#![expect(clippy::unwrap_used, reason = "a test that cannot start its own programs has failed")]
 #![cfg(target_os = "linux")]
 
-mod link {
-    pub mod far_end;
-}
-mod shell;
-
+use crate::far_end::*;
+use crate::shell::behind;
 use albacore_trace::journal::{Ending, Journal};
-use link::far_end::*;
 use nix::fcntl::OFlag;
 use nix::pty::{PtyMaster, grantpt, posix_openpt, ptsname_r, unlockpt};
 use std::fs::File;
@@ -165,7 +161,7 @@ fn a_limit_of_a_file_ends_nothing() {
     let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
     let out = folder.join("run");
     let run = vehicle.mission(&["--out", &out.display().to_string()]);
-    let mut limited = shell::behind("ulimit -f 12", &run);
+    let mut limited = behind("ulimit -f 12", &run);
     let run = limited.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     vehicle.says("override taken");
     send("-XFSZ", &run);

@@ -3,8 +3,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]
 
-mod shell;
-
+use crate::shell::behind;
 use albacore_trace::journal::{Ending, Journal};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -121,7 +120,7 @@ fn a_full_disk_is_said_once_and_the_mission_goes_on() {
     // The journal is the only file as long as this. The signal that comes with a limit ends nothing either.
     for limit in ["ulimit -f 200", "trap '' XFSZ; ulimit -f 200"] {
         let out = empty("full");
-        let output = shell::behind(limit, &albacore(BOX, &out)).output().unwrap();
+        let output = behind(limit, &albacore(BOX, &out)).output().unwrap();
         let said = stderr(&output);
         assert_eq!(output.status.code(), Some(4), "{said}");
         assert_eq!(said.matches("error: ").count(), 1, "{said}");
@@ -139,7 +138,7 @@ fn a_record_tells_what_could_not_be_written() {
     assert!(lost(&out, "completed").is_empty());
     // A file may grow to 8 KiB: only the journal needs more.
     let out = empty("lost-full");
-    let output = shell::behind("ulimit -f 16", &albacore(BOX, &out)).output().unwrap();
+    let output = behind("ulimit -f 16", &albacore(BOX, &out)).output().unwrap();
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert_eq!(lost(&out, "completed"), ["journal"]);
     let out = empty("lost-picture");
@@ -182,7 +181,7 @@ fn a_journal_that_was_cut_and_written_into_is_told_as_both() {
     let out = empty("cut-and-written-into");
     let script = out.with_extension("alb");
     std::fs::write(&script, LONG).unwrap();
-    let run = shell::behind("trap '' XFSZ; ulimit -f 16", &albacore(&script.display().to_string(), &out))
+    let run = behind("trap '' XFSZ; ulimit -f 16", &albacore(&script.display().to_string(), &out))
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

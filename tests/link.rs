@@ -3,15 +3,11 @@
 //!
 //! Time runs fifty times faster than real time, and nothing is timed: what is waited for is waited for long.
 
-#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot start its own programs has failed")]
+#![expect(clippy::unwrap_used, reason = "a test that cannot start its own programs has failed")]
 #![cfg(unix)]
 
-mod link {
-    pub mod far_end;
-}
-
+use crate::far_end::*;
 use albacore_trace::journal::{Ending, Journal};
-use link::far_end::*;
 use std::net::UdpSocket;
 use std::process::Output;
 use std::time::Duration;

@@ -5,7 +5,6 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
-#[path = "mixups/mutate.rs"]
 mod mutate;
 
 use albacore_session::{Diagnostic, Severity, load};

@@ -2,10 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot read the reference has failed")]
 
-mod examples;
-
+use crate::examples::{Example, OF_A_FRAGMENT, examples, findings};
 use albacore_session::{Faults, run_test};
-use examples::{Example, OF_A_FRAGMENT, examples, findings};
 use std::path::Path;
 
 const REFERENCE: &str = "docs/language.md";
@@ -119,7 +117,7 @@ fn every_rule_leads_to_its_traces() {
         if path.extension().is_some_and(|e| e == "alb") {
             let name = path.file_name().unwrap().to_str().unwrap();
             assert!(text.contains(&format!("(../tests/rules/{name})")), "{name} is not linked");
-            assert!(text.contains(&format!("rules__rules@{name}.snap)")), "the trace of {name} is not linked");
+            assert!(text.contains(&format!("scripts__rules__rules@{name}.snap)")), "the trace of {name} is not linked");
         }
     }
     for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {

@@ -2,7 +2,7 @@
 //! after each of them. The figures of all tokens, and what is not told well, are printed by
 //!
 //! ```text
-//! TOKENS=all cargo test --test resilience -- --nocapture
+//! TOKENS=all cargo test --test scripts resilience:: -- --nocapture
 //! ```
 //!
 //! - A *case* is a script that an edit made wrong. What is sound without a token is none.

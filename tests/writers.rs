@@ -3,8 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
 #![cfg(unix)]
 
-mod shell;
-
+use crate::shell::behind;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -230,7 +229,7 @@ fn a_disk_that_is_full_leaves_nothing_behind() {
     for limit in ["ulimit -f 0", "trap '' XFSZ; ulimit -f 0"] {
         let verbs = ["fmt plan.alb", "fmt plan.alb -", "new reef", "test box.alb --accept"];
         for words in VERBS[1..].iter().chain(&verbs).copied() {
-            let mut limited = shell::behind(limit, &command(&folder, words));
+            let mut limited = behind(limit, &command(&folder, words));
             let (code, said) = said(&limited.stdin(Stdio::null()).stdout(Stdio::null()).output().unwrap());
             if words.starts_with("test") {
                 std::fs::remove_dir(folder.join("snapshots")).unwrap();

@@ -1,5 +1,7 @@
 //! The examples of pages, checked as scripts are.
 
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
 use albacore_session::{Script, Severity, load};
 use std::path::Path;
 

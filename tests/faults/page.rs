@@ -1,6 +1,6 @@
 //! The measured part of `docs/faults.md`: of each fault whether it was detected, as what and when, and how the missions ended.
 
-use crate::Told;
+use super::Told;
 use std::collections::BTreeMap;
 use std::path::Path;
 

@@ -6,12 +6,10 @@
     reason = "a helper of tests panics as they do; --nocapture shows the figures"
 )]
 
-mod vehicle;
-
+use crate::vehicle::{SPEED, Vehicle, lead, scattered};
 use albacore_geometry::math::TAU;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::{Circling, Loiter};
-use vehicle::{SPEED, Vehicle, lead, scattered};
 
 const CENTER: Point = Point::new(20.0, -10.0);
 

@@ -6,11 +6,9 @@
     reason = "a helper of tests panics as they do; --nocapture shows the figures"
 )]
 
-mod vehicle;
-
+use crate::vehicle::{Vehicle, radius, scattered};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::Goto;
-use vehicle::{Vehicle, radius, scattered};
 
 /// The slowest of many arrivals from up to 100 m away.
 fn worst(within: f64, current: Vector, compensated: bool) -> f64 {

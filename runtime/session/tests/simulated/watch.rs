@@ -65,7 +65,7 @@ fn told(run: impl Fn(&Plan, u64) -> Run, seeds: u64) -> Vec<String> {
     told
 }
 
-/// More of them by `WATCH_SEEDS=20 cargo test --release -p albacore-session --test watch`.
+/// More of them by `WATCH_SEEDS=20 cargo test --release -p albacore-session --test simulated watch::`.
 fn seeds() -> u64 {
     std::env::var("WATCH_SEEDS").ok().map_or(1, |text| text.parse().unwrap())
 }

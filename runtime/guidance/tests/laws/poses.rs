@@ -6,13 +6,11 @@
     reason = "a helper of tests panics as they do; --nocapture shows the figures"
 )]
 
-mod vehicle;
-
+use crate::vehicle::{DT, SPEED, Vehicle, apart_deg, lead, radius, scattered, spread};
 use albacore_geometry::math::{TAU, radians};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::dubins::{Pose, Words};
 use albacore_guidance::{GotoPose, turning_radius_in_flow};
-use vehicle::{DT, SPEED, Vehicle, apart_deg, lead, radius, scattered, spread};
 
 const GOAL: Pose = Pose { point: Point::ORIGIN, heading: Heading::NORTH };
 

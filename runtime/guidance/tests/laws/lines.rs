@@ -7,13 +7,11 @@
     reason = "a helper of tests panics as they do; --nocapture shows the figures"
 )]
 
-mod vehicle;
-
+use crate::vehicle::{SPEED, Vehicle, lead, radius, scattered};
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Heading, Line, Point, Vector};
 use albacore_guidance::dubins::{Words, shortest};
 use albacore_guidance::{FollowLine, GotoPose};
-use vehicle::{SPEED, Vehicle, lead, radius, scattered};
 
 /// A hundred metres to the north.
 const LINE: Line = Line { start: Point::ORIGIN, end: Point::new(100.0, 0.0) };

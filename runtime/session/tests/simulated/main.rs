@@ -1,0 +1,14 @@
+//! Runs in the simulator: one binary, which links in the time of one. `digest.rs` is run under three profiles, `live.rs` waits for the
+//! clock.
+
+mod bottom;
+mod delay;
+mod flood;
+mod journal;
+mod noise;
+mod profiler;
+mod recorded;
+mod sounding;
+mod station;
+mod suit;
+mod watch;
