@@ -2,6 +2,7 @@
 //! nobody chose: it overwrites nothing, and follows no link. `tests/writers.rs` keeps every other writer out.
 
 use crate::interruption::{self, Held};
+use crate::kept::is_of_a_run;
 use crate::made::{Made, is_as_made};
 use std::fs::{self, File, Metadata, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Read, Seek, Write};
@@ -40,8 +41,12 @@ pub fn names(_: &Path) -> u64 {
     1
 }
 
-/// The same for what was made, in the place of what was made before and is as it was made: all others stay.
+/// The same for what was made, in the place of what was made before and is as it was made: all others stay, and so does what a run
+/// has left.
 pub fn remake(path: &Path, made: &Made) -> io::Result<()> {
+    if is_of_a_run(path) {
+        return Err(io::Error::new(ErrorKind::AlreadyExists, "it is a file of the run in this folder"));
+    }
     spare(path)?;
     whole(path, made.text())
 }

@@ -312,6 +312,24 @@ fn what_somebody_else_wrote_is_not_replaced() {
 }
 
 /// What looks like what is made, and what was made and edited since, is somebody's own.
+/// The attack: a diagram took the place of a run's trace, and of its picture.
+#[test]
+fn what_a_run_left_is_not_replaced() {
+    let folder = empty("left");
+    std::fs::copy("missions/box.alb", folder.join("box.alb")).unwrap();
+    assert_eq!(albacore(&folder, "run box.alb --out r").0, Some(0));
+    let trace = std::fs::read(folder.join("r/trace.txt")).unwrap();
+    for words in
+        ["graph box.alb --out r/trace.txt", "graph box.alb --out r/run.svg", "scenario show box.alb --out r/run.svg"]
+    {
+        let (code, said) = albacore(&folder, words);
+        assert!(code == Some(4) && said.contains("it is a file of the run in this folder"), "{words}: {code:?} {said}");
+    }
+    assert_eq!(std::fs::read(folder.join("r/trace.txt")).unwrap(), trace);
+    assert_eq!(albacore(&folder, "graph box.alb --out r/graph.svg").0, Some(0));
+    assert_eq!(albacore(&folder, "run box.alb --out r --replace").0, Some(0));
+}
+
 #[test]
 fn what_was_edited_is_not_replaced() {
     let folder = empty("edited");

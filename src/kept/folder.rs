@@ -57,6 +57,12 @@ type Remove<'a> = &'a mut dyn FnMut(&Path) -> io::Result<()>;
 /// Why a folder is not ours: what is wrong, a fix, and how the program ends.
 pub struct Refusal(pub String, pub &'static str, pub Exit);
 
+/// Whether a path is one of the files that a run leaves, in a folder that a run has.
+pub fn is_of_a_run(path: &Path) -> bool {
+    let has = |name: &str| path.with_file_name(name).symlink_metadata().is_ok();
+    path.file_name().is_some_and(|name| FILES.iter().any(|file| name == *file)) && (has(JOURNAL) || has(RECORD))
+}
+
 impl Folder {
     /// Makes the folder, or takes it, for a run that started at a time.
     pub fn claim(place: &Place, started: Utc, record: &str) -> Result<Self, Refusal> {

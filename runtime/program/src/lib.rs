@@ -102,8 +102,8 @@ pub const LATENCY_PATIENCE_S: f64 = 10.0;
 /// The age, in seconds, beyond which what a vertical limit is held by counts for nothing: depth and altitude. What the mission
 /// itself `requires` of them comes first.
 pub const LIMIT_FRESH_S: f64 = 5.0;
-/// And at most, however old the mission lets an altitude be: at 1.5 m/s a bottom that rises by 1 m in 10 m comes 4.5 m nearer.
-pub const LIMIT_FRESH_MAX_S: f64 = 30.0;
+/// And at most, however old the mission lets an altitude be: at 2.5 m/s a bottom that rises by 1 m in 10 m comes 2.5 m nearer.
+pub const LIMIT_FRESH_MAX_S: f64 = 10.0;
 /// How long, in seconds, a mission holds for the depth that a vertical limit needs before it aborts, unless its `requires` says
 /// otherwise.
 pub const LIMIT_PATIENCE_S: f64 = 30.0;
