@@ -38,12 +38,20 @@ mod shell;
 /// A file that is no module of a binary would be a test that never runs.
 #[test]
 fn every_file_of_tests_is_in_a_binary() {
-    let listed = [include_str!("scripts.rs"), include_str!("live.rs")].concat();
-    let names = std::fs::read_dir("tests").into_iter().flatten().flatten().map(|entry| entry.file_name());
-    let names: Vec<String> = names.filter_map(|name| Some(name.to_str()?.strip_suffix(".rs")?.to_owned())).collect();
-    assert!(names.len() > 30, "{names:?}");
-    for name in names {
-        let is_in = listed.contains(&format!("\nmod {name};\n")) || ["scripts", "live"].contains(&&*name);
-        assert!(is_in, "tests/{name}.rs is in no binary: add `mod {name};` to tests/scripts.rs");
+    for (folder, binaries) in [
+        ("tests", &["scripts", "live"][..]),
+        ("runtime/guidance/tests/laws", &["main"]),
+        ("runtime/session/tests/simulated", &["main"]),
+    ] {
+        let text = |name: &&str| std::fs::read_to_string(format!("{folder}/{name}.rs")).unwrap_or_default();
+        let listed: String = binaries.iter().map(text).collect();
+        let names = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+        let names: Vec<String> =
+            names.filter_map(|name| Some(name.to_str()?.strip_suffix(".rs")?.to_owned())).collect();
+        assert!(names.len() > binaries.len(), "{folder}: {names:?}");
+        for name in names.iter().filter(|name| !binaries.contains(&&***name)) {
+            let is_in = listed.contains(&format!("\nmod {name};\n"));
+            assert!(is_in, "{folder}/{name}.rs is in no binary: add `mod {name};` to {folder}/{}.rs", binaries[0]);
+        }
     }
 }

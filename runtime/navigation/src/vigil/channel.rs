@@ -140,10 +140,10 @@ pub(super) struct Channel {
     changes: u64,
     /// The smallest of these changes.
     step: f64,
-    /// The mean of the latest differences of neighbours, by how much it changes from one to the next, and how far from it the last one was; means of the squares of that, and of
-    /// the products of neighbours.
+    /// The mean of the latest differences of neighbours, and by how much it changes from one to the next.
     drift: f64,
     trend: f64,
+    /// How far from that the last one was; means of the squares of that, and of the products of neighbours.
     difference: f64,
     variance: f64,
     covariance: f64,
