@@ -33,11 +33,12 @@ pub struct Test {
     faults: Faults,
 }
 
-/// How many tests passed and failed.
+/// How many tests passed and failed, and how many there was nothing to hold to.
 #[derive(Default)]
 struct Count {
     passed: usize,
     failed: usize,
+    left_out: usize,
 }
 
 impl Test {
@@ -81,7 +82,7 @@ impl Test {
                 exit = failed;
             }
         }
-        if exit == Exit::Well && count.passed + count.failed == 0 {
+        if exit == Exit::Well && count.passed + count.failed + count.left_out == 0 {
             let what = self
                 .filter
                 .as_ref()
@@ -89,9 +90,15 @@ impl Test {
             message::error(&what, Some("`albacore test PATH` runs the `test` blocks of the scripts in PATH"));
             return Exit::Usage;
         }
-        say(&format!("{} passed, {} failed", count.passed, count.failed));
+        let left_out = if count.left_out > 0 { format!(", {} left out", count.left_out) } else { String::new() };
+        say(&format!("{} passed, {} failed{left_out}", count.passed, count.failed));
         match exit {
             Exit::Well if count.failed > 0 => Exit::NotWell,
+            Exit::Well if count.passed == 0 => {
+                let help = "add an `expect` that holds with the fault, too";
+                message::error("nothing was tested: no test here expects anything", Some(help));
+                Exit::Usage
+            }
             exit => exit,
         }
     }
@@ -127,7 +134,11 @@ impl Test {
             };
             let problems = self.problems(at, &result, faults);
             let (place, seeds) = (at.place(&result.place), format!("seeds {}..{}", result.seeds.0, result.seeds.1));
-            if problems.is_empty() {
+            if problems.is_empty() && test.expects.is_empty() && !faults.is_empty() {
+                count.left_out += 1;
+                say(&format!("left out  {place}  \"{}\"  {seeds}", result.name));
+                say("        it expects nothing, and its snapshots are of runs without `--fault`");
+            } else if problems.is_empty() {
                 count.passed += 1;
                 say(&format!("ok      {place}  \"{}\"  {seeds}", result.name));
             } else {

@@ -219,6 +219,16 @@ fn tests_are_run_with_what_goes_wrong_and_without_their_snapshots() {
         assert_eq!((code, said.contains("held in 0 of 4 runs, 75 % wanted")), (Some(1), true), "{said}");
         assert!(!said.contains("snapshot"), "{said}");
     }
+    // One that expects nothing is held to nothing.
+    let script = std::fs::read_to_string(project.0.join("north.alb")).unwrap();
+    let silent: String =
+        script.lines().filter(|line| !line.trim().starts_with("expect ")).map(|l| format!("{l}\n")).collect();
+    assert!(silent.len() < script.len() && silent.contains("snapshot"), "{silent}");
+    std::fs::write(project.0.join("north.alb"), silent).unwrap();
+    let (code, said) = project.test(&["--fault", "fault(heading, stuck, from: 1 s)"]);
+    assert_eq!((code, said.contains("0 passed, 0 failed, 1 left out")), (Some(2), true), "{said}");
+    assert!(said.contains("it expects nothing") && said.contains("nothing was tested"), "{said}");
+    assert_eq!(project.test(&[]).0, Some(0));
     let accepted = project.snapshot();
     let (code, said) = project.test(&["--accept", "--fault", "leak"]);
     assert_eq!((code, said.contains("cannot be used with")), (Some(2), true), "{said}");
