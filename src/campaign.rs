@@ -9,7 +9,7 @@ mod told;
 
 use crate::disk::{self, not_written};
 use crate::exit::Exit;
-use crate::plan::{Choice, Faults, refused};
+use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
 use crate::{interruption, message, output};
 use albacore_session::campaign::{Campaign as MissionCampaign, Tally};
 use albacore_session::{Plan, Run};
@@ -153,8 +153,7 @@ impl Campaign {
                 true => String::new(),
                 false => format!("; as it was found it is kept in {}", copies.join(" and ")),
             };
-            let help = format!("  help: {done}{kept}");
-            message::write(&(message::line(&format!("warning: {what}")) + &message::line(&help)));
+            message::warning(&what, &format!("{done}{kept}"));
         }
     }
 
@@ -165,13 +164,11 @@ impl Campaign {
         } else {
             told.human().print();
         }
+        warn_of_faults_after(plan, tally.longest_s());
         let (crowded, most) = tally.crowded();
         if crowded > 0 {
-            message::write(&format!(
-                "warning: {crowded} of {} runs reported more often than the table has columns for\n  \
-                 help: with `--reports {most}` there is room for all\n",
-                tally.runs()
-            ));
+            let what = format!("{crowded} of {} runs reported more often than the table has columns for", tally.runs());
+            message::warning(&what, &format!("with `--reports {most}` there is room for all"));
         }
     }
 

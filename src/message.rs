@@ -193,6 +193,11 @@ pub fn error_text(message: &str, help: Option<&str>) -> String {
     text
 }
 
+/// A warning that belongs to no place in a script.
+pub fn warning(message: &str, help: &str) {
+    write(&(line(&format!("warning: {message}")) + &line(&format!("  help: {help}"))));
+}
+
 /// Says that a file which was written anew has had other names: those lead to what it held before.
 pub fn parted(path: &Path, others: u64) {
     if others == 0 {

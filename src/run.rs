@@ -6,7 +6,7 @@ use crate::exit::Exit;
 use crate::kept::{Asked, Kept, Place, Record};
 use crate::live::Live;
 use crate::output::Lines;
-use crate::plan::{Choice, Faults, refused};
+use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
 use crate::speaker::{Speaker, no_thread};
 use crate::synced::Synced;
 use crate::vehicle::told;
@@ -109,6 +109,7 @@ impl Run {
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(telling.wall_s());
+        warn_of_faults_after(&plan, summary.sim_time_s);
         let left = kept.finish(&run, &summary);
         telling.tell(&Told { summary: &summary, folder: left.folder.as_deref() }, outcome, left.picture.as_deref());
         Telling::exit(outcome, kept.has_failed() || run.release_failed())

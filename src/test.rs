@@ -95,8 +95,8 @@ impl Test {
         match exit {
             Exit::Well if count.failed > 0 => Exit::NotWell,
             Exit::Well if count.passed == 0 => {
-                let help = "add an `expect` that holds with the fault, too";
-                message::error("nothing was tested: no test here expects anything", Some(help));
+                let help = "let the fault begin while the mission lasts, and add an `expect` that holds with it, too";
+                message::error("nothing was tested with what `--fault` says", Some(help));
                 Exit::Usage
             }
             exit => exit,
@@ -134,10 +134,18 @@ impl Test {
             };
             let problems = self.problems(at, &result, faults);
             let (place, seeds) = (at.place(&result.place), format!("seeds {}..{}", result.seeds.0, result.seeds.1));
-            if problems.is_empty() && test.expects.is_empty() && !faults.is_empty() {
+            let untested = match () {
+                () if !problems.is_empty() || faults.is_empty() => None,
+                () if test.expects.is_empty() => {
+                    Some("it expects nothing, and its snapshots are of runs without `--fault`")
+                }
+                () if !result.met_faults => Some("its runs are over before anything of `--fault` begins"),
+                () => None,
+            };
+            if let Some(why) = untested {
                 count.left_out += 1;
                 say(&format!("left out  {place}  \"{}\"  {seeds}", result.name));
-                say("        it expects nothing, and its snapshots are of runs without `--fault`");
+                say(&format!("        {why}"));
             } else if problems.is_empty() {
                 count.passed += 1;
                 say(&format!("ok      {place}  \"{}\"  {seeds}", result.name));

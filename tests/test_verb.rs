@@ -236,6 +236,30 @@ fn tests_are_run_with_what_goes_wrong_and_without_their_snapshots() {
 }
 
 #[test]
+fn what_was_to_go_wrong_after_the_end_is_told() {
+    let project = Project::new("never", "10 s", "5 m");
+    let verb = |words: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+        command.args(words).current_dir(&project.0).stdin(Stdio::null()).env("NO_COLOR", "1");
+        String::from_utf8(command.output().unwrap().stderr).unwrap()
+    };
+    let never = "warning: `leak` never began: from";
+    // The last tick that the mission lives is that of 10.1 s.
+    for (from, begins) in [("10.1 s", true), ("10.2 s", false), ("1 h", false)] {
+        let fault = format!("leak, from: {from}");
+        let said = verb(&["run", "north.alb", "--no-out", "--fault", &fault]);
+        assert_eq!(said.contains(never), !begins, "{said}");
+        assert_eq!(said.contains("vehicle: fault: leak"), begins, "{said}");
+        let (code, said) = project.test(&["--filter", "goes", "--fault", &fault]);
+        assert_eq!(said.contains("1 left out") && code == Some(2), !begins, "{said}");
+        assert_eq!(said.contains("its runs are over before anything of `--fault` begins"), !begins, "{said}");
+    }
+    let said = verb(&["campaign", "north.alb", "--seeds", "1..3", "--out", "t.csv", "--fault", "leak, from: 1 h"]);
+    assert_eq!(said.matches(never).count(), 1, "{said}");
+    assert!(said.contains("from 3600 s, and the mission lasted 10.2 s"), "{said}");
+}
+
+#[test]
 fn a_filter_that_leaves_nothing_says_so() {
     let project = Project::new("filter", "10 s", "5 m");
     let (code, said) = project.test(&["--filter", "south"]);

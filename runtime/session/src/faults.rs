@@ -58,6 +58,11 @@ impl Faults {
         self.faults.is_empty()
     }
 
+    /// Whether any of them begins in a run that lasts so long, s.
+    pub(crate) fn begin_within(&self, lasting: f64) -> bool {
+        self.faults.iter().any(|fault| fault.begins_within(lasting))
+    }
+
     /// A scenario with these faults added to its own, if they can be in it.
     pub(crate) fn in_scenario(&self, scenario: Arc<Scenario>) -> Result<Arc<Scenario>, PlanError> {
         let Some((said, sources)) = self.said.as_ref().filter(|_| !self.is_empty()) else { return Ok(scenario) };

@@ -11,7 +11,7 @@ use albacore_lang::{Script, suggestion};
 use albacore_link::Dialect;
 use albacore_machine::Chart;
 use albacore_program::Program;
-use albacore_sim::{Bottom, Ground, Scenario};
+use albacore_sim::{Bottom, Fault, Ground, Scenario};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
 use std::path::Path;
@@ -147,6 +147,11 @@ impl Plan {
     /// The same with faults added to those of the scenario.
     pub fn with_faults(self, faults: &Faults) -> Result<Self, PlanError> {
         Ok(Plan { scenario: faults.in_scenario(self.scenario)?, ..self })
+    }
+
+    /// The faults of the scenario that do not begin in a run that lasts so long, s.
+    pub fn faults_after(&self, lasting: f64) -> impl Iterator<Item = &Fault> {
+        self.scenario.faults.iter().filter(move |fault| !fault.begins_within(lasting))
     }
 
     /// What the vehicle speaks that the mission's own scenario says it is for, if it says so.

@@ -6,6 +6,7 @@ use crate::recorders::expectations::Expectations;
 use crate::recorders::trace::Trace;
 use crate::run::Driver;
 use albacore_lang::{Script, TestProgram};
+use albacore_vehicle::TICK_S;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -21,6 +22,8 @@ pub struct TestResult {
     pub place: String,
     /// The seeds that were run.
     pub seeds: (u64, u64),
+    /// Whether a run lasted until something of `faults` went wrong; true without any.
+    pub met_faults: bool,
     /// The first of the runs that failed, whatever was expected of them: the seed, why and when.
     pub failed: Vec<(u64, String)>,
     /// How many failed of how many.
@@ -78,6 +81,7 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
             });
         }
     }
+    let met_faults = faults.is_empty() || runs.iter().any(|run| faults.begin_within(run.lasted));
     let failed = || runs.iter().filter_map(|r| Some((r.seed, r.failed.clone()?)));
     let failed_of = (failed().count(), runs.len());
     let failed = failed().take(EXAMPLES_MAX).collect();
@@ -87,6 +91,7 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
         file_name: test.file_name.clone(),
         place: test.place.clone(),
         seeds: test.seeds,
+        met_faults,
         failed,
         failed_of,
         failures,
@@ -97,6 +102,8 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
 /// One run and what was expected of it.
 struct Judged {
     seed: u64,
+    /// How long, s.
+    lasted: f64,
     /// For each expectation what was found where it first did not hold.
     breaches: Vec<Option<String>>,
     /// Why it could not go on, and when.
@@ -111,6 +118,12 @@ fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError
     let mut recorders = (expectations, trace);
     driver.fold(&mut recorders, &AtomicBool::new(false));
     let (expectations, trace) = recorders;
-    let failed = expectations.failure();
-    Ok(Judged { seed, breaches: expectations.breaches, failed, trace: trace.map(|trace| trace.lines().to_string()) })
+    let (failed, lasted) = (expectations.failure(), driver.tick() as f64 * TICK_S);
+    Ok(Judged {
+        seed,
+        lasted,
+        breaches: expectations.breaches,
+        failed,
+        trace: trace.map(|trace| trace.lines().to_string()),
+    })
 }

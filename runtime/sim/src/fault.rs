@@ -14,6 +14,7 @@ pub(crate) use under_way::Faults;
 
 use crate::scenario::{HullSetup, Objections, OfClause, Scenario, told};
 use albacore_geometry::Vector;
+use albacore_vehicle::TICK_S;
 use serde::Deserialize;
 use std::fmt;
 
@@ -27,6 +28,18 @@ pub struct Fault {
     pub from: f64,
     /// When it is over, s after tick 0; none: it lasts to the end.
     pub to: Option<f64>,
+}
+
+impl Fault {
+    /// Whether it begins in a run that lasts so long, s.
+    pub fn begins_within(&self, lasting: f64) -> bool {
+        to_tick(self.from) < to_tick(lasting)
+    }
+}
+
+/// The nearest tick to a time, s after tick 0: one such as 0.3 s is no whole number of binary tenths.
+fn to_tick(seconds: f64) -> f64 {
+    (seconds / TICK_S).round()
 }
 
 /// What can go wrong.

@@ -87,6 +87,11 @@ impl Tally {
         Quantiles::of(&self.sim_time_s)
     }
 
+    /// How long the longest run lasted, s.
+    pub fn longest_s(&self) -> f64 {
+        self.sim_time_s.iter().copied().fold(0.0, f64::max)
+    }
+
     /// Metres over ground.
     pub fn path_length_m(&self) -> Option<Quantiles> {
         Quantiles::of(&self.path_length_m)

@@ -1,7 +1,7 @@
 //! The faults of a run: which are in force in a tick, what is said of it, and what they do.
 
 use super::filter::Filter;
-use super::{Fault, Sensor, Trouble};
+use super::{Fault, Sensor, Trouble, to_tick};
 use albacore_geometry::Vector;
 use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
 use albacore_vehicle::{Sample, TICK_S};
@@ -52,11 +52,9 @@ impl Faults {
 
     /// Begins and ends what begins and ends with a tick.
     pub fn advance_to(&mut self, tick: u64) {
-        // To the nearest tick: a time such as 0.3 s is no whole number of binary tenths.
-        let at = |seconds: f64| (seconds / TICK_S).round();
         let mut ailing = Ailing { leaks: self.ailing.leaks, ..Ailing::default() };
         for known in &mut self.all {
-            let (from, to) = (at(known.fault.from), known.fault.to.map_or(f64::INFINITY, at));
+            let (from, to) = (to_tick(known.fault.from), known.fault.to.map_or(f64::INFINITY, to_tick));
             let in_force = (from..to).contains(&(tick as f64));
             if in_force != known.in_force {
                 let what = if in_force { "fault" } else { "fault over" };
