@@ -175,7 +175,9 @@ fn stray(page: &Page, sources: &Sources) {
     }
 }
 
-/// A picture of a module's table.
+/// A picture of a module's table, or what stands in its place.
 fn drawn(module: &Module, name: &str) -> Option<String> {
-    module.diagrams.iter().find(|(of, _)| of == name).map(|(_, drawn)| diagram::svg(drawn))
+    let (_, table) = module.diagrams.iter().find(|(of, _)| of == name)?;
+    let too_large = || "<p>The table is too large for a diagram.</p>\n".to_string();
+    Some(diagram::svg(table).map_or_else(too_large, |svg| format!("<figure>\n{svg}</figure>\n")))
 }

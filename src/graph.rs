@@ -41,7 +41,19 @@ impl Graph {
             Err(exit) => return exit,
         };
         match script.diagram(self.name.as_deref()) {
-            Ok(diagram) => self.write(self.format.of(&diagram)),
+            Ok(diagram) => match self.format.of(&diagram) {
+                Some(text) => self.write(text),
+                None => {
+                    let (name, lines) = (&diagram.name, diagram.edges.len());
+                    let help =
+                        "`--format dot` leaves the drawing to Graphviz; fewer rules, or a table in parts, can be read";
+                    message::error(
+                        &format!("the diagram of `{name}` is too large to be drawn: {lines} lines"),
+                        Some(help),
+                    );
+                    Exit::Usage
+                }
+            },
             Err(none) => {
                 message::error(&none.message, none.help.as_deref());
                 Exit::Usage
@@ -66,11 +78,12 @@ impl Graph {
 }
 
 impl Format {
-    fn of(self, diagram: &Diagram) -> String {
+    /// The text; none for a picture that is too large.
+    fn of(self, diagram: &Diagram) -> Option<String> {
         match self {
             Format::Svg => diagram::svg(diagram),
-            Format::Dot => diagram::dot(diagram),
-            Format::Mermaid => diagram::mermaid(diagram),
+            Format::Dot => Some(diagram::dot(diagram)),
+            Format::Mermaid => Some(diagram::mermaid(diagram)),
         }
     }
 

@@ -115,8 +115,7 @@ impl Faults {
 /// Warns of what was to go wrong and did not, since the run, or the longest of several, lasted only so long, s.
 pub fn warn_of_faults_after(plan: &Plan, lasted: f64) {
     for fault in plan.faults_after(lasted) {
-        let what =
-            format!("`{fault}` never began: from {} s, and the mission lasted {lasted:.1} s", fault.from);
+        let what = format!("`{fault}` never began: from {} s, and the mission lasted {lasted:.1} s", fault.from);
         message::warning(&what, "let it begin earlier, with `from`");
     }
 }

@@ -122,6 +122,26 @@ fn large_scripts_are_checked_in_time() {
     }
 }
 
+/// A table that nobody could read as a picture is drawn as none.
+#[test]
+fn tables_are_drawn_in_time() {
+    let table = |behaviors| {
+        let declared = lines(behaviors, |i| format!("behavior b{i} {{ steer north }}"));
+        let rules = lines(behaviors, |i| format!("any -> b{i} on becomes depth > {i} m then back"));
+        format!("strategy all_to_all() {{\nstart b0\n{declared}{rules}}}\n")
+    };
+    let too_large = "the diagram of `all_to_all` is too large to be drawn: 3540 lines";
+    for (behaviors, is_drawn) in [(16, true), (60, false)] {
+        let (output, told) = run_within(&["graph"], "graph", &table(behaviors), None);
+        assert_eq!((output.status.code() == Some(0), told.contains(too_large)), (is_drawn, !is_drawn), "{told:.2000}");
+        let (output, told) = run_within(&["graph", "--format", "dot"], "dot", &table(behaviors), None);
+        assert_eq!((output.status.code(), told.matches("[label=").count()), (Some(0), behaviors * (behaviors - 1)));
+        let (output, told) = run_within(&["doc", "--format", "html"], "html", &table(behaviors), None);
+        assert_eq!((output.status.code(), told.contains("<svg")), (Some(0), is_drawn));
+        assert_eq!(told.contains("<p>The table is too large for a diagram.</p>"), !is_drawn);
+    }
+}
+
 /// What many missions and tests share is looked at for each of them: beyond a limit they are refused, before anything is made of them.
 #[test]
 fn what_missions_share_is_checked_so_often_at_most() {

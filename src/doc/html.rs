@@ -85,8 +85,8 @@ fn target<'a>(written: &str) -> CowStr<'a> {
 
 fn code_block(mark: &str, text: &str, home: Option<(usize, &Module)>, names: &Names) -> String {
     let picture = mark.strip_prefix(DIAGRAM).zip(home).and_then(|(name, (_, module))| drawn(module, name));
-    if let Some(svg) = picture {
-        return format!("<figure>\n{svg}</figure>\n");
+    if let Some(picture) = picture {
+        return picture;
     }
     let shown = match home {
         Some((home, _)) if mark == "alb" => linked(text, home, names),

@@ -32,15 +32,16 @@ const BLUE: &str = "#0072b2";
 const GREEN: &str = "#00805f";
 const RED: &str = "#b84c00";
 
-/// The picture as an SVG document. Whoever points at a line is told its rules in full, with what they do.
-pub fn svg(diagram: &Diagram) -> String {
+/// The picture as an SVG document. Whoever points at a line is told its rules in full, with what they do. None: it is too
+/// large to be read, and takes long to be laid out.
+pub fn svg(diagram: &Diagram) -> Option<String> {
     let graph = Graph::new(diagram);
     let shapes: Vec<Shape> = graph.nodes.iter().map(Shape::new).collect();
     let labels: Vec<Label> = graph.links.iter().map(Label::new).collect();
     let wire = |(link, label): (&Link, &Label)| Wire { source: link.source, target: link.target, label: label.size };
     let wires: Vec<Wire> = graph.links.iter().zip(&labels).map(wire).collect();
     let sizes: Vec<Size> = shapes.iter().map(Shape::size).collect();
-    let layout = layout(&sizes, &wires, diagram.start);
+    let layout = layout(&sizes, &wires, diagram.start)?;
 
     let keys = key(&graph);
     let key_width = text_width(&keys, 12.0);
@@ -63,7 +64,7 @@ pub fn svg(diagram: &Diagram) -> String {
     }
     page.start(&mut svg, layout.nodes[diagram.start]);
     svg.text((EDGE, height - 22.0), "font-size=\"12\" fill=\"#666\"", &keys);
-    svg.finish()
+    Some(svg.finish())
 }
 
 /// What the picture does not say by itself.

@@ -23,6 +23,9 @@ const PORT: f64 = 20.0;
 /// From the side of a box to the next line that meets it.
 const CORNER: f64 = 14.0;
 
+/// So much can take a place in a diagram that is laid out: more than one can read, and it takes seconds.
+const PLACES_MAX: usize = 20_000;
+
 /// A width and a height.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Size {
@@ -99,13 +102,22 @@ struct Layers {
     rows: Vec<Vec<usize>>,
 }
 
-/// Lays a diagram out. `start` is the box at the top, from which the lines lead to all others.
-pub fn layout(nodes: &[Size], wires: &[Wire], start: usize) -> Layout {
+/// Lays a diagram out. `start` is the box at the top, from which the lines lead to all others. None: more of it takes a place
+/// than [`PLACES_MAX`].
+pub fn layout(nodes: &[Size], wires: &[Wire], start: usize) -> Option<Layout> {
+    if nodes.len() + wires.len() > PLACES_MAX {
+        return None;
+    }
     let ranked = ranks::ranks(nodes.len(), wires, start);
+    let rank = |node: usize| ranked.ranks[node];
+    let passed = |wire: &Wire| (2 * rank(wire.source).abs_diff(rank(wire.target))).saturating_sub(1);
+    if nodes.len() + wires.iter().map(passed).sum::<usize>() > PLACES_MAX {
+        return None;
+    }
     let mut layers = Layers::new(nodes, wires, &ranked);
     order::arrange(&mut layers);
     let places = place::places(&layers);
-    route::draw(&layers, nodes, wires, &places)
+    Some(route::draw(&layers, nodes, wires, &places))
 }
 
 impl Layers {

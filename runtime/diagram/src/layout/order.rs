@@ -75,9 +75,9 @@ impl Best {
 fn sweep_once(rows: &mut [Vec<usize>], joined: &Joined, down: bool) {
     let neighbours = if down { &joined.above } else { &joined.below };
     let count = rows.len();
+    let mut place = places(rows, neighbours.len());
     for step in 1..count {
-        let (at, before) = if down { (step, step - 1) } else { (count - 1 - step, count - step) };
-        let place = places(&rows[before], neighbours.len());
+        let at = if down { step } else { count - 1 - step };
         let mean = |i: usize, own: usize| match neighbours[i].as_slice() {
             [] => own as f64,
             them => them.iter().map(|&n| place[n] as f64).sum::<f64>() / them.len() as f64,
@@ -85,46 +85,81 @@ fn sweep_once(rows: &mut [Vec<usize>], joined: &Joined, down: bool) {
         let mut keyed: Vec<(f64, usize)> = rows[at].iter().enumerate().map(|(own, &i)| (mean(i, own), i)).collect();
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
         rows[at] = keyed.into_iter().map(|(_, i)| i).collect();
+        rows[at].iter().enumerate().for_each(|(own, &i)| place[i] = own);
     }
 }
 
 /// Exchanges neighbours as long as that saves crossings.
 fn transpose(rows: &mut [Vec<usize>], joined: &Joined) {
-    let mut improved = true;
-    while improved {
-        improved = false;
-        for at in 0..rows.len() {
-            let above = at.checked_sub(1).map(|above| places(&rows[above], joined.above.len())).unwrap_or_default();
-            let below = rows.get(at + 1).map(|row| places(row, joined.below.len())).unwrap_or_default();
-            for i in 1..rows[at].len() {
-                let (a, b) = (rows[at][i - 1], rows[at][i]);
+    let mut place = places(rows, joined.above.len());
+    // Rows that were exchanged in, or are next to one that was, since they were last gone through.
+    let mut stale = vec![true; rows.len()];
+    while stale.contains(&true) {
+        for (at, row) in rows.iter_mut().enumerate() {
+            let mut improved = false;
+            for i in (1..row.len()).filter(|_| stale[at]) {
+                let (a, b) = (row[i - 1], row[i]);
                 let cost = |a: usize, b: usize| {
-                    inverted(&joined.above[a], &joined.above[b], &above)
-                        + inverted(&joined.below[a], &joined.below[b], &below)
+                    inverted(&joined.above[a], &joined.above[b], &place)
+                        + inverted(&joined.below[a], &joined.below[b], &place)
                 };
                 if cost(b, a) < cost(a, b) {
-                    rows[at].swap(i - 1, i);
+                    row.swap(i - 1, i);
+                    (place[a], place[b]) = (i, i - 1);
                     improved = true;
+                }
+            }
+            stale[at] = improved;
+            for next in [at.wrapping_sub(1), at + 1] {
+                if let Some(next) = stale.get_mut(next) {
+                    *next |= improved;
                 }
             }
         }
     }
 }
 
-/// Where in a row each item is.
-fn places(row: &[usize], items: usize) -> Vec<usize> {
+/// Where in its row each item is.
+fn places(rows: &[Vec<usize>], items: usize) -> Vec<usize> {
     let mut places = vec![0; items];
-    row.iter().enumerate().for_each(|(place, &i)| places[i] = place);
+    rows.iter().flat_map(|row| row.iter().enumerate()).for_each(|(place, &i)| places[i] = place);
     places
 }
 
+/// How many lines cross.
 fn crossings(rows: &[Vec<usize>], joined: &Joined) -> usize {
+    let place = places(rows, joined.below.len());
+    let mut ends = Vec::new();
     let mut sum = 0;
     for pair in rows.windows(2) {
-        let place = places(&pair[1], joined.below.len());
-        for (i, &a) in pair[0].iter().enumerate() {
-            sum +=
-                pair[0][i + 1..].iter().map(|&b| inverted(&joined.below[a], &joined.below[b], &place)).sum::<usize>();
+        ends.clear();
+        for &item in &pair[0] {
+            let first = ends.len();
+            ends.extend(joined.below[item].iter().map(|&below| place[below]));
+            ends[first..].sort_unstable();
+        }
+        sum += inversions(&ends, pair[1].len());
+    }
+    sum
+}
+
+/// How many pairs of numbers below a limit are in falling order.
+fn inversions(numbers: &[usize], limit: usize) -> usize {
+    // How many of the numbers so far are in each of the ranges that a number's binary digits name (Fenwick 1994).
+    let mut counts = vec![0; limit + 1];
+    let mut sum = 0;
+    for (before, &number) in numbers.iter().enumerate() {
+        let mut not_greater = 0;
+        let mut at = number + 1;
+        while at > 0 {
+            not_greater += counts[at];
+            at &= at - 1;
+        }
+        sum += before - not_greater;
+        at = number + 1;
+        while at <= limit {
+            counts[at] += 1;
+            at += at & at.wrapping_neg();
         }
     }
     sum
@@ -133,4 +168,17 @@ fn crossings(rows: &[Vec<usize>], joined: &Joined) -> usize {
 /// How often lines from the left one of two items end to the right of lines from the other.
 fn inverted(left: &[usize], right: &[usize], place: &[usize]) -> usize {
     left.iter().map(|&l| right.iter().filter(|&&r| place[l] > place[r]).count()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::inversions;
+
+    #[test]
+    fn each_pair_in_falling_order_counts_once() {
+        assert_eq!(inversions(&[0, 1, 1, 2], 3), 0);
+        assert_eq!(inversions(&[2, 1, 1, 0], 3), 5);
+        assert_eq!(inversions(&[3, 0, 2, 1], 4), 4);
+        assert_eq!(inversions(&[], 0), 0);
+    }
 }

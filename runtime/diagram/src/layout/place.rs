@@ -4,8 +4,10 @@ use super::{CORNER, Chain, Layers};
 
 /// Between two items of a layer.
 const GAP: f64 = 16.0;
-/// So many times the layers are gone through.
+/// So many times the layers are gone through,
 const ROUNDS: usize = 1200;
+/// or fewer, so that no more items than these are placed, all in all: more than enough for any table that one can read.
+const PLACINGS_MAX: usize = 20_000_000;
 /// Ways of less than this, in pixels, are as good as none: much at first, then less and less.
 const NEAR_FIRST: f64 = 4096.0;
 const NEARER: f64 = 0.99;
@@ -28,16 +30,20 @@ const CROOKED: f64 = 10.0;
 /// give each line many short bends; roots leave it one long one.
 pub fn places(layers: &Layers) -> Vec<f64> {
     let joined = joined(layers);
+    let room = |pair: &[usize]| layers.items[pair[0]].right + GAP + layers.items[pair[1]].left;
+    let apart: Vec<Vec<f64>> = layers.rows.iter().map(|row| row.windows(2).map(room).collect()).collect();
     let mut at = vec![0.0; layers.items.len()];
+    let mut wanted_places = Vec::new();
     let mut near = NEAR_FIRST;
-    for round in 0..ROUNDS {
-        near = (near * NEARER).max(NEAR_LAST);
+    let stride = (ROUNDS * layers.items.len()).div_ceil(PLACINGS_MAX).max(1);
+    for round in 0..ROUNDS / stride {
+        near = (0..stride).fold(near, |near, _| near * NEARER).max(NEAR_LAST);
         for step in 0..layers.rows.len() {
-            let row = &layers.rows[if round % 2 == 0 { step } else { layers.rows.len() - 1 - step }];
-            let wanted: Vec<(f64, f64)> = row.iter().map(|&i| wanted(at[i], &joined[i], &at, near)).collect();
-            let room = |pair: &[usize]| layers.items[pair[0]].right + GAP + layers.items[pair[1]].left;
-            let apart: Vec<f64> = row.windows(2).map(room).collect();
-            for (&i, x) in row.iter().zip(spread(&wanted, &apart)) {
+            let layer = if round % 2 == 0 { step } else { layers.rows.len() - 1 - step };
+            let row = &layers.rows[layer];
+            wanted_places.clear();
+            wanted_places.extend(row.iter().map(|&i| wanted(at[i], &joined[i], &at, near)));
+            for (&i, x) in row.iter().zip(spread(&wanted_places, &apart[layer])) {
                 at[i] = x;
             }
         }

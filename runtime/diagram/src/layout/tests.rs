@@ -50,7 +50,7 @@ fn along(curve: &[Point; 4]) -> impl Iterator<Item = Point> {
 
 #[track_caller]
 fn check(sizes: &[Size], wires: &[Wire], what: &str) -> Layout {
-    let layout = layout(sizes, wires, 0);
+    let layout = layout(sizes, wires, 0).unwrap();
     let page = Rect { left: -0.1, top: -0.1, right: layout.size.width + 0.1, bottom: layout.size.height + 0.1 };
     let mut all: Vec<Rect> = layout.nodes.clone();
     all.extend(layout.routes.iter().map(|route| route.label));
