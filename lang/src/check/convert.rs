@@ -187,8 +187,11 @@ impl<'t> Checker<'t> {
                     }
                     _ => {
                         let message = format!("this is {}, no condition", article(&name));
-                        Diagnostic::error(Code::TypesCondition, span, message)
-                            .help("compare it with something, such as `x > 0 m`")
+                        let is_time = matches!(other, Type::Quantity(dimension) if *dimension == Dimension::TIME);
+                        Diagnostic::error(Code::TypesCondition, span, message).help(match is_time {
+                            true => "how long something lasts is written with `for` or `within`: `wait for 10 s`",
+                            false => "compare it with something, such as `x > 0 m`",
+                        })
                     }
                 };
                 self.report(finding.here(format!("`{name}`")));

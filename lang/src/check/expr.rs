@@ -95,6 +95,11 @@ impl<'t> Checker<'t> {
 
     fn number(&mut self, value: f64, whole: Option<u64>, unit: Option<&tree::Name>, span: Span) -> Expr {
         let is_counted = value <= INT_MAX && whole.is_none_or(|whole| whole <= INT_MAX as u64);
+        if !value.is_finite() {
+            let finding = Diagnostic::error(Code::TypesNumber, span, "this number is too large to be held");
+            self.report(finding.help("the largest is about 1e150"));
+            return self.unknown(span);
+        }
         if unit.is_none() && !is_counted {
             self.report(
                 Diagnostic::error(Code::TypesNumber, span, "this whole number is too large to be counted exactly")
@@ -150,6 +155,10 @@ impl<'t> Checker<'t> {
         match &e.kind {
             tree::ExprKind::Text(parts) => self.text(parts),
             tree::ExprKind::Paren(inner) => self.told(inner),
+            tree::ExprKind::Name(name) if self.is_unknown(name) => {
+                self.bare_text(name, e.span);
+                Vec::new()
+            }
             _ => vec![TextPart::Hole(self.expr(e, None))],
         }
     }

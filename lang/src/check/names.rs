@@ -175,6 +175,22 @@ impl<'t> Checker<'t> {
         self.report(finding);
     }
 
+    /// Whether nothing is named so here.
+    pub(super) fn is_unknown(&self, name: &str) -> bool {
+        self.local(name).is_none() && self.lookup(self.scope.module, name).is_none()
+    }
+
+    /// A word that is no name, where a text is usual.
+    pub(super) fn bare_text(&mut self, word: &str, span: Span) {
+        let finding = self.unknown_name_finding(word, span);
+        let is_near = finding.help.is_some();
+        self.report(if is_near {
+            finding
+        } else {
+            finding.help(format!("a text stands between quotes: `\"{word}\"`"))
+        });
+    }
+
     /// What is assigned and was never declared.
     fn undeclared(&mut self, name: &tree::Name) {
         let finding = self.unknown_name_finding(&name.node, name.span);

@@ -23,6 +23,8 @@ pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habi
         .or_else(|| direction(before, rest))
         .or_else(|| bearing(before, rest))
         .or_else(|| pair(before, rest))
+        .or_else(|| bracketed(before, rest))
+        .or_else(|| lasting(before, rest))
         .or_else(|| label(before, rest))
         .or_else(|| text(before, rest))
         .or_else(|| format(before, rest, expected))
@@ -241,6 +243,39 @@ fn decimals(before: &str, rest: &str) -> Option<Habit> {
     let quantity = format!("{number}.{decimals} {unit}");
     let message = Some("decimals follow a point, not a comma".to_string());
     Some(Habit { message, help: format!("write `{}`", quantity.trim_end()) })
+}
+
+/// `steer(east, 10 s)`: a verb as a function.
+fn bracketed(before: &str, rest: &str) -> Option<Habit> {
+    let verb = word(before.trim_start());
+    let arguments = before.trim_start().strip_prefix(verb)?.trim_start().strip_prefix('(')?;
+    let others = line_end(rest);
+    let is_call = VERBS.contains(&verb) && !arguments.contains(['(', ')']) && rest.starts_with(',');
+    is_call.then(|| Habit {
+        message: Some(format!("`{verb}` is no function: its arguments stand without parentheses")),
+        help: match verb {
+            "steer" => format!("write `steer {arguments} for 1 min`"),
+            "goto" => "write `goto PLACE`, and a place as `point(10 m, 20 m)`".to_string(),
+            "loiter" => format!("write `loiter {arguments}, radius: 20 m`"),
+            _ => format!("write `{verb} {arguments}{}`", others.strip_suffix(')').unwrap_or(others)),
+        },
+    })
+}
+
+/// `steer east 10 s`, `goto p timeout 10 s`, `loiter p max 5 min`: how long, without the word for it.
+fn lasting(before: &str, rest: &str) -> Option<Habit> {
+    let verb = word(before.trim_start());
+    if !VERBS.contains(&verb) || [" for ", " until ", " within ", " at "].iter().any(|word| before.contains(word)) {
+        return None;
+    }
+    let value = line_end(rest);
+    let limit = matches!(word(rest), "timeout" | "max" | "limit" | "maximum" | "before");
+    let value = if limit { value[word(rest).len()..].trim_start_matches([':', '=', ' ']) } else { value };
+    let (_, unit) = quantity(value).filter(|_| value.starts_with(|c: char| c.is_ascii_digit()))?;
+    let is_verb_alone = last_word(before) == verb;
+    let is_time = matches!(unit, "ms" | "s" | "min" | "h") && !is_verb_alone;
+    let ends = matches!(verb, "goto" | "follow" | "dubins");
+    is_time.then(|| write(format!("{} {value}", if limit || ends { "within" } else { "for" }))).flatten()
 }
 
 /// `radius = 20 m`, `loiter p radius 20 m`, `steer heading 90 deg`.

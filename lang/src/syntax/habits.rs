@@ -151,6 +151,13 @@ pub(super) fn valueless(clause: &str) -> Option<(usize, Habit)> {
     })
 }
 
+/// How the remainder of whole numbers is written.
+const REMAINDER: &str = "for the remainder of whole numbers write `a - b * floor(a / b)`";
+
+fn is_digits(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
+}
+
 /// Two numbers in a row, or a number of another base.
 fn number(before: &str, rest: &str) -> Option<Habit> {
     let last = before.split_whitespace().next_back()?;
@@ -161,12 +168,31 @@ fn number(before: &str, rest: &str) -> Option<Habit> {
         };
         return Some(Habit { message: Some(format!("`{last}` is no number: numbers are decimal")), help });
     }
+    if let Some(whole) = last.strip_suffix('.').filter(|whole| is_digits(whole)) {
+        return Some(Habit {
+            message: Some("digits follow the point of a number".to_string()),
+            help: format!("write `{whole}` or `{whole}.0`"),
+        });
+    }
+    if rest.starts_with('_') && is_digits(last) && before.ends_with(last) {
+        let digits: String = rest.chars().take_while(|c| c.is_ascii_digit() || *c == '_').collect();
+        return Some(Habit {
+            message: Some("the digits of a number stand without `_` between them".to_string()),
+            help: format!("write `{last}{}`", digits.replace('_', "")),
+        });
+    }
     let (number, unit) = quantity(before)?;
+    if matches!(unit, "mod" | "rem") {
+        return Some(Habit {
+            message: Some("there is no remainder operator".to_string()),
+            help: REMAINDER.to_string(),
+        });
+    }
     let goes_on = rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
     if unit == "%" && goes_on {
         return Some(Habit {
             message: Some(format!("`{number} %` is a ratio, {number} percent: there is no remainder operator")),
-            help: "for the remainder of whole numbers write `a - b * floor(a / b)`".to_string(),
+            help: REMAINDER.to_string(),
         });
     }
     let next: String = rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
@@ -231,6 +257,13 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
             }
         });
     }
+    // `let a = depth as Length`
+    if first == "as" {
+        return Some(Habit {
+            message: Some("nothing is converted: a value has the dimension of its unit".to_string()),
+            help: format!("leave `{}` out", line_end(rest)),
+        });
+    }
     // `goto p, speed 3 m/s`
     let (head, last) = before.trim_end().rsplit_once([' ', ','])?;
     let value = rest.split(['\n', ';', ',', '{', '}']).next().unwrap_or("").trim();
@@ -245,7 +278,14 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     }
     // `goto p at 3 m/s`
     if expected.starts_with("`depth`") && rest.starts_with(|c: char| c.is_ascii_digit()) {
-        return Some(Habit { message: None, help: format!("say what `{value}` is: `at speed {value}`, for example") });
+        let channel = match quantity(value) {
+            Some((_, unit)) if !unit.contains('/') && !unit.starts_with("kn") => "depth",
+            _ => "speed",
+        };
+        return Some(Habit {
+            message: None,
+            help: format!("say what `{value}` is: `at {channel} {value}`, for example"),
+        });
     }
     None
 }
