@@ -51,7 +51,7 @@ pub struct Run {
     #[arg(long, requires = "out")]
     replace: bool,
     /// Write no files.
-    #[arg(long, conflicts_with = "out")]
+    #[arg(long, conflicts_with_all = ["out", "replace"])]
     no_out: bool,
     /// Print the result as one JSON object on standard output.
     #[arg(long)]
