@@ -104,6 +104,16 @@ fn large_scripts_are_checked_in_time() {
             ),
         ),
         (
+            "given_variants",
+            script(
+                &format!("enum Many {{ {} }}", lines(20_000, |i| format!("v{i},"))),
+                &format!(
+                    "memory e: Many = v0\nmatch e {{ {} else {{}} }}\nwait for 1 s",
+                    lines(3000, |i| format!("v{i} {{ e = v{} }}", i + 1))
+                ),
+            ),
+        ),
+        (
             "any",
             script(
                 &format!(

@@ -68,14 +68,18 @@ pub fn help<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str> + Clon
     let mut all: Vec<&str> = candidates.into_iter().collect();
     all.sort_unstable();
     all.dedup();
-    (!all.is_empty() && all.len() <= 12).then(|| format!("there is {}", listed(&all)))
+    (!all.is_empty() && all.len() <= LISTED_MAX).then(|| format!("there is {}", listed(&all)))
 }
 
-/// `a`, `b` and `c`.
-pub fn listed(names: &[&str]) -> String {
-    let quoted: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+/// So many names a message lists.
+const LISTED_MAX: usize = 12;
+
+/// `a`, `b` and `c`; of many the first, and how many more there are.
+pub fn listed(names: &[impl AsRef<str>]) -> String {
+    let quoted: Vec<String> = names.iter().take(LISTED_MAX).map(|n| format!("`{}`", n.as_ref())).collect();
     match quoted.as_slice() {
         [] => String::new(),
+        some if names.len() > LISTED_MAX => format!("{} and {} more", some.join(", "), names.len() - LISTED_MAX),
         [one] => one.clone(),
         [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
     }

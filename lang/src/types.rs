@@ -2,6 +2,7 @@
 
 use crate::dimension::Dimension;
 use albacore_program::Shape;
+use std::sync::Arc;
 
 /// Index of a record declaration.
 pub type RecordId = usize;
@@ -55,7 +56,7 @@ pub struct EnumInfo {
     /// The module that declares it; empty for the file that is run.
     pub module: String,
     /// Its variants.
-    pub variants: Vec<String>,
+    pub variants: Arc<[String]>,
 }
 
 /// A name that several modules declare, as it is written where they are imported.

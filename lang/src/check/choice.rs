@@ -11,6 +11,7 @@ use crate::suggest;
 use crate::syntax::tree::{self, Condition};
 use crate::types::Type;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 impl<'t> Checker<'t> {
     pub(super) fn if_stmt(
@@ -181,7 +182,7 @@ impl<'t> Checker<'t> {
         let on = self.expr(on, None);
         let variants = match &on.ty {
             Type::Enum(id) => self.types.enums[*id].variants.clone(),
-            Type::Unknown => Vec::new(),
+            Type::Unknown => Arc::default(),
             other => {
                 let name = self.type_name(other);
                 self.report(
@@ -192,7 +193,7 @@ impl<'t> Checker<'t> {
                     )
                     .help("use `if`"),
                 );
-                Vec::new()
+                Arc::default()
             }
         };
         let by_name: BTreeMap<&str, usize> = variants.iter().enumerate().map(|(i, v)| (v.as_str(), i)).collect();

@@ -82,6 +82,21 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     findings
 }
 
+/// An entry of `requires` for each input that comes seldom or late, so that a mission which takes it over waits long enough.
+const SELDOM: [(&str, &str); 2] = [
+    ("battery", "battery fresh 1 min, else abort"),
+    ("flow", "flow fresh 30 s, at first 0 m/s toward north, else abort"),
+];
+
+/// Entries of `requires` for inputs, which can be pasted.
+fn entries(names: &[&str]) -> Vec<String> {
+    let (seldom, often): (Vec<&str>, Vec<&str>) =
+        names.iter().partition(|name| SELDOM.iter().any(|(seldom, _)| seldom == *name));
+    let together = (!often.is_empty()).then(|| format!("{} fresh 5 s, else abort", often.join(", ")));
+    let own = SELDOM.iter().filter(|(name, _)| seldom.contains(name)).map(|(_, entry)| (*entry).to_string());
+    together.into_iter().chain(own).collect()
+}
+
 /// All that a mission reads and does not require, as one finding: its help can be pasted.
 fn missing(activity: &Activity, unrequired: &[(&str, Span)], requires_others: bool) -> Option<Diagnostic> {
     if unrequired.is_empty() {
@@ -90,10 +105,18 @@ fn missing(activity: &Activity, unrequired: &[(&str, Span)], requires_others: bo
     let names: Vec<&str> = unrequired.iter().map(|(name, _)| *name).collect();
     let (reads, them) = (suggest::listed(&names), if names.len() == 1 { "it" } else { "them" });
     let message = format!("the mission `{}` reads {reads} and does not require {them}", activity.name);
-    let entry = format!("{} fresh 5 s, else abort", names.join(", "));
-    let help = match requires_others {
-        true => format!("add to its `requires {{ … }}`, on a line of its own: `{entry}`"),
-        false => format!("say it in the mission: `requires {{ {entry} }}`"),
+    let help = match (requires_others, entries(&names).as_slice()) {
+        (true, [entry]) => format!("add to its `requires {{ … }}`, on a line of its own: `{entry}`"),
+        (false, [entry]) => format!("say it in the mission: `requires {{ {entry} }}`"),
+        (true, several) => {
+            format!("add to its `requires {{ … }}`, each on a line of its own: {}", suggest::listed(several))
+        }
+        (false, several) => {
+            format!(
+                "give the mission `requires {{ … }}`, in it, each on a line of its own: {}",
+                suggest::listed(several)
+            )
+        }
     };
     let finding = Diagnostic::error(Code::MissionsUnrequired, activity.span, message).help(help);
     // The places in the mission's own file: those that its calls lead to would fill pages.

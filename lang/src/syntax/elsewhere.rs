@@ -351,7 +351,8 @@ fn bearing(before: &str, rest: &str) -> Option<Habit> {
     let after = line.trim_start().strip_prefix("steer ")?.trim_start();
     let (first, value) = (word(after), line_end(after[word(after).len()..].trim_start()));
     match first {
-        "heading" | "course" if !value.is_empty() => write(format!("steer {value}")),
+        "heading" if !value.is_empty() => write(format!("steer heading: {value}")),
+        "course" if !value.is_empty() => write(format!("steer {value}")),
         "toward" | "towards" | "to" => {
             let place = value.split(" for ").next().unwrap_or(value);
             write(format!("goto {}", if place.is_empty() { "PLACE" } else { place }))

@@ -9,7 +9,7 @@ use crate::Event;
 use crate::slope::{SLOPE_MAX, Slope};
 use crate::state::{Limits, Run};
 use albacore_geometry::Point;
-use albacore_program::{Channel, Input, LIMIT_FRESH_MAX_S, LIMIT_FRESH_S, Program, Slot};
+use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program, Slot};
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -267,8 +267,7 @@ impl Run {
         let fresh = required
             .filter(|(require, _)| matches!(&*p.inputs[require.input as usize].name, "altitude" | "water_depth"))
             .map(|(_, numbers)| numbers.fresh)
-            .fold(f64::MAX, f64::min);
-        let fresh = if fresh == f64::MAX { LIMIT_FRESH_S / TICK_S } else { fresh.min(LIMIT_FRESH_MAX_S / TICK_S) };
+            .fold(LIMIT_FRESH_S / TICK_S, f64::min);
         let doubted = self.state.bottom.doubted;
         let fresh = |heard: &Heard| if heard.confirmed && !doubted { fresh } else { fresh.min(DOUBTFUL_S / TICK_S) };
         let age = |heard: &Heard| (self.state.tick - heard.tick + self.state.lag.round_trip) as f64;

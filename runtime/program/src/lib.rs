@@ -99,11 +99,10 @@ pub struct Code {
 pub const LATENCY_MAX_S: f64 = 2.0;
 /// For so long a mission holds on a link that lags, before it aborts, s.
 pub const LATENCY_PATIENCE_S: f64 = 10.0;
-/// The age, in seconds, beyond which what a vertical limit is held by counts for nothing: depth and altitude. What the mission
-/// itself `requires` of them comes first.
+/// The age, in seconds, beyond which what a vertical limit is held by counts for nothing: depth and altitude. A mission that
+/// `requires` a younger altitude is held by that; one that lets it be older reads on, and its limits do not: at 2.5 m/s a bottom
+/// that rises by 1 m in 10 m comes 1.25 m nearer in this time.
 pub const LIMIT_FRESH_S: f64 = 5.0;
-/// And at most, however old the mission lets an altitude be: at 2.5 m/s a bottom that rises by 1 m in 10 m comes 2.5 m nearer.
-pub const LIMIT_FRESH_MAX_S: f64 = 10.0;
 /// How long, in seconds, a mission holds for the depth that a vertical limit needs before it aborts, unless its `requires` says
 /// otherwise.
 pub const LIMIT_PATIENCE_S: f64 = 30.0;

@@ -2,6 +2,7 @@
 
 use albacore_arithmetic::Interval;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// What a run of words means.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +32,7 @@ pub enum Shape {
     /// Index into [`crate::Program::texts`].
     Text,
     /// The index of a variant.
-    Enum(Vec<String>),
+    Enum(Arc<[String]>),
     /// Named fields, one after the other.
     Record(String, Vec<(String, Shape)>),
     /// 1 or 0, then the value, which means nothing after a 0.

@@ -70,7 +70,7 @@ fn each_shape_has_its_form() {
     area[0] = 4.0;
     check(Shape::Area, &area, "area of 4 corners");
     check(Shape::Text, &[3.0], "text 3");
-    check(Shape::Enum(vec!["surface".into(), "dive".into()]), &[1.0], "dive");
+    check(Shape::Enum(["surface".into(), "dive".into()].into()), &[1.0], "dive");
     check(Shape::Optional(Box::new(Shape::Int)), &[0.0, 9.0], "none");
     check(Shape::Optional(Box::new(Shape::Int)), &[1.0, 9.0], "9");
     let source = vec![("at".to_string(), Shape::Point), ("at_edge".to_string(), Shape::Bool)];
@@ -95,7 +95,7 @@ fn long_lists_are_cut_and_counted() {
 
 #[test]
 fn short_and_senseless_words_are_no_reason_to_fail() {
-    let inner = Shape::Record("R".into(), vec![("p".into(), Shape::Point), ("e".into(), Shape::Enum(vec![]))]);
+    let inner = Shape::Record("R".into(), vec![("p".into(), Shape::Point), ("e".into(), Shape::Enum([].into()))]);
     let shapes = [
         (Shape::Bool, "?"),
         (Shape::Int, "?"),

@@ -8,8 +8,6 @@ use albacore_vehicle::{Command, TICK_S, Vertical};
 
 /// So long a vertical limit goes by what was sensed: 5 s.
 const FRESH_TICKS: u64 = 50;
-/// And at most, whatever the mission says of it.
-const FRESH_MOST_TICKS: u64 = 300;
 /// An echo that no other has confirmed counts for so long: 1 s.
 const LONE_TICKS: u64 = 10;
 
@@ -55,7 +53,7 @@ impl Evaluator<'_> {
         let (lowest, highest) = self.limits[Channel::Altitude as usize];
         let names = ["altitude", "water_depth"];
         let own = self.required.iter().filter(|r| names.contains(&&*self.w.hir.inputs[r.input].name)).map(|r| r.fresh);
-        let fresh = own.min().map_or(FRESH_TICKS, |own| own.min(FRESH_MOST_TICKS));
+        let fresh = own.fold(FRESH_TICKS, u64::min);
         let young = self.w.tick - *self.bottom.begun.get_or_insert(self.w.tick) <= FRESH_TICKS;
         let echo = self.bottom.echo.filter(|echo| echo.agrees);
         let lone = fresh.min(LONE_TICKS);
