@@ -94,6 +94,13 @@ pub fn end_of_run(name: &str) -> Option<&'static str> {
     })
 }
 
+/// What is said of a point of the compass between the four that have names.
+macro_rules! unnamed {
+    ($degrees:literal) => {
+        concat!("write `", $degrees, " deg`: only `north`, `east`, `south` and `west` have names")
+    };
+}
+
 /// Directions of the compass that have no name here, or a longer one.
 fn compass(word: &str) -> Option<&'static str> {
     Some(match word {
@@ -101,10 +108,18 @@ fn compass(word: &str) -> Option<&'static str> {
         "E" => "if this is a direction write `east`",
         "S" => "if this is a direction write `south`",
         "W" => "if this is a direction write `west`",
-        "NE" | "northeast" | "north_east" => "write `45 deg`: only `north`, `east`, `south` and `west` have names",
-        "SE" | "southeast" | "south_east" => "write `135 deg`: only `north`, `east`, `south` and `west` have names",
-        "SW" | "southwest" | "south_west" => "write `225 deg`: only `north`, `east`, `south` and `west` have names",
-        "NW" | "northwest" | "north_west" => "write `315 deg`: only `north`, `east`, `south` and `west` have names",
+        "NNE" => unnamed!("22.5"),
+        "NE" | "northeast" | "north_east" => unnamed!("45"),
+        "ENE" => unnamed!("67.5"),
+        "ESE" => unnamed!("112.5"),
+        "SE" | "southeast" | "south_east" => unnamed!("135"),
+        "SSE" => unnamed!("157.5"),
+        "SSW" => unnamed!("202.5"),
+        "SW" | "southwest" | "south_west" => unnamed!("225"),
+        "WSW" => unnamed!("247.5"),
+        "WNW" => unnamed!("292.5"),
+        "NW" | "northwest" | "north_west" => unnamed!("315"),
+        "NNW" => unnamed!("337.5"),
         _ => return None,
     })
 }
@@ -115,7 +130,9 @@ pub fn repeated(word: &str, rest: &str) -> Option<String> {
     match (word, head.trim()) {
         ("do", "") => Some("write `while X { … }`: what is done once in any case stands before it, too".to_string()),
         ("until", "") => None,
-        ("until", condition) => Some(format!("write `while not ({condition}) {{ … }}`")),
+        ("until", condition) => Some(format!(
+            "write `while not ({condition}) {{ … }}`, and at what is driven in it when that ends: `steer north until {condition}`"
+        )),
         _ => None,
     }
 }

@@ -16,7 +16,9 @@ use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 /// What is said of an area that is meant to be round.
 const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";
 
-/// Verbs whose setpoints are told after `at`, not among their arguments.
+/// How a time limit is called elsewhere, where it is an argument.
+const TIME_LIMITS: [&str; 5] = ["timeout", "time_limit", "time", "duration", "within"];
+/// Verbs whose setpoints are told after `at`, and whose time limit after `within`, not among their arguments.
 const GUIDANCE: [&str; 5] = ["goto", "follow", "dubins", "loiter", "steer"];
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
@@ -93,6 +95,9 @@ impl<'t> Checker<'t> {
                     let finding = match self.suggestion(&label.node, params.iter().map(|p| p.name.as_str())) {
                         _ if is_setpoint && GUIDANCE.contains(&what) => {
                             finding.help(format!("what it keeps follows `at`: `{what} … at {} …`", label.node))
+                        }
+                        _ if TIME_LIMITS.contains(&&*label.node) && GUIDANCE.contains(&what) => {
+                            finding.help(format!("a time limit follows: `{what} … within 5 min`"))
                         }
                         Some(help) => finding.help(help),
                         None => finding,

@@ -30,6 +30,8 @@ pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habi
         .or_else(|| format(before, rest, expected))
         .or_else(|| head(before, rest, expected))
         .or_else(|| valueless(before, rest))
+        .or_else(|| empty_hole(before, rest))
+        .or_else(|| letters(rest, expected))
         .or_else(|| operator(before, rest))
 }
 
@@ -210,6 +212,25 @@ fn lambda(before: &str, rest: &str) -> Option<Habit> {
     (is_value && (is_arrow || is_bar || is_word)).then(|| Habit {
         message: Some("no function is a value".to_string()),
         help: "declare it with its name, `fn NAME(x: TYPE) -> TYPE { … }`, and call it: `NAME(3 m)`".to_string(),
+    })
+}
+
+/// `"at {}"`.
+fn empty_hole(before: &str, rest: &str) -> Option<Habit> {
+    let line = rest.split('\n').next().unwrap_or(rest);
+    let is_empty = before.trim().is_empty() && line.strip_prefix('}').is_some_and(|after| after.contains('"'));
+    is_empty.then(|| Habit {
+        message: Some("no value stands here".to_string()),
+        help: "write the value itself between the braces: `\"at {depth}\"`".to_string(),
+    })
+}
+
+/// `let σ = 3`.
+fn letters(rest: &str, expected: &str) -> Option<Habit> {
+    let is_other = |c: char| c.is_alphabetic() && !c.is_ascii();
+    (expected == "a name" && rest.starts_with(is_other)).then(|| Habit {
+        message: None,
+        help: "a name is made of the letters a to z, of digits and of `_`".to_string(),
     })
 }
 
