@@ -175,6 +175,12 @@ impl<'a> Head<'a> {
                 }
                 other => {
                     if let Some(value) = other.strip_prefix("nodata=") {
+                        if head.nodata != Nodata::Unsaid {
+                            faults.add(
+                                format!("line 1 says `nodata=` twice, then `{}`", shortened(word)),
+                                "leave one of them out",
+                            );
+                        }
                         head.nodata = match value.parse() {
                             _ if value == "none" => Nodata::None,
                             Ok(value) => Nodata::Value(value),

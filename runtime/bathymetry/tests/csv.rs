@@ -202,6 +202,10 @@ fn heads_that_say_too_little_or_what_cannot_be() {
     wrong(&SMALL.replace("east", "lon"), "line 1 mixes degrees and metres: `north` and `lon`");
     wrong(&SMALL.replace("metres", "metres east 0..9 n=2"), "line 1 gives two axes such as `east`");
     wrong(
+        &SMALL.replace("metres", "metres nodata=-9999 nodata=none"),
+        "line 1 says `nodata=` twice, then `nodata=none`",
+    );
+    wrong(
         &SMALL.replace("metres", "metres, rows north->south"),
         "line 1 says `north->south`: rows run from south to north",
     );
