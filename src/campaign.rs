@@ -1,11 +1,11 @@
 //! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
 
 mod growing;
-mod origin;
+mod provenance;
 pub mod seeds;
+mod summary;
 mod sums;
 mod table;
-mod told;
 
 use crate::disk::{self, not_written};
 use crate::exit::Exit;
@@ -14,15 +14,15 @@ use crate::{interruption, message, output};
 use albacore_session::campaign::{Campaign as MissionCampaign, Tally};
 use albacore_session::{Plan, Run};
 use indicatif::{ProgressBar, ProgressStyle};
-use origin::Origin;
+use provenance::Provenance;
 use seeds::Seeds;
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Duration;
-use table::{Foreign, Standing, Table, Trouble};
-use told::Told;
+use summary::CampaignSummary;
+use table::{Foreign, Standing, Table, TableError};
 
 /// Columns for so many reports of each name, at most.
 const REPORTS_MAX: usize = 1_000;
@@ -86,10 +86,10 @@ impl Campaign {
         }
     }
 
-    fn carry_out(&self, plan: &Plan) -> Result<Exit, Trouble> {
+    fn carry_out(&self, plan: &Plan) -> Result<Exit, TableError> {
         let campaign = MissionCampaign::new(plan.clone(), self.reports);
         let (columns, origin) =
-            (campaign.columns(), Origin::new(plan, &self.choice.set, &self.faults.texts, self.seeds.first));
+            (campaign.columns(), Provenance::new(plan, &self.choice.set, &self.faults.texts, self.seeds.first));
         // Who interrupts finds a table that can be gone on with.
         let interrupted = interruption::flag();
         let mut table = if self.resume {
@@ -143,7 +143,7 @@ impl Campaign {
                     let what = format!("`{path}` or its `.sums` was changed since it was written: {lines}");
                     (what, "rows that were changed are run again, and what is no row is taken out", copies)
                 }
-                Foreign::Origin(copies) => {
+                Foreign::Provenance(copies) => {
                     let what = format!("`{path}.origin` was changed since it was written");
                     (what, "it is written again, of this campaign", copies)
                 }
@@ -158,7 +158,7 @@ impl Campaign {
     }
 
     fn sum_up(&self, plan: &Plan, tally: &Tally) {
-        let told = Told::new(plan, self.seeds, &self.out, tally);
+        let told = CampaignSummary::new(plan, self.seeds, &self.out, tally);
         if self.json {
             output::print_json(&told);
         } else {
@@ -173,27 +173,27 @@ impl Campaign {
     }
 
     /// Says why there is no table, or only a part of one.
-    fn told(&self, trouble: Trouble) -> Exit {
+    fn told(&self, trouble: TableError) -> Exit {
         match trouble {
-            Trouble::Asked(what, help) => {
+            TableError::Asked(what, help) => {
                 message::error(&what, Some(&help));
                 Exit::Usage
             }
-            Trouble::Gone(path) => {
+            TableError::Gone(path) => {
                 let what = format!("`{}` is not this campaign's any more: it was removed or replaced", path.display());
                 let help = "what has its name now is left as it is: with the file back in its place the same command with \
                             `--resume` goes on; without it, begin anew with another `--out`";
                 message::error(&what, Some(help));
                 Exit::Failed
             }
-            Trouble::Changed(path) => {
+            TableError::Changed(path) => {
                 let what = format!("`{}` was changed by another program while the campaign went on", path.display());
                 let help = "the same command with `--resume` keeps the rows that are as they were written, and runs the \
                             others again";
                 message::error(&what, Some(help));
                 Exit::Failed
             }
-            Trouble::Disk(path, error) => {
+            TableError::Disk(path, error) => {
                 message::error(&not_written(&path, &error), Some(&self.left(&error)));
                 Exit::Failed
             }

@@ -2,8 +2,8 @@
 //! nobody chose: it overwrites nothing, and follows no link. `tests/writers.rs` keeps every other writer out.
 
 use crate::interruption::{self, Held};
-use crate::kept::is_of_a_run;
 use crate::made::{Made, is_as_made};
+use crate::run_folder::is_of_a_run;
 use std::fs::{self, File, Metadata, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};

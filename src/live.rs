@@ -2,11 +2,11 @@
 
 use crate::exit::Exit;
 use crate::interruption;
-use crate::kept::{Kept, Left};
 use crate::message;
 use crate::run::{self, Telling};
+use crate::run_folder::{Left, RunFolder};
 use crate::speaker::{Speaker, no_thread, within};
-use albacore_session::{Lived, Means, Run, Sink, Told, WAITING_BYTES};
+use albacore_session::{LiveUpdate, Lived, Means, Run, Sink, WAITING_BYTES};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,7 +29,7 @@ pub struct Live {
     /// Raised when the run is to end.
     pub interrupted: Arc<AtomicBool>,
     /// The run's files.
-    pub kept: Kept,
+    pub kept: RunFolder,
     /// How its result is told.
     pub telling: Telling,
 }
@@ -40,18 +40,18 @@ impl Live {
         let Live { speaker, journal, interrupted, mut kept, telling } = self;
         let stopping = interruption::ctrl_z();
         let watch = kept.watch();
-        let mut tell = |told: Told<'_>| {
+        let mut tell = |told: LiveUpdate<'_>| {
             if stopping.swap(false, Ordering::Relaxed) {
                 message::write(CTRL_Z);
             }
             match told {
-                Told::Notice(notice) => message::write(&message::line(&format!("link: {notice}"))),
-                Told::Progress(tick, active) => {
+                LiveUpdate::Notice(notice) => message::write(&message::line(&format!("link: {notice}"))),
+                LiveUpdate::Progress(tick, active) => {
                     kept.ticks();
                     speaker.progress(tick / 10, || active.join(" > "));
                 }
-                Told::JournalFailed(error) => message::write(&kept.journal_failed(&error)),
-                Told::Nothing => {}
+                LiveUpdate::JournalFailed(error) => message::write(&kept.journal_failed(&error)),
+                LiveUpdate::Nothing => {}
             }
         };
         let lived = run.live(Means { journal, interrupted, tell: &mut tell, waiting_bytes: WAITING_BYTES });
@@ -77,7 +77,7 @@ impl Live {
                 );
                 (Left { folder, picture: None }, true)
             });
-            let told = run::Told { summary: &summary, folder: left.folder.as_deref() };
+            let told = run::RunResult { summary: &summary, folder: left.folder.as_deref() };
             telling.tell(&told, outcome, left.picture.as_deref());
             failed
         });

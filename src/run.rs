@@ -3,10 +3,10 @@
 use crate::campaign::seeds;
 use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
-use crate::kept::{Asked, Kept, Place, Record};
 use crate::live::Live;
 use crate::output::Lines;
 use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
+use crate::run_folder::{Asked, Place, Record, RunFolder};
 use crate::speaker::{Speaker, no_thread};
 use crate::synced::Synced;
 use crate::vehicle::told;
@@ -111,7 +111,11 @@ impl Run {
         let summary = run.summary(telling.wall_s());
         warn_of_faults_after(&plan, summary.sim_time_s);
         let left = kept.finish(&run, &summary);
-        telling.tell(&Told { summary: &summary, folder: left.folder.as_deref() }, outcome, left.picture.as_deref());
+        telling.tell(
+            &RunResult { summary: &summary, folder: left.folder.as_deref() },
+            outcome,
+            left.picture.as_deref(),
+        );
         Telling::exit(outcome, kept.has_failed() || run.release_failed())
     }
 
@@ -147,9 +151,9 @@ impl Run {
     }
 
     /// The run's files, if any are wanted, where they overwrite no other run's.
-    fn kept(&self, plan: &Plan) -> Result<Kept, Exit> {
+    fn kept(&self, plan: &Plan) -> Result<RunFolder, Exit> {
         if self.no_out {
-            return Ok(Kept::nothing());
+            return Ok(RunFolder::nothing());
         }
         let place = match &self.out {
             Some(folder) => Place::Named { folder: folder.clone(), replace: self.replace },
@@ -163,11 +167,11 @@ impl Run {
             set: &self.choice.set,
             fault: &self.faults.texts,
         };
-        Kept::begin(&place, started, Record::new(plan, &asked, started))
+        RunFolder::begin(&place, started, Record::new(plan, &asked, started))
     }
 
     /// Ticks in a simulated world until the mission ends or the person interrupts it.
-    fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut Kept, interrupted: &AtomicBool) -> Outcome {
+    fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut RunFolder, interrupted: &AtomicBool) -> Outcome {
         let bar = bar(self.json, &plan.program.mission.name);
         let mut pace = self.rate.map(Pace::new);
         loop {
@@ -226,7 +230,7 @@ impl Telling {
     }
 
     /// Tells it.
-    pub fn tell(&self, told: &Told, outcome: Outcome, picture: Option<&Path>) {
+    pub fn tell(&self, told: &RunResult, outcome: Outcome, picture: Option<&Path>) {
         let summary = told.summary;
         let link_failed = self.on_link && outcome == Outcome::Failed;
         if link_failed {
@@ -253,7 +257,7 @@ impl Telling {
 
 /// The result as a program reads it.
 #[derive(serde::Serialize)]
-pub struct Told<'a> {
+pub struct RunResult<'a> {
     /// The result.
     #[serde(flatten)]
     pub summary: &'a Summary,

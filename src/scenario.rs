@@ -6,7 +6,7 @@ use crate::made::{Comment, Made};
 use crate::output::Lines;
 use crate::plan::{refused, scenario_script};
 use crate::{disk, message};
-use albacore_session::{Shown, Whence};
+use albacore_session::{Shown, ValueSource};
 use std::path::{Path, PathBuf};
 
 /// Look at a scenario.
@@ -96,17 +96,17 @@ fn listing(shown: &Shown) -> Lines {
     lines.add(&format!("scenario {}", shown.name));
     for clause in &shown.clauses {
         let unsaid = match clause.whence {
-            Whence::Said => "",
-            Whence::Default => "  (not said)",
-            Whence::Record => "  (of the record)",
+            ValueSource::Said => "",
+            ValueSource::Default => "  (not said)",
+            ValueSource::Record => "  (of the record)",
         };
         lines.add("");
         lines.add(&format!("{}{unsaid}", clause.name));
         for (name, value, whence) in &clause.values {
             let mark = match whence {
-                Whence::Said => "",
-                Whence::Default => "default",
-                Whence::Record => "record",
+                ValueSource::Said => "",
+                ValueSource::Default => "default",
+                ValueSource::Record => "record",
             };
             for (i, line) in value.lines().enumerate() {
                 let name = if i == 0 { name } else { "" };

@@ -5,6 +5,7 @@
 
 mod area_file;
 mod broken;
+mod cascade;
 mod check;
 pub mod code;
 pub mod cost;
@@ -12,12 +13,11 @@ pub mod diagnostic;
 pub mod diagram;
 pub mod dimension;
 pub mod doc;
-mod echo;
 pub mod fmt;
-mod foreign;
 pub mod hir;
 mod loader;
 mod lower;
+mod other_languages;
 pub mod prompt;
 mod rules;
 pub mod source;
@@ -35,10 +35,10 @@ use crate::code::Code;
 use albacore_geometry::Geodetic;
 use albacore_program::Program;
 use broken::Broken;
+use cascade::Cascades;
 use check::{Checked, Override};
 use cost::Cost;
 use diagnostic::Diagnostic;
-use echo::Echoes;
 use loader::{Loader, module_name};
 use rules::RunIn;
 use source::{FileId, Source, Sources, Span};
@@ -133,7 +133,7 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     let chosen = chosen_mission(main, &sources.get(ENTRY).name.clone(), wanted.mission);
     let overrides = overrides(sources, wanted, main, chosen.as_ref(), &mut findings);
     let checked = check::check(modules, loader.library, overrides.clone());
-    let echoes = Echoes::of(unread, sources);
+    let echoes = Cascades::of(unread, sources);
     let later = checked.findings.into_iter().filter(|f| !echoes.holds_back(f, sources));
     findings.extend(later.map(|finding| missing_use(finding, sources, loader.library)));
     for file in checked.files {

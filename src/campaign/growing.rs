@@ -1,6 +1,6 @@
 //! A file that a campaign adds to, and that nobody else may have changed or replaced in the meantime.
 
-use super::table::Trouble;
+use super::table::TableError;
 use crate::disk;
 use crate::synced::Synced;
 use albacore_session::Digest;
@@ -30,8 +30,8 @@ impl Growing {
     }
 
     /// An error if it can only be read.
-    pub fn may_grow(&mut self) -> Result<(), Trouble> {
-        self.forbidden.take().map_or(Ok(()), |error| Err(Trouble::Disk(self.path.clone(), error)))
+    pub fn may_grow(&mut self) -> Result<(), TableError> {
+        self.forbidden.take().map_or(Ok(()), |error| Err(TableError::Disk(self.path.clone(), error)))
     }
 
     /// The file itself.
@@ -40,22 +40,22 @@ impl Growing {
     }
 
     /// Adds a line, whole or not at all.
-    pub fn add(&mut self, line: &[u8]) -> Result<(), Trouble> {
+    pub fn add(&mut self, line: &[u8]) -> Result<(), TableError> {
         if !disk::is_at(self.file(), &self.path).unwrap_or(false) {
-            return Err(Trouble::Gone(self.path.clone()));
+            return Err(TableError::Gone(self.path.clone()));
         }
         if !self.is_as_left()? {
-            return Err(Trouble::Changed(self.path.clone()));
+            return Err(TableError::Changed(self.path.clone()));
         }
-        self.file.write_whole(line).map_err(|error| Trouble::Disk(self.path.clone(), error))?;
+        self.file.write_whole(line).map_err(|error| TableError::Disk(self.path.clone(), error))?;
         self.digest = digest(self.digest, line);
         Ok(())
     }
 
     /// What it holds: what was written.
-    pub fn text(&mut self) -> Result<Vec<u8>, Trouble> {
+    pub fn text(&mut self) -> Result<Vec<u8>, TableError> {
         if !self.is_as_left()? {
-            return Err(Trouble::Changed(self.path.clone()));
+            return Err(TableError::Changed(self.path.clone()));
         }
         let read = || -> io::Result<Option<Vec<u8>>> {
             let is_there = disk::is_at(self.file(), &self.path)?;
@@ -63,15 +63,15 @@ impl Growing {
         };
         match read() {
             Ok(Some(text)) if digest(Digest::new(), &text) == self.digest => Ok(text),
-            Ok(Some(_)) => Err(Trouble::Changed(self.path.clone())),
-            Ok(None) => Err(Trouble::Gone(self.path.clone())),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(Trouble::Gone(self.path.clone())),
-            Err(error) => Err(Trouble::Disk(self.path.clone(), error)),
+            Ok(Some(_)) => Err(TableError::Changed(self.path.clone())),
+            Ok(None) => Err(TableError::Gone(self.path.clone())),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(TableError::Gone(self.path.clone())),
+            Err(error) => Err(TableError::Disk(self.path.clone(), error)),
         }
     }
 
-    fn is_as_left(&self) -> Result<bool, Trouble> {
-        self.file.is_as_left().map_err(|error| Trouble::Disk(self.path.clone(), error))
+    fn is_as_left(&self) -> Result<bool, TableError> {
+        self.file.is_as_left().map_err(|error| TableError::Disk(self.path.clone(), error))
     }
 }
 

@@ -4,9 +4,9 @@
 //! a line end. It is written after the line, so that a line without one was not finished.
 
 use super::growing::Growing;
-use super::origin::{Unread, beside, read_beside};
+use super::provenance::{Unread, beside, read_beside};
 use super::seeds::RUNS_MAX;
-use super::table::Trouble;
+use super::table::TableError;
 use crate::disk;
 use albacore_trace::Digest;
 use std::collections::btree_map::Entry;
@@ -23,12 +23,12 @@ pub struct Sums(Growing);
 
 impl Sums {
     /// Those of a table that is begun.
-    pub fn begin(table: &Path) -> Result<Self, Trouble> {
+    pub fn begin(table: &Path) -> Result<Self, TableError> {
         Sums::written(path(table), b"")
     }
 
     /// Goes on with what was found: where that is not of these lines it is written anew.
-    pub fn go_on<'a>(table: &Path, found: &[u8], lines: impl Iterator<Item = &'a [u8]>) -> Result<Self, Trouble> {
+    pub fn go_on<'a>(table: &Path, found: &[u8], lines: impl Iterator<Item = &'a [u8]>) -> Result<Self, TableError> {
         let text: String = lines.map(record).collect();
         let path = path(table);
         if text.as_bytes() != found {
@@ -36,36 +36,36 @@ impl Sums {
         }
         match disk::known_file(&path) {
             Ok((file, forbidden)) => Ok(Sums(Growing::known(file, forbidden, path, found))),
-            Err(error) => Err(Trouble::Disk(path, error)),
+            Err(error) => Err(TableError::Disk(path, error)),
         }
     }
 
-    fn written(path: PathBuf, text: &[u8]) -> Result<Self, Trouble> {
+    fn written(path: PathBuf, text: &[u8]) -> Result<Self, TableError> {
         match disk::replace(&path, text) {
             Ok(file) => Ok(Sums(Growing::new(file, path, text))),
-            Err(error) => Err(Trouble::Disk(path, error)),
+            Err(error) => Err(TableError::Disk(path, error)),
         }
     }
 
     /// An error if they can only be read.
-    pub fn may_grow(&mut self) -> Result<(), Trouble> {
+    pub fn may_grow(&mut self) -> Result<(), TableError> {
         self.0.may_grow()
     }
 
     /// Adds a line.
-    pub fn add(&mut self, line: &[u8]) -> Result<(), Trouble> {
+    pub fn add(&mut self, line: &[u8]) -> Result<(), TableError> {
         self.0.add(record(line).as_bytes())
     }
 
     /// An error if they are not as they were written.
-    pub fn is_whole(&mut self) -> Result<(), Trouble> {
+    pub fn is_whole(&mut self) -> Result<(), TableError> {
         self.0.text().map(drop)
     }
 }
 
 /// What is known of a table by its checksums.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Kept<'a> {
+pub struct IntactLines<'a> {
     /// The lines that are as they were written, each once, by their numbers from 1.
     pub lines: Vec<(usize, &'a [u8])>,
     /// The numbers of the lines, of the table and of its sums, that are not as they were written.
@@ -94,7 +94,7 @@ pub fn read(table: &Path) -> Result<Vec<u8>, Unread> {
 }
 
 /// Holds a table against its checksums. What a campaign that was killed leaves has a record for every line but the last.
-pub fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
+pub fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> IntactLines<'a> {
     let lines: Vec<&[u8]> = pieces(text).collect();
     let records: Vec<&[u8]> = pieces(sums).collect();
     let written =
@@ -105,7 +105,7 @@ pub fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
     };
     if tail.len() <= 1 && (rest.is_empty() || tail.len() == 1 && rest.len() == 1 && is_begun(rest[0])) {
         let lines = (1..).zip(lines[..written].iter().copied()).collect();
-        return Kept { lines, changed: BTreeSet::new(), tail: tail.first().copied().unwrap_or_default() };
+        return IntactLines { lines, changed: BTreeSet::new(), tail: tail.first().copied().unwrap_or_default() };
     }
     // A line is found by its digest wherever it stands: one that was moved, or put between others, takes none with it.
     let (mut known, mut changed, mut open) = (Vec::new(), BTreeSet::new(), BTreeMap::new());
@@ -127,7 +127,7 @@ pub fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> Kept<'a> {
         let moved = (1..).zip(lines.iter().zip(&records)).filter(|(_, (line, sum))| record(line).as_bytes() != **sum);
         changed.extend(moved.map(|(number, _)| number));
     }
-    Kept { lines: known, changed, tail: &[] }
+    IntactLines { lines: known, changed, tail: &[] }
 }
 
 fn pieces(text: &[u8]) -> impl Iterator<Item = &[u8]> {

@@ -5,7 +5,7 @@
 //! the interruption, and whatever the disk did.
 
 use super::growing::Growing;
-use super::origin::{self, Origin, Unread, beside};
+use super::provenance::{self, Provenance, Unread, beside};
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
 use crate::disk;
@@ -34,7 +34,7 @@ pub enum Foreign {
     /// Lines of the table or of its sums, by their numbers.
     Lines(BTreeSet<usize>, Vec<PathBuf>),
     /// The origin, which says the same yet.
-    Origin(Vec<PathBuf>),
+    Provenance(Vec<PathBuf>),
 }
 
 /// The end of a table, which is known for a row or for another's when that row is run again.
@@ -62,7 +62,7 @@ type Lines = Vec<Option<Vec<u8>>>;
 
 /// Why there is no table, or no further row.
 #[derive(Debug)]
-pub enum Trouble {
+pub enum TableError {
     /// What was asked for cannot be: what is wrong, and a fix.
     Asked(String, String),
     /// The disk will not have a file.
@@ -98,13 +98,13 @@ pub fn standing(path: &Path) -> Standing {
 }
 
 /// What the disk says of a file.
-fn disk_of(path: &Path) -> impl FnOnce(io::Error) -> Trouble {
-    |error| Trouble::Disk(path.to_path_buf(), error)
+fn disk_of(path: &Path) -> impl FnOnce(io::Error) -> TableError {
+    |error| TableError::Disk(path.to_path_buf(), error)
 }
 
 impl Table {
     /// Begins a table, where there is none yet.
-    pub fn begin(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
+    pub fn begin(path: &Path, columns: &Columns, origin: &Provenance) -> Result<Self, TableError> {
         // What lies beside a table that is gone is of that one, and may be all that is left of it.
         match neighbours(path).iter().any(|left| !path.exists() && is_there(left)) {
             true => Err(alone(path)),
@@ -112,7 +112,7 @@ impl Table {
         }
     }
 
-    fn create(path: &Path, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
+    fn create(path: &Path, columns: &Columns, origin: &Provenance) -> Result<Self, TableError> {
         no_stray_link(path)?;
         let created = disk::new_file(path);
         if created.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::AlreadyExists) {
@@ -120,7 +120,7 @@ impl Table {
                 true => "go on with it by `--resume`, or choose another file with `--out`",
                 false => "choose another file with `--out`",
             };
-            return Err(Trouble::Asked(format!("`{}` is there already", path.display()), help.to_string()));
+            return Err(TableError::Asked(format!("`{}` is there already", path.display()), help.to_string()));
         }
         let file = created.map_err(disk_of(path))?;
         lock(&file, path)?;
@@ -134,7 +134,7 @@ impl Table {
     }
 
     /// Writes where it comes from, and then the first line: a table with a line always has its origin beside it.
-    fn headed(path: &Path, file: File, columns: &Columns, origin: &Origin) -> Result<Self, Trouble> {
+    fn headed(path: &Path, file: File, columns: &Columns, origin: &Provenance) -> Result<Self, TableError> {
         let head = line(columns.names());
         write(origin, path)?;
         let mut sums = Sums::begin(path)?;
@@ -146,7 +146,7 @@ impl Table {
     }
 
     /// Goes on with a table, or begins it if there is none.
-    pub fn resume(path: &Path, columns: &Columns, origin: &Origin, seeds: Seeds) -> Result<Self, Trouble> {
+    pub fn resume(path: &Path, columns: &Columns, origin: &Provenance, seeds: Seeds) -> Result<Self, TableError> {
         match std::fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 if !neighbours(path).iter().any(|left| is_there(left)) {
@@ -157,11 +157,11 @@ impl Table {
                 no_stray_link(path)?;
                 drop(disk::new_file(path).map_err(disk_of(path))?);
             }
-            Err(error) => return Err(Trouble::Disk(path.to_path_buf(), error)),
+            Err(error) => return Err(TableError::Disk(path.to_path_buf(), error)),
             // A device or a pipe would answer with something else, or never.
             Ok(found) if !found.is_file() => {
                 let message = format!("`{}` is no ordinary file", path.display());
-                return Err(Trouble::Asked(message, "choose another file with `--out`".to_string()));
+                return Err(TableError::Asked(message, "choose another file with `--out`".to_string()));
             }
             Ok(_) => {}
         }
@@ -190,9 +190,9 @@ impl Table {
         mut file: Growing,
         found: Found,
         columns: &Columns,
-        origin: &Origin,
+        origin: &Provenance,
         seeds: Seeds,
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, TableError> {
         let head = line(columns.names());
         let kept = sums::held_against(&found.text, &found.sums);
         let mut changed = kept.changed;
@@ -252,14 +252,14 @@ impl Table {
     }
 
     /// Goes on adding rows if all lines are known.
-    fn mended(&mut self) -> Result<(), Trouble> {
+    fn mended(&mut self) -> Result<(), TableError> {
         let State::Mending { file, found, lines } = &mut self.state else { return Ok(()) };
         let Some(known) = lines.iter().map(Option::as_deref).collect::<Option<Vec<&[u8]>>>() else { return Ok(()) };
         let written = known.concat();
         // Others may have written while rows were run.
         file.text()?;
         if !sums::read(&self.path).is_ok_and(|sums| sums == found.sums) {
-            return Err(Trouble::Changed(beside(&self.path, ".sums")));
+            return Err(TableError::Changed(beside(&self.path, ".sums")));
         }
         // Whoever kills the campaign in between finds a table that is as it was, or whole, and never one that is shorter than its sums.
         let file = if found.text.starts_with(&written) {
@@ -278,10 +278,10 @@ impl Table {
     }
 
     /// The origin is not as it was written, and what this campaign is of is known: it is written again.
-    fn origin_changed(&mut self, theirs: &[u8], origin: &Origin) -> Result<(), Trouble> {
+    fn origin_changed(&mut self, theirs: &[u8], origin: &Provenance) -> Result<(), TableError> {
         let copies = keep(&self.path, &[(".origin", theirs)])?;
         write(origin, &self.path)?;
-        self.foreign.push(Foreign::Origin(copies));
+        self.foreign.push(Foreign::Provenance(copies));
         Ok(())
     }
 
@@ -314,7 +314,7 @@ impl Table {
     }
 
     /// Adds a row.
-    pub fn add(&mut self, seeds: Seeds, row: &Row) -> Result<(), Trouble> {
+    pub fn add(&mut self, seeds: Seeds, row: &Row) -> Result<(), TableError> {
         let line = line(&row.cells);
         if let Some((_, known)) = self.known.take() {
             if known == line {
@@ -323,7 +323,7 @@ impl Table {
             let message = format!("seed {} gives another row today than in `{}`", row.seed, self.path.display());
             let help =
                 "the interpreter is another one, or the row was changed by hand: begin anew with another `--out`";
-            return Err(Trouble::Asked(message, help.to_string()));
+            return Err(TableError::Asked(message, help.to_string()));
         }
         match &mut self.state {
             State::Adding { file, sums, rows } => {
@@ -349,8 +349,8 @@ impl Table {
     }
 
     /// What the rows come to, when all are written.
-    pub fn tally(&mut self, columns: &Columns, origin: &Origin) -> Result<Tally, Trouble> {
-        match origin::read(&self.path) {
+    pub fn tally(&mut self, columns: &Columns, origin: &Provenance) -> Result<Tally, TableError> {
+        match provenance::read(&self.path) {
             // Nobody else could put it back.
             Err(Unread::Missing) => write(origin, &self.path)?,
             Ok(there) if is_as_summed(&there) && same(&there, origin) => {}
@@ -367,7 +367,7 @@ impl Table {
         let mut reader = csv::Reader::from_reader(&text[..]);
         let mut tally = Tally::default();
         for row in reader.records() {
-            let row = row.map_err(|error| Trouble::Disk(self.path.clone(), error.into()))?;
+            let row = row.map_err(|error| TableError::Disk(self.path.clone(), error.into()))?;
             tally.add(columns, &row.iter().collect::<Vec<_>>());
         }
         Ok(tally)
@@ -379,24 +379,24 @@ fn neighbours(table: &Path) -> [PathBuf; 2] {
     [".origin", ".sums"].map(|suffix| beside(table, suffix))
 }
 
-fn write(origin: &Origin, table: &Path) -> Result<(), Trouble> {
-    origin.write(table).map_err(|error| Trouble::Disk(beside(table, ".origin"), error))
+fn write(origin: &Provenance, table: &Path) -> Result<(), TableError> {
+    origin.write(table).map_err(|error| TableError::Disk(beside(table, ".origin"), error))
 }
 
 fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
 }
 
-fn no_stray_link(path: &Path) -> Result<(), Trouble> {
+fn no_stray_link(path: &Path) -> Result<(), TableError> {
     if !path.is_symlink() || path.exists() {
         return Ok(());
     }
     let message = format!("`{}` is there already: a link that leads nowhere", path.display());
-    Err(Trouble::Asked(message, "remove it, or choose another file with `--out`".to_string()))
+    Err(TableError::Asked(message, "remove it, or choose another file with `--out`".to_string()))
 }
 
 /// Says what lies beside a table of which nothing is left.
-fn alone(table: &Path) -> Trouble {
+fn alone(table: &Path) -> TableError {
     let [of, sums] = neighbours(table);
     let (left, why, again) = match (is_there(&of), sums::are_sums(table)) {
         (_, false) => (sums, "holds no checksums of a table", ""),
@@ -406,43 +406,46 @@ fn alone(table: &Path) -> Trouble {
         (false, true) => (sums, "nothing is left of its table and its `.origin`", ""),
     };
     let message = format!("`{}` is there already, and {why}", left.display());
-    Trouble::Asked(message, format!("{again}move it away, or choose another file with `--out`"))
+    TableError::Asked(message, format!("{again}move it away, or choose another file with `--out`"))
 }
 
 /// A table that is gone, or empty, is made again where what lies beside it is its own, and no other in its place. Gives the origin if it
 /// is not as it was written.
-fn left_by(path: &Path, origin: &Origin) -> Result<Option<Vec<u8>>, Trouble> {
+fn left_by(path: &Path, origin: &Provenance) -> Result<Option<Vec<u8>>, TableError> {
     let [of, sums] = neighbours(path);
     let changed = if is_there(&of) { belongs(path, origin)? } else { None };
     if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(alone(path)) } else { Ok(changed) }
 }
 
 /// What is written into a table that is gone on with would be in a backup, too, that is another name of it or of what lies beside it.
-fn alone_of_name(path: &Path) -> Result<(), Trouble> {
+fn alone_of_name(path: &Path) -> Result<(), TableError> {
     let [of, sums] = neighbours(path);
     let Some(linked) = [path, &of, &sums].into_iter().find(|path| disk::names(path) > 1) else { return Ok(()) };
     let message = format!("`{}` has another name (a hard link), under which it would be changed too", linked.display());
-    Err(Trouble::Asked(message, "go on with a copy of the table, its `.origin` and its `.sums` as `--out`".to_string()))
+    Err(TableError::Asked(
+        message,
+        "go on with a copy of the table, its `.origin` and its `.sums` as `--out`".to_string(),
+    ))
 }
 
 /// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
-fn lock(file: &File, path: &Path) -> Result<(), Trouble> {
+fn lock(file: &File, path: &Path) -> Result<(), TableError> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
             let message = format!("another campaign is writing `{}`", path.display());
-            Err(Trouble::Asked(message, "wait for its end, or choose another file with `--out`".to_string()))
+            Err(TableError::Asked(message, "wait for its end, or choose another file with `--out`".to_string()))
         }
         _ => Ok(()),
     }
 }
 
 /// Says that a file beside a table does not tell what it should.
-fn silent(table: &Path, suffix: &str, what: &str, unread: Unread) -> Trouble {
+fn silent(table: &Path, suffix: &str, what: &str, unread: Unread) -> TableError {
     let message = match unread {
         Unread::Missing => format!("`{}` has no `{suffix}` beside it, {what}", table.display()),
         Unread::Wrong(error) => format!("`{}{suffix}`, {what}, cannot be read: {error}", table.display()),
     };
-    Trouble::Asked(message, "put that back as it was, or begin anew with another `--out`".to_string())
+    TableError::Asked(message, "put that back as it was, or begin anew with another `--out`".to_string())
 }
 
 /// What a table's origin is.
@@ -450,16 +453,16 @@ const MADE_FROM: &str = "which tells what it was made from";
 
 /// An error if this campaign is not the one that the table was begun by. Gives the origin if it says the same, and is not as it was
 /// written.
-fn belongs(path: &Path, origin: &Origin) -> Result<Option<Vec<u8>>, Trouble> {
+fn belongs(path: &Path, origin: &Provenance) -> Result<Option<Vec<u8>>, TableError> {
     let silent = |unread| silent(path, ".origin", MADE_FROM, unread);
-    let bytes = origin::read(path).map_err(silent)?;
-    let problem = Origin::of(&bytes).map_err(silent)?.difference(origin);
+    let bytes = provenance::read(path).map_err(silent)?;
+    let problem = Provenance::of(&bytes).map_err(silent)?.difference(origin);
     match problem {
         None if is_as_summed(&bytes) => Ok(None),
         None => Ok(Some(bytes)),
         Some(problem) if is_as_summed(&bytes) => {
             let help = "a table holds one campaign: give what it was begun with, or choose another file with `--out`";
-            Err(Trouble::Asked(format!("`{}` {problem}", path.display()), help.to_string()))
+            Err(TableError::Asked(format!("`{}` {problem}", path.display()), help.to_string()))
         }
         Some(problem) => {
             let why = format!("it was changed since it was written, and says that the table {problem}");
@@ -469,14 +472,14 @@ fn belongs(path: &Path, origin: &Origin) -> Result<Option<Vec<u8>>, Trouble> {
 }
 
 /// Whether an origin is that of this campaign.
-fn same(bytes: &[u8], origin: &Origin) -> bool {
-    Origin::of(bytes).is_ok_and(|there| there.difference(origin).is_none())
+fn same(bytes: &[u8], origin: &Provenance) -> bool {
+    Provenance::of(bytes).is_ok_and(|there| there.difference(origin).is_none())
 }
 
 /// Where the row of a known line stands among the lines: an error if it is none of these seeds.
-fn place(path: &Path, number: usize, line: &[u8], columns: &Columns, seeds: Seeds) -> Result<usize, Trouble> {
+fn place(path: &Path, number: usize, line: &[u8], columns: &Columns, seeds: Seeds) -> Result<usize, TableError> {
     let asked = |message: String, help: String| {
-        Err(Trouble::Asked(message, format!("{help}, or choose another file with `--out`")))
+        Err(TableError::Asked(message, format!("{help}, or choose another file with `--out`")))
     };
     let Some(seed) = seed_of(line, columns) else {
         let message = match number {
@@ -499,7 +502,7 @@ fn may_be_row(tail: &[u8], seed: u64, columns: &Columns) -> bool {
 
 /// Keeps what was found of a table and of what lies beside it, under the first name that is free: who wrote into it may want that back.
 /// A campaign that was interrupted before it had mended all has kept the same already.
-fn keep(table: &Path, found: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Trouble> {
+fn keep(table: &Path, found: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, TableError> {
     let found: Vec<_> = found.iter().filter(|(_, bytes)| !bytes.is_empty()).collect();
     let mut copy = beside(table, ".found");
     for number in 2u64.. {

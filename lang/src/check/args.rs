@@ -9,7 +9,7 @@ use crate::hir::{Builtin, Expr, ExprKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
-use crate::{foreign, suggest};
+use crate::{other_languages, suggest};
 use albacore_arithmetic::{Operation, Sqrt};
 use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 
@@ -319,7 +319,7 @@ impl<'t> Checker<'t> {
                 let known = BUILTINS.iter().copied().chain(self.callable_names());
                 // No area is round, and elsewhere `circle` is driven.
                 let round = (name == "circle" && expected == Some(&Type::Area)).then_some(ROUND);
-                let foreign = round.or_else(|| foreign::called(name)).or_else(|| foreign::help(name));
+                let foreign = round.or_else(|| other_languages::called(name)).or_else(|| other_languages::help(name));
                 let finding = match (foreign, self.nearest(name, known)) {
                     (Some(help), _) => finding.help(help),
                     (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),

@@ -2,7 +2,7 @@
 //! gives `north` or `m` another meaning reads like any other, and leads somewhere else.
 
 use super::args::BUILTINS;
-use super::written::is_type;
+use super::type_syntax::is_type;
 use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;

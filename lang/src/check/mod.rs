@@ -24,22 +24,22 @@ mod names;
 mod operators;
 mod overlay;
 mod params;
+mod plausibility;
 mod recursion;
 mod scenario;
-mod sense;
 mod table;
 mod test;
 mod timed;
 mod truth;
+mod type_syntax;
 mod unused;
 mod value;
 mod vehicle;
 mod visible;
-mod written;
 
 pub(crate) use flow::{goes_round, takes_time};
 pub use params::Override;
-pub(crate) use sense::range_of_var;
+pub(crate) use plausibility::range_of_var;
 pub use table::never_ends;
 
 use crate::diagnostic::Diagnostic;

@@ -6,8 +6,8 @@ use super::{Checker, Def, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension;
-use crate::foreign;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
+use crate::other_languages;
 use crate::prompt::{Held, Known};
 use crate::source::Span;
 use crate::suggest;
@@ -215,9 +215,9 @@ impl<'t> Checker<'t> {
         if self.modules[self.scope.module].imports.contains_key(name) {
             Diagnostic::error(Code::NamesModule, span, format!("`{name}` is a module, no value"))
                 .help(format!("write `{name}.NAME`"))
-        } else if let Some(help) = self.test.as_ref().and_then(|_| foreign::end_of_run(name)) {
+        } else if let Some(help) = self.test.as_ref().and_then(|_| other_languages::end_of_run(name)) {
             finding.help(help)
-        } else if let Some(help) = foreign::help(name) {
+        } else if let Some(help) = other_languages::help(name) {
             finding.help(help)
         } else if dimension::unit(name, &|_| None).is_some() {
             finding.help(format!("`{name}` is a unit: a number stands before it, such as `10 {name}`"))
@@ -309,7 +309,7 @@ impl<'t> Checker<'t> {
             match self.lookup(self.scope.module, &name.node) {
                 Some(def) => {
                     let what = def.what();
-                    let help = match foreign::command(&name.node, "") {
+                    let help = match other_languages::command(&name.node, "") {
                         Some(help) => help,
                         None if def.shares_its_name() => format!("write `let {} = …` to name a value", name.node),
                         None => "give the value a name of its own: `let NAME = …`".to_string(),

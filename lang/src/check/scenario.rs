@@ -9,7 +9,7 @@ use crate::dimension::Dimension;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
-use crate::{foreign, suggest};
+use crate::{other_languages, suggest};
 
 /// Where a clause stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -355,5 +355,5 @@ impl<'t> Checker<'t> {
 
 /// What others call a clause of a scenario: a vehicle has none of these.
 fn foreign_clause(name: &str, standing: Standing) -> Option<&'static str> {
-    foreign::clause(name).filter(|_| standing == Standing::Line)
+    other_languages::clause(name).filter(|_| standing == Standing::Line)
 }

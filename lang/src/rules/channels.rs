@@ -1,7 +1,7 @@
 //! One owner for each channel on every way that leads to a statement: speed and vertical are set, and set once.
 
+use super::findings::Findings;
 use super::limits::{self, Limit};
-use super::told::Told;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, Interval, Kind, StmtKind, Timed, With};
@@ -39,13 +39,13 @@ struct Walk<'a> {
     seen: BTreeSet<Way>,
     /// What is known of the parameters of the activity that is walked, from the call that leads to it.
     given: Vec<Interval>,
-    told: Told,
+    told: Findings,
 }
 
 /// Walks all ways from a mission to its statements.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let limits = limits::of(hir, mission);
-    let mut walk = Walk { hir, limits, seen: BTreeSet::new(), given: Vec::new(), told: Told::default() };
+    let mut walk = Walk { hir, limits, seen: BTreeSet::new(), given: Vec::new(), told: Findings::default() };
     walk.activity(mission, Owners { vertical: Owner::Nobody, speed: Owner::Nobody });
     walk.told.findings()
 }

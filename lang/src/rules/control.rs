@@ -1,6 +1,6 @@
 //! Commands only under control (rule 18): a mission that watches or overrides drives its vehicle in its overrides alone.
 
-use super::told::Told;
+use super::findings::Findings;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, ActivityId, Block, Body, Hir, StmtKind};
@@ -30,13 +30,13 @@ struct Walk<'a> {
     /// Why the mission drives only in its overrides.
     guest: Span,
     seen: BTreeSet<(ActivityId, bool)>,
-    told: Told,
+    told: Findings,
 }
 
 /// The statements of a guest that command outside of an override, and the overrides inside another.
 pub(super) fn check(hir: &Hir, mission: ActivityId) -> Vec<Diagnostic> {
     let Some(guest) = first_watch(hir, mission) else { return Vec::new() };
-    let mut walk = Walk { hir, guest, seen: BTreeSet::new(), told: Told::default() };
+    let mut walk = Walk { hir, guest, seen: BTreeSet::new(), told: Findings::default() };
     walk.activity(mission, false);
     if let Some((_, recovery)) = hir.activities[mission].mission.as_ref().and_then(|m| m.recovery.as_ref()) {
         walk.block(recovery, true);

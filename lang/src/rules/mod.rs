@@ -3,6 +3,7 @@
 
 mod channels;
 mod control;
+mod findings;
 mod fixed;
 mod inputs;
 mod levels;
@@ -12,7 +13,6 @@ mod overlaps;
 mod places;
 mod reports;
 mod swapped;
-mod told;
 mod unreached;
 
 pub use control::first_watch;

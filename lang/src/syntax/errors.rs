@@ -5,7 +5,7 @@ use super::habits::{self, habit, line_end, untyped_memory, valueless};
 use super::{Grammar, Rule, elsewhere, places, slips};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::foreign;
+use crate::other_languages;
 use crate::source::{FileId, Span};
 use crate::suggest;
 use pest::Parser;
@@ -88,7 +88,7 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
             }
             _ => Diagnostic::error(Code::SyntaxClause, span, format!("`{word}` begins no statement")),
         };
-        if let Some(help) = foreign::repeated(&word, after_word) {
+        if let Some(help) = other_languages::repeated(&word, after_word) {
             return finding.help(help);
         }
         if OPERATOR_WORDS.contains(&word.as_str()) {
@@ -99,7 +99,9 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
             return Diagnostic::error(Code::SyntaxClause, span, format!("`{word}` stands at the beginning of a line"))
                 .help(format!("the line before has ended its statement: {mend}"));
         }
-        if let Some(help) = foreign::help(&word).map(str::to_string).or_else(|| foreign::command(&word, after_word)) {
+        if let Some(help) =
+            other_languages::help(&word).map(str::to_string).or_else(|| other_languages::command(&word, after_word))
+        {
             return finding.help(help);
         }
         if let Some(habit) = elsewhere::absence(&word, after_word) {

@@ -4,7 +4,7 @@ mod braces;
 mod build;
 mod build_block;
 mod build_expr;
-mod deceptive;
+mod confusables;
 mod elsewhere;
 mod errors;
 mod habits;
@@ -181,7 +181,7 @@ fn read<T>(
     }
     findings.append(&mut builder.refused);
     // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
-    let told = Told::of(&findings, source);
+    let told = ReportedLines::of(&findings, source);
     let unread: Vec<_> = builder.bad.iter().filter(|bad| !told.touches(bad.span)).collect();
     let callable = if unread.is_empty() { BTreeSet::new() } else { errors::callable(&scanned.text) };
     findings.extend(unread.into_iter().map(|bad| errors::of_bad_stretch(file, &scanned.text, &callable, bad)));
@@ -209,9 +209,9 @@ pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagno
 }
 
 /// The lines of which something has been said, in order: from the first byte of the first to the last of the last.
-struct Told(Vec<(u32, u32)>);
+struct ReportedLines(Vec<(u32, u32)>);
 
-impl Told {
+impl ReportedLines {
     fn of(findings: &[Diagnostic], source: &str) -> Self {
         // Where lines end is looked up: there may be as many findings as there are characters, and all of them on one line.
         let ends: Vec<u32> = source.match_indices('\n').map(|(at, _)| at as u32).collect();
@@ -223,7 +223,7 @@ impl Told {
         });
         let mut lines: Vec<(u32, u32)> = lines.collect();
         lines.sort_unstable();
-        Told(lines)
+        ReportedLines(lines)
     }
 
     /// Stretches of which something has been said overlap nowhere, but for those of one line.

@@ -6,7 +6,7 @@
 mod nesting;
 
 use super::braces;
-use super::deceptive::{self, deceives};
+use super::confusables::{self, deceives};
 use super::errors::{begins_item, line_begins_item};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -60,7 +60,7 @@ pub struct Scanned {
 
 /// Prepares a source for the grammar.
 pub fn scan(file: FileId, source: &str) -> Scanned {
-    let (source, lone_return) = deceptive::with_line_feeds(source);
+    let (source, lone_return) = confusables::with_line_feeds(source);
     let source = source.as_ref();
     let mut scanner = Scanner {
         file,
@@ -80,7 +80,7 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         no_comment_ends: false,
     };
     if let Some(at) = lone_return {
-        scanner.findings.push(deceptive::lone_return(scanner.span(at, at + 1)));
+        scanner.findings.push(confusables::lone_return(scanner.span(at, at + 1)));
     }
     scanner.run();
     let goes_on = !scanner.open.is_empty() || scanner.last == Last::Goes;
@@ -99,7 +99,7 @@ impl Scanned {
 /// The same for a source whose brackets may not fit: those that the margins show to be missing are put in.
 pub(super) fn scan_mended(file: FileId, source: &str) -> Scanned {
     let scanned = scan(file, source);
-    let (source, _) = deceptive::with_line_feeds(source);
+    let (source, _) = confusables::with_line_feeds(source);
     let found = |code: Code| scanned.findings.iter().any(|f| f.code == code);
     if !found(Code::SyntaxBracket) || found(Code::SyntaxNesting) {
         return scanned;
@@ -431,16 +431,16 @@ impl<'a> Scanner<'a> {
 
     fn deceptive(&mut self, c: char, at: usize) {
         let span = self.span(at, at + c.len_utf8());
-        self.findings.push(deceptive::invisible(c, span));
+        self.findings.push(confusables::invisible(c, span));
     }
 
     /// A letter, digit, sign or blank in code that looks like another: what is seen is not what is read.
     fn look_alike(&mut self, start: usize, end: usize) {
         let chars = self.source.get(start..end).unwrap_or("").char_indices();
-        let found = chars.filter_map(|(offset, c)| Some((start + offset, c, deceptive::meant(c)?))).next();
+        let found = chars.filter_map(|(offset, c)| Some((start + offset, c, confusables::meant(c)?))).next();
         if let Some((at, c, meant)) = found {
             let span = self.span(at, at + c.len_utf8());
-            self.findings.push(deceptive::look_alike(c, meant, span));
+            self.findings.push(confusables::look_alike(c, meant, span));
         }
     }
 }

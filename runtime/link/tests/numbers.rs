@@ -4,7 +4,7 @@
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{Controller, FrontSeat, Rows, seal};
-use albacore_sim::{Disorder, Fault, Scenario, Sensor, Simulator, Trouble, VehicleSetup};
+use albacore_sim::{Fault, FaultKind, Scenario, Sensor, SensorFault, Simulator, VehicleSetup};
 use albacore_vehicle::{Limits, Snapshot, Vertical};
 
 /// As a vehicle may send them: all that has numbers.
@@ -203,7 +203,7 @@ fn a_flood_is_taken_in_to_an_end() {
 fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
     for size in [20.0, -20.0] {
         let limits = Some(Limits { altitude: 2.0, ..Limits::default() });
-        let trouble = Trouble::Sensor(Sensor::Altitude, Disorder::Wrong(size));
+        let trouble = FaultKind::Sensor(Sensor::Altitude, SensorFault::Wrong(size));
         let faults = vec![Fault { trouble, from: 0.0, to: None }];
         let simulator = Simulator::new(&Scenario { limits, faults, ..Scenario::default() }, 1).unwrap();
         let water = simulator.water_depth(Point::ORIGIN);
@@ -229,7 +229,7 @@ fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
 #[test]
 fn a_goal_above_the_bottom_is_told_no_deeper_than_the_limit() {
     let limits = Some(Limits { depth: Some(4.0), ..Limits::default() });
-    let trouble = Trouble::Sensor(Sensor::Altitude, Disorder::Garbage);
+    let trouble = FaultKind::Sensor(Sensor::Altitude, SensorFault::Garbage);
     let faults = vec![Fault { trouble, from: 0.0, to: None }];
     let simulator = Simulator::new(&Scenario { limits, faults, ..Scenario::default() }, 1).unwrap();
     let altitude = simulator.water_depth(Point::ORIGIN) - 2.0;

@@ -1,7 +1,7 @@
 //! Entering, stepping and leaving activities: the heart of the rules of time.
 
 use crate::Event;
-use crate::execute::Flow;
+use crate::execute::Stop;
 use crate::state::{Declared, Phase, Run};
 use albacore_program::{
     Activity, ActivityId, ActivityKind, Addr, Body, Cause, Entry, Exit, Op, Program, Slot, Table, Target, header,
@@ -50,7 +50,7 @@ impl Run {
             self.remember_declared(p, activity, base);
             self.compute_turn_rate(p, base);
         }
-        if declared == Flow::Abort {
+        if declared == Stop::Abort {
             return;
         }
         self.execute(p, activity.reactions, base);
@@ -65,9 +65,9 @@ impl Run {
     /// Runs a body until it gives the tick away; tells whether it came to its end.
     fn run_body(&mut self, p: &Program, activity: &Activity, base: Slot, from: Addr) -> Status {
         let (pc, status) = match self.execute(p, from, base) {
-            Flow::Yield(pc) => (f64::from(pc), Status::Running),
-            Flow::Abort => return Status::Running,
-            Flow::End | Flow::Return => (header::ENDED, Status::Ended),
+            Stop::Yield(pc) => (f64::from(pc), Status::Running),
+            Stop::Abort => return Status::Running,
+            Stop::End | Stop::Return => (header::ENDED, Status::Ended),
         };
         self.set_head(activity, base, header::PC, pc);
         status
@@ -223,7 +223,7 @@ impl Run {
             self.events.push(Event::Suspended(entry.activity));
             let mut waiting = Vec::new();
             self.chain_from(p, entry.activity, base, &mut |id, base| waiting.push((id, base)));
-            self.hush(p, &waiting);
+            self.pause_overlays(p, &waiting);
             self.set_head(&p.activities[entry.activity as usize], base, header::STATE, header::SUSPENDED);
         } else {
             self.leave_with_waiting(p, table, base, from, if done { Cause::Done } else { Cause::Rule });

@@ -1,7 +1,7 @@
 //! A vehicle on the bottom: when that ends a mission, and as what.
 
 use crate::bottom::UNDONE_M;
-use crate::state::{Phase, Run, Wish};
+use crate::state::{ControlRequest, Phase, Run};
 use crate::{Event, Outcome};
 use albacore_vehicle::TICK_S;
 use serde::{Deserialize, Serialize};
@@ -49,7 +49,7 @@ impl Run {
     /// Whether the vehicle that we drive has lain on the bottom for too long: what the mission asks for does not free it.
     pub fn is_stranded(&self) -> bool {
         let in_all = self.state.aground.driven.saturating_sub(1) as f64 * TICK_S;
-        self.state.wish == Wish::Drive && self.lain_s().max(in_all) >= AGROUND_MAX_S
+        self.state.wish == ControlRequest::Drive && self.lain_s().max(in_all) >= AGROUND_MAX_S
     }
 
     pub fn tell_stranded(&mut self) {

@@ -2,7 +2,7 @@
 
 use crate::guide::Filter;
 use crate::state::{Asked, Limits, Run};
-use crate::{Event, execute::Flow};
+use crate::{Event, execute::Stop};
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MIN;
 use albacore_guidance::through_water;
@@ -72,7 +72,7 @@ impl Run {
     }
 
     /// The overlays of some activities, given from outside in, amend nothing until they go on; from inner to outer.
-    pub fn hush(&mut self, p: &Program, chain: &[(u32, Slot)]) {
+    pub fn pause_overlays(&mut self, p: &Program, chain: &[(u32, Slot)]) {
         for (id, base) in chain.iter().rev() {
             for &overlay in &p.activities[*id as usize].overlays {
                 self.end_amending(p, overlay, *base);
@@ -101,7 +101,7 @@ impl Run {
             return asked;
         };
         self.set(at + slot, asked.radians());
-        if self.execute(p, amended.entry, at) == Flow::Abort {
+        if self.execute(p, amended.entry, at) == Stop::Abort {
             return asked;
         }
         let given = Heading::from_radians(self.get(at + amended.value));

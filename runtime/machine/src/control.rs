@@ -1,6 +1,6 @@
 //! Who drives: rule 18. A mission drives from its start, or is a guest of its vehicle and drives in its overrides alone.
 
-use crate::state::{Asked, Run, Wish};
+use crate::state::{Asked, ControlRequest, Run};
 use crate::{Event, Outcome};
 use albacore_program::{Channel, Input, OverrideEnd, Program};
 use albacore_vehicle::{Command, Control, Vertical};
@@ -26,7 +26,7 @@ impl Run {
 
     /// Whether the vehicle obeys the mission.
     pub fn drives(&self) -> bool {
-        self.state.wish == Wish::Drive && self.state.control == Control::InControl
+        self.state.wish == ControlRequest::Drive && self.state.control == Control::InControl
     }
 
     /// Rule 6: at the very start the present heading and depth, speed 0.
@@ -40,17 +40,17 @@ impl Run {
     /// An override asks for control, unless it waits for the vehicle to offer it.
     pub fn ask_for_control(&mut self, offered: bool) {
         if !offered {
-            self.state.wish = Wish::Ask;
+            self.state.wish = ControlRequest::Ask;
         }
     }
 
     /// What became of the question: whether the vehicle is ours, and whether it has refused.
     pub fn answer(&mut self, offered: bool) -> (bool, bool) {
         match self.state.control {
-            Control::InControl => (self.state.wish != Wish::Listen, false),
+            Control::InControl => (self.state.wish != ControlRequest::Listen, false),
             Control::Refused => (false, true),
             Control::Offered if offered => {
-                self.state.wish = Wish::Ask;
+                self.state.wish = ControlRequest::Ask;
                 (false, false)
             }
             _ => (false, false),
@@ -59,13 +59,13 @@ impl Run {
 
     /// From here on commands are sent.
     pub fn take(&mut self) {
-        self.state.wish = Wish::Drive;
+        self.state.wish = ControlRequest::Drive;
         self.stand();
     }
 
     /// Whether a vehicle that was ours does not listen for a while, and whether it is ours no longer.
     pub fn driven(&self) -> (bool, bool) {
-        if self.state.wish != Wish::Drive {
+        if self.state.wish != ControlRequest::Drive {
             return (false, false);
         }
         let suspended = self.state.control == Control::Suspended;
@@ -74,10 +74,10 @@ impl Run {
 
     /// An override is left: control is given back, and nothing is amended or limited any more.
     pub fn give_back(&mut self, p: &Program) {
-        self.state.wish = Wish::Listen;
+        self.state.wish = ControlRequest::Listen;
         let mut chain = Vec::new();
         self.chain(p, &mut |id, base| chain.push((id, base)));
-        self.hush(p, &chain);
+        self.pause_overlays(p, &chain);
         let limited = std::mem::take(&mut self.state.limited);
         for (channel, limited) in [Channel::Depth, Channel::Altitude, Channel::Speed].into_iter().zip(limited) {
             if limited {

@@ -11,7 +11,7 @@ use albacore_vehicle::Vertical;
 
 /// Why code stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Flow {
+pub(crate) enum Stop {
     /// A piece of code came to its end.
     Return,
     /// The body gives the tick away, and goes on at this address.
@@ -52,15 +52,15 @@ impl Evaluation {
 impl Run {
     /// Runs code with a frame's base until it stops.
     #[inline]
-    pub fn execute(&mut self, p: &Program, entry: Addr, base: Slot) -> Flow {
+    pub fn execute(&mut self, p: &Program, entry: Addr, base: Slot) -> Stop {
         // Much of what an activity may have is empty: no signals, no reactions, no timers.
         if let Some(Op::Return) = p.ops.get(entry as usize) {
-            return Flow::Return;
+            return Stop::Return;
         }
         self.execute_all(p, entry, base)
     }
 
-    fn execute_all(&mut self, p: &Program, entry: Addr, base: Slot) -> Flow {
+    fn execute_all(&mut self, p: &Program, entry: Addr, base: Slot) -> Stop {
         let mut pc = entry as usize;
         let b = |slot: Slot| place(slot, base);
         loop {
@@ -135,9 +135,9 @@ impl Run {
                 }
 
                 Op::Call { code, base: frame } => _ = self.execute(p, code, b(frame)),
-                Op::Return => return Flow::Return,
+                Op::Return => return Stop::Return,
 
-                Op::Yield => return Flow::Yield(pc as Addr),
+                Op::Yield => return Stop::Yield(pc as Addr),
                 Op::Begin { guide, args, state, setpoints } => self.begin(guide, b(args), b(state), b(setpoints)),
                 Op::Guide { guide, args, state, setpoints, ended } => {
                     let arrived = self.guide(guide, b(args), b(state), b(setpoints));
@@ -146,13 +146,13 @@ impl Run {
                 Op::Enter { call } => {
                     self.enter_call(p, call, base);
                     if self.abort.is_some() {
-                        return Flow::Abort;
+                        return Stop::Abort;
                     }
                 }
                 Op::Step { call, ended } => {
                     let over = self.step_call(p, call, base);
                     if self.abort.is_some() {
-                        return Flow::Abort;
+                        return Stop::Abort;
                     }
                     self.set(b(ended), truth(over));
                 }
@@ -171,13 +171,13 @@ impl Run {
                 }
                 Op::Desert { end } => {
                     if self.desert(OverrideEnd::from_number(self.get(b(end)))) {
-                        return Flow::Abort;
+                        return Stop::Abort;
                     }
                 }
                 Op::PutOn { overlay } => {
                     self.put_on(p, overlay, base);
                     if self.abort.is_some() {
-                        return Flow::Abort;
+                        return Stop::Abort;
                     }
                 }
                 Op::TakeOff { overlay } => self.take_off(p, overlay, base, albacore_program::Cause::Done),
@@ -192,10 +192,10 @@ impl Run {
                         }
                     }
                 }
-                Op::End | Op::Finish => return Flow::End,
+                Op::End | Op::Finish => return Stop::End,
                 Op::Abort { why } => {
                     self.abort = Some(self.filled(&p.texts[why as usize], base, p));
-                    return Flow::Abort;
+                    return Stop::Abort;
                 }
 
                 Op::Report { site } => {

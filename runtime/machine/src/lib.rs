@@ -30,4 +30,4 @@ pub use event::{Event, Outcome};
 pub use execute::Evaluation;
 pub use inputs::MissingInput;
 pub use mission::Machine;
-pub use state::{Phase, State, Wish};
+pub use state::{ControlRequest, Phase, State};

@@ -6,7 +6,7 @@ use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::inputs::{MissingInput, senses, wiring};
 use crate::lift::Lift;
-use crate::state::{Asked, Declared, Limits, Overridden, Phase, Requirement, Run, State, Wish};
+use crate::state::{Asked, ControlRequest, Declared, Limits, Overridden, Phase, Requirement, Run, State};
 use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
@@ -36,7 +36,7 @@ impl Run {
             tick: 0,
             phase: Phase::Waiting,
             asked: Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) },
-            wish: if p.mission.guest { Wish::Listen } else { Wish::Drive },
+            wish: if p.mission.guest { ControlRequest::Listen } else { ControlRequest::Drive },
             command: None,
             filtered: Heading::NORTH,
             control: Control::Disconnected,
@@ -109,7 +109,7 @@ impl Machine {
     }
 
     /// What the mission wants of its vehicle from here on.
-    pub fn wish(&self) -> Wish {
+    pub fn wish(&self) -> ControlRequest {
         self.run.state.wish
     }
 
@@ -317,7 +317,9 @@ impl Run {
         let (id, base) = (p.mission.activity, p.mission.base);
         let at = base + p.activities[id as usize].header;
         self.leave_body(p, cause);
-        let Some(recovery) = p.mission.recovery.filter(|_| wish == Wish::Drive) else { return self.over(p, outcome) };
+        let Some(recovery) = p.mission.recovery.filter(|_| wish == ControlRequest::Drive) else {
+            return self.over(p, outcome);
+        };
         self.state.wish = wish;
         // Frozen now, as every time limit is (rule 4).
         self.begin_to_count();

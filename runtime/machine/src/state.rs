@@ -24,7 +24,7 @@ pub struct State {
     /// What was asked last, before amendments and limits.
     pub(crate) asked: Asked,
     /// What we want of the vehicle.
-    pub(crate) wish: Wish,
+    pub(crate) wish: ControlRequest,
     /// What was commanded last.
     pub command: Option<Command>,
     /// The course behind the command filter.
@@ -86,7 +86,7 @@ pub enum Phase {
 
 /// What a mission wants of its vehicle. All but guests drive from their start (rule 18).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Wish {
+pub enum ControlRequest {
     /// That it runs its own plan: nothing is sent.
     Listen,
     /// To drive: an override waits for the answer.

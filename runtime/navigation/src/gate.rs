@@ -3,9 +3,9 @@
 //! A sample that cannot follow the last one that was believed, for its distance, its time and what is known of the errors of both,
 //! is withheld and told. It is believed when it persists: when samples that follow one another have said so for a while. So is all
 //! of a channel that is wrong more often than now and then, even where it happens to fit. What no sensor can measure is never
-//! believed. The limits are those of the watch ([`crate::Vigil`]).
+//! believed. The limits are those of the watch ([`crate::HealthMonitor`]).
 
-use crate::vigil::Kind;
+use crate::health::Kind;
 use albacore_geometry::math::{asin, degrees};
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::channels::{ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, POSITION, SPEED};

@@ -56,7 +56,7 @@ pub(crate) struct Sounding {
     dive: Option<Dive>,
     /// While it is not believed, what it tells of a rise.
     disbelieved: Option<Line>,
-    told: Option<Told>,
+    told: Option<EchoState>,
 }
 
 /// The last echo: when and how deep the vehicle was, and how deep it has been since, m; and the ticks from one echo to the next.
@@ -77,7 +77,7 @@ struct Dive {
 
 /// What is told of the echoes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Told {
+enum EchoState {
     NoLess(f64),
     Unheard(f64),
     Lying(f64),
@@ -98,19 +98,19 @@ impl Sounding {
         let Some(depth) = self.depth.filter(|_| altitude.is_finite()) else { return true };
         let unheard = self.hear(tick, depth);
         let told = if let Some(line) = &mut self.disbelieved {
-            line.rise(tick, depth, altitude).then_some(Told::Follows(line.from - depth))
+            line.rise(tick, depth, altitude).then_some(EchoState::Follows(line.from - depth))
         } else if aground && altitude > LYING_M {
-            Some(Told::Lying(altitude))
+            Some(EchoState::Lying(altitude))
         } else if let Some(dived) = unheard {
-            Some(Told::Unheard(dived))
+            Some(EchoState::Unheard(dived))
         } else {
             let dives = self.dives(tick, depth, altitude, command);
             self.dive = self.dive.filter(|_| dives);
-            dives.then(|| self.follow(tick, depth, altitude)).flatten().map(Told::NoLess)
+            dives.then(|| self.follow(tick, depth, altitude)).flatten().map(EchoState::NoLess)
         };
         self.told = self.told.or(told);
         match told {
-            Some(Told::Follows(_)) => self.disbelieved = None,
+            Some(EchoState::Follows(_)) => self.disbelieved = None,
             Some(_) => (self.dive, self.disbelieved) = (None, Some(Line::begin(tick, depth, altitude))),
             None => {}
         }
@@ -164,10 +164,10 @@ impl Sounding {
     /// What is to be told of it, since this was last asked.
     pub fn take_told(&mut self) -> Option<String> {
         self.told.take().map(|told| match told {
-            Told::NoLess(dived) => format!("rejected: altitude, no less after a dive of {dived:.1} m"),
-            Told::Unheard(dived) => format!("rejected: altitude, silent in a dive of {dived:.1} m"),
-            Told::Lying(altitude) => format!("rejected: altitude, {altitude:.1} m of a vehicle on the bottom"),
-            Told::Follows(risen) => format!("believed: altitude, grows in a rise of {risen:.1} m"),
+            EchoState::NoLess(dived) => format!("rejected: altitude, no less after a dive of {dived:.1} m"),
+            EchoState::Unheard(dived) => format!("rejected: altitude, silent in a dive of {dived:.1} m"),
+            EchoState::Lying(altitude) => format!("rejected: altitude, {altitude:.1} m of a vehicle on the bottom"),
+            EchoState::Follows(risen) => format!("believed: altitude, grows in a rise of {risen:.1} m"),
         })
     }
 }

@@ -8,23 +8,23 @@
 //! journal holds what came and what was believed.
 
 use crate::gate::Gate;
+use crate::health::{Anomaly, HealthMonitor, Kind};
 use crate::sounding::Sounding;
-use crate::vigil::{Kind, Sight, Vigil};
 use albacore_vehicle::channels::{ALTITUDE, COURSE, DEPTH, HEADING, POSITION, WATER_DEPTH};
 use albacore_vehicle::{Command, Sample, Snapshot};
 
 /// What speaks against a position.
-const MISPLACED: [Sight; 4] = [
-    Sight::Stuck(Kind::Position),
-    Sight::Jumps(Kind::Position),
-    Sight::SpeedAgainstPosition,
-    Sight::CourseAgainstPosition,
+const MISPLACED: [Anomaly; 4] = [
+    Anomaly::Stuck(Kind::Position),
+    Anomaly::Jumps(Kind::Position),
+    Anomaly::SpeedAgainstPosition,
+    Anomaly::CourseAgainstPosition,
 ];
 
 /// What is believed in one run: a function of what came and what was commanded.
 #[derive(Clone, Debug, Default)]
 pub struct Trust {
-    vigil: Vigil,
+    health: HealthMonitor,
     gate: Gate,
     sounding: Sounding,
 }
@@ -34,12 +34,12 @@ impl Trust {
     /// person should hear.
     pub fn look(&mut self, tick: u64, snapshot: &mut Snapshot, command: Option<&Command>) -> Vec<String> {
         let mut told: Vec<String> = Vec::new();
-        told.extend(self.vigil.look(tick, snapshot, command).iter().map(ToString::to_string));
+        told.extend(self.health.look(tick, snapshot, command).iter().map(ToString::to_string));
         // Depth and altitude tell of one another: with a depth that stands still nothing is known of the bottom.
-        let depth_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Depth));
-        let is_misplaced = MISPLACED.iter().any(|sight| self.vigil.sees(*sight));
+        let depth_is_stuck = self.health.sees(Anomaly::Stuck(Kind::Depth));
+        let is_misplaced = MISPLACED.iter().any(|anomaly| self.health.sees(*anomaly));
         // What is made of others is doubtful with them, and so it is looked at after them.
-        let altitude_is_stuck = self.vigil.sees(Sight::Stuck(Kind::Altitude));
+        let altitude_is_stuck = self.health.sees(Anomaly::Stuck(Kind::Altitude));
         let mut doubtful: Vec<u16> = altitude_is_stuck.then_some(ALTITUDE).into_iter().collect();
         for made in [false, true] {
             for sample in snapshot.samples.iter_mut().filter(|sample| sources(sample.channel).is_empty() != made) {

@@ -1,8 +1,8 @@
 //! What only the lowering and the simulator find wrong with a script: missions and scenarios that `run` would refuse.
 
+use crate::compatibility::{self, Held};
 use crate::plan::{Plan, PlanError};
 use crate::scenario::Understood;
-use crate::suit::{self, Held};
 use crate::wanted::Wanted;
 use crate::world;
 use albacore_geometry::Geodetic;
@@ -87,7 +87,7 @@ fn own_misfits(
     let (computed, mut findings) = same.map_or_else(|| Computed::new(script, named, origin), |same| (same, Vec::new()));
     if let Some((lowered, understood)) = &last.insert(computed).world {
         let held = Held { name: &lowered.name, world: &understood.world, places: &lowered.places, origin };
-        findings.extend(suit::findings(script, &mission.name, &held));
+        findings.extend(compatibility::findings(script, &mission.name, &held));
     }
     findings
 }

@@ -7,7 +7,7 @@ use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::source::{Source, Sources};
 use albacore_lang::{ScenarioProgram, Script};
-use albacore_sim::{Fault, Objection, Scenario};
+use albacore_sim::{Fault, Scenario, ScenarioIssue};
 use std::sync::Arc;
 
 /// The scenario that the clauses of a command line make.
@@ -74,8 +74,9 @@ impl Faults {
             return Ok(Arc::new(scenario));
         }
         // The scenario's own can be, or it would not have come so far.
-        let ours =
-            objections.into_iter().map(|objection| Objection { nth: objection.nth.saturating_sub(own), ..objection });
+        let ours = objections
+            .into_iter()
+            .map(|objection| ScenarioIssue { nth: objection.nth.saturating_sub(own), ..objection });
         Err(PlanError::Script(ours.map(|objection| scenario::objected(said, &objection)).collect(), sources.clone()))
     }
 }

@@ -1,7 +1,7 @@
 //! What is to be run: a mission, chosen from a script, and the world that it runs in.
 
+use crate::compatibility::{self, Held};
 use crate::faults::Faults;
-use crate::suit::{self, Held};
 use crate::wanted::Wanted;
 use crate::world;
 use albacore_geometry::{Geodetic, TangentFrame};
@@ -111,7 +111,11 @@ impl Plan {
     pub(crate) fn misfits(&self, script: &Script) -> Vec<Diagnostic> {
         let mission = &self.program.mission;
         let (name, world) = (self.scenario_name.as_str(), &*self.scenario);
-        suit::findings(script, &mission.name, &Held { name, world, places: &self.places, origin: mission.origin })
+        compatibility::findings(
+            script,
+            &mission.name,
+            &Held { name, world, places: &self.places, origin: mission.origin },
+        )
     }
 
     /// Chooses the mission, for a vehicle at the end of a link. There is no world that we know of; its name is the link's.

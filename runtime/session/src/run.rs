@@ -6,11 +6,11 @@ mod driver;
 mod live;
 mod queue;
 
-use crate::craft::Craft;
 use crate::picture;
 use crate::plan::{Plan, PlanError};
 use crate::recorders::journal::Journal;
 use crate::recorders::{InMemory, Recorder};
+use crate::run_vehicle::RunVehicle;
 use crate::summary::Summary;
 use albacore_geometry::Point;
 use albacore_machine::Outcome;
@@ -22,7 +22,7 @@ use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) use driver::Driver;
-pub use live::{Lived, Means, Told, WAITING_BYTES};
+pub use live::{LiveUpdate, Lived, Means, WAITING_BYTES};
 
 /// A run under way.
 pub struct Run {
@@ -50,7 +50,7 @@ impl Run {
 
     /// A run on a vehicle at the end of a link, at its first tick; the seed only names it.
     pub fn on_link(plan: &Plan, seed: u64, vehicle: Box<dyn Vehicle + Send>) -> Result<Self, PlanError> {
-        Ok(Run::with(plan, seed, Driver::new(plan, Craft::Linked(vehicle))?, None))
+        Ok(Run::with(plan, seed, Driver::new(plan, RunVehicle::Linked(vehicle))?, None))
     }
 
     fn with(plan: &Plan, seed: u64, driver: Driver, start: Option<Point>) -> Self {

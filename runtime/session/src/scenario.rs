@@ -2,9 +2,9 @@
 
 mod bottom;
 mod clause;
+mod defaults;
 mod objected;
 mod recorded;
-mod unsaid;
 
 use crate::files::{FileError, Files};
 use albacore_geometry::TangentFrame;
@@ -16,9 +16,9 @@ use albacore_machine::Evaluation;
 use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 pub(crate) use clause::Clause;
+pub(crate) use defaults::DEFAULTS;
 pub(crate) use objected::objected;
 use serde::Deserialize;
-pub(crate) use unsaid::UNSAID;
 
 /// A scenario that was understood.
 pub(crate) struct Understood {
@@ -33,7 +33,7 @@ pub(crate) struct Understood {
 /// The simulator's scenario; else what of it cannot be understood, and where.
 pub(crate) fn scenario(program: &ScenarioProgram, files: &Files) -> Result<Understood, Vec<Diagnostic>> {
     let words = words(program);
-    let mut understood = Understood { world: UNSAID.world.clone(), dialect: None, files: Vec::new() };
+    let mut understood = Understood { world: DEFAULTS.world.clone(), dialect: None, files: Vec::new() };
     let pairs = [["bottom", "bottom_grid"], ["rows", "waypoints"]];
     let twice = pairs.into_iter().filter_map(|pair| one_of(program, pair));
     let mut findings: Vec<Diagnostic> = twice.chain(two_plumes(program)).collect();

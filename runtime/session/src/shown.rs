@@ -1,16 +1,16 @@
 //! A scenario as a person looks at it: every number in force, those of the library's defaults too, and a picture.
 
+mod clause_formatter;
 mod record;
-mod teller;
 mod view;
 
 use crate::plan::PlanError;
-use crate::scenario::{self, UNSAID};
+use crate::scenario::{self, DEFAULTS};
 use crate::world::{self, place_of};
 use albacore_geometry::TangentFrame;
 use albacore_lang::{Script, doc};
 use albacore_sim::{Ground, Simulator};
-use teller::Teller;
+use clause_formatter::ClauseFormatter;
 
 /// A scenario, laid open.
 #[derive(Clone, Debug)]
@@ -33,14 +33,14 @@ pub struct ShownClause {
     /// Its name; of a value of another clause, both: `vehicle kinematic`.
     pub name: String,
     /// Why it is in force.
-    pub whence: Whence,
+    pub whence: ValueSource,
     /// Its parameters, their values (of an area each corner, of a list each item on a line), and why they have them.
-    pub values: Vec<(String, String, Whence)>,
+    pub values: Vec<(String, String, ValueSource)>,
 }
 
 /// Why something is in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Whence {
+pub enum ValueSource {
     /// The scenario says it.
     Said,
     /// Nobody says it: it is so by default.
@@ -59,25 +59,25 @@ impl Shown {
         let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&error))?;
         let mut clauses = Vec::new();
         let words = scenario::words(&lowered);
-        let teller = Teller { words: &words, frame: lowered.origin.map(|origin| TangentFrame { origin }) };
+        let formatter = ClauseFormatter { words: &words, frame: lowered.origin.map(|origin| TangentFrame { origin }) };
         for clause in &lowered.clauses {
-            teller.tell(clause, "", Whence::Said, &mut clauses);
+            formatter.tell(clause, "", ValueSource::Said, &mut clauses);
             match (clause.name.as_str(), clauses.last_mut()) {
                 ("bottom_grid", Some(told)) => {
                     if let Ground::Grid(grid) = &world.bottom.ground {
-                        told.values.extend(teller.survey(grid));
+                        told.values.extend(formatter.survey(grid));
                     }
                 }
-                ("recorded_plume", _) => record::tell(&world, &teller, &mut clauses),
+                ("recorded_plume", _) => record::tell(&world, &formatter, &mut clauses),
                 _ => {}
             }
         }
-        let teller = Teller { words: &UNSAID.words, ..teller };
+        let formatter = ClauseFormatter { words: &DEFAULTS.words, ..formatter };
         let mut absent = Vec::new();
         for name in clause_names() {
-            match UNSAID.in_force(&name, &world) {
+            match DEFAULTS.in_force(&name, &world) {
                 _ if clauses.iter().any(|told| told.name == name) => {}
-                Some(clause) => teller.tell(clause, "", Whence::Default, &mut clauses),
+                Some(clause) => formatter.tell(clause, "", ValueSource::Default, &mut clauses),
                 None => absent.push(name),
             }
         }

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot set up its own run has failed")]
 
 use albacore_machine::Machine;
-use albacore_session::{Lived, Means, Outcome, Plan, Run, Sink, Told, WAITING_BYTES, load};
+use albacore_session::{LiveUpdate, Lived, Means, Outcome, Plan, Run, Sink, WAITING_BYTES, load};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Ending, Journal};
 use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError};
@@ -118,11 +118,11 @@ impl io::Write for Disk {
     }
 }
 
-fn live(run: Run, disk: &Disk, waiting_bytes: usize, tell: &mut dyn FnMut(Told<'_>, &AtomicBool)) -> Lived {
+fn live(run: Run, disk: &Disk, waiting_bytes: usize, tell: &mut dyn FnMut(LiveUpdate<'_>, &AtomicBool)) -> Lived {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     let journal: Sink = Box::new(disk.clone());
-    let mut tell = |told: Told<'_>| tell(told, &flag);
+    let mut tell = |told: LiveUpdate<'_>| tell(told, &flag);
     run.live(Means { journal: Some((journal, Vec::new())), interrupted, tell: &mut tell, waiting_bytes }).unwrap()
 }
 
@@ -157,13 +157,13 @@ fn a_stalled_disk_holds_no_command_and_leaves_a_gap_with_a_checkpoint() {
     let (mut stalled, mut waited) = (true, 0);
     let lived = live(run(&plan, &dock), &disk, 50_000, &mut |told, interrupted| match told {
         // All that could be commanded was, with nothing written.
-        Told::Nothing if stalled && dock.commands.load(Ordering::SeqCst) + 50 >= STALLED => {
+        LiveUpdate::Nothing if stalled && dock.commands.load(Ordering::SeqCst) + 50 >= STALLED => {
             assert!(disk.bytes().is_empty());
             stalled = false;
             disk.stall(false);
         }
         // Some ticks more whenever the last are written; those of the gap never are.
-        Told::Nothing if !stalled => {
+        LiveUpdate::Nothing if !stalled => {
             let journal = Journal::read(&disk.bytes());
             let written = journal.map_or(0, |journal| journal.ticks.last().map_or(0, |record| record.tick + 1));
             let allowed = dock.allowed.load(Ordering::SeqCst);
@@ -174,8 +174,8 @@ fn a_stalled_disk_holds_no_command_and_leaves_a_gap_with_a_checkpoint() {
                 dock.allowed.store(allowed + AT_ONCE, Ordering::SeqCst);
             }
         }
-        Told::JournalFailed(error) => panic!("{error}"),
-        Told::Notice(_) | Told::Progress(..) | Told::Nothing => {}
+        LiveUpdate::JournalFailed(error) => panic!("{error}"),
+        LiveUpdate::Notice(_) | LiveUpdate::Progress(..) | LiveUpdate::Nothing => {}
     });
     assert_eq!((lived.outcome, lived.journal_stalled), (Outcome::Interrupted, false));
     assert!(dock.released.load(Ordering::SeqCst));

@@ -3,7 +3,7 @@
 use crate::scenario::OwnMission;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::{OwnPlan, through_water};
-use albacore_vehicle::{Command, Control, Gate, Handover, TICK_S, Vertical};
+use albacore_vehicle::{Command, Control, ControlArbiter, Handover, TICK_S, Vertical};
 
 /// What the computer knows of its vehicle.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,7 +21,7 @@ pub(crate) struct Computer {
     plan: Option<OwnPlan>,
     vertical: Vertical,
     speed_max: f64,
-    gate: Gate,
+    gate: ControlArbiter,
 }
 
 impl Computer {
@@ -34,7 +34,7 @@ impl Computer {
     ) -> Computer {
         let plan = own.map(|own| OwnPlan::new(&own.route, start.0, start.1));
         let vertical = own.map_or(Vertical::Depth(0.0), |own| own.vertical);
-        Computer { plan, vertical, speed_max, gate: Gate::new(handover.cloned().unwrap_or_default()) }
+        Computer { plan, vertical, speed_max, gate: ControlArbiter::new(handover.cloned().unwrap_or_default()) }
     }
 
     /// Somebody asks to drive; without a delay the computer gives way at once.

@@ -2,7 +2,7 @@
 //!
 //! A fault of a sensor changes its samples on their way to who drives, and nothing else: the vehicle's own autopilot keeps the
 //! sensors that it has. Which channels a sensor has, and what each disorder makes of them, is said at [`Sensor`] and
-//! [`Disorder`]. The kinds are those of PX4's failure injection.
+//! [`SensorFault`]. The kinds are those of PX4's failure injection.
 
 mod clause;
 mod filter;
@@ -12,7 +12,7 @@ mod under_way;
 pub use sensor::Sensor;
 pub(crate) use under_way::Faults;
 
-use crate::scenario::{HullSetup, Objections, OfClause, Scenario, told};
+use crate::scenario::{HullSetup, OfClause, Scenario, ScenarioIssues, told};
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
@@ -23,7 +23,7 @@ use std::fmt;
 #[serde(try_from = "clause::FaultClause")]
 pub struct Fault {
     /// What.
-    pub trouble: Trouble,
+    pub trouble: FaultKind,
     /// When it begins, s after tick 0.
     pub from: f64,
     /// When it is over, s after tick 0; none: it lasts to the end.
@@ -44,9 +44,9 @@ fn to_tick(seconds: f64) -> f64 {
 
 /// What can go wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Trouble {
+pub enum FaultKind {
     /// A sensor tells something else than what it measures.
-    Sensor(Sensor, Disorder),
+    Sensor(Sensor, SensorFault),
     /// The vehicle does not hear commands: it goes on with the last that it heard.
     IgnoredCommands,
     /// Water gets in: the vehicle takes control back for good, and floats up.
@@ -66,7 +66,7 @@ pub enum Trouble {
 
 /// What a sensor's samples become. Where a disorder needs the last sample before it and there was none, it lets the first pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Disorder {
+pub enum SensorFault {
     /// No samples come.
     Off,
     /// Samples come as ever; each is the last one from before.
@@ -101,38 +101,38 @@ impl fmt::Display for Fault {
     }
 }
 
-impl fmt::Display for Trouble {
+impl fmt::Display for FaultKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Trouble::Sensor(sensor, disorder) => write!(f, "{} {disorder}", sensor.name()),
-            Trouble::IgnoredCommands => f.write_str("ignored commands"),
-            Trouble::Leak => f.write_str("leak"),
-            Trouble::Flooding { .. } => f.write_str("flooding"),
-            Trouble::StuckRudder(_) => f.write_str("stuck rudder"),
-            Trouble::StrongCurrent(_) => f.write_str("strong current"),
+            FaultKind::Sensor(sensor, disorder) => write!(f, "{} {disorder}", sensor.name()),
+            FaultKind::IgnoredCommands => f.write_str("ignored commands"),
+            FaultKind::Leak => f.write_str("leak"),
+            FaultKind::Flooding { .. } => f.write_str("flooding"),
+            FaultKind::StuckRudder(_) => f.write_str("stuck rudder"),
+            FaultKind::StrongCurrent(_) => f.write_str("strong current"),
         }
     }
 }
 
-impl fmt::Display for Disorder {
+impl fmt::Display for SensorFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Disorder::Off => "off",
-            Disorder::Stuck => "stuck",
-            Disorder::Garbage => "garbage",
-            Disorder::Wrong(_) => "wrong",
-            Disorder::Slow(_) => "slow",
-            Disorder::Delayed(_) => "delayed",
-            Disorder::Intermittent { .. } => "intermittent",
-            Disorder::NotANumber => "not a number",
-            Disorder::Jump(_) => "jumped",
-            Disorder::Saturated(_) => "saturated",
+            SensorFault::Off => "off",
+            SensorFault::Stuck => "stuck",
+            SensorFault::Garbage => "garbage",
+            SensorFault::Wrong(_) => "wrong",
+            SensorFault::Slow(_) => "slow",
+            SensorFault::Delayed(_) => "delayed",
+            SensorFault::Intermittent { .. } => "intermittent",
+            SensorFault::NotANumber => "not a number",
+            SensorFault::Jump(_) => "jumped",
+            SensorFault::Saturated(_) => "saturated",
         })
     }
 }
 
 /// What of the faults cannot be.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     for (i, fault) in scenario.faults.iter().enumerate() {
         let mut of = objections.nth("fault", i);
         if let Some(to) = fault.to {
@@ -144,20 +144,20 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
             );
         }
         match fault.trouble {
-            Trouble::Sensor(sensor, disorder) => disorder.check(sensor, &mut of),
-            Trouble::StrongCurrent(current) => of.flow("current", current),
-            Trouble::Flooding { .. } => of.unless(
+            FaultKind::Sensor(sensor, disorder) => disorder.check(sensor, &mut of),
+            FaultKind::StrongCurrent(current) => of.flow("current", current),
+            FaultKind::Flooding { .. } => of.unless(
                 Some("trouble"),
                 !matches!(scenario.vehicle.hull, HullSetup::Kinematic(_)),
                 "flooding is nothing to a `kinematic` vehicle, which knows no weight",
                 "let the vehicle be a `fossen` or a `prestero`",
             ),
-            Trouble::IgnoredCommands | Trouble::Leak | Trouble::StuckRudder(_) => {}
+            FaultKind::IgnoredCommands | FaultKind::Leak | FaultKind::StuckRudder(_) => {}
         }
     }
 }
 
-impl Disorder {
+impl SensorFault {
     fn check(self, sensor: Sensor, of: &mut OfClause) {
         let mut only_of = |only: Sensor, what: &str| {
             of.unless(
@@ -168,8 +168,8 @@ impl Disorder {
             );
         };
         match self {
-            Disorder::Jump(_) => only_of(Sensor::Position, "jump"),
-            Disorder::Saturated(_) => only_of(Sensor::Heading, "be saturated"),
+            SensorFault::Jump(_) => only_of(Sensor::Position, "jump"),
+            SensorFault::Saturated(_) => only_of(Sensor::Heading, "be saturated"),
             _ => {}
         }
     }

@@ -25,13 +25,13 @@ mod survey;
 mod water;
 mod world;
 
-pub use fault::{Disorder, Fault, Sensor, Trouble};
+pub use fault::{Fault, FaultKind, Sensor, SensorFault};
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
     Adcp, Battery, Bottom, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, HullSetup, KinematicHull, Lbl,
-    Looks, Meander, Navigation, NoGo, Objection, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario,
-    ScenarioError, Setting, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
+    Looks, Meander, Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario, ScenarioError,
+    ScenarioIssue, Setting, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
     Waves, Why,
 };
 pub use simulator::Simulator;

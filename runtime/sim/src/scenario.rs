@@ -3,7 +3,7 @@
 mod bottom;
 mod flow;
 mod instruments;
-mod objections;
+mod issues;
 mod plume;
 mod sensors;
 mod setting;
@@ -14,8 +14,8 @@ mod vehicle;
 pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub use instruments::{Battery, Compass, Ctd, Dvl, Gps, Pressure};
-pub(crate) use objections::{FLOW_MAX, Objections, OfClause, rounded_down, told};
-pub use objections::{Objection, ScenarioError, Why};
+pub(crate) use issues::{FLOW_MAX, OfClause, ScenarioIssues, rounded_down, told};
+pub use issues::{ScenarioError, ScenarioIssue, Why};
 pub use plume::Plume;
 pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub use setting::Setting;
@@ -106,7 +106,7 @@ impl Scenario {
     }
 
     /// Each of them is looked at whenever the vehicle senses.
-    fn check_counts(&self, objections: &mut Objections) {
+    fn check_counts(&self, objections: &mut ScenarioIssues) {
         let leaks = self.sources.iter().filter(|source| source.to.is_some()).count();
         for (clause, count) in [
             ("tide", self.flow.tides.len()),
@@ -129,7 +129,7 @@ impl Scenario {
     /// Lists impossible physics, all of it at once: what several numbers come to. That each is within its range, and finite, is the
     /// checker's: ranges stand in the standard library's declarations.
     pub fn validate(&self) -> Result<(), ScenarioError> {
-        let mut objections = Objections::default();
+        let mut objections = ScenarioIssues::default();
         self.check_counts(&mut objections);
         if !objections.0.is_empty() {
             return Err(ScenarioError { faults: objections.0 });

@@ -166,7 +166,7 @@ impl Simulator {
             _ => self.computer.steer(self.known()),
         };
         let water_depth = self.water_depth_here();
-        let command = command.map(|command| self.watch.heed(tick, &command, water_depth));
+        let command = command.map(|command| self.watch.clamp_command(tick, &command, water_depth));
         self.did = command;
         self.intake = self.intake_now();
         self.vehicle.stick_rudder(ailing.rudder);
@@ -260,30 +260,30 @@ impl Simulator {
             };
             self.fluorometer.send(tick, self.fluorometer.reading(sample, concentration));
         }
-        while let Some(reading) = self.fluorometer.told(tick) {
+        while let Some(reading) = self.fluorometer.sample(tick) {
             snapshot.push(CHEMICAL, &[reading]);
         }
     }
 
     fn measure(&mut self, tick: u64, snapshot: &mut Snapshot) {
         let truth = self.truth;
-        let echo = self.sounder.told(tick, truth.altitude);
+        let echo = self.sounder.sample(tick, truth.altitude);
         let (position, sigma) = self.positioning.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
         let compass = truth.heading + self.compass.error(tick, truth.heading).unwrap_or(0.0);
         let velocity = self.measured_velocity(tick);
-        let velocity = self.dvl.told(tick, truth.altitude, velocity);
+        let velocity = self.dvl.sample(tick, truth.altitude, velocity);
         if let Some(velocity) = velocity {
             snapshot.push(COURSE, &[velocity.toward().radians()]);
         }
-        if let Some(heading) = self.compass.told(tick, compass) {
+        if let Some(heading) = self.compass.sample(tick, compass) {
             snapshot.push(HEADING, &[heading.radians()]);
         }
         if let Some(velocity) = velocity {
             snapshot.push(SPEED, &[velocity.length()]);
         }
         let depth = (truth.depth + self.world.wave_head(truth.position, truth.altitude, self.time_s())).max(0.0);
-        let depth = self.pressure.told(tick, depth);
+        let depth = self.pressure.sample(tick, depth);
         if let Some(depth) = depth {
             snapshot.push(DEPTH, &[depth]);
         }
@@ -302,13 +302,13 @@ impl Simulator {
         };
         let (time, current) = (self.time_s(), self.faults.ailing().current);
         let flow_at = |height| self.world.flow(truth.position, height, time) + current;
-        if let Some(flow) = self.profiler.told(tick, &view, flow_at) {
+        if let Some(flow) = self.profiler.sample(tick, &view, flow_at) {
             self.flow = flow;
             snapshot.push(FLOW, &[flow.north, flow.east]);
         }
         self.sample_chemical(tick, snapshot);
         let water = |depth| self.world.stratification().at(depth);
-        if let Some((temperature, salinity)) = self.ctd.as_mut().and_then(|ctd| ctd.told(tick, truth.depth, water)) {
+        if let Some((temperature, salinity)) = self.ctd.as_mut().and_then(|ctd| ctd.sample(tick, truth.depth, water)) {
             snapshot.push(TEMPERATURE, &[temperature]);
             snapshot.push(SALINITY, &[salinity]);
         }
@@ -405,15 +405,15 @@ impl Vehicle for Simulator {
         self.watch.limits().clone()
     }
 
-    fn heed(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
-        self.watch.limits().heed(asked, Some(self.water_depth_here()), tell);
+    fn clamp_command(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
+        self.watch.limits().clamp_command(asked, Some(self.water_depth_here()), tell);
     }
 
     fn held(&self) -> Option<Command> {
         match (self.control, &self.command) {
             // It was told since the last tick.
             (Control::InControl, Some(command)) if !self.gives_up() => {
-                Some(self.watch.limits().heed(command, Some(self.water_depth_here()), &mut |_| {}))
+                Some(self.watch.limits().clamp_command(command, Some(self.water_depth_here()), &mut |_| {}))
             }
             _ => self.did,
         }

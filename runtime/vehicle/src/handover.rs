@@ -38,15 +38,15 @@ enum Guest {
 
 /// The computer's side of a handover.
 #[derive(Clone, Debug)]
-pub struct Gate {
+pub struct ControlArbiter {
     handover: Handover,
     guest: Guest,
 }
 
-impl Gate {
+impl ControlArbiter {
     /// One that nobody has come to.
     pub fn new(handover: Handover) -> Self {
-        Gate { handover, guest: Guest::None }
+        ControlArbiter { handover, guest: Guest::None }
     }
 
     /// Whether it gives way at once.

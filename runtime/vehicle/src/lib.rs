@@ -8,7 +8,7 @@ mod handover;
 mod limits;
 mod truth;
 
-pub use handover::{Gate, Handover};
+pub use handover::{ControlArbiter, Handover};
 pub use limits::{Beyond, LimitWatch, Limits};
 pub use truth::Truth;
 
@@ -192,8 +192,8 @@ pub trait Vehicle {
     }
 
     /// What of a command is beyond its own limits, by all that it knows of itself and of the water.
-    fn heed(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
-        self.limits().heed(asked, None, tell);
+    fn clamp_command(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
+        self.limits().clamp_command(asked, None, tell);
     }
 
     /// What it does now: the command that it follows, as far as its own limits let it, whoever gave it. None when it follows

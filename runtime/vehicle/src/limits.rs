@@ -53,7 +53,7 @@ impl fmt::Display for Beyond {
 impl Limits {
     /// A command as far as the vehicle follows it, where the water is so deep (m) if that is known; `tell` hears of each limit
     /// that it goes beyond. The least altitude rules over all else: it lifts the vehicle whatever it was told.
-    pub fn heed(&self, asked: &Command, water_depth: Option<f64>, tell: &mut dyn FnMut(Beyond)) -> Command {
+    pub fn clamp_command(&self, asked: &Command, water_depth: Option<f64>, tell: &mut dyn FnMut(Beyond)) -> Command {
         let vertical = self.within(asked.vertical, water_depth, tell);
         let speed = match self.speed {
             Some(most) if asked.speed > most + SLACK => {
@@ -125,9 +125,9 @@ impl LimitWatch {
     }
 
     /// A command as far as the vehicle follows it, where the water is so deep (m).
-    pub fn heed(&mut self, tick: u64, asked: &Command, water_depth: f64) -> Command {
+    pub fn clamp_command(&mut self, tick: u64, asked: &Command, water_depth: f64) -> Command {
         let LimitWatch { limits, last, notices } = self;
-        limits.heed(asked, Some(water_depth), &mut |beyond| {
+        limits.clamp_command(asked, Some(water_depth), &mut |beyond| {
             let kind = match beyond {
                 Beyond::Deep(_) => 0,
                 Beyond::Low(_) => 1,
@@ -164,7 +164,7 @@ mod tests {
     /// What comes out, and how much was told.
     fn heeded(speed: f64, vertical: Vertical, water: Option<f64>) -> (f64, Vertical, usize) {
         let mut told = 0;
-        let out = limits().heed(&command(speed, vertical), water, &mut |_| told += 1);
+        let out = limits().clamp_command(&command(speed, vertical), water, &mut |_| told += 1);
         (out.speed, out.vertical, told)
     }
 
@@ -205,7 +205,7 @@ mod tests {
         let mut told = Vec::new();
         for tick in 0..400 {
             let asked = if (100..200).contains(&tick) || tick == 220 { fine } else { deep };
-            watch.heed(tick, &asked, 50.0);
+            watch.clamp_command(tick, &asked, 50.0);
             told.extend(watch.take_notices().into_iter().map(|notice| (tick, notice)));
         }
         let ticks: Vec<u64> = told.iter().map(|(tick, _)| *tick).collect();

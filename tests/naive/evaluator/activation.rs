@@ -369,9 +369,9 @@ impl<'p> Activation<'p> {
     }
 
     /// Rule 12: the overlays of what is about to wait amend nothing until that goes on; from inner to outer.
-    pub fn hush(&mut self, w: &mut World<'p>) {
+    pub fn pause_overlays(&mut self, w: &mut World<'p>) {
         if let Some(called) = self.called() {
-            called.hush(w);
+            called.pause_overlays(w);
         }
         for overlay in self.overlays() {
             overlay.end_amending(w);

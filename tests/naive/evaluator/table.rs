@@ -90,7 +90,7 @@ impl<'p> Table<'p> {
         if back {
             w.say(format!("suspend {name}"));
             if let Some(active) = self.active() {
-                active.hush(w);
+                active.pause_overlays(w);
             }
         } else {
             self.leave(w, if done { Cause::Done } else { Cause::Rule });

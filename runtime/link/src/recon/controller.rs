@@ -14,7 +14,7 @@ use super::goal::Goal;
 use super::grounding::Grounding;
 use super::message::{Adcp, FromVehicle, State, ToVehicle};
 use super::mode::{Mode, Phase};
-use super::round_trip::{Moment, RoundTrip, Told};
+use super::round_trip::{GoalSource, Moment, RoundTrip};
 use super::vehicle_time::{Stamp, VehicleTime};
 use albacore_geometry::math::atan2;
 use albacore_geometry::{Heading, TangentFrame, Vector};
@@ -322,7 +322,7 @@ impl Controller {
         self.latest_tick = Some(tick);
         let is_of_now = |away: &Away| self.round_trip.made_after(tick, away.until) || self.host > away.longest;
         self.away = self.away.filter(|away| !is_of_now(away));
-        self.round_trip.told(state.heading_goal, Told::State, self.moment());
+        self.round_trip.told(state.heading_goal, GoalSource::State, self.moment());
         self.speed = state.speed;
         let position = self.frame.to_point(state.position);
         self.gather(POSITION, &[position.north, position.east, POSITION_SIGMA]);
@@ -351,7 +351,7 @@ impl Controller {
         match ToVehicle::parse(&format!("C,{text}")) {
             Ok(speed @ ToVehicle::Speed(_)) => self.goals[SPEED_GOAL].held = Some(speed),
             Ok(altitude @ ToVehicle::Altitude(_)) => self.goals[VERTICAL_GOAL].held = Some(altitude),
-            Ok(ToVehicle::Heading(heading)) => self.round_trip.told(heading, Told::Echo, self.moment()),
+            Ok(ToVehicle::Heading(heading)) => self.round_trip.told(heading, GoalSource::Echo, self.moment()),
             _ => {}
         }
     }

@@ -15,7 +15,9 @@ use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_guidance::{Milestone, OwnPlan, Route, through_water};
-use albacore_vehicle::{Beyond, Command, Control, Gate, Handover, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{
+    Beyond, Command, Control, ControlArbiter, Handover, Snapshot, TICK_S, Vehicle, VehicleError, Vertical,
+};
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
 pub(super) const TIMEOUT_TICKS: u64 = 50;
@@ -77,7 +79,7 @@ pub struct FrontSeat<V> {
     /// What it holds on its legs.
     vertical: Vertical,
     /// How it answers who asks to drive, and who drives by that.
-    gate: Gate,
+    gate: ControlArbiter,
     control: Control,
     /// When a guest gave control back last, or left.
     left: Option<u64>,
@@ -113,7 +115,7 @@ impl<V: Vehicle> FrontSeat<V> {
             frame,
             plan,
             vertical,
-            gate: Gate::new(Handover::default()),
+            gate: ControlArbiter::new(Handover::default()),
             control: Control::Monitoring,
             left: None,
             goals: None,
@@ -136,7 +138,7 @@ impl<V: Vehicle> FrontSeat<V> {
 
     /// The same, answering so who asks to drive.
     pub fn answering(self, handover: Handover) -> Self {
-        FrontSeat { gate: Gate::new(handover), ..self }
+        FrontSeat { gate: ControlArbiter::new(handover), ..self }
     }
 
     /// What is to be sent; taken once.
@@ -300,7 +302,7 @@ impl<V: Vehicle> FrontSeat<V> {
     /// notice of that itself.
     fn answer_goal(&mut self, goal: &ToVehicle, wanted: Goals) {
         let (mut of_speed, mut of_vertical) = (None, None);
-        self.vehicle.heed(&wanted.command(), &mut |beyond| match beyond {
+        self.vehicle.clamp_command(&wanted.command(), &mut |beyond| match beyond {
             Beyond::Fast(_) | Beyond::Astern => of_speed = Some(beyond),
             Beyond::Deep(_) | Beyond::Low(_) | Beyond::High => of_vertical = Some(beyond),
         });

@@ -35,7 +35,7 @@ pub struct Moment {
 
 /// Where the vehicle tells a heading goal.
 #[derive(Clone, Copy, Debug)]
-pub enum Told {
+pub enum GoalSource {
     /// In `#S`: it holds it.
     State,
     /// In the echo of a command: it has heard it, whether it holds it or protects itself.
@@ -172,8 +172,8 @@ impl RoundTrip {
 
     /// The vehicle has told a heading goal. What it told before as well tells nothing; of those that were sent alike it may be the
     /// oldest.
-    pub fn told(&mut self, heading: Heading, by: Told, now: Moment) {
-        if let Told::State = by {
+    pub fn told(&mut self, heading: Heading, by: GoalSource, now: Moment) {
+        if let GoalSource::State = by {
             let ahead = self.ahead_of(now);
             self.ahead = Some(self.ahead.map_or(ahead, |least| least.min(ahead)));
         }
@@ -189,7 +189,7 @@ impl RoundTrip {
         if at >= known {
             self.last = took;
         }
-        if let Told::State = by {
+        if let GoalSource::State = by {
             // It was made when the mark had been heard.
             let fresh = self.ahead_of(now) - took as i64;
             self.quickest = Some(self.quickest.map_or(took, |least| least.min(took)));
@@ -205,7 +205,7 @@ impl RoundTrip {
 
     /// How old the last state is, ticks.
     fn state_age(&self, now: Moment) -> u64 {
-        let Back { heard, took, .. } = self.back[Told::State as usize];
+        let Back { heard, took, .. } = self.back[GoalSource::State as usize];
         let age = self.ahead.map_or(0, |ahead| self.ahead_of(now) - ahead);
         self.since(heard, now).max(took).min(age.max(0) as u64)
     }

@@ -2,13 +2,13 @@
 //! for the vehicle alone, and gives a record; whoever keeps the records is no concern of it.
 
 use super::Running;
-use crate::craft::Craft;
 use crate::plan::{Plan, PlanError};
 use crate::recorders::Recorder;
 use crate::recorders::digest::RunDigest;
+use crate::run_vehicle::RunVehicle;
 use crate::world;
 use albacore_geometry::Point;
-use albacore_machine::{Event, Machine, Outcome, Wish};
+use albacore_machine::{ControlRequest, Event, Machine, Outcome};
 use albacore_navigation::Trust;
 use albacore_program::AREA_WORDS;
 use albacore_sim::Simulator;
@@ -23,7 +23,7 @@ const TICKS_MAX: u64 = 8_640_000;
 /// Drives a vehicle through a mission.
 pub(crate) struct Driver {
     machine: Machine,
-    vehicle: Craft,
+    vehicle: RunVehicle,
     trust: Trust,
     digest: RunDigest,
     /// Whether the vehicle has been asked to let us drive, and not been given back since.
@@ -60,7 +60,7 @@ impl Cause {
 
 impl Driver {
     /// Before the first tick.
-    pub fn new(plan: &Plan, vehicle: Craft) -> Result<Self, PlanError> {
+    pub fn new(plan: &Plan, vehicle: RunVehicle) -> Result<Self, PlanError> {
         let machine = Machine::new(Arc::clone(&plan.program), vehicle.channels())
             .map_err(|missing| PlanError::Asked(missing.to_string(), None))?
             .with_chart(plan.chart());
@@ -81,7 +81,7 @@ impl Driver {
     pub fn simulated(plan: &Plan, seed: u64) -> Result<(Self, Point), PlanError> {
         let simulator = Simulator::new(&plan.scenario, seed).map_err(|error| world::cannot_be(&error))?;
         let start = simulator.truth().position;
-        Ok((Driver::new(plan, Craft::Simulated(Box::new(simulator)))?, start))
+        Ok((Driver::new(plan, RunVehicle::Simulated(Box::new(simulator)))?, start))
     }
 
     /// Steps to the end while a recorder folds over the records. None: it was stopped before.
@@ -102,7 +102,7 @@ impl Driver {
         &self.machine
     }
 
-    pub fn vehicle(&self) -> &Craft {
+    pub fn vehicle(&self) -> &RunVehicle {
         &self.vehicle
     }
 
@@ -190,7 +190,7 @@ impl Driver {
     /// Asks for control when the mission wants it, and gives it back when a guest's override has ended. At the end of the
     /// mission comes the release.
     fn follow_wish(&mut self) -> Result<(), VehicleError> {
-        let wants = self.machine.wish() != Wish::Listen;
+        let wants = self.machine.wish() != ControlRequest::Listen;
         if wants == self.asked_for_control || self.machine.outcome().is_some() {
             return Ok(());
         }

@@ -35,13 +35,13 @@ pub struct Means<'a> {
     /// Raised when the run is to end.
     pub interrupted: Arc<AtomicBool>,
     /// Hears what a person should; it must not wait.
-    pub tell: &'a mut dyn FnMut(Told<'_>),
+    pub tell: &'a mut dyn FnMut(LiveUpdate<'_>),
     /// The most bytes of records that wait for a writer: mostly [`WAITING_BYTES`].
     pub waiting_bytes: usize,
 }
 
 /// What a person should hear of a run in real time.
-pub enum Told<'a> {
+pub enum LiveUpdate<'a> {
     /// Of the vehicle, or its link.
     Notice(&'a str),
     /// Where the run is: its tick, and the names of the active activities from outside in.
@@ -164,7 +164,7 @@ fn fold(
     memory: &mut InMemory,
     records: &Intake<(u64, Arc<TickRecord>)>,
     journalist: Option<&Journalist>,
-    tell: &mut dyn FnMut(Told<'_>),
+    tell: &mut dyn FnMut(LiveUpdate<'_>),
 ) {
     loop {
         match records.take(LOOK) {
@@ -174,20 +174,20 @@ fn fold(
                 }
                 memory.take(&record);
                 for notice in memory.notices.take_all() {
-                    tell(Told::Notice(&notice));
+                    tell(LiveUpdate::Notice(&notice));
                 }
                 if matches!(record.step, Step::Tick) && record.tick.is_multiple_of(PROGRESS_TICKS) {
                     let activities = &memory.results.plan.program.activities;
                     let names: Vec<&str> =
                         record.active.iter().map(|id| activities[*id as usize].name.as_str()).collect();
-                    tell(Told::Progress(record.tick, &names));
+                    tell(LiveUpdate::Progress(record.tick, &names));
                 }
             }
-            Err(RecvTimeoutError::Timeout) => tell(Told::Nothing),
+            Err(RecvTimeoutError::Timeout) => tell(LiveUpdate::Nothing),
             Err(RecvTimeoutError::Disconnected) => return,
         }
         if let Some(error) = journalist.and_then(|journalist| journalist.failures.try_recv().ok()) {
-            tell(Told::JournalFailed(error));
+            tell(LiveUpdate::JournalFailed(error));
         }
     }
 }
@@ -209,11 +209,11 @@ impl Journalist {
     }
 
     /// Waits for its end, as long as it gets anything done; whether it came.
-    fn ends(&self, tell: &mut dyn FnMut(Told<'_>)) -> bool {
+    fn ends(&self, tell: &mut dyn FnMut(LiveUpdate<'_>)) -> bool {
         let (mut level, mut looks) = (usize::MAX, 0);
         while looks < PATIENCE_LOOKS {
             match self.failures.recv_timeout(LOOK) {
-                Ok(error) => tell(Told::JournalFailed(error)),
+                Ok(error) => tell(LiveUpdate::JournalFailed(error)),
                 Err(RecvTimeoutError::Disconnected) => return true,
                 Err(RecvTimeoutError::Timeout) => {
                     let now = self.level.load(Ordering::Relaxed);

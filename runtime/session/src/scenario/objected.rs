@@ -4,10 +4,10 @@ use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue};
 use albacore_program::{Shape, number};
-use albacore_sim::{Objection, Why};
+use albacore_sim::{ScenarioIssue, Why};
 
 /// What cannot be, at the argument or the clause that says it; what no clause says, at the scenario's name.
-pub fn objected(scenario: &ScenarioProgram, objection: &Objection) -> Diagnostic {
+pub fn objected(scenario: &ScenarioProgram, objection: &ScenarioIssue) -> Diagnostic {
     let clause = clause(&scenario.clauses, objection);
     let arg = clause.zip(objection.param).and_then(|(clause, param)| argument(clause, param));
     // What nobody wrote stands nowhere.
@@ -25,7 +25,7 @@ pub fn objected(scenario: &ScenarioProgram, objection: &Objection) -> Diagnostic
 }
 
 /// The clause that is meant: one on a line of the scenario, else one that is the value of another.
-fn clause<'a>(clauses: &'a [ScenarioClause], objection: &Objection) -> Option<&'a ScenarioClause> {
+fn clause<'a>(clauses: &'a [ScenarioClause], objection: &ScenarioIssue) -> Option<&'a ScenarioClause> {
     let line = clauses.iter().filter(|clause| clause.name == objection.clause).nth(objection.nth);
     line.or_else(|| clauses.iter().find_map(|clause| value_of(clause, objection.clause)))
 }

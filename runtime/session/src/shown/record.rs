@@ -1,19 +1,20 @@
 //! What a recorded plume brings into a world, of the clauses that it takes the place of.
 
-use super::teller::{Teller, vector};
-use super::{ShownClause, Whence};
+use super::clause_formatter::{ClauseFormatter, vector};
+use super::{ShownClause, ValueSource};
 use albacore_program::{Display, Shape, number};
 use albacore_sim::Scenario;
 
 /// Tells them after `recorded_plume`, with what of each is in the record.
-pub(super) fn tell(world: &Scenario, teller: &Teller, told: &mut Vec<ShownClause>) {
+pub(super) fn tell(world: &Scenario, formatter: &ClauseFormatter, told: &mut Vec<ShownClause>) {
     let Some(recorded) = &world.recording else { return };
     let (recording, source) = (&recorded.recording, recorded.source());
     if let Some(clause) = told.last_mut() {
         clause.values.extend(values([("lasts", quantity("s", recording.duration()))]));
     }
-    let mut brings = |name: &str, values| told.push(ShownClause { name: name.into(), whence: Whence::Record, values });
-    brings("region", values([("area", teller.area(recording.area().corners().iter().copied()))]));
+    let mut brings =
+        |name: &str, values| told.push(ShownClause { name: name.into(), whence: ValueSource::Record, values });
+    brings("region", values([("area", formatter.area(recording.area().corners().iter().copied()))]));
     brings("flow", values([("mean", vector(&display("m/s"), recording.mean_flow()))]));
     let (growth, initial_radius) = (recording.growth(), recording.initial_radius());
     brings("plume", values([("growth", quantity("m2/s", growth)), ("initial_radius", quantity("m", initial_radius))]));
@@ -21,7 +22,7 @@ pub(super) fn tell(world: &Scenario, teller: &Teller, told: &mut Vec<ShownClause
         "source",
         values([
             ("name", format!("\"{}\"", source.name)),
-            ("at", teller.point(source.at)),
+            ("at", formatter.point(source.at)),
             ("rate", quantity("Hz", source.rate)),
             ("peak", quantity("%", source.peak)),
             ("peak_age", quantity("s", source.reference_age)),
@@ -29,8 +30,8 @@ pub(super) fn tell(world: &Scenario, teller: &Teller, told: &mut Vec<ShownClause
     );
 }
 
-fn values<const N: usize>(values: [(&str, String); N]) -> Vec<(String, String, Whence)> {
-    values.into_iter().map(|(name, value)| (name.to_string(), value, Whence::Record)).collect()
+fn values<const N: usize>(values: [(&str, String); N]) -> Vec<(String, String, ValueSource)> {
+    values.into_iter().map(|(name, value)| (name.to_string(), value, ValueSource::Record)).collect()
 }
 
 fn quantity(unit: &str, si: f64) -> String {

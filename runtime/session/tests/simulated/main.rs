@@ -2,6 +2,7 @@
 //! clock.
 
 mod bottom;
+mod compatibility;
 mod delay;
 mod flood;
 mod journal;
@@ -10,5 +11,4 @@ mod profiler;
 mod recorded;
 mod sounding;
 mod station;
-mod suit;
 mod watch;

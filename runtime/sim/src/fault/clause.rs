@@ -1,6 +1,6 @@
 //! Faults as a script says them: of a sensor its disorder, else what the vehicle suffers from.
 
-use super::{Disorder, Fault, Sensor, Trouble};
+use super::{Fault, FaultKind, Sensor, SensorFault};
 use albacore_geometry::{Heading, Vector};
 use serde::Deserialize;
 
@@ -37,31 +37,31 @@ enum TroubleClause {
 
 /// What a trouble is one of.
 enum Of {
-    Sensor(&'static str, Disorder),
-    Vehicle(&'static str, Trouble),
+    Sensor(&'static str, SensorFault),
+    Vehicle(&'static str, FaultKind),
 }
 
 impl From<TroubleClause> for Of {
     fn from(clause: TroubleClause) -> Self {
         use TroubleClause as T;
         match clause {
-            T::Off => Of::Sensor("off", Disorder::Off),
-            T::Stuck => Of::Sensor("stuck", Disorder::Stuck),
-            T::Garbage => Of::Sensor("garbage", Disorder::Garbage),
-            T::Wrong { size } => Of::Sensor("wrong", Disorder::Wrong(size)),
-            T::Slow { every } => Of::Sensor("slow", Disorder::Slow(every)),
-            T::Delayed { by } => Of::Sensor("delayed", Disorder::Delayed(by)),
+            T::Off => Of::Sensor("off", SensorFault::Off),
+            T::Stuck => Of::Sensor("stuck", SensorFault::Stuck),
+            T::Garbage => Of::Sensor("garbage", SensorFault::Garbage),
+            T::Wrong { size } => Of::Sensor("wrong", SensorFault::Wrong(size)),
+            T::Slow { every } => Of::Sensor("slow", SensorFault::Slow(every)),
+            T::Delayed { by } => Of::Sensor("delayed", SensorFault::Delayed(by)),
             T::Intermittent { heard, silent } => {
-                Of::Sensor("intermittent", Disorder::Intermittent { on: heard, off: silent })
+                Of::Sensor("intermittent", SensorFault::Intermittent { on: heard, off: silent })
             }
-            T::NotANumber => Of::Sensor("not_a_number", Disorder::NotANumber),
-            T::Jump { by, toward } => Of::Sensor("jump", Disorder::Jump(by * toward.unit())),
-            T::Saturated { rate } => Of::Sensor("saturated", Disorder::Saturated(rate)),
-            T::IgnoredCommands => Of::Vehicle("ignored_commands", Trouble::IgnoredCommands),
-            T::Leak => Of::Vehicle("leak", Trouble::Leak),
-            T::Flooding { water, within } => Of::Vehicle("flooding", Trouble::Flooding { water, within }),
-            T::StuckRudder { at } => Of::Vehicle("stuck_rudder", Trouble::StuckRudder(at)),
-            T::StrongCurrent { current } => Of::Vehicle("strong_current", Trouble::StrongCurrent(current)),
+            T::NotANumber => Of::Sensor("not_a_number", SensorFault::NotANumber),
+            T::Jump { by, toward } => Of::Sensor("jump", SensorFault::Jump(by * toward.unit())),
+            T::Saturated { rate } => Of::Sensor("saturated", SensorFault::Saturated(rate)),
+            T::IgnoredCommands => Of::Vehicle("ignored_commands", FaultKind::IgnoredCommands),
+            T::Leak => Of::Vehicle("leak", FaultKind::Leak),
+            T::Flooding { water, within } => Of::Vehicle("flooding", FaultKind::Flooding { water, within }),
+            T::StuckRudder { at } => Of::Vehicle("stuck_rudder", FaultKind::StuckRudder(at)),
+            T::StrongCurrent { current } => Of::Vehicle("strong_current", FaultKind::StrongCurrent(current)),
         }
     }
 }
@@ -74,7 +74,7 @@ impl TryFrom<FaultClause> for Fault {
         let trouble = trouble
             .ok_or("this does not say what is wrong\nwrite `fault(position, off)` or `fault(leak)`, for example")?;
         let trouble = match (trouble.into(), sensor) {
-            (Of::Sensor(_, disorder), Some(sensor)) => Trouble::Sensor(sensor, disorder),
+            (Of::Sensor(_, disorder), Some(sensor)) => FaultKind::Sensor(sensor, disorder),
             (Of::Sensor(name, _), None) => {
                 return Err(format!(
                     "`{name}` is a trouble of a sensor\nsay of which: `fault(position, {name})`, for example"

@@ -1,7 +1,7 @@
 //! One fault of a sensor at work: what becomes of the samples of each tick.
 
 use super::sensor::turned;
-use super::{Disorder, Sensor};
+use super::{Sensor, SensorFault};
 use crate::noise::{Noise, Stream};
 use albacore_geometry::Heading;
 use albacore_geometry::math::{PI, ln};
@@ -16,7 +16,7 @@ const CHANNELS_MAX: usize = 2;
 #[derive(Clone, Debug)]
 pub(crate) struct Filter {
     sensor: Sensor,
-    disorder: Disorder,
+    disorder: SensorFault,
     noise: Noise,
     /// Draws made so far.
     draws: u64,
@@ -36,7 +36,7 @@ pub(crate) struct Filter {
 
 impl Filter {
     /// The fault of this number of a run.
-    pub fn new(sensor: Sensor, disorder: Disorder, seed: u64, number: u32) -> Self {
+    pub fn new(sensor: Sensor, disorder: SensorFault, seed: u64, number: u32) -> Self {
         let direction = Noise::sub(seed, Stream::FaultDirection, number).uniform(0);
         Filter {
             sensor,
@@ -71,7 +71,7 @@ impl Filter {
         self.take_turns(tick);
         let mut came = false;
         let sensor = self.sensor;
-        if let Disorder::Saturated(rate) = self.disorder {
+        if let SensorFault::Saturated(rate) = self.disorder {
             self.turn(tick, rate, samples);
         }
         samples.retain_mut(|sample| {
@@ -81,7 +81,7 @@ impl Filter {
             came = true;
             self.passes(tick, sample)
         });
-        if let Disorder::Slow(every) = self.disorder
+        if let SensorFault::Slow(every) = self.disorder
             && came
             && tick >= self.next
         {
@@ -96,38 +96,38 @@ impl Filter {
     fn passes(&mut self, tick: u64, sample: &mut Sample) -> bool {
         let width = self.sensor.width();
         match self.disorder {
-            Disorder::Off => return false,
-            Disorder::Stuck => match self.last.iter().find(|last| last.channel == sample.channel) {
+            SensorFault::Off => return false,
+            SensorFault::Stuck => match self.last.iter().find(|last| last.channel == sample.channel) {
                 Some(last) => *sample = *last,
                 None => self.last.push(*sample),
             },
-            Disorder::Garbage => {
+            SensorFault::Garbage => {
                 let most = self.sensor.garbage();
                 for number in &mut sample.reading[..width] {
                     *number = most * (2.0 * self.draw() - 1.0);
                 }
             }
-            Disorder::Wrong(size) => sample.reading = self.sensor.wrong(sample.reading, size, self.toward),
-            Disorder::Slow(_) => return tick >= self.next,
-            Disorder::Delayed(by) => {
+            SensorFault::Wrong(size) => sample.reading = self.sensor.wrong(sample.reading, size, self.toward),
+            SensorFault::Slow(_) => return tick >= self.next,
+            SensorFault::Delayed(by) => {
                 self.delayed.push_back((tick + ticks(by), *sample));
                 return false;
             }
-            Disorder::Intermittent { .. } => return self.passes,
-            Disorder::NotANumber => {
+            SensorFault::Intermittent { .. } => return self.passes,
+            SensorFault::NotANumber => {
                 for number in &mut sample.reading[..width] {
                     *number = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][(3.0 * self.draw()) as usize % 3];
                 }
             }
-            Disorder::Jump(by) => sample.reading = moved(sample.reading, [by.north, by.east]),
-            Disorder::Saturated(_) => sample.reading[0] = turned(sample.reading[0], -self.missed),
+            SensorFault::Jump(by) => sample.reading = moved(sample.reading, [by.north, by.east]),
+            SensorFault::Saturated(_) => sample.reading[0] = turned(sample.reading[0], -self.missed),
         }
         true
     }
 
     /// Samples come and stay away by turns.
     fn take_turns(&mut self, tick: u64) {
-        let Disorder::Intermittent { on, off } = self.disorder else { return };
+        let SensorFault::Intermittent { on, off } = self.disorder else { return };
         while tick >= self.next {
             let first = self.next == 0;
             self.passes = !first && !self.passes;
@@ -172,7 +172,7 @@ mod tests {
     use albacore_vehicle::channels::{COURSE, DEPTH, POSITION};
 
     /// Depths 0, 1, 2 … a tick, faulty from tick 100 to 199: what came of each, by tick.
-    fn depths(disorder: Disorder) -> Vec<(u64, f64)> {
+    fn depths(disorder: SensorFault) -> Vec<(u64, f64)> {
         let mut filter = Filter::new(Sensor::Depth, disorder, 1, 0);
         let mut came = Vec::new();
         for tick in 0..300 {
@@ -196,28 +196,28 @@ mod tests {
 
     #[test]
     fn each_disorder_does_what_it_says() {
-        assert_eq!(depths(Disorder::Off), []);
-        let stuck = depths(Disorder::Stuck);
+        assert_eq!(depths(SensorFault::Off), []);
+        let stuck = depths(SensorFault::Stuck);
         assert!(stuck.len() == 100 && stuck.iter().all(|(_, depth)| *depth == 99.0));
-        let wrong = depths(Disorder::Wrong(1.5));
+        let wrong = depths(SensorFault::Wrong(1.5));
         assert!(wrong.len() == 100 && wrong.iter().all(|(tick, depth)| *depth == *tick as f64 + 3.0));
-        let slow: Vec<u64> = depths(Disorder::Slow(3.0)).iter().map(|(tick, _)| *tick).collect();
+        let slow: Vec<u64> = depths(SensorFault::Slow(3.0)).iter().map(|(tick, _)| *tick).collect();
         assert_eq!(slow, [100, 130, 160, 190]);
-        let delayed = depths(Disorder::Delayed(2.0));
+        let delayed = depths(SensorFault::Delayed(2.0));
         assert!(delayed.len() == 80 && delayed.iter().all(|(tick, depth)| *depth == *tick as f64 - 20.0));
-        let nothing = depths(Disorder::NotANumber);
+        let nothing = depths(SensorFault::NotANumber);
         assert!(nothing.len() == 100 && nothing.iter().all(|(_, depth)| !depth.is_finite()));
         assert!(
             nothing.iter().any(|(_, depth)| depth.is_nan()) && nothing.iter().any(|(_, depth)| depth.is_infinite())
         );
-        let garbage: Vec<f64> = depths(Disorder::Garbage).iter().map(|(_, depth)| *depth).collect();
+        let garbage: Vec<f64> = depths(SensorFault::Garbage).iter().map(|(_, depth)| *depth).collect();
         assert!(garbage.iter().any(|d| *d < 0.0) && garbage.iter().any(|d| *d > 11_000.0));
         assert_eq!(garbage.len(), 100);
     }
 
     #[test]
     fn intermittent_samples_come_and_stay_away_by_turns() {
-        let disorder = Disorder::Intermittent { on: 5.0, off: 15.0 };
+        let disorder = SensorFault::Intermittent { on: 5.0, off: 15.0 };
         let mut filter = Filter::new(Sensor::Depth, disorder, 3, 0);
         let (mut came, mut turns, mut before) = (0, 0, true);
         for tick in 0..1_000_000 {
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn a_saturated_gyroscope_misses_fast_turns_for_good() {
-        let mut filter = Filter::new(Sensor::Heading, Disorder::Saturated(0.1), 1, 0);
+        let mut filter = Filter::new(Sensor::Heading, SensorFault::Saturated(0.1), 1, 0);
         let mut heading = 0.0;
         let mut read = (0.0, 0.0);
         for tick in 0..400 {
@@ -271,8 +271,8 @@ mod tests {
             filter.apply(5, &mut snapshot.samples);
             snapshot.samples[0].reading
         };
-        assert_eq!(position(Disorder::Jump(Vector::new(0.0, 500.0))), [10.0, 520.0, 2.0, 0.0]);
-        let [north, east, sigma, _] = position(Disorder::Wrong(2.0));
+        assert_eq!(position(SensorFault::Jump(Vector::new(0.0, 500.0))), [10.0, 520.0, 2.0, 0.0]);
+        let [north, east, sigma, _] = position(SensorFault::Wrong(2.0));
         assert!((Vector::new(north - 10.0, east - 20.0).length() - 100.0).abs() < 1e-9 && sigma == 2.0);
     }
 }

@@ -1,7 +1,7 @@
 //! The faults of a run: which are in force in a tick, what is said of it, and what they do.
 
 use super::filter::Filter;
-use super::{Fault, Sensor, Trouble, to_tick};
+use super::{Fault, FaultKind, Sensor, to_tick};
 use albacore_geometry::Vector;
 use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
 use albacore_vehicle::{Sample, TICK_S};
@@ -42,7 +42,7 @@ impl Faults {
     pub fn new(faults: &[Fault], seed: u64) -> Self {
         let known = faults.iter().zip(0..).map(|(&fault, number)| {
             let filter = match fault.trouble {
-                Trouble::Sensor(sensor, disorder) => Some(Filter::new(sensor, disorder, seed, number)),
+                FaultKind::Sensor(sensor, disorder) => Some(Filter::new(sensor, disorder, seed, number)),
                 _ => None,
             };
             Known { fault, in_force: false, filter }
@@ -62,15 +62,15 @@ impl Faults {
             }
             known.in_force = in_force;
             match known.fault.trouble {
-                Trouble::Flooding { water, within } => {
+                FaultKind::Flooding { water, within } => {
                     ailing.water += water * filled((tick as f64).min(to) - from, within / TICK_S);
                 }
                 _ if !in_force => {}
-                Trouble::Sensor(..) => {}
-                Trouble::IgnoredCommands => ailing.deaf = true,
-                Trouble::Leak => ailing.leaks = true,
-                Trouble::StuckRudder(share) => ailing.rudder = Some(share),
-                Trouble::StrongCurrent(current) => ailing.current = ailing.current + current,
+                FaultKind::Sensor(..) => {}
+                FaultKind::IgnoredCommands => ailing.deaf = true,
+                FaultKind::Leak => ailing.leaks = true,
+                FaultKind::StuckRudder(share) => ailing.rudder = Some(share),
+                FaultKind::StrongCurrent(current) => ailing.current = ailing.current + current,
             }
         }
         self.ailing = ailing;
@@ -89,7 +89,7 @@ impl Faults {
             if known.in_force {
                 filter.apply(tick, samples);
                 water_depth_fails |=
-                    matches!(known.fault.trouble, Trouble::Sensor(Sensor::Depth | Sensor::Altitude, _));
+                    matches!(known.fault.trouble, FaultKind::Sensor(Sensor::Depth | Sensor::Altitude, _));
             } else {
                 filter.watch(tick, samples);
             }
@@ -127,17 +127,18 @@ fn add_up(samples: &mut Vec<Sample>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fault::Disorder;
+    use crate::fault::SensorFault;
     use albacore_vehicle::Snapshot;
 
-    fn fault(trouble: Trouble, from: f64, to: Option<f64>) -> Fault {
+    fn fault(trouble: FaultKind, from: f64, to: Option<f64>) -> Fault {
         Fault { trouble, from, to }
     }
 
     #[test]
     fn begin_and_end_are_told_to_the_tick() {
-        let trouble = Trouble::Sensor(Sensor::Flow, Disorder::NotANumber);
-        let mut faults = Faults::new(&[fault(trouble, 0.3, Some(0.5)), fault(Trouble::IgnoredCommands, 0.4, None)], 1);
+        let trouble = FaultKind::Sensor(Sensor::Flow, SensorFault::NotANumber);
+        let mut faults =
+            Faults::new(&[fault(trouble, 0.3, Some(0.5)), fault(FaultKind::IgnoredCommands, 0.4, None)], 1);
         let told: Vec<(u64, String)> = (0..10)
             .flat_map(|tick| {
                 faults.advance_to(tick);
@@ -155,9 +156,9 @@ mod tests {
 
     #[test]
     fn a_leak_stays_and_currents_add_up() {
-        let current = |north| Trouble::StrongCurrent(Vector::new(north, 0.0));
+        let current = |north| FaultKind::StrongCurrent(Vector::new(north, 0.0));
         let list =
-            [fault(Trouble::Leak, 0.0, Some(0.1)), fault(current(1.0), 0.0, None), fault(current(0.5), 0.0, None)];
+            [fault(FaultKind::Leak, 0.0, Some(0.1)), fault(current(1.0), 0.0, None), fault(current(0.5), 0.0, None)];
         let mut faults = Faults::new(&list, 1);
         (0..5).for_each(|tick| faults.advance_to(tick));
         assert!(faults.ailing().leaks);
@@ -166,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_hull_fills_evenly_and_what_is_in_stays_in() {
-        let flooding = |water, within| Trouble::Flooding { water, within };
+        let flooding = |water, within| FaultKind::Flooding { water, within };
         let list = [
             fault(flooding(2.0, 1.0), 0.5, None),
             fault(flooding(4.0, 1.0), 0.5, Some(1.0)),
@@ -188,7 +189,7 @@ mod tests {
     #[test]
     fn the_waters_depth_fails_with_either_part() {
         let told = |sensor, disorder| {
-            let mut faults = Faults::new(&[fault(Trouble::Sensor(sensor, disorder), 0.0, None)], 1);
+            let mut faults = Faults::new(&[fault(FaultKind::Sensor(sensor, disorder), 0.0, None)], 1);
             faults.advance_to(0);
             let mut snapshot = Snapshot::default();
             for (channel, metres) in [(DEPTH, 3.0), (ALTITUDE, 5.0), (WATER_DEPTH, 8.0)] {
@@ -197,9 +198,9 @@ mod tests {
             faults.filter(0, &mut snapshot.samples);
             snapshot.samples.iter().find(|s| s.channel == WATER_DEPTH).map(|s| s.reading[0])
         };
-        assert_eq!(told(Sensor::Depth, Disorder::Off), None);
-        assert_eq!(told(Sensor::Altitude, Disorder::Wrong(1.0)), Some(10.0));
-        assert_eq!(told(Sensor::Speed, Disorder::Off), Some(8.0));
-        assert!(told(Sensor::Depth, Disorder::NotANumber).is_some_and(|sum| !sum.is_finite()));
+        assert_eq!(told(Sensor::Depth, SensorFault::Off), None);
+        assert_eq!(told(Sensor::Altitude, SensorFault::Wrong(1.0)), Some(10.0));
+        assert_eq!(told(Sensor::Speed, SensorFault::Off), Some(8.0));
+        assert!(told(Sensor::Depth, SensorFault::NotANumber).is_some_and(|sum| !sum.is_finite()));
     }
 }

@@ -49,7 +49,7 @@ impl Grounding {
     }
 
     /// Where a command would have it go: a length ahead of its nose, dive or climb as it may.
-    pub fn told(&self, pose: &Six, command: &Command, length: f64, water_depth: impl Fn(Point) -> f64) -> Told {
+    pub fn intent(&self, pose: &Six, command: &Command, length: f64, water_depth: impl Fn(Point) -> f64) -> Intent {
         let (here, depth) = (Point::new(pose[0], pose[1]), pose[2].max(0.0));
         let reach = if command.speed > 0.0 { length } else { 0.0 };
         let ahead = water_depth(here + reach * Heading::from_radians(pose[5]).unit());
@@ -60,18 +60,18 @@ impl Grounding {
         let (sin, cos) = sin_cos(PITCH_MAX);
         let clear = wanted.max(0.0).min(depth + reach * sin / cos) < ahead;
         if self.clear_s == 0.0 && !clear && wanted >= depth - KEEPS_DEPTH {
-            Told::Stay
+            Intent::Stay
         } else if wanted < depth {
-            Told::Up
+            Intent::Up
         } else {
-            Told::Away
+            Intent::Away
         }
     }
 }
 
 /// What a command means to a hull that is aground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum Intent {
     /// To stay where the bottom is, or to go into it.
     Stay,
     /// To rise.

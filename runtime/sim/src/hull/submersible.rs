@@ -2,7 +2,7 @@
 
 use super::actuators::{ActuatorLimits, Actuators};
 use super::autopilot::{Autopilot, Gains, Sensed};
-use super::grounding::{Grounding, Told, pivot};
+use super::grounding::{Grounding, Intent, pivot};
 use super::six_dof::{Attitude, Controls, Plant, State, Surroundings, runge_kutta};
 use super::surface::{Body, Surface};
 use super::{Berth, Motion, RanAway};
@@ -116,17 +116,17 @@ impl<P: Plant> Submersible<P> {
     fn meet_bottom(&mut self, mut state: State, command: Option<&Command>, water_depth: impl Fn(Point) -> f64) {
         let before = self.state.pose;
         let told = match (&self.grounding, command) {
-            (Some(grounding), Some(command)) => Some(grounding.told(&before, command, self.length, &water_depth)),
+            (Some(grounding), Some(command)) => Some(grounding.intent(&before, command, self.length, &water_depth)),
             _ => None,
         };
-        if told == Some(Told::Stay) {
+        if told == Some(Intent::Stay) {
             state = State { pose: before, ..State::default() };
         } else {
             self.grounding = Grounding::after(self.grounding, &before, &mut state, water_depth);
         }
         if self.grounding.is_some() {
             self.autopilot.start_afresh();
-            pivot(&mut state, &before, command.map(|command| command.heading), told == Some(Told::Up));
+            pivot(&mut state, &before, command.map(|command| command.heading), told == Some(Intent::Up));
         }
         self.state = state;
     }

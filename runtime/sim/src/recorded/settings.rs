@@ -1,7 +1,7 @@
 //! A record as the world of a scenario.
 
 use super::Recording;
-use crate::scenario::{Objections, Scenario, Source, told};
+use crate::scenario::{Scenario, ScenarioIssues, Source, told};
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -71,7 +71,7 @@ impl PartialEq for RecordedPlume {
 }
 
 /// What of a recorded plume cannot be in a scenario.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let Some(recorded) = &scenario.recording else { return };
     let flow = &scenario.flow;
     let own_flow = flow.meander.is_some() || flow.turning != 0.0 || !flow.tides.is_empty();

@@ -1,6 +1,6 @@
 //! The water's depth: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{Objections, Scenario, told};
+use crate::scenario::{Scenario, ScenarioIssues, told};
 use albacore_geometry::{Area, Heading, Point};
 use serde::Deserialize;
 use std::sync::Arc;
@@ -110,7 +110,7 @@ const DEEPEST_M: f64 = 11_000.0;
 const STEEPEST: f64 = 10.0;
 
 /// What of the bottom cannot be.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     if let Ground::Grid(grid) = &scenario.bottom.ground {
         check_grid(grid, objections);
     }
@@ -137,7 +137,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
     }
 }
 
-fn check_grid(grid: &Grid, objections: &mut Objections) {
+fn check_grid(grid: &Grid, objections: &mut ScenarioIssues) {
     let (south_west, size) = (grid.south_west, grid.north_east - grid.south_west);
     let mut of = objections.of("bottom_grid");
     of.unless(

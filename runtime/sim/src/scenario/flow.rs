@@ -1,6 +1,6 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{FLOW_MAX, Objections, Scenario, rounded_down, told};
+use crate::scenario::{FLOW_MAX, Scenario, ScenarioIssues, rounded_down, told};
 use crate::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
 use albacore_geometry::{Heading, Vector};
@@ -163,7 +163,7 @@ impl Default for Meander {
 const BREAKING: f64 = 0.78;
 
 /// The mean and the upper flow.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     objections.of("flow").flow("mean", scenario.flow.mean);
     check_current(&scenario.flow, objections);
     if let Some(waves) = &scenario.flow.waves {
@@ -208,7 +208,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 }
 
 /// What the whole water does alike.
-fn check_current(flow: &Flow, objections: &mut Objections) {
+fn check_current(flow: &Flow, objections: &mut ScenarioIssues) {
     for (i, tide) in flow.tides.iter().enumerate() {
         let mut of = objections.nth("tide", i);
         of.name(&tide.name, &flow.tides[..i].iter().map(|t| t.name.as_str()).collect::<Vec<_>>());
@@ -227,7 +227,7 @@ fn check_current(flow: &Flow, objections: &mut Objections) {
 }
 
 /// The meander, once region and mean flow are sound.
-pub(crate) fn check_meander(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check_meander(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let Some(meander) = &scenario.flow.meander else { return };
     let before = objections.0.len();
     let mut of = objections.of("flow");

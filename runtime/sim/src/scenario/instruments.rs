@@ -1,7 +1,7 @@
 //! The instruments of the vehicle itself, compass, pressure gauge, Doppler log, receiver of fixes, CTD: what a scenario says of
 //! them, and what of that cannot be. Their defaults are perfect.
 
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Scenario, ScenarioIssues};
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
@@ -152,7 +152,7 @@ impl Default for Ctd {
 }
 
 /// What of the instruments cannot be.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     if let Some(gps) = &scenario.gps {
         let mut of = objections.of("gps");
         of.at_most("bias", gps.bias.length(), GPS_BIAS_MAX);

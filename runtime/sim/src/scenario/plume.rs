@@ -1,7 +1,7 @@
 //! The plume: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::{LONGEST_PLUME_STEP_S, stays_in_layer};
-use crate::scenario::{Objections, Scenario, told};
+use crate::scenario::{Scenario, ScenarioIssues, told};
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
 
@@ -40,7 +40,7 @@ impl Default for Plume {
 }
 
 /// What of the plume cannot be, once region and flow are sound.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let Some(plume) = &scenario.plume else { return };
     let mut of = objections.of("plume");
     let has_region = scenario.region.is_some();

@@ -1,7 +1,7 @@
 //! The sensors: what a scenario says of them, and what of that cannot be.
 
 use crate::scenario::instruments::EVERY_TICK;
-use crate::scenario::{Objections, Scenario, told};
+use crate::scenario::{Scenario, ScenarioIssues, told};
 use albacore_geometry::Vector;
 use albacore_navigation::FlowGates;
 use serde::{Deserialize, Deserializer};
@@ -169,7 +169,7 @@ impl Default for Sounder {
 }
 
 /// What of the sensors cannot be.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     if let Some(lbl) = scenario.navigation.as_ref().and_then(|navigation| navigation.lbl.as_ref()) {
         objections.of("lbl").at_most("drift", lbl.drift.length(), LBL_DRIFT_MAX);
     }

@@ -1,7 +1,7 @@
 //! What releases chemical, or has released it: what a scenario says of it, and what of that cannot be.
 
 use crate::plume::spin_up_begin;
-use crate::scenario::{Flow, Objections, OfClause, Scenario, rounded_down, told};
+use crate::scenario::{Flow, OfClause, Scenario, ScenarioIssues, rounded_down, told};
 use albacore_geometry::Point;
 use serde::Deserialize;
 
@@ -143,7 +143,7 @@ impl Default for Source {
 }
 
 /// What of the sources cannot be, once region, flow and bottom are sound.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     // A record's source is there to be told of.
     if scenario.recording.is_some() {
         return;
@@ -237,7 +237,7 @@ fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: 
 }
 
 /// Whether the layer that holds the plume is below the surface where the chemical comes from.
-fn check_layer(scenario: &Scenario, objections: &mut Objections) {
+fn check_layer(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let Some(layer) = scenario.plume.as_ref().and_then(|plume| plume.layer) else { return };
     let sources = scenario.sources.iter().map(|source| (&source.name, source.at));
     let places = sources.chain(scenario.patches.iter().map(|patch| (&patch.name, patch.at)));
@@ -254,7 +254,7 @@ fn check_layer(scenario: &Scenario, objections: &mut Objections) {
 }
 
 /// Whether there is more plume than can be computed.
-fn check_size(scenario: &Scenario, objections: &mut Objections) {
+fn check_size(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let transit = -spin_up_begin(scenario);
     if transit > SPIN_UP_MAX_S {
         return never_crossed(scenario, objections);
@@ -270,7 +270,7 @@ fn check_size(scenario: &Scenario, objections: &mut Objections) {
 }
 
 /// A plume takes too long to leave its region: the flow is slow, or turns round before it is there.
-fn never_crossed(scenario: &Scenario, objections: &mut Objections) {
+fn never_crossed(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let straight = Scenario { flow: Flow { turning: 0.0, ..scenario.flow.clone() }, ..scenario.clone() };
     if -spin_up_begin(&straight) <= SPIN_UP_MAX_S {
         return objections.of("turning").unless(

@@ -1,6 +1,6 @@
 //! The temperature and the salinity of the water over its depth: what a scenario says of them, and what of that cannot be.
 
-use crate::scenario::{Objections, Scenario};
+use crate::scenario::{Scenario, ScenarioIssues};
 use albacore_geometry::math::tanh;
 use serde::Deserialize;
 
@@ -50,7 +50,7 @@ impl Stratification {
 }
 
 /// What of the water's layers cannot be.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let s = &scenario.stratification;
     let (above, below) = (density(s.surface, s.surface_salinity), density(s.bottom, s.bottom_salinity));
     objections.of("stratification").unless(

@@ -1,7 +1,7 @@
 //! The vehicle, its own mission and its computer: what a scenario says of them, and what of that cannot be.
 
 use crate::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
-use crate::scenario::{Objections, OfClause, Scenario, rounded_down, told};
+use crate::scenario::{OfClause, Scenario, ScenarioIssues, rounded_down, told};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::{Route, Rows, Waypoints};
@@ -292,7 +292,7 @@ impl From<OwnWaypoints> for OwnMission {
 }
 
 /// What of the vehicle cannot be.
-pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let v = &scenario.vehicle;
     // Where the start is scattered it may be anywhere: as shallow as the ground is there.
     let water = if v.start_spread > 0.0 {
@@ -338,7 +338,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut Objections) {
 }
 
 /// Whether it can swim its own mission.
-fn check_own_mission(scenario: &Scenario, own: &OwnMission, objections: &mut Objections) {
+fn check_own_mission(scenario: &Scenario, own: &OwnMission, objections: &mut ScenarioIssues) {
     let v = &scenario.vehicle;
     let legs = own.route.legs(v.start, v.heading);
     let mut of = match &own.route {

@@ -26,7 +26,7 @@ impl Compass {
     }
 
     /// What it tells at a tick, when it reads `heading`.
-    pub fn told(&mut self, tick: u64, heading: Heading) -> Option<Heading> {
+    pub fn sample(&mut self, tick: u64, heading: Heading) -> Option<Heading> {
         self.delay.pass(tick, is_due(self.settings.rate, tick).then_some(heading))
     }
 

@@ -22,7 +22,7 @@ impl Ctd {
     }
 
     /// What it tells at a tick and a depth (m): temperature (degrees Celsius) and practical salinity.
-    pub fn told(&mut self, tick: u64, depth: f64, water: impl FnOnce(f64) -> (f64, f64)) -> Option<(f64, f64)> {
+    pub fn sample(&mut self, tick: u64, depth: f64, water: impl FnOnce(f64) -> (f64, f64)) -> Option<(f64, f64)> {
         self.delay.pass(tick, self.reading(tick, depth, water))
     }
 

@@ -23,7 +23,7 @@ impl<T> Delay<T> {
     }
 
     /// The next that has come by a tick.
-    pub fn told(&mut self, tick: u64) -> Option<T> {
+    pub fn sample(&mut self, tick: u64) -> Option<T> {
         let has_come = self.on_the_way.front().is_some_and(|(comes, _)| *comes <= tick);
         if has_come { self.on_the_way.pop_front().map(|(_, reading)| reading) } else { None }
     }
@@ -33,7 +33,7 @@ impl<T> Delay<T> {
         if let Some(reading) = reading {
             self.send(tick, reading);
         }
-        self.told(tick)
+        self.sample(tick)
     }
 }
 

@@ -26,7 +26,7 @@ impl Dvl {
     }
 
     /// What it tells at a tick and an altitude (m), when it reads `velocity`, m/s.
-    pub fn told(&mut self, tick: u64, altitude: f64, velocity: Vector) -> Option<Vector> {
+    pub fn sample(&mut self, tick: u64, altitude: f64, velocity: Vector) -> Option<Vector> {
         let tells = self.has_lock(altitude) && is_due(self.settings.rate, tick);
         self.delay.pass(tick, tells.then_some(velocity))
     }
@@ -51,8 +51,8 @@ mod tests {
     fn the_lock_is_lost_above_its_range() {
         let truth = Vector::new(1.0, 1.0);
         let mut dvl = Dvl::new(&scenario::Dvl { range: Some(30.0), rate: 2.0, ..Default::default() }, 1);
-        let mut told = |tick, altitude| dvl.told(tick, altitude, truth);
-        assert_eq!((told(5, 30.0), told(5, 30.1), told(6, 30.0)), (Some(truth), None, None));
+        let mut sample = |tick, altitude| dvl.sample(tick, altitude, truth);
+        assert_eq!((sample(5, 30.0), sample(5, 30.1), sample(6, 30.0)), (Some(truth), None, None));
     }
 
     #[test]

@@ -49,8 +49,8 @@ impl Fluorometer {
     }
 
     /// The next reading that has come by a tick.
-    pub fn told(&mut self, tick: u64) -> Option<f64> {
-        self.tube.told(tick)
+    pub fn sample(&mut self, tick: u64) -> Option<f64> {
+        self.tube.sample(tick)
     }
 
     /// The reading of a sample where the truth is `concentration`; both are ratios of full scale.

@@ -24,7 +24,7 @@ impl Pressure {
     }
 
     /// What it tells at a tick when the true depth is `depth`, m.
-    pub fn told(&mut self, tick: u64, depth: f64) -> Option<f64> {
+    pub fn sample(&mut self, tick: u64, depth: f64) -> Option<f64> {
         self.delay.pass(tick, self.reading(tick, depth))
     }
 

@@ -52,7 +52,7 @@ impl Profiler {
     }
 
     /// The mean flow that it tells at a tick, m/s toward; `flow_at` is the velocity of the water at a height above the bottom (m).
-    pub fn told(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
+    pub fn sample(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
         let mean = self.measure(tick, view, flow_at);
         self.delay.pass(tick, mean)
     }

@@ -22,7 +22,7 @@ impl EchoSounder {
     }
 
     /// What it tells at a tick when the true altitude is `altitude`, m.
-    pub fn told(&mut self, tick: u64, altitude: f64) -> Option<f64> {
+    pub fn sample(&mut self, tick: u64, altitude: f64) -> Option<f64> {
         self.delay.pass(tick, self.reading(tick, altitude))
     }
 

@@ -6,8 +6,8 @@ mod refused;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Bottom, Fault, Flow, Grid, Ground, HullSetup, KinematicHull, Plane, Scenario, Simulator, SubmersibleHull, Trouble,
-    VehicleSetup,
+    Bottom, Fault, FaultKind, Flow, Grid, Ground, HullSetup, KinematicHull, Plane, Scenario, Simulator,
+    SubmersibleHull, VehicleSetup,
 };
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vehicle, Vertical};
 use std::error::Error;
@@ -70,7 +70,7 @@ fn drifts_until_taken_over_and_after_release() {
 /// It lets go of a weight: a hull that is as heavy as the water would stay where it is.
 #[test]
 fn whatever_moves_it_a_vehicle_that_leaks_floats_up_and_refuses_who_asks() {
-    let leak = |from| Fault { trouble: Trouble::Leak, from, to: None };
+    let leak = |from| Fault { trouble: FaultKind::Leak, from, to: None };
     for hull in [
         HullSetup::Kinematic(KinematicHull::default()),
         HullSetup::Fossen(SubmersibleHull::fossen()),

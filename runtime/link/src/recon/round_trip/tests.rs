@@ -80,19 +80,19 @@ fn measured(
     let (mut there, mut back) = (Way::new(link.lost, link.repeated), Way::new(link.lost, link.repeated));
     let (mut moments, mut told) = (Way::new(0, 0), Way::new(0, 0));
     let (mut held, mut newest, mut known, mut spoke) = (mark(200.0), 0, 0, (Heading::NORTH, 0));
-    trip.told(held, Told::State, at(0));
+    trip.told(held, GoalSource::State, at(0));
     (1..=ticks)
         .map(|now| {
             let (to, from) = delay(now);
             for heading in there.arrived(now) {
                 held = heading;
                 if link.echoes {
-                    back.send((heading, Told::Echo), now, from, &mut chance);
+                    back.send((heading, GoalSource::Echo), now, from, &mut chance);
                 }
             }
             newest = moments.arrived(now).last().copied().unwrap_or(newest);
             if link.shows {
-                back.send((held, Told::State), now, from, &mut chance);
+                back.send((held, GoalSource::State), now, from, &mut chance);
             }
             // A state that comes twice is of no new tick, and told nobody.
             told.send(newest, now, from, &mut chance);
@@ -186,31 +186,31 @@ fn mark(degrees: f64) -> Heading {
 fn the_longer_of_the_two_clocks_counts() {
     let mut trip = RoundTrip::new(1.0);
     trip.sent(mark(5.0), at(100));
-    trip.told(mark(5.0), Told::State, Moment { tick: 103, host: Duration::from_millis(10_200) });
+    trip.told(mark(5.0), GoalSource::State, Moment { tick: 103, host: Duration::from_millis(10_200) });
     assert_eq!(trip.ticks(at(103)), 102, "the vehicle's clock runs slow");
     trip.sent(mark(6.0), Moment { tick: 110, host: Duration::from_secs(20) });
-    trip.told(mark(6.0), Told::State, Moment { tick: 150, host: Duration::from_secs(21) });
+    trip.told(mark(6.0), GoalSource::State, Moment { tick: 150, host: Duration::from_secs(21) });
     assert_eq!(trip.ticks(at(150)), 40);
     let mut slow = RoundTrip::new(0.1);
     slow.sent(mark(5.0), at(0));
-    slow.told(mark(5.0), Told::Echo, Moment { tick: 1, host: Duration::from_secs(3) });
+    slow.told(mark(5.0), GoalSource::Echo, Moment { tick: 1, host: Duration::from_secs(3) });
     assert_eq!(slow.ticks(at(1)), 3, "3 s of the host's are 0.3 s of the vehicle's");
 }
 
 #[test]
 fn what_the_vehicle_tells_anyway_proves_nothing() {
     let mut trip = RoundTrip::new(1.0);
-    trip.told(mark(90.0), Told::State, at(1));
+    trip.told(mark(90.0), GoalSource::State, at(1));
     assert_eq!(Mark::of(trip.marked(mark(90.0), at(1))), Mark(901), "that can be told from what it holds");
     trip.sent(mark(90.1), at(1));
     for (tick, told) in [(2, 90.0), (3, 200.0), (4, 90.0)] {
-        trip.told(mark(told), Told::State, at(tick));
+        trip.told(mark(told), GoalSource::State, at(tick));
     }
     assert_eq!(trip.ticks(at(40)), 39);
     for (tick, goal) in [(50, 80.0), (60, 90.1)] {
         trip.sent(mark(goal), at(tick));
     }
-    trip.told(mark(90.1), Told::State, at(61));
+    trip.told(mark(90.1), GoalSource::State, at(61));
     assert_eq!(trip.ticks(at(61)), 60, "the first of the two, as far as anybody knows");
 }
 
@@ -229,13 +229,13 @@ fn of_late_states(late: impl Fn(u64) -> u64, protects: impl Fn(u64) -> bool, sto
             let moment = |tick: u64| Moment { tick, host: Duration::from_millis(100 * now) };
             while let Some((_, stamp, heading)) = states.pop_front_if(|(due, ..)| *due <= now) {
                 told = stamp;
-                trip.told(heading, Told::State, moment(told));
+                trip.told(heading, GoalSource::State, moment(told));
             }
             let heading = trip.marked(mark(90.0), moment(told));
             trip.sent(heading, moment(told));
             if !stops(now) {
                 held = heading;
-                trip.told(held, Told::Echo, moment(told));
+                trip.told(held, GoalSource::Echo, moment(told));
             }
             trip.ticks(moment(told))
         })

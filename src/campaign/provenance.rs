@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// All that decides a row beside its seed, and the seed of the first.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Origin {
+pub struct Provenance {
     albacore: String,
     mission: String,
     scenario: String,
@@ -26,11 +26,11 @@ pub struct Origin {
     sum: String,
 }
 
-impl Origin {
+impl Provenance {
     /// The origin of what a plan gives. `set` are the texts of the parameters that were changed, `fault`
     /// those of what was made to go wrong.
     pub fn new(plan: &Plan, set: &[String], fault: &[String], first_seed: u64) -> Self {
-        Origin {
+        Provenance {
             albacore: env!("CARGO_PKG_VERSION").to_string(),
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
@@ -54,7 +54,7 @@ impl Origin {
     }
 
     /// What of this is otherwise now, if anything is.
-    pub fn difference(&self, now: &Origin) -> Option<String> {
+    pub fn difference(&self, now: &Provenance) -> Option<String> {
         let changed = |what: &str, then: &str, now: &str| Some(format!("was begun with {what}`{then}`, not `{now}`"));
         if self.mission != now.mission {
             return changed("the mission ", &self.mission, &now.mission);

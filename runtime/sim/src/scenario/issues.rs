@@ -9,12 +9,12 @@ use std::fmt;
 #[error("{}", faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
 pub struct ScenarioError {
     /// One for each thing that cannot be.
-    pub faults: Vec<Objection>,
+    pub faults: Vec<ScenarioIssue>,
 }
 
 /// Something in a scenario that cannot be.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Objection {
+pub struct ScenarioIssue {
     /// The clause that says it, by its name in a script.
     pub clause: &'static str,
     /// Which of the clauses of that name, from 0: a scenario may have several sources.
@@ -34,7 +34,7 @@ pub enum Why {
     Said(String, String),
 }
 
-impl fmt::Display for Objection {
+impl fmt::Display for ScenarioIssue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.why {
             Why::Over(value, most) => {
@@ -48,16 +48,16 @@ impl fmt::Display for Objection {
 
 /// Collects what cannot be in a scenario.
 #[derive(Default)]
-pub(crate) struct Objections(pub Vec<Objection>);
+pub(crate) struct ScenarioIssues(pub Vec<ScenarioIssue>);
 
 /// Collects what cannot be in one of its clauses.
 pub(crate) struct OfClause<'a> {
-    all: &'a mut Vec<Objection>,
+    all: &'a mut Vec<ScenarioIssue>,
     clause: &'static str,
     nth: usize,
 }
 
-impl Objections {
+impl ScenarioIssues {
     /// Of a clause that stands once.
     pub fn of(&mut self, clause: &'static str) -> OfClause<'_> {
         self.nth(clause, 0)
@@ -83,7 +83,7 @@ impl OfClause<'_> {
     }
 
     fn add(&mut self, param: Option<&'static str>, why: Why) {
-        self.all.push(Objection { clause: self.clause, nth: self.nth, param, why });
+        self.all.push(ScenarioIssue { clause: self.clause, nth: self.nth, param, why });
     }
 
     /// What is wrong unless something holds, and how to mend it; of a parameter or of the clause as a whole.

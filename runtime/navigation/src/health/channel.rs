@@ -1,6 +1,6 @@
 //! One channel by itself: silence, numbers that are none or cannot be, jumps, and a noisy value that stands still.
 
-use super::{Sight, Sights, Told};
+use super::{Anomalies, Anomaly, Credible};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::{Reading, TICK_S};
@@ -180,7 +180,7 @@ impl Channel {
     }
 
     /// A sample has come; given on when it can be believed by itself.
-    pub fn hear(&mut self, tick: u64, reading: Reading, sights: &mut Sights) -> Option<Told> {
+    pub fn hear(&mut self, tick: u64, reading: Reading, sights: &mut Anomalies) -> Option<Credible> {
         let gap = tick - self.last.min(tick);
         if self.samples == 0 {
             self.first = tick;
@@ -191,28 +191,28 @@ impl Channel {
         }
         let numbers = &reading[..self.kind.width()];
         if numbers.iter().any(|x| !x.is_finite()) {
-            sights.see(Sight::NotANumber(self.kind));
+            sights.see(Anomaly::NotANumber(self.kind));
             return None;
         }
         if !self.kind.can_be(reading) {
-            sights.see(Sight::OutOfRange(self.kind));
+            sights.see(Anomaly::OutOfRange(self.kind));
             return None;
         }
         let Some((before, since)) = self.reading else {
             self.reading = Some((reading, tick));
-            return Some(Told { reading, same: 0, lively: false });
+            return Some(Credible { reading, same: 0, lively: false });
         };
         let follows = self.kind.can_follow(reading, before, gap as f64 * TICK_S);
         if before == reading {
             self.same += 1;
             // It is well again when it changes, not when it happens to fit what it says.
-            if sights.last_seen(Sight::Stuck(self.kind)).is_some_and(|last| last >= since) {
-                sights.see(Sight::Stuck(self.kind));
+            if sights.last_seen(Anomaly::Stuck(self.kind)).is_some_and(|last| last >= since) {
+                sights.see(Anomaly::Stuck(self.kind));
             }
         } else {
             // A rest that was told of says nothing of how long it rests when all is well, and its end nothing of its noise; nor
             // does what no vehicle can do.
-            if !sights.sees(Sight::Stuck(self.kind)) {
+            if !sights.sees(Anomaly::Stuck(self.kind)) {
                 self.same_most = self.same_most.max(self.same);
                 if follows && self.learns {
                     self.learn(reading[0] - before[0]);
@@ -224,13 +224,13 @@ impl Channel {
         self.reading = Some((reading, since));
         let lively = self.is_lively();
         if lively && self.kind != Kind::Flow && self.same >= self.stuck_samples(reading[0]) {
-            sights.see(Sight::Stuck(self.kind));
+            sights.see(Anomaly::Stuck(self.kind));
         }
         if !follows {
-            sights.see(Sight::Jumps(self.kind));
+            sights.see(Anomaly::Jumps(self.kind));
             return None;
         }
-        Some(Told { reading, same: tick - since, lively })
+        Some(Credible { reading, same: tick - since, lively })
     }
 
     pub fn is_of(&self, kind: Kind) -> bool {
@@ -258,10 +258,10 @@ impl Channel {
     }
 
     /// A tick has gone by.
-    pub fn wait(&self, tick: u64, sights: &mut Sights) {
+    pub fn wait(&self, tick: u64, sights: &mut Anomalies) {
         let Some(period) = self.period else { return };
         if tick > self.last + (SILENT_PERIODS * period).max(SILENT_TICKS) {
-            sights.see(Sight::Silent(self.kind));
+            sights.see(Anomaly::Silent(self.kind));
         }
     }
 

@@ -56,7 +56,7 @@ const NAMING: [&str; 17] = [
 ];
 
 /// The names that unreadable text may have declared.
-pub struct Echoes<'a> {
+pub struct Cascades<'a> {
     /// Those of whole declarations, known everywhere.
     anywhere: Names<'a>,
     /// Those among them that can be called.
@@ -79,9 +79,9 @@ impl Names<'_> {
     }
 }
 
-impl<'a> Echoes<'a> {
+impl<'a> Cascades<'a> {
     pub fn of(unread: &[Unread], sources: &'a Sources) -> Self {
-        let mut echoes = Echoes { anywhere: Names::default(), callable: BTreeSet::new(), inside: BTreeMap::new() };
+        let mut echoes = Cascades { anywhere: Names::default(), callable: BTreeSet::new(), inside: BTreeMap::new() };
         for u in unread {
             let text = sources.text(u.span);
             let names = match u.item {

@@ -1,26 +1,26 @@
 //! Clauses in words: the name of each parameter and its value, as a person writes it.
 
-use super::{ShownClause, Whence};
+use super::{ShownClause, ValueSource};
 use albacore_geometry::{Point, TangentFrame, Vector};
 use albacore_lang::{ScenarioClause, ScenarioValue};
 use albacore_program::{AREA_CORNER_WORDS, Display, Shape, number};
 use albacore_sim::Grid;
 
 /// Tells clauses of one scenario.
-pub(super) struct Teller<'a> {
+pub(super) struct ClauseFormatter<'a> {
     /// The words that their arguments point into.
     pub words: &'a [f64],
     /// Where the scenario lies on the globe, if it does.
     pub frame: Option<TangentFrame>,
 }
 
-impl Teller<'_> {
+impl ClauseFormatter<'_> {
     /// Adds a clause, and after it the clauses that are its values.
-    pub fn tell(&self, clause: &ScenarioClause, outer: &str, whence: Whence, told: &mut Vec<ShownClause>) {
+    pub fn tell(&self, clause: &ScenarioClause, outer: &str, whence: ValueSource, told: &mut Vec<ShownClause>) {
         let name = if outer.is_empty() { clause.name.clone() } else { format!("{outer} {}", clause.name) };
         let values = clause.args.iter().filter_map(|arg| {
             let text = self.value(&arg.value)?;
-            Some((arg.name.clone(), text, if arg.is_default { Whence::Default } else { whence }))
+            Some((arg.name.clone(), text, if arg.is_default { ValueSource::Default } else { whence }))
         });
         told.push(ShownClause { name: name.clone(), whence, values: values.collect() });
         for arg in &clause.args {
@@ -61,7 +61,7 @@ impl Teller<'_> {
     }
 
     /// What a survey came to be: where its corners lie, how large it is, and how deep.
-    pub fn survey(&self, grid: &Grid) -> Vec<(String, String, Whence)> {
+    pub fn survey(&self, grid: &Grid) -> Vec<(String, String, ValueSource)> {
         let Grid { south_west, north_east, rows, columns, depths } = grid;
         let size = *north_east - *south_west;
         let length = |m: f64| if m < 10_000.0 { format!("{m:.1} m") } else { format!("{:.1} km", m / 1000.0) };
@@ -77,7 +77,7 @@ impl Teller<'_> {
             ("cells", format!("{rows} x {columns}, each {} x {}", length(step), length(across))),
             ("depths", format!("{least:.1} m to {most:.1} m{on_land}")),
         ];
-        told.into_iter().map(|(name, value)| (name.to_string(), value, Whence::Said)).collect()
+        told.into_iter().map(|(name, value)| (name.to_string(), value, ValueSource::Said)).collect()
     }
 
     /// Each corner on a line.

@@ -1,6 +1,6 @@
 //! What was told against what was commanded: a vehicle that does not follow, or a sensor that does not tell that it does.
 
-use super::{Heard, Kind, Sight, Sights, Told};
+use super::{Anomalies, Anomaly, Credible, Heard, Kind};
 use albacore_geometry::Heading;
 use albacore_geometry::math::PI;
 use albacore_vehicle::{Command, Vertical};
@@ -109,7 +109,7 @@ struct Goal {
 }
 
 impl Commanded {
-    pub fn look(&mut self, heard: &Heard, command: Option<&Command>, speed: f64, sights: &mut Sights) {
+    pub fn look(&mut self, heard: &Heard, command: Option<&Command>, speed: f64, sights: &mut Anomalies) {
         if let Some(told) = heard.depth {
             self.depth.hear(heard.tick, told.reading[0]);
         }
@@ -126,7 +126,7 @@ impl Commanded {
     }
 
     /// Is it far off, and does not turn to where it should?
-    fn look_at_heading(&mut self, told: Told, command: &Command, speed: f64, sights: &mut Sights) {
+    fn look_at_heading(&mut self, told: Credible, command: &Command, speed: f64, sights: &mut Anomalies) {
         let heading = Heading::from_radians(told.reading[0]);
         let off = command.heading - heading;
         if off.abs() <= HEADING_MAX || speed.min(command.speed) <= SPEED_MIN {
@@ -140,18 +140,18 @@ impl Commanded {
         let (ticks, turned) = if turned > HEADING_TURNS { (0, 0.0) } else { (before.ticks + 1, turned) };
         self.astray = Some(Astray { heading, is_clockwise, ticks, turned });
         if ticks > HEADING_TICKS {
-            sights.see(Sight::HeadingNotAsCommanded);
+            sights.see(Anomaly::HeadingNotAsCommanded);
         }
         if ticks.min(told.same) > HEADING_SAME {
-            sights.see(Sight::Stuck(Kind::Heading));
+            sights.see(Anomaly::Stuck(Kind::Heading));
         }
     }
 
     /// Every 30 s: is it nearer?
-    fn look_at_goal(&mut self, heard: &Heard, vertical: Vertical, has_way: bool, sights: &mut Sights) {
-        let (told, wanted, sight) = match vertical {
-            Vertical::Depth(depth) => (heard.depth, depth, Sight::DepthNotAsCommanded),
-            Vertical::Altitude(altitude) => (heard.altitude, altitude, Sight::AltitudeNotAsCommanded),
+    fn look_at_goal(&mut self, heard: &Heard, vertical: Vertical, has_way: bool, sights: &mut Anomalies) {
+        let (told, wanted, anomaly) = match vertical {
+            Vertical::Depth(depth) => (heard.depth, depth, Anomaly::DepthNotAsCommanded),
+            Vertical::Altitude(altitude) => (heard.altitude, altitude, Anomaly::AltitudeNotAsCommanded),
         };
         let Some(told) = told else { return };
         // Where the water is too shallow for an altitude the vehicle swims at the surface; from there it has yet to set out.
@@ -173,12 +173,12 @@ impl Commanded {
             goal.farthest = goal.farthest.max(off);
         }
         if goal.missed {
-            sights.see(sight);
+            sights.see(anomaly);
             let is_depth = matches!(vertical, Vertical::Depth(_));
             // A hull without way may well stay where it is.
             let is_still = has_way && told.same > DEPTH_SAME && self.depth.last >= SURFACE;
             if is_depth && is_still && !self.is_level(heard.tick) {
-                sights.see(Sight::Stuck(Kind::Depth));
+                sights.see(Anomaly::Stuck(Kind::Depth));
             }
         }
     }
@@ -203,7 +203,7 @@ impl Commanded {
     }
 
     /// An altitude that stays the same while the depth changes, and is not what is held.
-    fn look_at_altitude(&mut self, told: Option<Told>, command: Option<&Command>, sights: &mut Sights) {
+    fn look_at_altitude(&mut self, told: Option<Credible>, command: Option<&Command>, sights: &mut Anomalies) {
         let Some(told) = told else { return };
         let is_held = match command.map(|command| command.vertical) {
             Some(Vertical::Depth(_)) => false,
@@ -216,7 +216,7 @@ impl Commanded {
         }
         let then = *self.depth_then.get_or_insert(self.depth);
         if told.same > ALTITUDE_SAME && self.depth.differs(then) {
-            sights.see(Sight::Stuck(Kind::Altitude));
+            sights.see(Anomaly::Stuck(Kind::Altitude));
         }
     }
 }

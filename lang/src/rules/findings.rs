@@ -9,12 +9,12 @@ const PLACES_MAX: usize = 4;
 
 /// What has been found, and the calls that lead to where the walk is.
 #[derive(Default)]
-pub(super) struct Told {
+pub(super) struct Findings {
     path: Vec<(String, Span)>,
     findings: Vec<Diagnostic>,
 }
 
-impl Told {
+impl Findings {
     /// Goes into what is called at a place, and comes back.
     pub fn called(&mut self, hir: &Hir, id: ActivityId, place: Span) {
         self.path.push((hir.activities[id].full_name.clone(), place));

@@ -4,7 +4,7 @@ use albacore_vehicle::{TICK_S, Vertical};
 
 /// What a healthy vehicle tells that swims a square at 2 m/s, 3 m deep, and what one of them makes of it.
 fn watched(ticks: u64, mut spoil: impl FnMut(u64, &mut Snapshot)) -> Vec<(u64, String)> {
-    let mut vigil = Vigil::default();
+    let mut health = HealthMonitor::default();
     let mut position = Point::ORIGIN;
     let mut told = Vec::new();
     for tick in 0..ticks {
@@ -25,7 +25,7 @@ fn watched(ticks: u64, mut spoil: impl FnMut(u64, &mut Snapshot)) -> Vec<(u64, S
         }
         spoil(tick, &mut snapshot);
         let command = Command { heading, speed: 2.0, vertical: Vertical::Depth(3.0) };
-        let sightings = vigil.look(tick, &snapshot, Some(&command));
+        let sightings = health.look(tick, &snapshot, Some(&command));
         told.extend(sightings.iter().map(|s| (tick, s.to_string())));
     }
     // A corner is turned at once here, which no vehicle does.
@@ -173,7 +173,7 @@ fn rounding_is_no_noise() {
 /// Over level ground an altitude may well rest, whatever its sounder told before.
 #[test]
 fn garbage_is_no_noise_by_which_a_rest_is_stuck() {
-    let mut vigil = Vigil::default();
+    let mut health = HealthMonitor::default();
     for tick in 0..1200_u64 {
         let garbage =
             ((tick + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(31).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 51)
@@ -185,8 +185,8 @@ fn garbage_is_no_noise_by_which_a_rest_is_stuck() {
         };
         let mut snapshot = Snapshot::default();
         snapshot.push(ALTITUDE, &[altitude]);
-        let sighted = vigil.look(tick, &snapshot, None);
-        assert!(sighted.iter().all(|told| told.sight != Sight::Stuck(Kind::Altitude)), "{tick}: {sighted:?}");
+        let sighted = health.look(tick, &snapshot, None);
+        assert!(sighted.iter().all(|told| told.anomaly != Anomaly::Stuck(Kind::Altitude)), "{tick}: {sighted:?}");
     }
 }
 
@@ -211,7 +211,7 @@ fn who_has_just_risen_is_not_rising() {
 
 /// What is told of a vehicle that is to turn right about after 10 s, and heads as a function of the tick and of its last heading.
 fn heads(mut heading: impl FnMut(u64, Heading) -> Heading) -> Vec<String> {
-    let (mut vigil, mut told, mut at) = (Vigil::default(), Vec::new(), Heading::from_degrees(0.0));
+    let (mut health, mut told, mut at) = (HealthMonitor::default(), Vec::new(), Heading::from_degrees(0.0));
     for tick in 0..1_500 {
         at = heading(tick, at);
         let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
@@ -220,7 +220,7 @@ fn heads(mut heading: impl FnMut(u64, Heading) -> Heading) -> Vec<String> {
         // No course is commanded to turn faster than 10 deg/s.
         let commanded = Heading::from_degrees((tick.saturating_sub(100) as f64).min(180.0));
         let command = Command { heading: commanded, speed: 2.0, vertical: Vertical::Depth(3.0) };
-        told.extend(vigil.look(tick, &snapshot, Some(&command)).iter().map(ToString::to_string));
+        told.extend(health.look(tick, &snapshot, Some(&command)).iter().map(ToString::to_string));
     }
     told
 }

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use watch::Watch;
 
 /// The files of a run.
-pub struct Kept {
+pub struct RunFolder {
     /// `None` if nothing is wanted.
     files: Option<(Folder, Record)>,
     failed: bool,
@@ -36,10 +36,10 @@ pub struct Left {
     pub picture: Option<PathBuf>,
 }
 
-impl Kept {
+impl RunFolder {
     /// No files.
     pub fn nothing() -> Self {
-        Kept { files: None, failed: false }
+        RunFolder { files: None, failed: false }
     }
 
     /// Makes the folder, or takes one that holds no run. Where that cannot be it is said, and nothing is begun: no vehicle has been
@@ -53,7 +53,7 @@ impl Kept {
         let text = record.json(usize::MAX).map_err(io::Error::from);
         let text = text.map_err(|error| refused(folder::unwritable(Path::new(folder::RECORD), &error)))?;
         let folder = Folder::claim(place, started, &text).map_err(refused)?;
-        Ok(Kept { files: Some((folder, record)), failed: false })
+        Ok(RunFolder { files: Some((folder, record)), failed: false })
     }
 
     /// The journal's file, empty. It is not buffered: what the program has written survives the program.

@@ -1,6 +1,6 @@
 //! Whether what the sensors tell can be true: a watch over all that comes from the vehicle.
 //!
-//! A [`Vigil`] looks at every snapshot and at what was commanded, knows nothing else, and says what it sees once when it begins
+//! A [`HealthMonitor`] looks at every snapshot and at what was commanded, knows nothing else, and says what it sees once when it begins
 //! and once when it is over. It changes nothing: what a mission does about a bad sensor is the mission's to say. In simulation
 //! and on a link it is the same. What it cannot see is told in `docs/faults.md`.
 
@@ -44,7 +44,7 @@ const WATCHED: [(u16, Kind); 8] = [
 
 /// Something that is not as it should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sight {
+pub enum Anomaly {
     /// No sample for five of its periods, and for 2 s.
     Silent(Kind),
     /// A number that is none.
@@ -71,44 +71,44 @@ pub enum Sight {
     AltitudeNotAsCommanded,
 }
 
-/// A sight that begins or is over.
+/// An anomaly that begins or is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sighting {
+pub struct AnomalyEvent {
     /// What.
-    pub sight: Sight,
+    pub anomaly: Anomaly,
     /// Whether it begins.
     pub begins: bool,
 }
 
-impl fmt::Display for Sight {
+impl fmt::Display for Anomaly {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Sight::Silent(kind) => write!(f, "{} silent", kind.name()),
-            Sight::NotANumber(kind) => write!(f, "{} not a number", kind.name()),
-            Sight::OutOfRange(kind) => write!(f, "{} out of range", kind.name()),
-            Sight::Jumps(kind) => write!(f, "{} jumps", kind.name()),
-            Sight::Stuck(kind) => write!(f, "{} stuck", kind.name()),
-            Sight::SpeedAgainstPosition => f.write_str("speed and position disagree"),
-            Sight::CourseAgainstPosition => f.write_str("course and position disagree"),
-            Sight::HeadingAgainstMotion => f.write_str("heading and motion disagree"),
-            Sight::DepthAgainstWater => f.write_str("depth and altitude disagree with the water's depth"),
-            Sight::HeadingNotAsCommanded => f.write_str("heading not as commanded"),
-            Sight::DepthNotAsCommanded => f.write_str("depth not as commanded"),
-            Sight::AltitudeNotAsCommanded => f.write_str("altitude not as commanded"),
+            Anomaly::Silent(kind) => write!(f, "{} silent", kind.name()),
+            Anomaly::NotANumber(kind) => write!(f, "{} not a number", kind.name()),
+            Anomaly::OutOfRange(kind) => write!(f, "{} out of range", kind.name()),
+            Anomaly::Jumps(kind) => write!(f, "{} jumps", kind.name()),
+            Anomaly::Stuck(kind) => write!(f, "{} stuck", kind.name()),
+            Anomaly::SpeedAgainstPosition => f.write_str("speed and position disagree"),
+            Anomaly::CourseAgainstPosition => f.write_str("course and position disagree"),
+            Anomaly::HeadingAgainstMotion => f.write_str("heading and motion disagree"),
+            Anomaly::DepthAgainstWater => f.write_str("depth and altitude disagree with the water's depth"),
+            Anomaly::HeadingNotAsCommanded => f.write_str("heading not as commanded"),
+            Anomaly::DepthNotAsCommanded => f.write_str("depth not as commanded"),
+            Anomaly::AltitudeNotAsCommanded => f.write_str("altitude not as commanded"),
         }
     }
 }
 
-impl fmt::Display for Sighting {
+impl fmt::Display for AnomalyEvent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = if self.begins { "detected" } else { "again well" };
-        write!(f, "{what}: {}", self.sight)
+        write!(f, "{what}: {}", self.anomaly)
     }
 }
 
 /// The watch of one run.
 #[derive(Clone, Debug)]
-pub struct Vigil {
+pub struct HealthMonitor {
     channels: [Channel; WATCHED.len()],
     mirrored: Mirrored,
     motion: Motion,
@@ -117,12 +117,12 @@ pub struct Vigil {
     vertical: Option<(Vertical, u64)>,
     /// For how many ticks depth and altitude have not added up.
     uneven: u64,
-    sights: Sights,
+    sights: Anomalies,
 }
 
 /// What was told by a channel in a tick, where it can be believed by itself.
 #[derive(Clone, Copy, Debug)]
-struct Told {
+struct Credible {
     reading: Reading,
     /// For how many ticks it has been exactly the same.
     same: u64,
@@ -134,41 +134,41 @@ struct Told {
 #[derive(Clone, Copy, Debug, Default)]
 struct Heard {
     tick: u64,
-    position: Option<Told>,
-    course: Option<Told>,
-    heading: Option<Told>,
-    speed: Option<Told>,
-    depth: Option<Told>,
-    altitude: Option<Told>,
-    flow: Option<Told>,
+    position: Option<Credible>,
+    course: Option<Credible>,
+    heading: Option<Credible>,
+    speed: Option<Credible>,
+    depth: Option<Credible>,
+    altitude: Option<Credible>,
+    flow: Option<Credible>,
 }
 
 /// What is seen, and since when not any more.
 #[derive(Clone, Debug, Default)]
-struct Sights {
+struct Anomalies {
     tick: u64,
     /// What is seen now, and the tick at which it was seen last.
-    seen: Vec<(Sight, u64)>,
-    told: Vec<Sighting>,
+    seen: Vec<(Anomaly, u64)>,
+    told: Vec<AnomalyEvent>,
 }
 
-impl Default for Vigil {
+impl Default for HealthMonitor {
     fn default() -> Self {
-        Vigil {
+        HealthMonitor {
             channels: WATCHED.map(|(_, kind)| Channel::new(kind)),
             mirrored: Mirrored::default(),
             motion: Motion::default(),
             commanded: Commanded::default(),
             vertical: None,
             uneven: 0,
-            sights: Sights::default(),
+            sights: Anomalies::default(),
         }
     }
 }
 
-impl Vigil {
+impl HealthMonitor {
     /// Looks at what came in a tick. `command` is the last that was sent.
-    pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<Sighting> {
+    pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<AnomalyEvent> {
         self.sights.tick = tick;
         let is_steered = self.is_steered(tick, command);
         let hides = |channel: &Channel| channel.is_of(Kind::Depth) && channel.rests(tick) > FOLLOWS_TICKS;
@@ -207,8 +207,8 @@ impl Vigil {
     }
 
     /// Whether something is seen now.
-    pub(crate) fn sees(&self, sight: Sight) -> bool {
-        self.sights.sees(sight)
+    pub(crate) fn sees(&self, anomaly: Anomaly) -> bool {
+        self.sights.sees(anomaly)
     }
 
     /// Whether the vehicle is led up or down by commands that change, by limits that follow the altitude, say: its way shows in the
@@ -228,13 +228,13 @@ impl Vigil {
         let even = (depth.reading[0] + altitude.reading[0] - water).abs() <= SUM_MAX;
         self.uneven = if even { 0 } else { self.uneven + 1 };
         if self.uneven > UNEVEN_TICKS {
-            self.sights.see(Sight::DepthAgainstWater);
+            self.sights.see(Anomaly::DepthAgainstWater);
         }
     }
 }
 
 impl Heard {
-    fn take(&mut self, channel: u16, told: Option<Told>) {
+    fn take(&mut self, channel: u16, told: Option<Credible>) {
         let place = match channel {
             POSITION => &mut self.position,
             COURSE => &mut self.course,
@@ -249,33 +249,33 @@ impl Heard {
     }
 }
 
-impl Sights {
-    fn see(&mut self, sight: Sight) {
-        match self.seen.iter_mut().find(|(known, _)| *known == sight) {
+impl Anomalies {
+    fn see(&mut self, anomaly: Anomaly) {
+        match self.seen.iter_mut().find(|(known, _)| *known == anomaly) {
             Some((_, last)) => *last = self.tick,
             None => {
-                self.seen.push((sight, self.tick));
-                self.told.push(Sighting { sight, begins: true });
+                self.seen.push((anomaly, self.tick));
+                self.told.push(AnomalyEvent { anomaly, begins: true });
             }
         }
     }
 
-    fn sees(&self, sight: Sight) -> bool {
-        self.last_seen(sight).is_some()
+    fn sees(&self, anomaly: Anomaly) -> bool {
+        self.last_seen(anomaly).is_some()
     }
 
     /// When it was seen last, if that is not over yet.
-    fn last_seen(&self, sight: Sight) -> Option<u64> {
-        self.seen.iter().find(|(known, _)| *known == sight).map(|(_, last)| *last)
+    fn last_seen(&self, anomaly: Anomaly) -> Option<u64> {
+        self.seen.iter().find(|(known, _)| *known == anomaly).map(|(_, last)| *last)
     }
 
     /// What has begun, and what is over.
-    fn settle(&mut self) -> Vec<Sighting> {
+    fn settle(&mut self) -> Vec<AnomalyEvent> {
         let (tick, told) = (self.tick, &mut self.told);
-        self.seen.retain(|(sight, last)| {
+        self.seen.retain(|(anomaly, last)| {
             let stays = tick < last + WELL_AFTER_TICKS;
             if !stays {
-                told.push(Sighting { sight: *sight, begins: false });
+                told.push(AnomalyEvent { anomaly: *anomaly, begins: false });
             }
             stays
         });

@@ -1,6 +1,6 @@
 //! The channels of motion against one another: positions against course and speed, heading against the way through the water.
 
-use super::{Heard, Kind, Sight, Sights};
+use super::{Anomalies, Anomaly, Heard, Kind};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::TICK_S;
@@ -57,14 +57,14 @@ impl Motion {
         self.speed
     }
 
-    pub fn look(&mut self, heard: &Heard, sights: &mut Sights) {
-        let number = |told: Option<super::Told>, before: f64| told.map_or(before, |t| t.reading[0]);
+    pub fn look(&mut self, heard: &Heard, sights: &mut Anomalies) {
+        let number = |told: Option<super::Credible>, before: f64| told.map_or(before, |t| t.reading[0]);
         self.speed = number(heard.speed, self.speed);
         self.depth = number(heard.depth, self.depth);
         self.altitude = number(heard.altitude, self.altitude);
         self.look_at_flow(heard, sights);
         if heard.position.is_some_and(|p| p.same >= POSITION_SAME && self.speed > SPEED_MIN) {
-            sights.see(Sight::Stuck(Kind::Position));
+            sights.see(Anomaly::Stuck(Kind::Position));
         }
         let velocity = heard.course.zip(heard.speed);
         let velocity = velocity.map(|(course, speed)| (Heading::from_radians(course.reading[0]), speed.reading[0]));
@@ -73,13 +73,13 @@ impl Motion {
         self.compare_with_heading(heard, speed * course.unit(), sights);
     }
 
-    fn compare_with_positions(&mut self, heard: &Heard, velocity: Option<(Heading, f64)>, sights: &mut Sights) {
+    fn compare_with_positions(&mut self, heard: &Heard, velocity: Option<(Heading, f64)>, sights: &mut Anomalies) {
         let Some(told) = heard.position else { return };
         let here = Point::new(told.reading[0], told.reading[1]);
         let before = self.position.replace((heard.tick, here));
         let (Some((tick, there)), Some((course, speed))) = (before, velocity) else { return };
         let ticks = heard.tick.saturating_sub(tick);
-        if ticks == 0 || ticks > GAP_MAX || sights.sees(Sight::Stuck(Kind::Position)) {
+        if ticks == 0 || ticks > GAP_MAX || sights.sees(Anomaly::Stuck(Kind::Position)) {
             return;
         }
         let time = ticks as f64 * TICK_S;
@@ -94,14 +94,14 @@ impl Motion {
         self.way += (time * speed).max((here - there).length());
         let most = SHARE_MAX * self.way + DIFFERENCE_MAX;
         if self.way > WAY_MIN && self.along.abs() > most {
-            sights.see(Sight::SpeedAgainstPosition);
+            sights.see(Anomaly::SpeedAgainstPosition);
         }
         if self.way > WAY_MIN && self.right.abs() > most {
-            sights.see(Sight::CourseAgainstPosition);
+            sights.see(Anomaly::CourseAgainstPosition);
         }
     }
 
-    fn compare_with_heading(&mut self, heard: &Heard, over_ground: Vector, sights: &mut Sights) {
+    fn compare_with_heading(&mut self, heard: &Heard, over_ground: Vector, sights: &mut Anomalies) {
         let (Some((tick, flow)), Some(heading)) = (self.flow, heard.heading) else { return };
         let through_water = over_ground - flow;
         if heard.tick > tick + FLOW_TICKS || through_water.length() < SPEED_MIN {
@@ -111,17 +111,17 @@ impl Motion {
         let drift = through_water.toward() - Heading::from_radians(heading.reading[0]);
         self.drifts = if drift.abs() > DRIFT_MAX { self.drifts + 1 } else { 0 };
         if self.drifts > DRIFT_TICKS {
-            sights.see(Sight::HeadingAgainstMotion);
+            sights.see(Anomaly::HeadingAgainstMotion);
         }
     }
 
-    fn look_at_flow(&mut self, heard: &Heard, sights: &mut Sights) {
+    fn look_at_flow(&mut self, heard: &Heard, sights: &mut Anomalies) {
         let measures = self.speed > PROFILER_SPEED && self.depth > PROFILER_DEPTH && self.altitude > PROFILER_ALTITUDE;
         self.measures = if measures { self.measures + 1 } else { 0 };
         let Some(told) = heard.flow else { return };
         self.flow = Some((heard.tick, Vector::new(told.reading[0], told.reading[1])));
         if told.lively && told.same.min(self.measures) > FLOW_SAME {
-            sights.see(Sight::Stuck(Kind::Flow));
+            sights.see(Anomaly::Stuck(Kind::Flow));
         }
     }
 }

@@ -5,51 +5,51 @@ use albacore_sim::Simulator;
 use albacore_vehicle::{Channel, Truth, Vehicle};
 
 /// A vehicle and what is known of it besides.
-pub(crate) enum Craft {
+pub(crate) enum RunVehicle {
     /// In a simulated world.
     Simulated(Box<Simulator>),
     /// At the end of a link.
     Linked(Box<dyn Vehicle + Send>),
 }
 
-impl Craft {
+impl RunVehicle {
     /// The vehicle as a mission sees it.
     pub fn port(&mut self) -> &mut dyn Vehicle {
         match self {
-            Craft::Simulated(simulator) => simulator.as_mut(),
-            Craft::Linked(vehicle) => vehicle.as_mut(),
+            RunVehicle::Simulated(simulator) => simulator.as_mut(),
+            RunVehicle::Linked(vehicle) => vehicle.as_mut(),
         }
     }
 
     /// What it measures.
     pub fn channels(&self) -> &[Channel] {
         match self {
-            Craft::Simulated(simulator) => simulator.channels(),
-            Craft::Linked(vehicle) => vehicle.channels(),
+            RunVehicle::Simulated(simulator) => simulator.channels(),
+            RunVehicle::Linked(vehicle) => vehicle.channels(),
         }
     }
 
     /// What is so, whatever the sensors say: known in simulation only.
     pub fn truth(&self) -> Option<Truth> {
         match self {
-            Craft::Simulated(simulator) => Some(simulator.truth()),
-            Craft::Linked(_) => None,
+            RunVehicle::Simulated(simulator) => Some(simulator.truth()),
+            RunVehicle::Linked(_) => None,
         }
     }
 
     /// How deep the water is at a point, m: known in simulation only.
     pub fn water_depth(&self, at: Point) -> Option<f64> {
         match self {
-            Craft::Simulated(simulator) => Some(simulator.water_depth(at)),
-            Craft::Linked(_) => None,
+            RunVehicle::Simulated(simulator) => Some(simulator.water_depth(at)),
+            RunVehicle::Linked(_) => None,
         }
     }
 
     /// The plume's filaments, for the picture.
     pub fn filaments(&self) -> Vec<(Point, f64)> {
         match self {
-            Craft::Simulated(simulator) => simulator.filaments().collect(),
-            Craft::Linked(_) => Vec::new(),
+            RunVehicle::Simulated(simulator) => simulator.filaments().collect(),
+            RunVehicle::Linked(_) => Vec::new(),
         }
     }
 }

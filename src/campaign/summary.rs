@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The summary, as `--json` prints it. Where nothing was reported there are no quantiles; without a source, no errors.
 #[derive(Serialize)]
-pub struct Told<'a> {
+pub struct CampaignSummary<'a> {
     mission: &'a str,
     scenario: &'a str,
     seeds: [u64; 2],
@@ -27,10 +27,10 @@ pub struct Told<'a> {
     quantile: &'static str,
 }
 
-impl<'a> Told<'a> {
+impl<'a> CampaignSummary<'a> {
     /// The summary of a table.
     pub fn new(plan: &'a Plan, seeds: Seeds, table: &Path, tally: &'a Tally) -> Self {
-        Told {
+        CampaignSummary {
             mission: &plan.program.mission.name,
             scenario: &plan.scenario_name,
             seeds: [seeds.first, seeds.last],

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 const NAME: &str = "still_water";
 
 /// What every world has.
-pub(crate) struct Unsaid {
+pub(crate) struct Defaults {
     said: Option<ScenarioProgram>,
     /// The words that its arguments point into.
     pub words: Vec<f64>,
@@ -21,7 +21,7 @@ pub(crate) struct Unsaid {
 }
 
 /// It is the same in every run, and read once.
-pub(crate) static UNSAID: LazyLock<Unsaid> = LazyLock::new(|| {
+pub(crate) static DEFAULTS: LazyLock<Defaults> = LazyLock::new(|| {
     let said = load_library(NAME, &[]).scenario(NAME, None).and_then(Result::ok);
     let words = said.as_ref().map_or_else(Vec::new, words);
     let mut understood = Understood { world: Scenario::default(), dialect: None, files: Vec::new() };
@@ -30,10 +30,10 @@ pub(crate) static UNSAID: LazyLock<Unsaid> = LazyLock::new(|| {
         let read = read(&mut understood, Clause { clause, words: &words }, &files, None);
         debug_assert!(read.is_ok(), "the standard library's own `{}`", clause.name);
     }
-    Unsaid { said, words, world: understood.world }
+    Defaults { said, words, world: understood.world }
 });
 
-impl Unsaid {
+impl Defaults {
     /// A clause of it, if to say it so would change nothing of a world: then it is in force there.
     pub fn in_force(&self, name: &str, world: &Scenario) -> Option<&ScenarioClause> {
         let clause = self.said.as_ref()?.clauses.iter().find(|clause| clause.name == name)?;
@@ -50,7 +50,7 @@ mod tests {
     /// What the simulator's own tests begin from is what scripts begin from.
     #[test]
     fn what_nobody_says_is_the_simulators_own_default() {
-        assert!(UNSAID.said.is_some());
-        assert_eq!(UNSAID.world, Scenario::default());
+        assert!(DEFAULTS.said.is_some());
+        assert_eq!(DEFAULTS.world, Scenario::default());
     }
 }
