@@ -17,6 +17,7 @@ mod imports;
 mod lag;
 mod mixups;
 mod new;
+mod pages;
 mod reference;
 mod repl;
 mod resilience;
