@@ -13,21 +13,28 @@ const SILENT_TICKS: u64 = 20;
 /// Changes from which it is learnt whether a channel is noisy: so many at least, and the latest of these.
 const NOISE_CHANGES_MIN: u64 = 100;
 const NOISE_CHANGES: u64 = 300;
-/// A channel is noisy where neighbouring differences correlate by less than this: of white noise it is -1/2, of a random walk 0, of
-/// a smooth motion 1. What they are on the mean of so many, and as that changes, counts as no difference: a dive hides no noise, nor
-/// does its beginning or its end.
-const NOISE_CORRELATION: f64 = -0.25;
-const NOISE_DRIFT_CHANGES: u64 = 20;
-/// ... and where so many of them are of another sign than the one before, of 2/3 in white noise: that one has zigzagged once is no noise.
-const NOISE_ALTERNATES: f64 = 0.5;
+/// As many come before the first difference of the third order.
+const DIFFERENCES: u64 = 3;
+/// Of a channel that comes so seldom, in ticks, fewer changes have to do: 100 would be minutes in which nothing can be said of it.
+const SELDOM_TICKS: u64 = 10;
+const NOISE_CHANGES_MIN_SELDOM: u64 = 30;
+/// A channel is noisy where its third differences correlate with their neighbours by less than this: in white noise by -3/4, in a
+/// motion that is smooth from sample to sample by 1. Of such a motion third differences leave little beside a noise.
+const NOISE_CORRELATION: f64 = -0.35;
+/// The variance of the third differences of what goes to and fro between two values, as a multiple of the square of its step.
+const FLICKER_GAIN: f64 = 16.0;
+/// ... and where so many of them are of another sign than the one before, of 3/4 in white noise: that one has zigzagged once is no noise.
+const NOISE_ALTERNATES: f64 = 0.6;
 /// ... and where they are larger than the rounding of the last bits, in SI units, and than the smallest of them, which may be the step
 /// in which a link tells numbers: a value between two steps flickers like noise and then rests for minutes.
 const NOISE_MIN: f64 = 1e-4;
 const NOISE_STEPS: f64 = 1.2;
 /// ... and where it has never rested for more samples than this: a link may repeat what a slow sensor told.
 const NOISE_REST_MAX: u64 = 12;
-/// A noisy value stands still when so many samples are the same. At an end of its scale a sensor may well rest for a while.
-const STUCK_SAMPLES: u64 = 50;
+/// A noisy value stands still when it is the same for so many ticks, and in more samples than so many times what it has ever rested for. At
+/// an end of its scale a sensor may well rest for a while.
+const STUCK_TICKS: u64 = 50;
+const STUCK_RESTS: u64 = 3;
 const STUCK_AT_END_SAMPLES: u64 = 200;
 /// A mean changes with every sample, but for so many that may be refused in a row.
 const MEAN_SAMPLES: u64 = 60;
@@ -140,11 +147,8 @@ pub(super) struct Channel {
     changes: u64,
     /// The smallest of these changes.
     step: f64,
-    /// The mean of the latest differences of neighbours, and by how much it changes from one to the next.
-    drift: f64,
-    trend: f64,
-    /// How far from that the last one was; means of the squares of that, and of the products of neighbours.
-    difference: f64,
+    /// The latest differences of the first to the third order; means of the squares of the third, and of the products of neighbours.
+    differences: [f64; 3],
     variance: f64,
     covariance: f64,
     /// The share of those that are of another sign than the one before, and larger than rounding.
@@ -168,9 +172,7 @@ impl Channel {
             same_most: 0,
             changes: 0,
             step: f64::INFINITY,
-            drift: 0.0,
-            trend: 0.0,
-            difference: 0.0,
+            differences: [0.0; 3],
             variance: 0.0,
             covariance: 0.0,
             alternates: 0.0,
@@ -268,19 +270,18 @@ impl Channel {
     fn learn(&mut self, difference: f64) {
         self.changes += 1;
         self.step = if difference == 0.0 { self.step } else { self.step.min(difference.abs()) };
-        let share = |most: u64| 1.0 / self.changes.min(most) as f64;
-        let off = difference - (self.drift + self.trend);
-        let drift = share(NOISE_DRIFT_CHANGES);
-        self.drift += self.trend + drift * (2.0 - drift) * off;
-        if self.changes > NOISE_DRIFT_CHANGES {
-            self.trend += drift * drift * off;
+        let [first, second, third] = self.differences;
+        let (second, before) = (difference - first, (second, third));
+        self.differences = [difference, second, second - before.0];
+        if self.changes <= DIFFERENCES {
+            return;
         }
-        let (difference, share) = (off, share(NOISE_CHANGES));
-        self.variance += share * (difference * difference - self.variance);
-        let product = difference * self.difference;
+        let [.., third] = self.differences;
+        let share = 1.0 / (self.changes - DIFFERENCES).min(NOISE_CHANGES) as f64;
+        self.variance += share * (third * third - self.variance);
+        let product = third * before.1;
         self.covariance += share * (product - self.covariance);
         self.alternates += share * (f64::from(product < -NOISE_MIN * NOISE_MIN) - self.alternates);
-        self.difference = difference;
     }
 
     /// Whether the channel has shown that it never stays the same for long.
@@ -292,10 +293,10 @@ impl Channel {
             _ => {
                 let least = NOISE_MIN.max(NOISE_STEPS * self.step);
                 !self.moves
-                    && self.changes >= NOISE_CHANGES_MIN
+                    && self.changes >= if self.is_seldom() { NOISE_CHANGES_MIN_SELDOM } else { NOISE_CHANGES_MIN }
                     && self.covariance < NOISE_CORRELATION * self.variance
                     && self.alternates > NOISE_ALTERNATES
-                    && self.variance > least * least
+                    && self.variance > FLICKER_GAIN * least * least
                     && self.same_most <= NOISE_REST_MAX
             }
         }
@@ -306,7 +307,16 @@ impl Channel {
             // At full scale it may rest as long as the water is full of it.
             Kind::Chemical if value >= 1.0 => u64::MAX,
             Kind::Chemical | Kind::Altitude | Kind::Depth if value <= 0.0 => STUCK_AT_END_SAMPLES,
-            _ => STUCK_SAMPLES,
+            _ => (STUCK_TICKS / self.period_ticks()).max(STUCK_RESTS * (self.same_most + 1) + 1),
         }
+    }
+
+    /// Ticks between samples; 1 until it is learnt.
+    fn period_ticks(&self) -> u64 {
+        self.period.unwrap_or(1).max(1)
+    }
+
+    fn is_seldom(&self) -> bool {
+        self.period_ticks() >= SELDOM_TICKS
     }
 }

@@ -142,6 +142,23 @@ fn a_zigzag_of_the_vehicle_is_no_noise_of_its_gauge() {
     assert_eq!(told, [(3049, "detected: depth stuck".to_string())]);
 }
 
+/// A sounder of 1 Hz above a bottom that goes up and down by more than its noise.
+#[test]
+fn a_noise_is_known_beside_a_motion_and_of_what_comes_seldom() {
+    let mut last = 0.0;
+    let told = watched(1000, |tick, snapshot| {
+        let bottom = albacore_geometry::math::sin(tick as f64 / 100.0);
+        last = if tick < 500 { 8.0 + bottom + (tick * 7_919 % 97) as f64 / 1000.0 } else { last };
+        snapshot.samples.retain_mut(|sample| {
+            if sample.channel == ALTITUDE {
+                sample.reading[0] = last;
+            }
+            sample.channel != WATER_DEPTH && (sample.channel != ALTITUDE || tick % 10 == 0)
+        });
+    });
+    assert_eq!(told, [(550, "detected: altitude stuck".to_string())]);
+}
+
 /// A value that a link tells in steps: it flickers between two of them for minutes, and then rests.
 #[test]
 fn a_flicker_between_two_steps_is_no_noise() {

@@ -11,7 +11,7 @@ use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError, Vertic
 use std::path::Path;
 
 /// Missions by their file, their name, and the scenario where it is not their own.
-const MISSIONS: [(&str, &str, Option<&str>); 19] = [
+const MISSIONS: [(&str, &str, Option<&str>); 21] = [
     ("missions/box.alb", "box", None),
     ("missions/deepest_point.alb", "deepest_point", None),
     ("missions/duck_single.alb", "duck_single", None),
@@ -26,6 +26,8 @@ const MISSIONS: [(&str, &str, Option<&str>); 19] = [
     ("tests/watch/yoyo.alb", "overlaid", Some("bay_fossen")),
     ("tests/watch/yoyo.alb", "overlaid", Some("bay_prestero")),
     ("tests/watch/yoyo.alb", "surfacing", None),
+    ("tests/watch/late_depth.alb", "late_depth", None),
+    ("tests/watch/late_depth.alb", "late_depth", Some("noisy")),
     ("tests/watch/still.alb", "still", None),
     ("tests/watch/turns.alb", "turns", None),
     ("tests/watch/turns.alb", "turns", Some("bay_fossen")),
