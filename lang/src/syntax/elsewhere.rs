@@ -95,12 +95,15 @@ fn block(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let head = before.rsplit('}').next().unwrap_or(before);
     let first = word(head.trim_start());
     if first == "with" && rest.starts_with('{') {
+        let kept = head.trim().trim_start_matches("with").trim();
+        // An overlay follows no statement.
+        let instead = match kept.contains('(') {
+            true => "give what it is for a `behavior` of its own".to_string(),
+            false => format!("for one statement write `steer north for 1 min at {kept}`"),
+        };
         return Some(Habit {
             message: Some("`with` has no block of its own".to_string()),
-            help: format!(
-                "it holds to the end of the block that it stands in; for one statement write `steer north for 1 min at {}`",
-                head.trim().trim_start_matches("with").trim()
-            ),
+            help: format!("it holds to the end of the block that it stands in; {instead}"),
         });
     }
     if !BEFORE_BLOCK.contains(&first) || matches!(first, "requires" | "limits") && before.contains('{') {

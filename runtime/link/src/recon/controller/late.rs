@@ -30,7 +30,7 @@ impl Late {
     pub fn told(self) -> Option<String> {
         let seconds = self.ticks as f64 * TICK_S;
         (self.ticks >= TICKS_TOLD)
-            .then(|| format!("we were {seconds:.1} s late: the commands of that time were left out, up to the newest"))
+            .then(|| format!("this computer or the link was {seconds:.1} s late: the commands of that time were left out, up to the newest"))
     }
 
     /// What there is to tell of them when the vehicle has left us meanwhile.
