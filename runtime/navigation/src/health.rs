@@ -8,6 +8,7 @@ mod channel;
 mod commanded;
 mod mirrored;
 mod motion;
+mod noise;
 
 use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH};
 use albacore_vehicle::{Command, Control, Reading, Snapshot, Vertical};

@@ -1,5 +1,6 @@
 //! One channel by itself: silence, numbers that are none or cannot be, jumps, and a noisy value that stands still.
 
+use super::noise::Noise;
 use super::{Anomalies, Anomaly, Credible};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
@@ -10,26 +11,7 @@ const PERIOD_SAMPLES: u64 = 10;
 /// Silence is so many periods long, and at least so many ticks: 2 s.
 const SILENT_PERIODS: u64 = 5;
 const SILENT_TICKS: u64 = 20;
-/// Changes from which it is learnt whether a channel is noisy: so many at least, and the latest of these.
-const NOISE_CHANGES_MIN: u64 = 100;
-const NOISE_CHANGES: u64 = 300;
-/// As many come before the first difference of the third order.
-const DIFFERENCES: u64 = 3;
-/// Of a channel that comes so seldom, in ticks, fewer changes have to do: 100 would be minutes in which nothing can be said of it.
-const SELDOM_TICKS: u64 = 10;
-const NOISE_CHANGES_MIN_SELDOM: u64 = 30;
-/// A channel is noisy where its third differences correlate with their neighbours by less than this: in white noise by -3/4, in a
-/// motion that is smooth from sample to sample by 1. Of such a motion third differences leave little beside a noise.
-const NOISE_CORRELATION: f64 = -0.35;
-/// The variance of the third differences of what goes to and fro between two values, as a multiple of the square of its step.
-const FLICKER_GAIN: f64 = 16.0;
-/// ... and where so many of them are of another sign than the one before, of 3/4 in white noise: that one has zigzagged once is no noise.
-const NOISE_ALTERNATES: f64 = 0.6;
-/// ... and where they are larger than the rounding of the last bits, in SI units, and than the smallest of them, which may be the step
-/// in which a link tells numbers: a value between two steps flickers like noise and then rests for minutes.
-const NOISE_MIN: f64 = 1e-4;
-const NOISE_STEPS: f64 = 1.2;
-/// ... and where it has never rested for more samples than this: a link may repeat what a slow sensor told.
+/// A channel is noisy where it has never rested for more samples than this: a link may repeat what a slow sensor told.
 const NOISE_REST_MAX: u64 = 12;
 /// A noisy value stands still when it is the same for so many ticks, and in more samples than so many times what it has ever rested for. At
 /// an end of its scale a sensor may well rest for a while.
@@ -143,16 +125,7 @@ pub(super) struct Channel {
     /// So many samples are the same as that, and so many were at most.
     same: u64,
     same_most: u64,
-    /// So many samples were another than the one before.
-    changes: u64,
-    /// The smallest of these changes.
-    step: f64,
-    /// The latest differences of the first to the third order; means of the squares of the third, and of the products of neighbours.
-    differences: [f64; 3],
-    variance: f64,
-    covariance: f64,
-    /// The share of those that are of another sign than the one before, and larger than rounding.
-    alternates: f64,
+    noise: Noise,
     /// What changes is the vehicle, not the noise of its sensor.
     moves: bool,
     /// What changes may be the noise of its sensor.
@@ -170,12 +143,7 @@ impl Channel {
             reading: None,
             same: 0,
             same_most: 0,
-            changes: 0,
-            step: f64::INFINITY,
-            differences: [0.0; 3],
-            variance: 0.0,
-            covariance: 0.0,
-            alternates: 0.0,
+            noise: Noise::default(),
             moves: false,
             learns: true,
         }
@@ -217,7 +185,7 @@ impl Channel {
             if !sights.sees(Anomaly::Stuck(self.kind)) {
                 self.same_most = self.same_most.max(self.same);
                 if follows && self.learns {
-                    self.learn(reading[0] - before[0]);
+                    self.noise.learn(reading[0] - before[0]);
                 }
             }
             self.same = 0;
@@ -267,38 +235,13 @@ impl Channel {
         }
     }
 
-    fn learn(&mut self, difference: f64) {
-        self.changes += 1;
-        self.step = if difference == 0.0 { self.step } else { self.step.min(difference.abs()) };
-        let [first, second, third] = self.differences;
-        let (second, before) = (difference - first, (second, third));
-        self.differences = [difference, second, second - before.0];
-        if self.changes <= DIFFERENCES {
-            return;
-        }
-        let [.., third] = self.differences;
-        let share = 1.0 / (self.changes - DIFFERENCES).min(NOISE_CHANGES) as f64;
-        self.variance += share * (third * third - self.variance);
-        let product = third * before.1;
-        self.covariance += share * (product - self.covariance);
-        self.alternates += share * (f64::from(product < -NOISE_MIN * NOISE_MIN) - self.alternates);
-    }
-
     /// Whether the channel has shown that it never stays the same for long.
     fn is_lively(&self) -> bool {
         match self.kind {
             // Whether it stands still under way is asked elsewhere; at rest it may.
             Kind::Position => false,
             Kind::Flow => self.samples >= MEAN_SAMPLES && self.same_most <= MEAN_SAME_MAX,
-            _ => {
-                let least = NOISE_MIN.max(NOISE_STEPS * self.step);
-                !self.moves
-                    && self.changes >= if self.is_seldom() { NOISE_CHANGES_MIN_SELDOM } else { NOISE_CHANGES_MIN }
-                    && self.covariance < NOISE_CORRELATION * self.variance
-                    && self.alternates > NOISE_ALTERNATES
-                    && self.variance > FLICKER_GAIN * least * least
-                    && self.same_most <= NOISE_REST_MAX
-            }
+            _ => !self.moves && self.same_most <= NOISE_REST_MAX && self.noise.is_shown(self.period_ticks()),
         }
     }
 
@@ -314,9 +257,5 @@ impl Channel {
     /// Ticks between samples; 1 until it is learnt.
     fn period_ticks(&self) -> u64 {
         self.period.unwrap_or(1).max(1)
-    }
-
-    fn is_seldom(&self) -> bool {
-        self.period_ticks() >= SELDOM_TICKS
     }
 }

@@ -159,6 +159,24 @@ fn a_noise_is_known_beside_a_motion_and_of_what_comes_seldom() {
     assert_eq!(told, [(550, "detected: altitude stuck".to_string())]);
 }
 
+/// A vehicle that wobbles, by no more than it may: where it rests at that, its sounder, which has no noise, does too.
+#[test]
+fn a_wobble_that_rests_is_no_fault() {
+    let mut off: f64 = 0.0;
+    let told = watched(20_000, |tick, snapshot| {
+        let mut drawn = (tick + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        drawn = (drawn ^ (drawn >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let step = (((drawn ^ (drawn >> 27)) >> 40) as f64 / (1 << 24) as f64 - 0.5) / 10.0;
+        off = if tick % 400 < 340 { (off + step).clamp(-0.7, 0.7) } else { off };
+        for sample in &mut snapshot.samples {
+            if [ALTITUDE, WATER_DEPTH].contains(&sample.channel) {
+                sample.reading[0] = if sample.channel == ALTITUDE { 5.0 } else { 8.0 } + off;
+            }
+        }
+    });
+    assert_eq!(told, []);
+}
+
 /// A value that a link tells in steps: it flickers between two of them for minutes, and then rests.
 #[test]
 fn a_flicker_between_two_steps_is_no_noise() {
