@@ -6,7 +6,7 @@ use crate::exit::Exit;
 use crate::plan::{Faults, refused, scenario_script, sound};
 use crate::speaker::{Speaker, no_thread};
 use crate::{interruption, message};
-use albacore_session::{Dialect, FarEnd, Faulty, LinkError, LinkFault, Rows, Transport, World, WrittenUrl};
+use albacore_session::{Dialect, FarEnd, Faulty, LinkError, LinkFault, Rows, ServedVehicle, Transport, WrittenUrl};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -91,9 +91,9 @@ impl Vehicle {
     fn far_end(&self) -> Result<(FarEnd, Option<Dialect>), Exit> {
         let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
         let refused = |error| refused(&error);
-        let world = World::new(&script, file, name).map_err(refused)?;
-        let world = world.with_faults(&self.faults.read()?).map_err(refused)?;
-        Ok((world.far_end(self.seed, self.rows).map_err(refused)?, world.dialect))
+        let vehicle = ServedVehicle::new(&script, file, name).map_err(refused)?;
+        let vehicle = vehicle.with_faults(&self.faults.read()?).map_err(refused)?;
+        Ok((vehicle.far_end(self.seed, self.rows).map_err(refused)?, vehicle.dialect))
     }
 
     /// What goes wrong on the link.

@@ -7,7 +7,7 @@
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark that cannot run or print has failed")]
 #![expect(clippy::disallowed_methods, reason = "it measures the wall's time")]
 
-use albacore_session::{FarEnd, Transport, Url, World, load, serve};
+use albacore_session::{FarEnd, ServedVehicle, Transport, Url, load, serve};
 use nix::fcntl::OFlag;
 use nix::pty::{PtyMaster, grantpt, posix_openpt, ptsname_r, unlockpt};
 use nix::sys::ptrace;
@@ -82,7 +82,7 @@ fn told(what: &str, answers: &[Option<Duration>]) {
 /// The far end, and where the other finds it.
 fn far_end() -> (FarEnd, Box<dyn Transport + Send>, String) {
     let script = load(Path::new(SCRIPT), None, &[]).unwrap();
-    let far_end = World::new(&script, SCRIPT, None).unwrap().far_end(1, None).unwrap();
+    let far_end = ServedVehicle::new(&script, SCRIPT, None).unwrap().far_end(1, None).unwrap();
     let (transport, at) = serve(&Url::parse("pty:?dialect=recon").unwrap()).unwrap();
     (far_end, transport, at)
 }

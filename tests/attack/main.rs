@@ -27,7 +27,7 @@ mod weather;
 
 use albacore_link::Url;
 use albacore_link::recon::ReconVehicle;
-use albacore_session::{Outcome, Plan, Run, Running, World, load};
+use albacore_session::{Outcome, Plan, Run, Running, ServedVehicle, load};
 use desk::{Desk, Line};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -66,8 +66,8 @@ fn attack(seed: u64) -> Attacked {
     let script = load(ATTACK.as_ref(), mission, &[]).unwrap();
     let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
     let plan = Plan::on_link(&script, ATTACK, mission, &url.to_string()).unwrap();
-    let world = World::new(&script, ATTACK, Some("bay")).unwrap();
-    let desk = Arc::new(Mutex::new(Desk::new(world.far_end(seed, None).unwrap())));
+    let vehicle = ServedVehicle::new(&script, ATTACK, Some("bay")).unwrap();
+    let desk = Arc::new(Mutex::new(Desk::new(vehicle.far_end(seed, None).unwrap())));
     let line = Line::new(&desk, weather.faults.clone(), seed);
     let clock = Arc::clone(&desk);
     let clock = Box::new(move || clock.lock().unwrap().now());

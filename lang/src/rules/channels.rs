@@ -39,15 +39,15 @@ struct Walk<'a> {
     seen: BTreeSet<Way>,
     /// What is known of the parameters of the activity that is walked, from the call that leads to it.
     given: Vec<Interval>,
-    told: Findings,
+    findings: Findings,
 }
 
 /// Walks all ways from a mission to its statements.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let limits = limits::of(hir, mission);
-    let mut walk = Walk { hir, limits, seen: BTreeSet::new(), given: Vec::new(), told: Findings::default() };
+    let mut walk = Walk { hir, limits, seen: BTreeSet::new(), given: Vec::new(), findings: Findings::default() };
     walk.activity(mission, Owners { vertical: Owner::Nobody, speed: Owner::Nobody });
-    walk.told.findings()
+    walk.findings.into_vec()
 }
 
 impl Walk<'_> {
@@ -87,9 +87,9 @@ impl Walk<'_> {
                     if let Kind::Sets(channel) = self.hir.activities[*id].kind {
                         self.own(&mut owners, channel, Owner::Overlay(*place), *place);
                     }
-                    self.told.called(self.hir, *id, *place);
+                    self.findings.called(self.hir, *id, *place);
                     self.called(args, |walk| walk.overlay(*id));
-                    self.told.back();
+                    self.findings.back();
                 }
             }
         }
@@ -110,7 +110,7 @@ impl Walk<'_> {
                         Owner::Overlay(_) => "take one of the two overlays off",
                         _ => "take the overlay off, or leave the setpoint out",
                     });
-            self.told.tell(finding);
+            self.findings.tell(finding);
             return;
         }
         *slot = owner;
@@ -120,7 +120,7 @@ impl Walk<'_> {
     fn limited(&mut self, channel: Channel, setpoint: &Expr) {
         let range = self.range(setpoint);
         if let Some(finding) = limits::beyond(&self.limits, channel, setpoint, range) {
-            self.told.tell(finding);
+            self.findings.tell(finding);
         }
     }
 
@@ -176,9 +176,9 @@ impl Walk<'_> {
         }
         let (vertical, speed) = match &timed.action {
             Action::Call(id, args) => {
-                self.told.called(self.hir, *id, span);
+                self.findings.called(self.hir, *id, span);
                 self.called(args, |walk| walk.activity(*id, owners));
-                self.told.back();
+                self.findings.back();
                 return;
             }
             Action::Override(inner) => return self.block(&inner.block, owners),
@@ -193,13 +193,13 @@ impl Walk<'_> {
             }
         };
         if vertical && owners.vertical == Owner::Nobody {
-            self.told.tell(
+            self.findings.tell(
                 Diagnostic::error(Code::ChannelsUnset, span, "how deep? neither depth nor altitude is set here")
                     .help("write `at depth 3 m` after it, or `with altitude 2 m` around it"),
             );
         }
         if speed && owners.speed == Owner::Nobody {
-            self.told.tell(
+            self.findings.tell(
                 Diagnostic::error(Code::ChannelsUnset, span, "how fast? no speed is set here")
                     .help("write `at speed 1.5 m/s` after it, or `with speed 1.5 m/s` around it"),
             );

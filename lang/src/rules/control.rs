@@ -30,18 +30,18 @@ struct Walk<'a> {
     /// Why the mission drives only in its overrides.
     guest: Span,
     seen: BTreeSet<(ActivityId, bool)>,
-    told: Findings,
+    findings: Findings,
 }
 
 /// The statements of a guest that command outside of an override, and the overrides inside another.
 pub(super) fn check(hir: &Hir, mission: ActivityId) -> Vec<Diagnostic> {
     let Some(guest) = first_watch(hir, mission) else { return Vec::new() };
-    let mut walk = Walk { hir, guest, seen: BTreeSet::new(), told: Findings::default() };
+    let mut walk = Walk { hir, guest, seen: BTreeSet::new(), findings: Findings::default() };
     walk.activity(mission, false);
     if let Some((_, recovery)) = hir.activities[mission].mission.as_ref().and_then(|m| m.recovery.as_ref()) {
         walk.block(recovery, true);
     }
-    walk.told.findings()
+    walk.findings.into_vec()
 }
 
 impl Walk<'_> {
@@ -64,11 +64,11 @@ impl Walk<'_> {
             };
             match &timed.action {
                 Action::Call(id, _) => {
-                    self.told.called(self.hir, *id, stmt.span);
+                    self.findings.called(self.hir, *id, stmt.span);
                     self.activity(*id, driving);
-                    self.told.back();
+                    self.findings.back();
                 }
-                Action::Override(_) | Action::Watch if driving => self.told.tell(
+                Action::Override(_) | Action::Watch if driving => self.findings.tell(
                     Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle is ours here: nothing to take over")
                         .help("this is called from an `override` or a recovery: call it outside, or leave this out"),
                 ),
@@ -76,7 +76,7 @@ impl Walk<'_> {
                 // A pause sends nothing that was not sent before.
                 Action::Watch | Action::Guide(Guide::Wait, _) => {}
                 Action::Guide(..) | Action::Keep(..) if driving => {}
-                Action::Guide(..) | Action::Keep(..) => self.told.tell(
+                Action::Guide(..) | Action::Keep(..) => self.findings.tell(
                     Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle drives itself here")
                         .label(self.guest, "this makes the mission a guest, which drives in `override { … }` alone")
                         .help("put it into an `override { … }`"),

@@ -27,9 +27,9 @@ impl Findings {
     /// Tells a finding. The same at several places is one mistake, shown where it first tells and in some more places.
     pub fn tell(&mut self, mut finding: Diagnostic) {
         let span = finding.span();
-        if let Some(told) = self.findings.iter_mut().find(|f| f.code == finding.code && f.message == finding.message) {
-            if told.labels.len() < PLACES_MAX && !told.labels.iter().any(|(s, _)| *s == span) {
-                told.labels.push((span, "and here".to_string()));
+        if let Some(known) = self.findings.iter_mut().find(|f| f.code == finding.code && f.message == finding.message) {
+            if known.labels.len() < PLACES_MAX && !known.labels.iter().any(|(s, _)| *s == span) {
+                known.labels.push((span, "and here".to_string()));
             }
             return;
         }
@@ -39,7 +39,7 @@ impl Findings {
         self.findings.push(finding);
     }
 
-    pub fn findings(self) -> Vec<Diagnostic> {
+    pub fn into_vec(self) -> Vec<Diagnostic> {
         self.findings
     }
 }

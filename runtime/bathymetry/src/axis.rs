@@ -1,7 +1,7 @@
 //! One side of a grid: evenly spaced places, ascending.
 
 use crate::CELLS_MAX;
-use crate::fault::{self, Fault, counted, shortened, told};
+use crate::fault::{self, Fault, compact, counted, shortened};
 
 /// A place is off its even spacing by at most this share of a step. Degrees in single precision are: steps of 15 seconds
 /// of arc about 290 degrees by 0.4 %.
@@ -30,7 +30,7 @@ impl Axis {
             let message = format!("`{name}` has {count} places: {CELLS_MAX} cells are read at most");
             return Err(Fault::new(message, fault::CUT_IT));
         };
-        let runs = || format!("`{name}` runs from {} to {}", told(first), told(last));
+        let runs = || format!("`{name}` runs from {} to {}", compact(first), compact(last));
         if !(first.is_finite() && last.is_finite()) {
             return Err(Fault::new(runs(), "give finite numbers"));
         }
@@ -54,7 +54,7 @@ impl Axis {
         }
         if let Some(i) = (1..places.len()).find(|&i| places[i] <= places[i - 1]) {
             let message =
-                format!("`{short}({i})` is {} after {}: it must ascend", told(places[i]), told(places[i - 1]));
+                format!("`{short}({i})` is {} after {}: it must ascend", compact(places[i]), compact(places[i - 1]));
             let mend = match places.windows(2).all(|pair| pair[1] < pair[0]) {
                 true => format!("turn it round, rows and all: `ncpdq -a -{short} IN.nc OUT.nc`"),
                 false => "give each place once, in their order, with its row".to_string(),
@@ -69,7 +69,7 @@ impl Axis {
         match places.iter().enumerate().find(off) {
             None => Ok(axis),
             Some((i, place)) => {
-                let (place, even) = (told(*place), told(first + i as f64 * step));
+                let (place, even) = (compact(*place), compact(first + i as f64 * step));
                 let message =
                     format!("`{short}` is not evenly spaced: `{short}({i})` is {place}, evenly it were {even}");
                 Err(Fault::new(message, "lay it onto an even grid, such as with `cdo remapbil` or `gmt surface`"))

@@ -8,7 +8,7 @@ mod packing;
 
 use crate::axis::Axis;
 use crate::classic::{Classic, Variable};
-use crate::fault::{Fault, Faults, listed, shortened, told};
+use crate::fault::{Fault, Faults, compact, listed, shortened};
 use crate::marks;
 use crate::survey::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
 use packing::Packing;
@@ -76,8 +76,8 @@ fn bottom<'f, 'a>(file: &'f Classic<'a>) -> Result<&'f Variable<'a>, Fault> {
         ([only], ..) => Ok(only),
         (_, Some(only), None) => Ok(only),
         ([], ..) => {
-            let told = |v: &Variable| format!("`{}({})`", shortened(v.name), listed(file.dimension_names(v)));
-            let all: Vec<String> = file.variables.iter().take(8).map(told).collect();
+            let named = |v: &Variable| format!("`{}({})`", shortened(v.name), listed(file.dimension_names(v)));
+            let all: Vec<String> = file.variables.iter().take(8).map(named).collect();
             let held = if all.is_empty() { "no variables".to_string() } else { all.join(", ") };
             let message = format!("no variable has two dimensions: the file holds {held}");
             Err(Fault::new(
@@ -173,12 +173,12 @@ fn depths(file: &Classic, bottom: &Variable, columns: u32, faults: &mut Faults) 
     for (i, &value) in stored.iter().enumerate() {
         let depth = 0.0 + sign * packing.value(value);
         let fault = if packing.is_nothing(value) {
-            Some((format!("{} is no data ({})", place(i), told(value)), FILL.to_string()))
+            Some((format!("{} is no data ({})", place(i), compact(value)), FILL.to_string()))
         } else if packing.is_invalid(value) {
-            Some((format!("{} is no data: {} is outside its valid range", place(i), told(value)), FILL.to_string()))
+            Some((format!("{} is no data: {} is outside its valid range", place(i), compact(value)), FILL.to_string()))
         } else if !is_on_earth(depth) {
             let help = "if it stands for no data, give it to `missing_value` and fill it; if the unit is not metres, convert it";
-            Some((format!("{} is {}: neither water nor land on earth", place(i), told(value)), help.to_string()))
+            Some((format!("{} is {}: neither water nor land on earth", place(i), compact(value)), help.to_string()))
         } else {
             None
         };
@@ -190,7 +190,7 @@ fn depths(file: &Classic, bottom: &Variable, columns: u32, faults: &mut Faults) 
         let is_mark = |cell: usize| marks::is_mark(stored[cell]) || marks::is_mark(depths[cell]);
         let apart = marks::undeclared(&depths, columns as usize, is_mark);
         for (i, value) in stored.iter().enumerate().filter(|(i, _)| apart[*i]) {
-            let value = told(*value);
+            let value = compact(*value);
             faults.add(
                 format!("{} is {value}: far from the cells about it, as a mark for no data is", place(i)),
                 format!(

@@ -1,7 +1,7 @@
 //! What is wrong with a file: all of it, each with its place and its mend.
 
 /// So many faults of one file with mends of their own are told; of the others their number.
-const TOLD_MAX: usize = 12;
+const KINDS_MAX: usize = 12;
 /// So many places of faults with one mend are named; of the others their number.
 const NAMED_MAX: u64 = 3;
 
@@ -29,7 +29,7 @@ pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 }
 
 /// A number of a file in few digits: those of single precision where it has no more, and powers of ten where it is enormous.
-pub(crate) fn told(number: f64) -> String {
+pub(crate) fn compact(number: f64) -> String {
     let (size, single) = (number.abs(), number as f32);
     match (size == 0.0 || (1e-6..1e15).contains(&size), f64::from(single) == number) {
         (true, true) => single.to_string(),
@@ -78,8 +78,8 @@ impl Unreadable {
 /// where it begins.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
-    told: Vec<Alike>,
-    untold: u64,
+    kinds: Vec<Alike>,
+    others: u64,
     count: u64,
 }
 
@@ -91,7 +91,7 @@ struct Alike {
 }
 
 impl Alike {
-    fn told(self) -> Fault {
+    fn into_fault(self) -> Fault {
         let Alike { mut fault, count } = self;
         if count > NAMED_MAX {
             fault.message += &format!("; and {} more such", count - NAMED_MAX);
@@ -107,16 +107,16 @@ impl Faults {
 
     pub fn push(&mut self, fault: Fault) {
         self.count += 1;
-        let has_room = self.told.len() < TOLD_MAX;
-        match self.told.iter_mut().find(|alike| alike.fault.help == fault.help) {
+        let has_room = self.kinds.len() < KINDS_MAX;
+        match self.kinds.iter_mut().find(|alike| alike.fault.help == fault.help) {
             Some(alike) => {
                 alike.count += 1;
                 if alike.count <= NAMED_MAX {
                     alike.fault.message += &format!("; {}", fault.message);
                 }
             }
-            None if has_room => self.told.push(Alike { fault, count: 1 }),
-            None => self.untold += 1,
+            None if has_room => self.kinds.push(Alike { fault, count: 1 }),
+            None => self.others += 1,
         }
     }
 
@@ -131,10 +131,10 @@ impl Faults {
     }
 
     pub fn into_unreadable(self) -> Option<Unreadable> {
-        let mut faults: Vec<Fault> = self.told.into_iter().map(Alike::told).collect();
-        if let (Some(last), 1..) = (faults.last(), self.untold) {
+        let mut faults: Vec<Fault> = self.kinds.into_iter().map(Alike::into_fault).collect();
+        if let (Some(last), 1..) = (faults.last(), self.others) {
             let help = last.help.clone();
-            faults.push(Fault::new(format!("and {} more faults such as these", self.untold), help));
+            faults.push(Fault::new(format!("and {} more faults such as these", self.others), help));
         }
         (!faults.is_empty()).then_some(Unreadable { faults })
     }

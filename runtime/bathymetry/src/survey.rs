@@ -1,7 +1,7 @@
 //! A survey that was read: depths on a grid, and where that comes to lie in a mission's plane.
 
 use crate::axis::Axis;
-use crate::fault::{Fault, Faults, told};
+use crate::fault::{Fault, Faults, compact};
 use crate::{CELLS_MAX, fault};
 use albacore_geometry::math::{PI, TAU, radians};
 use albacore_geometry::{Point, TangentFrame, metres_per_radian};
@@ -142,11 +142,12 @@ pub(crate) fn on_the_globe(latitude: Axis, longitude: Axis, faults: &mut Faults)
     let (north, east) = (latitude.times(PI / 180.0), longitude.times(PI / 180.0));
     let before = faults.count();
     if north.first < -radians(90.0) || north.last > radians(90.0) {
-        let message = format!("latitudes run from {} to {} degrees", told(latitude.first), told(latitude.last));
+        let message = format!("latitudes run from {} to {} degrees", compact(latitude.first), compact(latitude.last));
         faults.add(message, "they lie between -90 and 90: are the axes exchanged, or in metres?");
     }
     if east.first < -TAU || east.last > TAU || east.last - east.first > TAU {
-        let message = format!("longitudes run from {} to {} degrees", told(longitude.first), told(longitude.last));
+        let message =
+            format!("longitudes run from {} to {} degrees", compact(longitude.first), compact(longitude.last));
         faults.add(message, "they lie between -360 and 360, once round at most: are they in metres?");
     }
     (faults.count() == before).then_some((north, east))
@@ -157,10 +158,11 @@ pub(crate) fn on_a_plane(north: Axis, east: Axis, faults: &mut Faults) -> Option
     let before = faults.count();
     for (name, axis) in [("northward", north), ("eastward", east)] {
         if axis.first < -FARTHEST_M || axis.last > FARTHEST_M {
-            let message = format!("the survey runs {name} from {} to {} metres", told(axis.first), told(axis.last));
+            let message =
+                format!("the survey runs {name} from {} to {} metres", compact(axis.first), compact(axis.last));
             faults.add(message, "the earth is smaller: are they millimetres?");
         } else if axis.step() < FINEST_M {
-            let message = format!("the survey's places lie {} m apart {name}", told(axis.step()));
+            let message = format!("the survey's places lie {} m apart {name}", compact(axis.step()));
             faults.add(message, "no survey is as fine: are they kilometres?");
         }
     }

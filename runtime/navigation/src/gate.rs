@@ -119,12 +119,12 @@ pub struct Gate {
     channels: [Channel; JUDGED.len()],
     /// The speed over ground that was believed last, m/s.
     speed: f64,
-    told: Vec<Doubt>,
+    events: Vec<Doubt>,
 }
 
 impl Default for Gate {
     fn default() -> Self {
-        Gate { channels: JUDGED.map(|(_, kind)| Channel::new(kind)), speed: 0.0, told: Vec::new() }
+        Gate { channels: JUDGED.map(|(_, kind)| Channel::new(kind)), speed: 0.0, events: Vec::new() }
     }
 }
 
@@ -137,16 +137,16 @@ impl Gate {
             self.channels[index] = Channel::new(Kind::Course);
             return true;
         }
-        let believed = self.channels[index].judge(tick, reading, self.speed, &mut self.told);
+        let believed = self.channels[index].judge(tick, reading, self.speed, &mut self.events);
         if channel == SPEED && believed {
             self.speed = reading[0];
         }
         believed
     }
 
-    /// What has been told since this was last asked.
-    pub fn take_told(&mut self) -> Vec<Doubt> {
-        std::mem::take(&mut self.told)
+    /// What was doubted and believed again since this was last asked.
+    pub fn take_events(&mut self) -> Vec<Doubt> {
+        std::mem::take(&mut self.events)
     }
 }
 
@@ -156,7 +156,7 @@ impl Channel {
     }
 
     /// Judges a sample of a vehicle that makes a speed over ground, m/s.
-    fn judge(&mut self, tick: u64, reading: Reading, speed: f64, told: &mut Vec<Doubt>) -> bool {
+    fn judge(&mut self, tick: u64, reading: Reading, speed: f64, events: &mut Vec<Doubt>) -> bool {
         // That a number is none is seen by everybody.
         if reading.iter().any(|x| !x.is_finite()) {
             return true;
@@ -165,7 +165,7 @@ impl Channel {
         if !is_possible(kind, reading) {
             self.came = tick;
             self.doubtful = None;
-            self.doubt(tick, Change::Impossible(if kind == Kind::Position { reading[2] } else { reading[0] }), told);
+            self.doubt(tick, Change::Impossible(if kind == Kind::Position { reading[2] } else { reading[0] }), events);
             return false;
         }
         let seconds = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
@@ -197,7 +197,7 @@ impl Channel {
             doubtful.samples >= PERSISTS_SAMPLES && lasts >= PERSISTS_S
         };
         if persists {
-            told.push(Doubt { kind, change: Change::Believed(change, lasts) });
+            events.push(Doubt { kind, change: Change::Believed(change, lasts) });
             // A bottom that comes nearer is believed for itself; the channel is as doubtful as before.
             self.doubts = if nearer { self.doubts } else { 0 };
             self.believe(tick, reading);
@@ -205,7 +205,7 @@ impl Channel {
         }
         self.doubtful = Some(doubtful);
         if !is_next {
-            self.doubt(tick, Change::Rejected(change, seconds(at)), told);
+            self.doubt(tick, Change::Rejected(change, seconds(at)), events);
         }
         false
     }
@@ -216,10 +216,10 @@ impl Channel {
         self.doubts = self.doubts.saturating_sub(1);
     }
 
-    fn doubt(&mut self, tick: u64, change: Change, told: &mut Vec<Doubt>) {
+    fn doubt(&mut self, tick: u64, change: Change, events: &mut Vec<Doubt>) {
         let again = self.doubted.is_some_and(|last| tick < last + AGAIN_TICKS);
         if !again {
-            told.push(Doubt { kind: self.kind, change });
+            events.push(Doubt { kind: self.kind, change });
         }
         self.doubted = Some(tick);
         self.doubts = (self.doubts + DOUBT).min(DOUBTS_MAX);

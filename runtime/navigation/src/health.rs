@@ -118,7 +118,7 @@ pub struct HealthMonitor {
     vertical: Option<(Vertical, u64)>,
     /// For how many ticks depth and altitude have not added up.
     uneven: u64,
-    sights: Anomalies,
+    anomalies: Anomalies,
 }
 
 /// What was told by a channel in a tick, where it can be believed by itself.
@@ -150,7 +150,7 @@ struct Anomalies {
     tick: u64,
     /// What is seen now, and the tick at which it was seen last.
     seen: Vec<(Anomaly, u64)>,
-    told: Vec<AnomalyEvent>,
+    events: Vec<AnomalyEvent>,
 }
 
 impl Default for HealthMonitor {
@@ -162,7 +162,7 @@ impl Default for HealthMonitor {
             commanded: Commanded::default(),
             vertical: None,
             uneven: 0,
-            sights: Anomalies::default(),
+            anomalies: Anomalies::default(),
         }
     }
 }
@@ -170,7 +170,7 @@ impl Default for HealthMonitor {
 impl HealthMonitor {
     /// Looks at what came in a tick. `command` is the last that was sent.
     pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<AnomalyEvent> {
-        self.sights.tick = tick;
+        self.anomalies.tick = tick;
         let is_steered = self.is_steered(tick, command);
         let hides = |channel: &Channel| channel.is_of(Kind::Depth) && channel.rests(tick) > FOLLOWS_TICKS;
         let is_blind = self.channels.iter().any(hides);
@@ -179,7 +179,7 @@ impl HealthMonitor {
         for sample in &snapshot.samples {
             match WATCHED.iter().position(|(channel, _)| *channel == sample.channel) {
                 Some(index) => {
-                    let told = self.channels[index].hear(tick, sample.reading, &mut self.sights);
+                    let told = self.channels[index].hear(tick, sample.reading, &mut self.anomalies);
                     heard.take(sample.channel, told);
                 }
                 None if sample.channel == WATER_DEPTH => water_depth = Some(sample.reading[0]),
@@ -198,18 +198,18 @@ impl HealthMonitor {
             if channel.is_of(Kind::Course) && self.motion.speed() < AT_REST {
                 channel.excuse(tick);
             }
-            channel.wait(tick, &mut self.sights);
+            channel.wait(tick, &mut self.anomalies);
         }
         let command = command.filter(|_| snapshot.control == Control::InControl);
-        self.motion.look(&heard, &mut self.sights);
-        self.commanded.look(&heard, command, self.motion.speed(), &mut self.sights);
+        self.motion.look(&heard, &mut self.anomalies);
+        self.commanded.look(&heard, command, self.motion.speed(), &mut self.anomalies);
         self.add_up(&heard, water_depth);
-        self.sights.settle()
+        self.anomalies.settle()
     }
 
     /// Whether something is seen now.
     pub(crate) fn sees(&self, anomaly: Anomaly) -> bool {
-        self.sights.sees(anomaly)
+        self.anomalies.sees(anomaly)
     }
 
     /// Whether the vehicle is led up or down by commands that change, by limits that follow the altitude, say: its way shows in the
@@ -229,7 +229,7 @@ impl HealthMonitor {
         let even = (depth.reading[0] + altitude.reading[0] - water).abs() <= SUM_MAX;
         self.uneven = if even { 0 } else { self.uneven + 1 };
         if self.uneven > UNEVEN_TICKS {
-            self.sights.see(Anomaly::DepthAgainstWater);
+            self.anomalies.see(Anomaly::DepthAgainstWater);
         }
     }
 }
@@ -256,7 +256,7 @@ impl Anomalies {
             Some((_, last)) => *last = self.tick,
             None => {
                 self.seen.push((anomaly, self.tick));
-                self.told.push(AnomalyEvent { anomaly, begins: true });
+                self.events.push(AnomalyEvent { anomaly, begins: true });
             }
         }
     }
@@ -272,15 +272,15 @@ impl Anomalies {
 
     /// What has begun, and what is over.
     fn settle(&mut self) -> Vec<AnomalyEvent> {
-        let (tick, told) = (self.tick, &mut self.told);
+        let (tick, events) = (self.tick, &mut self.events);
         self.seen.retain(|(anomaly, last)| {
             let stays = tick < last + WELL_AFTER_TICKS;
             if !stays {
-                told.push(AnomalyEvent { anomaly: *anomaly, begins: false });
+                events.push(AnomalyEvent { anomaly: *anomaly, begins: false });
             }
             stays
         });
-        std::mem::take(told)
+        std::mem::take(events)
     }
 }
 

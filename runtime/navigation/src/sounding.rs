@@ -56,7 +56,7 @@ pub(crate) struct Sounding {
     dive: Option<Dive>,
     /// While it is not believed, what it tells of a rise.
     disbelieved: Option<Line>,
-    told: Option<EchoState>,
+    event: Option<EchoState>,
 }
 
 /// The last echo: when and how deep the vehicle was, and how deep it has been since, m; and the ticks from one echo to the next.
@@ -97,7 +97,7 @@ impl Sounding {
     pub fn believes(&mut self, tick: u64, altitude: f64, command: Option<&Command>, aground: bool) -> bool {
         let Some(depth) = self.depth.filter(|_| altitude.is_finite()) else { return true };
         let unheard = self.hear(tick, depth);
-        let told = if let Some(line) = &mut self.disbelieved {
+        let event = if let Some(line) = &mut self.disbelieved {
             line.rise(tick, depth, altitude).then_some(EchoState::Follows(line.from - depth))
         } else if aground && altitude > LYING_M {
             Some(EchoState::Lying(altitude))
@@ -108,8 +108,8 @@ impl Sounding {
             self.dive = self.dive.filter(|_| dives);
             dives.then(|| self.follow(tick, depth, altitude)).flatten().map(EchoState::NoLess)
         };
-        self.told = self.told.or(told);
-        match told {
+        self.event = self.event.or(event);
+        match event {
             Some(EchoState::Follows(_)) => self.disbelieved = None,
             Some(_) => (self.dive, self.disbelieved) = (None, Some(Line::begin(tick, depth, altitude))),
             None => {}
@@ -162,8 +162,8 @@ impl Sounding {
     }
 
     /// What is to be told of it, since this was last asked.
-    pub fn take_told(&mut self) -> Option<String> {
-        self.told.take().map(|told| match told {
+    pub fn take_event(&mut self) -> Option<String> {
+        self.event.take().map(|event| match event {
             EchoState::NoLess(dived) => format!("rejected: altitude, no less after a dive of {dived:.1} m"),
             EchoState::Unheard(dived) => format!("rejected: altitude, silent in a dive of {dived:.1} m"),
             EchoState::Lying(altitude) => format!("rejected: altitude, {altitude:.1} m of a vehicle on the bottom"),

@@ -33,8 +33,8 @@ impl Trust {
     /// Looks at what came in a tick, `command` being the last that was sent, and marks what is not believed of it; gives what a
     /// person should hear.
     pub fn look(&mut self, tick: u64, snapshot: &mut Snapshot, command: Option<&Command>) -> Vec<String> {
-        let mut told: Vec<String> = Vec::new();
-        told.extend(self.health.look(tick, snapshot, command).iter().map(ToString::to_string));
+        let mut events: Vec<String> = Vec::new();
+        events.extend(self.health.look(tick, snapshot, command).iter().map(ToString::to_string));
         // Depth and altitude tell of one another: with a depth that stands still nothing is known of the bottom.
         let depth_is_stuck = self.health.sees(Anomaly::Stuck(Kind::Depth));
         let is_misplaced = MISPLACED.iter().any(|anomaly| self.health.sees(*anomaly));
@@ -57,9 +57,9 @@ impl Trust {
                 }
             }
         }
-        told.extend(self.gate.take_told().iter().map(ToString::to_string));
-        told.extend(self.sounding.take_told());
-        told
+        events.extend(self.gate.take_events().iter().map(ToString::to_string));
+        events.extend(self.sounding.take_event());
+        events
     }
 
     /// Whether a sample that the gate believes can be what the sounder hears.

@@ -2,9 +2,9 @@
 
 use crate::compatibility::{self, Held};
 use crate::plan::{Plan, PlanError};
+use crate::scenario;
 use crate::scenario::Understood;
 use crate::wanted::Wanted;
-use crate::world;
 use albacore_geometry::Geodetic;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{MissionInfo, ScenarioProgram, Script};
@@ -63,7 +63,7 @@ impl Computed {
     /// The world, and what is wrong with the scenario itself, where that has not been told already: of those of the script's own file it has.
     fn new(script: &Script, scenario: &str, origin: Option<Geodetic>) -> (Self, Vec<Diagnostic>) {
         let is_own = script.own_scenarios().any(|own| own == scenario);
-        let (world, wrong) = match world::scenario(script, scenario, origin) {
+        let (world, wrong) = match scenario::named(script, scenario, origin) {
             Ok(world) => (Some(world), Vec::new()),
             Err(PlanError::Script(findings, _)) if !is_own => (None, findings),
             Err(_) => (None, Vec::new()),
@@ -107,13 +107,13 @@ fn runs_are_sound(script: &Script, scenario: &str) -> bool {
 /// What cannot be in a scenario, in the frame of the missions that run in it.
 fn scenario(script: &Script, name: &str) -> Vec<Diagnostic> {
     // A mission that cannot be has been told of.
-    let Ok(origin) = world::place_of(script, name) else { return Vec::new() };
+    let Ok(origin) = scenario::place_of(script, name) else { return Vec::new() };
     let lowered = match script.scenario(name, origin) {
         Some(Ok(lowered)) => lowered,
         Some(Err(findings)) => return findings,
         None => return Vec::new(),
     };
-    match world::sound(&lowered, script) {
+    match scenario::sound(&lowered, script) {
         Err(PlanError::Script(findings, _)) => findings,
         Err(PlanError::Asked(..)) | Ok(_) => Vec::new(),
     }

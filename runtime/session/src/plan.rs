@@ -2,8 +2,8 @@
 
 use crate::compatibility::{self, Held};
 use crate::faults::Faults;
+use crate::scenario;
 use crate::wanted::Wanted;
-use crate::world;
 use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_lang::diagnostic::{Diagnostic, Severity};
 use albacore_lang::source::{Source, Sources};
@@ -129,7 +129,7 @@ impl Plan {
         }
         let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
         let survey = match own {
-            Some(own) => survey(&world::scenario(script, &own, program.mission.origin)?.1.world),
+            Some(own) => survey(&scenario::named(script, &own, program.mission.origin)?.1.world),
             None => None,
         };
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
@@ -164,7 +164,7 @@ impl Plan {
         let Some(own) = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone()) else {
             return Ok(None);
         };
-        Ok(world::scenario(script, &own, program.mission.origin)?.1.dialect)
+        Ok(scenario::named(script, &own, program.mission.origin)?.1.dialect)
     }
 
     /// The frame of the mission, if it lies on the globe.
@@ -174,7 +174,7 @@ impl Plan {
 
     /// A mission that is lowered already, in a scenario of the script.
     pub(crate) fn with(script: &Script, program: Arc<Program>, wanted: &str) -> Result<Self, PlanError> {
-        let (lowered, understood) = world::scenario(script, wanted, program.mission.origin)?;
+        let (lowered, understood) = scenario::named(script, wanted, program.mission.origin)?;
         let survey = survey(&understood.world);
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();

@@ -3,6 +3,7 @@
 mod bottom;
 mod clause;
 mod defaults;
+mod named;
 mod objected;
 mod recorded;
 
@@ -17,6 +18,7 @@ use albacore_sim::Scenario;
 use albacore_trace::journal::SourceDigest;
 pub(crate) use clause::Clause;
 pub(crate) use defaults::DEFAULTS;
+pub(crate) use named::{cannot_begin, named, place_of, sound};
 pub(crate) use objected::objected;
 use serde::Deserialize;
 

@@ -6,7 +6,6 @@ mod view;
 
 use crate::plan::PlanError;
 use crate::scenario::{self, DEFAULTS};
-use crate::world::{self, place_of};
 use albacore_geometry::TangentFrame;
 use albacore_lang::{Script, doc};
 use albacore_sim::{Ground, Simulator};
@@ -54,9 +53,9 @@ impl Shown {
     /// picture is that of a seed.
     pub fn new(script: &Script, file: &str, wanted: Option<&str>, seed: u64) -> Result<Self, PlanError> {
         let wanted = chosen(script, file, wanted)?;
-        let (lowered, understood) = world::scenario(script, &wanted, place_of(script, &wanted)?)?;
+        let (lowered, understood) = scenario::named(script, &wanted, scenario::place_of(script, &wanted)?)?;
         let world = understood.world;
-        let simulator = Simulator::new(&world, seed).map_err(|error| world::cannot_be(&error))?;
+        let simulator = Simulator::new(&world, seed).map_err(|error| scenario::cannot_begin(&error))?;
         let mut clauses = Vec::new();
         let words = scenario::words(&lowered);
         let formatter = ClauseFormatter { words: &words, frame: lowered.origin.map(|origin| TangentFrame { origin }) };

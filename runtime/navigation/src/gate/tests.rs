@@ -8,7 +8,7 @@ fn judged(channel: u16, readings: impl IntoIterator<Item = (u64, [f64; 3])>) -> 
         if !gate.believes(tick, channel, [a, b, c, 0.0]) {
             withheld.push(tick);
         }
-        told.extend(gate.take_told().iter().map(|doubt| (tick, doubt.to_string())));
+        told.extend(gate.take_events().iter().map(|doubt| (tick, doubt.to_string())));
     }
     (withheld, told)
 }

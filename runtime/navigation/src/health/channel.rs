@@ -150,7 +150,7 @@ impl Channel {
     }
 
     /// A sample has come; given on when it can be believed by itself.
-    pub fn hear(&mut self, tick: u64, reading: Reading, sights: &mut Anomalies) -> Option<Credible> {
+    pub fn hear(&mut self, tick: u64, reading: Reading, anomalies: &mut Anomalies) -> Option<Credible> {
         let gap = tick - self.last.min(tick);
         if self.samples == 0 {
             self.first = tick;
@@ -161,11 +161,11 @@ impl Channel {
         }
         let numbers = &reading[..self.kind.width()];
         if numbers.iter().any(|x| !x.is_finite()) {
-            sights.see(Anomaly::NotANumber(self.kind));
+            anomalies.see(Anomaly::NotANumber(self.kind));
             return None;
         }
         if !self.kind.can_be(reading) {
-            sights.see(Anomaly::OutOfRange(self.kind));
+            anomalies.see(Anomaly::OutOfRange(self.kind));
             return None;
         }
         let Some((before, since)) = self.reading else {
@@ -176,13 +176,13 @@ impl Channel {
         if before == reading {
             self.same += 1;
             // It is well again when it changes, not when it happens to fit what it says.
-            if sights.last_seen(Anomaly::Stuck(self.kind)).is_some_and(|last| last >= since) {
-                sights.see(Anomaly::Stuck(self.kind));
+            if anomalies.last_seen(Anomaly::Stuck(self.kind)).is_some_and(|last| last >= since) {
+                anomalies.see(Anomaly::Stuck(self.kind));
             }
         } else {
             // A rest that was told of says nothing of how long it rests when all is well, and its end nothing of its noise; nor
             // does what no vehicle can do.
-            if !sights.sees(Anomaly::Stuck(self.kind)) {
+            if !anomalies.sees(Anomaly::Stuck(self.kind)) {
                 self.same_most = self.same_most.max(self.same);
                 if follows && self.learns {
                     self.noise.learn(reading[0] - before[0]);
@@ -194,10 +194,10 @@ impl Channel {
         self.reading = Some((reading, since));
         let lively = self.is_lively();
         if lively && self.kind != Kind::Flow && self.same >= self.stuck_samples(reading[0]) {
-            sights.see(Anomaly::Stuck(self.kind));
+            anomalies.see(Anomaly::Stuck(self.kind));
         }
         if !follows {
-            sights.see(Anomaly::Jumps(self.kind));
+            anomalies.see(Anomaly::Jumps(self.kind));
             return None;
         }
         Some(Credible { reading, same: tick - since, lively })
@@ -228,10 +228,10 @@ impl Channel {
     }
 
     /// A tick has gone by.
-    pub fn wait(&self, tick: u64, sights: &mut Anomalies) {
+    pub fn wait(&self, tick: u64, anomalies: &mut Anomalies) {
         let Some(period) = self.period else { return };
         if tick > self.last + (SILENT_PERIODS * period).max(SILENT_TICKS) {
-            sights.see(Anomaly::Silent(self.kind));
+            anomalies.see(Anomaly::Silent(self.kind));
         }
     }
 

@@ -109,24 +109,24 @@ struct Goal {
 }
 
 impl Commanded {
-    pub fn look(&mut self, heard: &Heard, command: Option<&Command>, speed: f64, sights: &mut Anomalies) {
+    pub fn look(&mut self, heard: &Heard, command: Option<&Command>, speed: f64, anomalies: &mut Anomalies) {
         if let Some(told) = heard.depth {
             self.depth.hear(heard.tick, told.reading[0]);
         }
         self.gather_altitudes(heard);
-        self.look_at_altitude(heard.altitude, command, sights);
+        self.look_at_altitude(heard.altitude, command, anomalies);
         let Some(command) = command else {
             *self = Commanded { depth: self.depth, altitudes: self.altitudes, ..Commanded::default() };
             return;
         };
         if let Some(told) = heard.heading {
-            self.look_at_heading(told, command, speed, sights);
+            self.look_at_heading(told, command, speed, anomalies);
         }
-        self.look_at_goal(heard, command.vertical, speed.min(command.speed) > SPEED_MIN, sights);
+        self.look_at_goal(heard, command.vertical, speed.min(command.speed) > SPEED_MIN, anomalies);
     }
 
     /// Is it far off, and does not turn to where it should?
-    fn look_at_heading(&mut self, told: Credible, command: &Command, speed: f64, sights: &mut Anomalies) {
+    fn look_at_heading(&mut self, told: Credible, command: &Command, speed: f64, anomalies: &mut Anomalies) {
         let heading = Heading::from_radians(told.reading[0]);
         let off = command.heading - heading;
         if off.abs() <= HEADING_MAX || speed.min(command.speed) <= SPEED_MIN {
@@ -140,15 +140,15 @@ impl Commanded {
         let (ticks, turned) = if turned > HEADING_TURNS { (0, 0.0) } else { (before.ticks + 1, turned) };
         self.astray = Some(Astray { heading, is_clockwise, ticks, turned });
         if ticks > HEADING_TICKS {
-            sights.see(Anomaly::HeadingNotAsCommanded);
+            anomalies.see(Anomaly::HeadingNotAsCommanded);
         }
         if ticks.min(told.same) > HEADING_SAME {
-            sights.see(Anomaly::Stuck(Kind::Heading));
+            anomalies.see(Anomaly::Stuck(Kind::Heading));
         }
     }
 
     /// Every 30 s: is it nearer?
-    fn look_at_goal(&mut self, heard: &Heard, vertical: Vertical, has_way: bool, sights: &mut Anomalies) {
+    fn look_at_goal(&mut self, heard: &Heard, vertical: Vertical, has_way: bool, anomalies: &mut Anomalies) {
         let (told, wanted, anomaly) = match vertical {
             Vertical::Depth(depth) => (heard.depth, depth, Anomaly::DepthNotAsCommanded),
             Vertical::Altitude(altitude) => (heard.altitude, altitude, Anomaly::AltitudeNotAsCommanded),
@@ -173,12 +173,12 @@ impl Commanded {
             goal.farthest = goal.farthest.max(off);
         }
         if goal.missed {
-            sights.see(anomaly);
+            anomalies.see(anomaly);
             let is_depth = matches!(vertical, Vertical::Depth(_));
             // A hull without way may well stay where it is.
             let is_still = has_way && told.same > DEPTH_SAME && self.depth.last >= SURFACE;
             if is_depth && is_still && !self.is_level(heard.tick) {
-                sights.see(Anomaly::Stuck(Kind::Depth));
+                anomalies.see(Anomaly::Stuck(Kind::Depth));
             }
         }
     }
@@ -203,7 +203,7 @@ impl Commanded {
     }
 
     /// An altitude that stays the same while the depth changes, and is not what is held.
-    fn look_at_altitude(&mut self, told: Option<Credible>, command: Option<&Command>, sights: &mut Anomalies) {
+    fn look_at_altitude(&mut self, told: Option<Credible>, command: Option<&Command>, anomalies: &mut Anomalies) {
         let Some(told) = told else { return };
         let is_held = match command.map(|command| command.vertical) {
             Some(Vertical::Depth(_)) => false,
@@ -216,7 +216,7 @@ impl Commanded {
         }
         let then = *self.depth_then.get_or_insert(self.depth);
         if told.same > ALTITUDE_SAME && self.depth.differs(then) {
-            sights.see(Anomaly::Stuck(Kind::Altitude));
+            anomalies.see(Anomaly::Stuck(Kind::Altitude));
         }
     }
 }

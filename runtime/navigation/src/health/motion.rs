@@ -57,29 +57,29 @@ impl Motion {
         self.speed
     }
 
-    pub fn look(&mut self, heard: &Heard, sights: &mut Anomalies) {
+    pub fn look(&mut self, heard: &Heard, anomalies: &mut Anomalies) {
         let number = |told: Option<super::Credible>, before: f64| told.map_or(before, |t| t.reading[0]);
         self.speed = number(heard.speed, self.speed);
         self.depth = number(heard.depth, self.depth);
         self.altitude = number(heard.altitude, self.altitude);
-        self.look_at_flow(heard, sights);
+        self.look_at_flow(heard, anomalies);
         if heard.position.is_some_and(|p| p.same >= POSITION_SAME && self.speed > SPEED_MIN) {
-            sights.see(Anomaly::Stuck(Kind::Position));
+            anomalies.see(Anomaly::Stuck(Kind::Position));
         }
         let velocity = heard.course.zip(heard.speed);
         let velocity = velocity.map(|(course, speed)| (Heading::from_radians(course.reading[0]), speed.reading[0]));
-        self.compare_with_positions(heard, velocity, sights);
+        self.compare_with_positions(heard, velocity, anomalies);
         let Some((course, speed)) = velocity else { return };
-        self.compare_with_heading(heard, speed * course.unit(), sights);
+        self.compare_with_heading(heard, speed * course.unit(), anomalies);
     }
 
-    fn compare_with_positions(&mut self, heard: &Heard, velocity: Option<(Heading, f64)>, sights: &mut Anomalies) {
+    fn compare_with_positions(&mut self, heard: &Heard, velocity: Option<(Heading, f64)>, anomalies: &mut Anomalies) {
         let Some(told) = heard.position else { return };
         let here = Point::new(told.reading[0], told.reading[1]);
         let before = self.position.replace((heard.tick, here));
         let (Some((tick, there)), Some((course, speed))) = (before, velocity) else { return };
         let ticks = heard.tick.saturating_sub(tick);
-        if ticks == 0 || ticks > GAP_MAX || sights.sees(Anomaly::Stuck(Kind::Position)) {
+        if ticks == 0 || ticks > GAP_MAX || anomalies.sees(Anomaly::Stuck(Kind::Position)) {
             return;
         }
         let time = ticks as f64 * TICK_S;
@@ -94,14 +94,14 @@ impl Motion {
         self.way += (time * speed).max((here - there).length());
         let most = SHARE_MAX * self.way + DIFFERENCE_MAX;
         if self.way > WAY_MIN && self.along.abs() > most {
-            sights.see(Anomaly::SpeedAgainstPosition);
+            anomalies.see(Anomaly::SpeedAgainstPosition);
         }
         if self.way > WAY_MIN && self.right.abs() > most {
-            sights.see(Anomaly::CourseAgainstPosition);
+            anomalies.see(Anomaly::CourseAgainstPosition);
         }
     }
 
-    fn compare_with_heading(&mut self, heard: &Heard, over_ground: Vector, sights: &mut Anomalies) {
+    fn compare_with_heading(&mut self, heard: &Heard, over_ground: Vector, anomalies: &mut Anomalies) {
         let (Some((tick, flow)), Some(heading)) = (self.flow, heard.heading) else { return };
         let through_water = over_ground - flow;
         if heard.tick > tick + FLOW_TICKS || through_water.length() < SPEED_MIN {
@@ -111,17 +111,17 @@ impl Motion {
         let drift = through_water.toward() - Heading::from_radians(heading.reading[0]);
         self.drifts = if drift.abs() > DRIFT_MAX { self.drifts + 1 } else { 0 };
         if self.drifts > DRIFT_TICKS {
-            sights.see(Anomaly::HeadingAgainstMotion);
+            anomalies.see(Anomaly::HeadingAgainstMotion);
         }
     }
 
-    fn look_at_flow(&mut self, heard: &Heard, sights: &mut Anomalies) {
+    fn look_at_flow(&mut self, heard: &Heard, anomalies: &mut Anomalies) {
         let measures = self.speed > PROFILER_SPEED && self.depth > PROFILER_DEPTH && self.altitude > PROFILER_ALTITUDE;
         self.measures = if measures { self.measures + 1 } else { 0 };
         let Some(told) = heard.flow else { return };
         self.flow = Some((heard.tick, Vector::new(told.reading[0], told.reading[1])));
         if told.lively && told.same.min(self.measures) > FLOW_SAME {
-            sights.see(Anomaly::Stuck(Kind::Flow));
+            anomalies.see(Anomaly::Stuck(Kind::Flow));
         }
     }
 }

@@ -9,7 +9,7 @@ fn told(goal: Vertical, soundings: impl IntoIterator<Item = (f64, f64)>) -> Vec<
     for (i, (depth, altitude)) in soundings.into_iter().enumerate() {
         sounding.dive(depth);
         sounding.believes(i as u64, altitude, Some(&command), false);
-        told.extend(sounding.take_told().map(|what| (i, what)));
+        told.extend(sounding.take_event().map(|what| (i, what)));
     }
     told
 }
@@ -81,7 +81,7 @@ fn a_vehicle_on_the_bottom_has_no_altitude() {
     sounding.dive(20.0);
     assert!(sounding.believes(0, 0.4, None, true), "a sounder sits above the keel");
     assert!(!sounding.believes(1, 10.0, None, true));
-    assert_eq!(sounding.take_told().unwrap(), "rejected: altitude, 10.0 m of a vehicle on the bottom");
+    assert_eq!(sounding.take_event().unwrap(), "rejected: altitude, 10.0 m of a vehicle on the bottom");
     assert!(!sounding.believes(2, 10.0, None, false), "nor when it is free again");
 }
 

@@ -6,8 +6,8 @@ use crate::FileError;
 use crate::faults::Faults;
 use crate::files::Files;
 use crate::plan::{Plan, PlanError};
+use crate::scenario;
 use crate::wanted::Wanted;
-use crate::world;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::prompt::Prompt as Lines;
 use albacore_lang::source::{Source, Sources};
@@ -73,7 +73,7 @@ impl Prompt {
             (Some(plan.program), plan.scenario_name, plan.scenario)
         } else {
             let wanted = opening.scenario.unwrap_or(SCENARIO_AT_FIRST);
-            let (lowered, understood) = world::scenario(&script, wanted, None).map_err(refused)?;
+            let (lowered, understood) = scenario::named(&script, wanted, None).map_err(refused)?;
             (None, lowered.name, Arc::new(understood.world))
         };
         let scenario = opening.faults.in_scenario(scenario).map_err(refused)?;

@@ -6,7 +6,7 @@ use crate::plan::{Plan, PlanError};
 use crate::recorders::Recorder;
 use crate::recorders::digest::RunDigest;
 use crate::run_vehicle::RunVehicle;
-use crate::world;
+use crate::scenario;
 use albacore_geometry::Point;
 use albacore_machine::{ControlRequest, Event, Machine, Outcome};
 use albacore_navigation::Trust;
@@ -79,7 +79,7 @@ impl Driver {
 
     /// In the plan's world with a seed; and where the vehicle starts.
     pub fn simulated(plan: &Plan, seed: u64) -> Result<(Self, Point), PlanError> {
-        let simulator = Simulator::new(&plan.scenario, seed).map_err(|error| world::cannot_be(&error))?;
+        let simulator = Simulator::new(&plan.scenario, seed).map_err(|error| scenario::cannot_begin(&error))?;
         let start = simulator.truth().position;
         Ok((Driver::new(plan, RunVehicle::Simulated(Box::new(simulator)))?, start))
     }

@@ -1,7 +1,7 @@
 //! The REMUS 100 after Prestero: dynamics from measured and fitted coefficients.
 //!
 //! T. Prestero, Verification of a Six-Degree of Freedom Simulation Model for the REMUS AUV, MIT/WHOI 2001, which the 2016 paper
-//! cites [14]. The thesis itself was not at hand: the numbers are those of three implementations of it that agree (Ariza's,
+//! cites as its reference 14. The thesis itself was not at hand: the numbers are those of three implementations of it that agree (Ariza's,
 //! Sgarioto's, Sarhadi's). What is odd in them is kept, but for `Yvv`, and told here:
 //!
 //! - `Yvv` is printed as -1310, and `Zww` as -131. The hull is round and its fins are a cross, so that they must be equal, and
