@@ -1,7 +1,7 @@
 //! What one instruction makes of what is known.
 
 use super::Unsound;
-use super::known::{Known, Tells, Word, widened};
+use super::known::{Implications, Known, Word, widened};
 use super::ranges::{PATIENCE, Ranges};
 use super::written::written;
 use crate::{ABSOLUTE, Addr, GUIDANCE_WORDS, Guide, Op, RADIUS_MIN_M, Slot};
@@ -14,7 +14,7 @@ impl Ranges<'_> {
         let unsound = |why| Unsound { at, why };
         let must = |holds: bool, why| if holds || !self.holds_to_it { Ok(()) } else { Err(unsound(why)) };
         let range = |known: &Known, slot: Slot| known.range(&self.ground, slot);
-        let no_tells = Tells::default;
+        let nothing = Implications::default;
         match *op {
             Op::Div { b, .. } => must(Div::is_defined([Interval::ANY, range(known, b)]), "it may divide by zero")?,
             Op::Sqrt { a, .. } => {
@@ -39,46 +39,46 @@ impl Ranges<'_> {
             _ => {}
         }
         match *op {
-            Op::Const { to, value } => known.set(&self.ground, to, Word::exactly(value), no_tells()),
+            Op::Const { to, value } => known.set(&self.ground, to, Word::exactly(value), nothing()),
             Op::Copy { to, from } => known.copy(&self.ground, from, to, 1),
             Op::CopyMany { to, from, words } => known.copy(&self.ground, from, to, words),
             Op::Clear { to, words } => {
                 known.forget(&self.ground, to, words);
-                known.set(&self.ground, to, Word::exactly(0.0), no_tells());
+                known.set(&self.ground, to, Word::exactly(0.0), nothing());
             }
             Op::Quotient { to, a, b } => {
                 let (a, b) = (range(known, a), range(known, b));
                 known.forget(&self.ground, to, 2);
                 if Div::is_defined([a, b]) {
-                    known.set(&self.ground, to, Word::exactly(1.0), no_tells());
-                    known.set(&self.ground, to + 1, Word::of(Div::rule([a, b])), no_tells());
+                    known.set(&self.ground, to, Word::exactly(1.0), nothing());
+                    known.set(&self.ground, to + 1, Word::of(Div::rule([a, b])), nothing());
                 } else {
                     let quotient = Div::rule([a, b.and(Interval::NOT_ZERO)]);
-                    known.set(&self.ground, to + 1, Word::of(quotient.or(Interval::exactly(0.0))), no_tells());
-                    let tells = Tells { when: vec![(to + 1, quotient)], unless: Vec::new() };
-                    known.set(&self.ground, to, Word::TRUTH, tells);
+                    known.set(&self.ground, to + 1, Word::of(quotient.or(Interval::exactly(0.0))), nothing());
+                    let implications = Implications { when: vec![(to + 1, quotient)], unless: Vec::new() };
+                    known.set(&self.ground, to, Word::TRUTH, implications);
                 }
             }
             Op::Lt { to, a, b } | Op::Le { to, a, b } => {
                 let strict = matches!(op, Op::Lt { .. });
-                let told = |holds| self.comparison(known, a, b, strict, holds).to_vec();
-                let tells = Tells { when: told(true), unless: told(false) };
-                known.set(&self.ground, to, Word::TRUTH, without(tells, to));
+                let implied = |holds| self.comparison(known, a, b, strict, holds).to_vec();
+                let implications = Implications { when: implied(true), unless: implied(false) };
+                known.set(&self.ground, to, Word::TRUTH, without(implications, to));
             }
             Op::Eq { to, a, b, words: 1 } => {
                 let (left, right) = (range(known, a), range(known, b));
                 let not_zero =
                     |of, other: Interval| (other.constant() == Some(0.0)).then_some((of, Interval::NOT_ZERO));
                 let unless = [not_zero(a, right), not_zero(b, left)].into_iter().flatten().collect();
-                let tells = Tells { when: vec![(a, right), (b, left)], unless };
-                known.set(&self.ground, to, Word::TRUTH, without(tells, to));
+                let implications = Implications { when: vec![(a, right), (b, left)], unless };
+                known.set(&self.ground, to, Word::TRUTH, without(implications, to));
             }
             Op::Not { to, a } => {
-                let Tells { when, unless } = known.tells(&self.ground, a);
-                known.set(&self.ground, to, Word::TRUTH, without(Tells { when: unless, unless: when }, to));
+                let Implications { when, unless } = known.implications(&self.ground, a);
+                known.set(&self.ground, to, Word::TRUTH, without(Implications { when: unless, unless: when }, to));
             }
             Op::And { to, a, b } | Op::Or { to, a, b } => {
-                let (mut left, right) = (known.tells(&self.ground, a), known.tells(&self.ground, b));
+                let (mut left, right) = (known.implications(&self.ground, a), known.implications(&self.ground, b));
                 left.when.extend(right.when);
                 left.unless.extend(right.unless);
                 match op {
@@ -88,28 +88,28 @@ impl Ranges<'_> {
                 known.set(&self.ground, to, Word::TRUTH, without(left, to));
             }
             Op::Age { to, .. } => {
-                known.set(&self.ground, to, Word::of(Operator::Age.rule(&[])), no_tells());
+                known.set(&self.ground, to, Word::of(Operator::Age.rule(&[])), nothing());
             }
             Op::Hits { to, of, .. } => {
-                known.set(&self.ground, to, Word { range: counted(of), is_whole: true }, no_tells());
+                known.set(&self.ground, to, Word { range: counted(of), is_whole: true }, nothing());
             }
             Op::HeldFor { to, x, since, .. } => {
-                self.shown(to, known.tells(&self.ground, x).when);
+                self.shown(to, known.implications(&self.ground, x).when);
                 known.forget(&self.ground, since, 1);
                 self.timer(known, to);
             }
             Op::Becomes { to, x, before } => {
-                self.shown(to, known.tells(&self.ground, x).when);
-                known.set(&self.ground, before, Word::TRUTH, no_tells());
+                self.shown(to, known.implications(&self.ground, x).when);
+                known.set(&self.ground, before, Word::TRUTH, nothing());
                 self.timer(known, to);
             }
-            Op::Elapsed { to, .. } => known.set(&self.ground, to, Word::TRUTH, no_tells()),
+            Op::Elapsed { to, .. } => known.set(&self.ground, to, Word::TRUTH, nothing()),
             Op::At { to, list, words, .. } => {
                 let element = self.element(known, list, words);
                 known.forget(&self.ground, to, words.saturating_add(1));
-                known.set(&self.ground, to, Word::TRUTH, no_tells());
+                known.set(&self.ground, to, Word::TRUTH, nothing());
                 for (slot, word) in (to.saturating_add(1)..).zip(element) {
-                    known.set(&self.ground, slot, word, no_tells());
+                    known.set(&self.ground, slot, word, nothing());
                 }
             }
             Op::Sort { .. } | Op::PushSorted { .. } | Op::Remove { .. } | Op::Push { .. } | Op::Top { .. } => {
@@ -129,7 +129,7 @@ impl Ranges<'_> {
                 if let Some((activity, base)) = self.called(call) {
                     self.runs(entry, at, known, activity.entry, base)?;
                 }
-                known.set(&self.ground, ended, Word::TRUTH, no_tells());
+                known.set(&self.ground, ended, Word::TRUTH, nothing());
             }
             Op::Cut { call, .. } => {
                 if let Some((activity, base)) = self.called(call) {
@@ -152,7 +152,7 @@ impl Ranges<'_> {
             Op::Guide { guide, state, ended, .. } => {
                 let words = if guide == Guide::Keep { 1 } else { GUIDANCE_WORDS };
                 known.forget(&self.ground, state, words);
-                known.set(&self.ground, ended, Word::TRUTH, no_tells());
+                known.set(&self.ground, ended, Word::TRUTH, nothing());
             }
             _ => self.computed(at, op, known),
         }
@@ -215,7 +215,7 @@ impl Ranges<'_> {
             }
             _ => {}
         }
-        known.set(&self.ground, of, Word { range: Interval::new(0.0, most), is_whole: true }, Tells::default());
+        known.set(&self.ground, of, Word { range: Interval::new(0.0, most), is_whole: true }, Implications::default());
     }
 
     /// An operation of the arithmetic, by its rule; of anything else that writes nothing is known.
@@ -260,13 +260,13 @@ impl Ranges<'_> {
         let (was, times) = self.results.get(&at).copied().unwrap_or((range, 0));
         let range = if times < PATIENCE { range } else { widened(range, was) };
         self.results.insert(at, (range, times + 1));
-        known.set(&self.ground, to, Word { range, is_whole }, Tells::default());
+        known.set(&self.ground, to, Word { range, is_whole }, Implications::default());
     }
 }
 
-/// What is told without what is told of the word that is being written.
-fn without(mut tells: Tells, slot: Slot) -> Tells {
-    tells.when.retain(|(of, _)| *of != slot);
-    tells.unless.retain(|(of, _)| *of != slot);
-    tells
+/// Implications without those of the word that is being written.
+fn without(mut implications: Implications, slot: Slot) -> Implications {
+    implications.when.retain(|(of, _)| *of != slot);
+    implications.unless.retain(|(of, _)| *of != slot);
+    implications
 }

@@ -45,13 +45,13 @@ impl Word {
 
 /// What is known of other words when a word is not 0, and when it is.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Tells {
+pub(super) struct Implications {
     pub when: Vec<(Slot, Interval)>,
     pub unless: Vec<(Slot, Interval)>,
 }
 
-impl Tells {
-    fn tells_of(&self, slot: Slot) -> bool {
+impl Implications {
+    fn mentions(&self, slot: Slot) -> bool {
         self.when.iter().chain(&self.unless).any(|(of, _)| *of == slot)
     }
 
@@ -67,17 +67,17 @@ pub(super) struct Ground<'p> {
     input_words: u32,
     words: BTreeMap<Slot, Claim>,
     /// What claims and timers tell.
-    tells: BTreeMap<Slot, Tells>,
+    implications: BTreeMap<Slot, Implications>,
 }
 
 impl<'p> Ground<'p> {
     pub fn new(program: &'p Program, claims: &Claims, unit: &Unit) -> Self {
         let input_words = program.inputs.iter().map(crate::Input::words).sum();
-        let mut ground = Ground { program, input_words, words: BTreeMap::new(), tells: BTreeMap::new() };
+        let mut ground = Ground { program, input_words, words: BTreeMap::new(), implications: BTreeMap::new() };
         for claim in claims.inputs.iter().chain(&unit.claims) {
             ground.words.insert(claim.slot, *claim);
             if let Some(flag) = claim.present {
-                ground.tells.entry(flag).or_default().when.push((claim.slot, claim.range));
+                ground.implications.entry(flag).or_default().when.push((claim.slot, claim.range));
             }
         }
         ground
@@ -85,7 +85,7 @@ impl<'p> Ground<'p> {
 
     /// What a timer shows when it is true.
     pub fn timer(&mut self, timer: Slot, shows: Vec<(Slot, Interval)>) {
-        self.tells.entry(timer).or_default().when = shows;
+        self.implications.entry(timer).or_default().when = shows;
     }
 
     fn word(&self, slot: Slot) -> Word {
@@ -107,11 +107,11 @@ impl<'p> Ground<'p> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Known {
     words: BTreeMap<Slot, Word>,
-    tells: BTreeMap<Slot, Tells>,
+    implications: BTreeMap<Slot, Implications>,
 }
 
 /// So many words at most are compared for what a word that differs tells of them.
-const TOLD_MAX: usize = 64;
+const COMPARED_MAX: usize = 64;
 
 impl Known {
     pub fn word(&self, ground: &Ground, slot: Slot) -> Word {
@@ -122,8 +122,8 @@ impl Known {
         self.word(ground, slot).range
     }
 
-    pub fn tells(&self, ground: &Ground, slot: Slot) -> Tells {
-        self.tells.get(&slot).or_else(|| ground.tells.get(&slot)).cloned().unwrap_or_default()
+    pub fn implications(&self, ground: &Ground, slot: Slot) -> Implications {
+        self.implications.get(&slot).or_else(|| ground.implications.get(&slot)).cloned().unwrap_or_default()
     }
 
     /// Words that are more, or other, than the ground says.
@@ -132,11 +132,11 @@ impl Known {
     }
 
     /// A word is written.
-    pub fn set(&mut self, ground: &Ground, slot: Slot, word: Word, tells: Tells) {
+    pub fn set(&mut self, ground: &Ground, slot: Slot, word: Word, implications: Implications) {
         self.forget(ground, slot, 1);
         self.words.insert(slot, word);
-        if tells != Tells::default() {
-            self.tells.insert(slot, tells);
+        if implications != Implications::default() {
+            self.implications.insert(slot, implications);
         }
     }
 
@@ -148,12 +148,13 @@ impl Known {
         for (slot, claim) in ground.words.range(from..to) {
             self.words.insert(*slot, Word { is_whole: claim.is_whole, ..Word::ANY });
         }
-        for (flag, tells) in &ground.tells {
-            let touched = is_gone(*flag) || (from..to).len() < TOLD_MAX && (from..to).any(|slot| tells.tells_of(slot));
-            if touched && !self.tells.contains_key(flag) {
-                let mut left = if is_gone(*flag) { Tells::default() } else { tells.clone() };
+        for (flag, implications) in &ground.implications {
+            let touched =
+                is_gone(*flag) || (from..to).len() < COMPARED_MAX && (from..to).any(|slot| implications.mentions(slot));
+            if touched && !self.implications.contains_key(flag) {
+                let mut left = if is_gone(*flag) { Implications::default() } else { implications.clone() };
                 left.forget(is_gone);
-                self.tells.insert(*flag, left);
+                self.implications.insert(*flag, left);
             }
         }
     }
@@ -161,8 +162,8 @@ impl Known {
     fn drop_words(&mut self, is_gone: impl Fn(Slot) -> bool + Copy, from: Slot, to: Slot) {
         let gone: Vec<Slot> = self.words.range(from..to).map(|(slot, _)| *slot).collect();
         gone.into_iter().for_each(|slot| _ = self.words.remove(&slot));
-        self.tells.retain(|slot, tells| {
-            tells.forget(is_gone);
+        self.implications.retain(|slot, implications| {
+            implications.forget(is_gone);
             !is_gone(*slot)
         });
     }
@@ -170,8 +171,8 @@ impl Known {
     /// Words that are as the ground says again: others may have written them, and have kept to it.
     pub fn grounded(&mut self, is_grounded: impl Fn(Slot) -> bool) {
         self.words.retain(|slot, _| !is_grounded(*slot));
-        self.tells.retain(|slot, tells| {
-            tells.forget(&is_grounded);
+        self.implications.retain(|slot, implications| {
+            implications.forget(&is_grounded);
             !is_grounded(*slot)
         });
     }
@@ -189,26 +190,26 @@ impl Known {
         if words <= 2 {
             slots.extend(from..end);
         }
-        slots.extend(self.tells.range(from..end).map(|(slot, _)| *slot));
+        slots.extend(self.implications.range(from..end).map(|(slot, _)| *slot));
         slots.sort_unstable();
         slots.dedup();
         let moved = |slot: Slot| if (from..end).contains(&slot) { slot - from + to } else { slot };
-        let copied: Vec<(Slot, Word, Tells)> = slots
+        let copied: Vec<(Slot, Word, Implications)> = slots
             .into_iter()
             .map(|slot| {
-                let mut tells = self.tells(ground, slot);
-                tells.when.iter_mut().chain(&mut tells.unless).for_each(|(of, _)| *of = moved(*of));
-                (moved(slot), self.word(ground, slot), tells)
+                let mut implications = self.implications(ground, slot);
+                implications.when.iter_mut().chain(&mut implications.unless).for_each(|(of, _)| *of = moved(*of));
+                (moved(slot), self.word(ground, slot), implications)
             })
             .collect();
         self.forget(ground, to, words);
         for (slot, word, _) in &copied {
             self.words.insert(*slot, *word);
         }
-        for (slot, _, mut tells) in copied {
+        for (slot, _, mut implications) in copied {
             // What was copied over is known no more; what was copied is known where it is now.
-            tells.forget(|of| (to..to.saturating_add(words)).contains(&of) && !self.words.contains_key(&of));
-            self.tells.insert(slot, tells);
+            implications.forget(|of| (to..to.saturating_add(words)).contains(&of) && !self.words.contains_key(&of));
+            self.implications.insert(slot, implications);
         }
     }
 
@@ -223,19 +224,19 @@ impl Known {
     /// A word is not 0, or it is; false where that cannot be.
     #[must_use]
     pub fn assume(&mut self, ground: &Ground, slot: Slot, holds: bool) -> bool {
-        let tells = self.tells(ground, slot);
-        let (range, told) =
-            if holds { (Interval::NOT_ZERO, tells.when) } else { (Interval::exactly(0.0), tells.unless) };
-        self.learn(ground, slot, range) && told.into_iter().all(|(of, range)| self.learn(ground, of, range))
+        let implications = self.implications(ground, slot);
+        let (range, implied) =
+            if holds { (Interval::NOT_ZERO, implications.when) } else { (Interval::exactly(0.0), implications.unless) };
+        self.learn(ground, slot, range) && implied.into_iter().all(|(of, range)| self.learn(ground, of, range))
     }
 
     /// The values of a word where another is not 0; none where that cannot be.
     pub fn range_where(&self, ground: &Ground, slot: Slot, flag: Slot) -> Option<Interval> {
         self.word(ground, flag).and(Interval::NOT_ZERO)?;
         let mut word = self.word(ground, slot);
-        for (of, range) in self.tells(ground, flag).when {
-            let told = if of == slot { &mut word } else { &mut self.word(ground, of) };
-            *told = told.and(range)?;
+        for (of, range) in self.implications(ground, flag).when {
+            let known = if of == slot { &mut word } else { &mut self.word(ground, of) };
+            *known = known.and(range)?;
         }
         Some(word.range)
     }
@@ -247,7 +248,7 @@ impl Known {
         slots.sort_unstable();
         slots.dedup();
         let mut differing = Vec::new();
-        let mut deciding: Vec<Slot> = self.tells.keys().chain(other.tells.keys()).copied().collect();
+        let mut deciding: Vec<Slot> = self.implications.keys().chain(other.implications.keys()).copied().collect();
         for slot in slots {
             let (a, b) = (self.word(ground, slot), other.word(ground, slot));
             joined.words.insert(slot, a.or(b));
@@ -260,21 +261,21 @@ impl Known {
                 deciding.push(slot);
             }
         }
-        differing.truncate(TOLD_MAX);
+        differing.truncate(COMPARED_MAX);
         deciding.sort_unstable();
         deciding.dedup();
         for slot in deciding {
-            let tells = Tells {
-                when: self.told(other, ground, &joined, slot, true, &differing),
-                unless: self.told(other, ground, &joined, slot, false, &differing),
+            let implications = Implications {
+                when: self.implied(other, ground, &joined, slot, true, &differing),
+                unless: self.implied(other, ground, &joined, slot, false, &differing),
             };
-            joined.tells.insert(slot, tells);
+            joined.implications.insert(slot, implications);
         }
         joined
     }
 
     /// What a word tells of others where two ways meet, when it holds or when it does not.
-    fn told(
+    fn implied(
         &self,
         other: &Known,
         ground: &Ground,
@@ -290,11 +291,11 @@ impl Known {
                 if holds { range.constant() != Some(0.0) } else { !range.excludes_zero() }
             })
             .map(|way| {
-                let tells = way.tells(ground, slot);
-                (way, if holds { tells.when } else { tells.unless })
+                let implications = way.implications(ground, slot);
+                (way, if holds { implications.when } else { implications.unless })
             })
             .collect();
-        let mut of: Vec<Slot> = ways.iter().flat_map(|(_, told)| told.iter().map(|(of, _)| *of)).collect();
+        let mut of: Vec<Slot> = ways.iter().flat_map(|(_, implied)| implied.iter().map(|(of, _)| *of)).collect();
         if ways.len() == 1 {
             of.extend(differing);
         }
@@ -304,9 +305,12 @@ impl Known {
             .filter_map(|of| {
                 let range = ways
                     .iter()
-                    .map(|(way, told)| {
+                    .map(|(way, implied)| {
                         let range = way.range(ground, of);
-                        told.iter().filter(|(slot, _)| *slot == of).fold(range, |range, (_, told)| range.and(*told))
+                        implied
+                            .iter()
+                            .filter(|(slot, _)| *slot == of)
+                            .fold(range, |range, (_, implied)| range.and(*implied))
                     })
                     .reduce(Interval::or)?;
                 (range != joined.range(ground, of)).then_some((of, range))
@@ -316,9 +320,9 @@ impl Known {
 
     /// What is told that differs from what was told at this place before is told no more, so that an end is found.
     pub fn settle(&mut self, before: &Known) {
-        for (slot, tells) in &mut self.tells {
-            if before.tells.get(slot) != Some(tells) {
-                *tells = Tells::default();
+        for (slot, implications) in &mut self.implications {
+            if before.implications.get(slot) != Some(implications) {
+                *implications = Implications::default();
             }
         }
     }

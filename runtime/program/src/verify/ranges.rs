@@ -242,8 +242,8 @@ impl<'p> Ranges<'p> {
                         let word = Word { is_whole: word.is_whole, ..known.word(&self.ground, *slot) }
                             .and(word.range)
                             .unwrap_or(*word);
-                        let tells = known.tells(&self.ground, *slot);
-                        known.set(&self.ground, *slot, word, tells);
+                        let implications = known.implications(&self.ground, *slot);
+                        known.set(&self.ground, *slot, word, implications);
                     }
                     if matches!(op, Op::Return | Op::End | Op::Finish | Op::Abort { .. }) {
                         self.keeps_claims(at, &known)?;
@@ -260,7 +260,7 @@ impl<'p> Ranges<'p> {
         Ok(returned)
     }
 
-    /// What a jump tells when it is taken, or not; false where it cannot be.
+    /// What a jump implies when it is taken, or not; false where it cannot be.
     fn jumps(&self, op: &Op, known: &mut Known, taken: bool) -> bool {
         match *op {
             Op::JumpIf { if_, .. } => known.assume(&self.ground, if_, taken),
