@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{Controller, FrontSeat, Rows, seal};
+use albacore_link::recon::{Controller, Rows, Server, seal};
 use albacore_sim::{Fault, FaultKind, Scenario, Sensor, SensorFault, Simulator, VehicleSetup};
 use albacore_vehicle::{Limits, Snapshot, Vertical};
 
@@ -105,12 +105,12 @@ fn frame() -> TangentFrame {
     TangentFrame { origin: Geodetic::from_degrees(39.5, -74.3) }
 }
 
-fn vehicle() -> FrontSeat<Simulator> {
+fn vehicle() -> Server<Simulator> {
     let limits = Some(Limits { depth: Some(10.0), altitude: 2.0, speed: Some(2.0) });
     let setup = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: setup, limits, ..Scenario::default() }, 1).unwrap();
     let rows: Rows = "100x20x2".parse().unwrap();
-    FrontSeat::new(simulator, frame(), &rows.into(), (Point::ORIGIN, Heading::NORTH), Vertical::Depth(3.0))
+    Server::new(simulator, frame(), &rows.into(), (Point::ORIGIN, Heading::NORTH), Vertical::Depth(3.0))
 }
 
 /// All that came from the vehicle is finite, and of a size that its sums and products stay so.
@@ -209,7 +209,7 @@ fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
         let water = simulator.water_depth(Point::ORIGIN);
         let rows: Rows = "100x20x2".parse().unwrap();
         let start = (Point::ORIGIN, Heading::NORTH);
-        let mut vehicle = FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
+        let mut vehicle = Server::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
         vehicle.tick(seal("E,1").as_bytes()).unwrap();
         for (above, accepted) in [(1.0, false), (3.0, true)] {
             vehicle.take_output();
@@ -235,7 +235,7 @@ fn a_goal_above_the_bottom_is_told_no_deeper_than_the_limit() {
     let altitude = simulator.water_depth(Point::ORIGIN) - 2.0;
     let rows: Rows = "100x20x2".parse().unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
-    let mut vehicle = FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
+    let mut vehicle = Server::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
     vehicle.tick((seal("E,1") + &seal(&format!("C,Depth,Altitude,{altitude:.2}"))).as_bytes()).unwrap();
     for _ in 0..200 {
         vehicle.tick(seal("V,still here").as_bytes()).unwrap();

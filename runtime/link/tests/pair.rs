@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{Controller, FrontSeat, Happening, Milestone, Rows};
+use albacore_link::recon::{Controller, Happening, Milestone, Rows, Server};
 use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
 use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
@@ -92,7 +92,7 @@ fn still_water() -> Scenario {
 }
 
 struct Pair {
-    vehicle: FrontSeat<Simulator>,
+    vehicle: Server<Simulator>,
     controller: Controller,
     wire: Wire,
     there: Delay,
@@ -114,7 +114,7 @@ impl Pair {
         let simulator = Simulator::new(scenario, seed).unwrap();
         let start = (Point::ORIGIN, Heading::NORTH);
         Pair {
-            vehicle: FrontSeat::new(simulator, frame(), &rows.into(), start, Vertical::Depth(3.0)),
+            vehicle: Server::new(simulator, frame(), &rows.into(), start, Vertical::Depth(3.0)),
             controller: Controller::new(frame()),
             wire: Wire { chance: Chance(seed), share },
             there: Delay::default(),

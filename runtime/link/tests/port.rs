@@ -2,11 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
+use albacore_front_seat::Handover;
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{FrontSeat, ReconVehicle, Route};
+use albacore_link::recon::{ReconVehicle, Route, Server};
 use albacore_link::{LinkError, Transport, Url};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
-use albacore_vehicle::{Command, Control, Handover, Snapshot, Vehicle, Vertical};
+use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -57,7 +58,7 @@ const TICK: Duration = Duration::from_millis(100);
 /// A wire with a vehicle at its other end, whose time is that of who looks, and goes on while nobody does.
 struct Desk {
     wire: Arc<Wire>,
-    far_end: FrontSeat<Simulator>,
+    far_end: Server<Simulator>,
     to_vehicle: Vec<u8>,
     under_way: VecDeque<(Duration, Vec<u8>)>,
     from_vehicle: VecDeque<u8>,
@@ -115,7 +116,7 @@ fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
     let hull = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
-    let far_end = FrontSeat::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0)).answering(handover);
+    let far_end = Server::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0)).answering(handover);
     let wire = Arc::new(Wire::default());
     let desk = Desk {
         wire: Arc::clone(&wire),

@@ -4,14 +4,15 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use Act::{Ask, GiveBack, Listen, TakeOver};
+use albacore_front_seat::Handover;
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_guidance::Route;
-use albacore_link::recon::{Controller, FromVehicle, FrontSeat, Happening, Rows, State};
+use albacore_link::recon::{Controller, FromVehicle, Happening, Rows, Server, State};
 use albacore_sim::{Bottom, OwnMission, Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::Control::{InControl, Monitoring, Refused, Released, Requesting, Suspended};
 use albacore_vehicle::Vertical::{Altitude, Depth};
-use albacore_vehicle::{Command, Control, Handover, Limits, Snapshot, Vehicle, Vertical};
+use albacore_vehicle::{Command, Control, Limits, Snapshot, Vehicle, Vertical};
 
 /// The water is so deep everywhere, m.
 const WATER_DEPTH: f64 = 30.0;
@@ -219,7 +220,7 @@ impl Seat for Simulated {
 }
 
 struct Served {
-    vehicle: FrontSeat<Simulator>,
+    vehicle: Server<Simulator>,
     controller: Controller,
     snapshot: Snapshot,
     to_vehicle: Vec<u8>,
@@ -285,7 +286,7 @@ fn seats(case: &Case) -> [(&'static str, Box<dyn Seat>); 2] {
     let simulated = Simulated { vehicle: Simulator::new(&with_handover, 1).unwrap(), snapshot: Snapshot::default() };
     let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
     let start = (Point::ORIGIN, Heading::NORTH);
-    let vehicle = FrontSeat::new(Simulator::new(&scenario, 1).unwrap(), frame, &route, start, Depth(OWN.2));
+    let vehicle = Server::new(Simulator::new(&scenario, 1).unwrap(), frame, &route, start, Depth(OWN.2));
     let served = Served {
         vehicle: vehicle.answering(case.handover.clone()),
         controller: Controller::new(frame),

@@ -6,7 +6,7 @@ use crate::scenario;
 use albacore_geometry::TangentFrame;
 use albacore_lang::Script;
 use albacore_link::Dialect;
-use albacore_link::recon::{FrontSeat, Route, Rows};
+use albacore_link::recon::{Route, Rows, Server};
 use albacore_sim::{Scenario, Simulator};
 use albacore_vehicle::Vertical;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ pub struct ServedVehicle {
 }
 
 /// A simulated vehicle and the computer in its front seat.
-pub type FarEnd = FrontSeat<Simulator>;
+pub type FarEnd = Server<Simulator>;
 
 impl ServedVehicle {
     /// A scenario that the script knows, by its name, else the one that the script's mission runs in. It lies where that
@@ -72,7 +72,7 @@ impl ServedVehicle {
         };
         let route = rows.map(Route::Rows).or(own.map(|own| own.route.clone())).unwrap_or_default();
         let start = simulator.truth().position;
-        let far_end = FrontSeat::new(simulator, self.frame, &route, (start, vehicle.heading), vertical);
+        let far_end = Server::new(simulator, self.frame, &route, (start, vehicle.heading), vertical);
         Ok(far_end.answering(handover))
     }
 }

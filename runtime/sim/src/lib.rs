@@ -5,7 +5,6 @@
 //! the same bits in debug and release: every random number is a pure function of seed, stream and index ([`Noise`]).
 
 mod bottom;
-mod computer;
 mod deepest;
 mod fault;
 pub mod hull;

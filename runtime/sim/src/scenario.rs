@@ -26,8 +26,9 @@ pub use vehicle::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, Vehicle
 
 use crate::fault::{self, Fault};
 use crate::recorded::{self, RecordedPlume};
+use albacore_front_seat::Handover;
 use albacore_geometry::Area;
-use albacore_vehicle::{Channel, Handover, Limits, channels};
+use albacore_vehicle::{Channel, Limits, channels};
 
 /// The most clauses of one name in a scenario.
 const CLAUSES_MAX: usize = 1024;

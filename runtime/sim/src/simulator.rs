@@ -1,6 +1,5 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
-use crate::computer::{Computer, Known, seconds};
 use crate::fault::Faults;
 use crate::hull::Hull;
 use crate::incidents::Incidents;
@@ -8,6 +7,7 @@ use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::{Battery, Compass, Ctd, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
 use crate::survey::Survey;
 use crate::world::World;
+use albacore_front_seat::{FrontSeat, Known};
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::channels::{
     ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE, VEHICLE_MODE,
@@ -46,9 +46,9 @@ pub struct Simulator {
     endurance: f64,
     /// The battery is empty.
     spent: bool,
-    computer: Computer,
+    front_seat: FrontSeat,
     watch: LimitWatch,
-    /// The latest estimate of the current, for the computer.
+    /// The latest estimate of the current, for the front seat.
     flow: Vector,
     control: Control,
     /// The same as it was told last.
@@ -88,11 +88,11 @@ impl Simulator {
             battery: Battery::new(&scenario.battery, seed),
             endurance: vehicle.endurance,
             spent: false,
-            computer: Computer::new(
-                scenario.own_mission.as_ref(),
-                scenario.handover.as_ref(),
+            front_seat: FrontSeat::new(
+                scenario.own_mission.as_ref().map(|own| (&own.route, own.vertical)),
+                scenario.handover.clone().unwrap_or_default(),
                 (start, vehicle.heading),
-                scenario.limits().speed.unwrap_or_default(),
+                scenario.limits().speed.unwrap_or(f64::INFINITY),
             ),
             watch: LimitWatch::new(scenario.limits()),
             flow: Vector::ZERO,
@@ -163,7 +163,7 @@ impl Simulator {
             Control::InControl => self.command,
             // A fix, or a fault: it stays where it is.
             Control::Suspended => None,
-            _ => self.computer.steer(self.known()),
+            _ => self.front_seat.steer(self.known(), &mut |_| {}),
         };
         let water_depth = self.water_depth_here();
         let command = command.map(|command| self.watch.clamp_command(tick, &command, water_depth));
@@ -207,10 +207,20 @@ impl Simulator {
         Command { heading: self.truth.heading, speed: 0.0, vertical: Vertical::Depth(0.0) }
     }
 
-    /// What the vehicle's computer knows.
+    /// What the front seat knows.
     fn known(&self) -> Known {
         let (position, _) = self.positioning.belief(self.truth.position);
         Known { position, course: self.truth.course, heading: self.truth.heading, flow: self.flow }
+    }
+
+    /// What its own mission is about, as the library's `enum VehicleMode` numbers it; none without one.
+    fn mode(&self) -> Option<f64> {
+        self.front_seat.plan()?;
+        Some(match self.control {
+            Control::Suspended => 2.0,
+            _ if self.front_seat.is_over() => 3.0,
+            _ => 1.0,
+        })
     }
 
     /// Notes what is so now.
@@ -317,7 +327,7 @@ impl Simulator {
             snapshot.push(BATTERY, &[charge]);
         }
         if tick.is_multiple_of(MODE_TICKS)
-            && let Some(mode) = self.computer.mode(self.control)
+            && let Some(mode) = self.mode()
         {
             snapshot.push(VEHICLE_MODE, &[mode]);
         }
@@ -352,7 +362,7 @@ impl Vehicle for Simulator {
             let is_refused = self.control == Control::Refused || has_asked && !drives;
             self.control = if is_refused { Control::Refused } else { Control::Released };
         } else if self.control != Control::Released {
-            self.control = self.computer.answer(seconds(tick), self.known().position);
+            self.control = self.front_seat.answer(tick as f64 * TICK_S, self.known().position);
         }
         snapshot.samples.clear();
         snapshot.control = self.control;
@@ -369,7 +379,7 @@ impl Vehicle for Simulator {
             self.control = Control::Refused;
             return Ok(());
         }
-        self.control = self.computer.ask(self.time_s(), self.known().position);
+        self.control = self.front_seat.ask(self.time_s(), self.known().position);
         Ok(())
     }
 
@@ -388,14 +398,14 @@ impl Vehicle for Simulator {
     }
 
     fn give_back(&mut self) -> Result<(), VehicleError> {
-        self.computer.take_back(self.known().position);
+        self.front_seat.leave(self.known().position);
         self.control = Control::Monitoring;
         self.command = None;
         Ok(())
     }
 
     fn release(&mut self) -> Result<(), VehicleError> {
-        self.computer.take_back(self.known().position);
+        self.front_seat.leave(self.known().position);
         self.control = Control::Released;
         self.command = None;
         Ok(())

@@ -4,11 +4,9 @@
 //! executes a program sees nothing else of them.
 
 pub mod channels;
-mod handover;
 mod limits;
 mod truth;
 
-pub use handover::{ControlArbiter, Handover};
 pub use limits::{Beyond, LimitWatch, Limits};
 pub use truth::Truth;
 

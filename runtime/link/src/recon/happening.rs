@@ -1,8 +1,8 @@
 //! What happens at the vehicle's side, and how it is told.
 
-use super::front_seat::TIMEOUT_TICKS;
+use super::server::TIMEOUT_TICKS;
+use albacore_front_seat::Milestone;
 use albacore_geometry::Point;
-use albacore_guidance::Milestone;
 use albacore_vehicle::TICK_S;
 use std::fmt;
 

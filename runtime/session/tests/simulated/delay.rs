@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Heading, Point};
-use albacore_link::recon::{FrontSeat, ReconVehicle, Route};
+use albacore_link::recon::{ReconVehicle, Route, Server};
 use albacore_link::{LinkError, Transport, Url};
 use albacore_session::{Outcome, Plan, Rows, Run, Source, load_text};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
@@ -31,7 +31,7 @@ mission there_and_back within 20 min {
 
 /// How a vehicle and its wire are, and how far the vehicle has been from the middle, north or east, m.
 struct Desk {
-    vehicle: FrontSeat<Simulator>,
+    vehicle: Server<Simulator>,
     there: VecDeque<Vec<u8>>,
     back: VecDeque<Vec<u8>>,
     sent: Vec<u8>,
@@ -82,7 +82,7 @@ fn run(script: &str, delay: usize, slowness: f64) -> (Outcome, String, f64, Dura
     let seen = Arc::new(Mutex::new(Seen::default()));
     // Rows of its own that keep it near the middle, for as long as nobody drives it.
     let rows: Route = "10x10x40".parse::<Rows>().unwrap().into();
-    let mut vehicle = FrontSeat::new(simulator, frame, &rows, start, Vertical::Depth(4.0));
+    let mut vehicle = Server::new(simulator, frame, &rows, start, Vertical::Depth(4.0));
     let mut said = |_| {
         vehicle.tick(b"").unwrap();
         vehicle.take_output()

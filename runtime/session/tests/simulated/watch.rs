@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_geometry::{Geodetic, TangentFrame};
-use albacore_link::recon::{Controller, FrontSeat, Rows};
+use albacore_link::recon::{Controller, Rows, Server};
 use albacore_session::{Outcome, Plan, Run, load};
 use albacore_sim::Simulator;
 use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError, Vertical};
@@ -86,7 +86,7 @@ fn nothing_is_doubted_on_a_link() {
 
 /// Both ends of a link, in one thread and without a clock.
 struct Pair {
-    vehicle: FrontSeat<Simulator>,
+    vehicle: Server<Simulator>,
     controller: Controller,
     to_vehicle: Vec<u8>,
 }
@@ -98,7 +98,7 @@ impl Pair {
         let (frame, start) = (plan.frame().unwrap_or(somewhere), simulator.truth());
         let vertical = Vertical::Depth(start.depth.max(1.0));
         let rows: Rows = "200x30x6".parse().unwrap();
-        let vehicle = FrontSeat::new(simulator, frame, &rows.into(), (start.position, start.heading), vertical);
+        let vehicle = Server::new(simulator, frame, &rows.into(), (start.position, start.heading), vertical);
         let mut pair = Pair { vehicle, controller: Controller::new(frame), to_vehicle: Vec::new() };
         // Under way in its own mission: one that stands still has no course.
         for _ in 0..UNDER_WAY_TICKS {

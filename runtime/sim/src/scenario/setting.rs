@@ -8,8 +8,9 @@ use super::{
     Scenario, Sounder, Source, Stratification, Tide, UpperFlow, VehicleSetup, Waves,
 };
 use crate::fault::Fault;
+use albacore_front_seat::Handover;
 use albacore_geometry::Area;
-use albacore_vehicle::{Handover, Limits};
+use albacore_vehicle::Limits;
 use serde::Deserialize;
 
 /// A clause of a scenario. Its parameters, their units, defaults and ranges are declared in the standard library.

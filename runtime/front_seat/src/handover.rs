@@ -1,6 +1,6 @@
 //! How a vehicle's own computer answers who asks to drive it.
 
-use crate::Control;
+use albacore_vehicle::Control;
 use serde::{Deserialize, Serialize};
 
 /// The answers. Times are seconds since tick 0; none is never.
@@ -38,7 +38,7 @@ enum Guest {
 
 /// The computer's side of a handover.
 #[derive(Clone, Debug)]
-pub struct ControlArbiter {
+pub(crate) struct ControlArbiter {
     handover: Handover,
     guest: Guest,
 }

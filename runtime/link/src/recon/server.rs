@@ -11,13 +11,12 @@ use super::happening::{Happening, shortened};
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::mode::{Mode, Phase};
 use super::seawater;
+use albacore_front_seat::{FrontSeat, Handover, Known, Milestone, OwnPlan};
 use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
+use albacore_guidance::Route;
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_guidance::{Milestone, OwnPlan, Route, through_water};
-use albacore_vehicle::{
-    Beyond, Command, Control, ControlArbiter, Handover, Snapshot, TICK_S, Vehicle, VehicleError, Vertical,
-};
+use albacore_vehicle::{Beyond, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
 pub(super) const TIMEOUT_TICKS: u64 = 50;
@@ -71,15 +70,12 @@ struct Senses {
     battery: f64,
 }
 
-/// A vehicle's own computer.
-pub struct FrontSeat<V> {
+/// A vehicle and its own computer, served to a guest.
+pub struct Server<V> {
     vehicle: V,
     frame: TangentFrame,
-    plan: OwnPlan,
-    /// What it holds on its legs.
-    vertical: Vertical,
-    /// How it answers who asks to drive, and who drives by that.
-    gate: ControlArbiter,
+    /// Its own plan, and how it answers who asks to drive.
+    seat: FrontSeat,
     control: Control,
     /// When a guest gave control back last, or left.
     left: Option<u64>,
@@ -105,17 +101,16 @@ pub struct FrontSeat<V> {
     happenings: Vec<Happening>,
 }
 
-impl<V: Vehicle> FrontSeat<V> {
+impl<V: Vehicle> Server<V> {
     /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its route.
     pub fn new(vehicle: V, frame: TangentFrame, route: &Route, start: (Point, Heading), vertical: Vertical) -> Self {
-        let plan = OwnPlan::new(route, start.0, start.1);
-        let happenings = vec![Happening::Plan(Milestone::Leg(1, plan.legs()))];
-        FrontSeat {
+        let speed_max = vehicle.limits().speed.unwrap_or(f64::INFINITY);
+        let seat = FrontSeat::new(Some((route, vertical)), Handover::default(), start, speed_max);
+        let happenings = seat.plan().map(|plan| Happening::Plan(Milestone::Leg(1, plan.legs()))).into_iter().collect();
+        Server {
             vehicle,
             frame,
-            plan,
-            vertical,
-            gate: ControlArbiter::new(Handover::default()),
+            seat,
             control: Control::Monitoring,
             left: None,
             goals: None,
@@ -138,7 +133,7 @@ impl<V: Vehicle> FrontSeat<V> {
 
     /// The same, answering so who asks to drive.
     pub fn answering(self, handover: Handover) -> Self {
-        FrontSeat { gate: ControlArbiter::new(handover), ..self }
+        Server { seat: self.seat.answering(handover), ..self }
     }
 
     /// What is to be sent; taken once.
@@ -193,8 +188,9 @@ impl<V: Vehicle> FrontSeat<V> {
         self.tell_grounding();
         self.hear(bytes);
         self.answer();
-        if !self.given_up {
-            let command = self.steer();
+        if !self.given_up
+            && let Some(command) = self.steer()
+        {
             self.vehicle.command(&command)?;
             self.command = Some(command);
         }
@@ -233,7 +229,7 @@ impl<V: Vehicle> FrontSeat<V> {
         match message {
             ToVehicle::Override(true) if self.given_up => {}
             ToVehicle::Override(true) => {
-                self.gate.ask(self.seconds());
+                self.seat.ask(self.seconds(), self.senses.position);
                 self.answer();
             }
             ToVehicle::Override(false) => {
@@ -242,7 +238,7 @@ impl<V: Vehicle> FrontSeat<V> {
                 }
                 self.leave();
             }
-            ToVehicle::ClosestPoint(closest) => self.plan.return_to_closest_point(*closest),
+            ToVehicle::ClosestPoint(closest) => self.seat.return_to_closest_point(*closest),
             // However often it was asked in a tick.
             ToVehicle::VersionRequest => self.asked_version = true,
             ToVehicle::Query(_) | ToVehicle::KeepAlive(_) | ToVehicle::Other(_) => {}
@@ -256,9 +252,11 @@ impl<V: Vehicle> FrontSeat<V> {
             return;
         }
         let before = self.control;
-        self.control = self.gate.answer(self.seconds(), self.plan.is_over());
-        if self.gate.is_passed() != self.is_driven() {
-            if self.is_driven() { self.go_back() } else { self.give_over() }
+        self.control = self.seat.answer(self.seconds(), self.senses.position);
+        match (self.is_driven(), self.seat.is_driven()) {
+            (false, true) => self.give_over(),
+            (true, false) => self.goals = None,
+            _ => {}
         }
         match (before, self.control) {
             (before, now) if before == now => {}
@@ -270,10 +268,9 @@ impl<V: Vehicle> FrontSeat<V> {
     }
 
     fn give_over(&mut self) {
-        self.plan.leave(self.senses.position);
-        self.happenings.push(Happening::Taken(self.senses.position, self.plan.leg()));
-        let (heading, speed) = (self.senses.heading, self.plan.speed());
-        self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.vertical });
+        self.happenings.push(Happening::Taken(self.senses.position, self.leg()));
+        let (heading, speed) = (self.senses.heading, self.seat.plan().map_or(0.0, OwnPlan::speed));
+        self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.seat.vertical() });
     }
 
     fn set_goal(&mut self, command: &ToVehicle) {
@@ -331,41 +328,30 @@ impl<V: Vehicle> FrontSeat<V> {
     /// The guest is gone.
     fn leave(&mut self) {
         self.left = Some(self.tick);
-        self.gate.leave();
-        self.go_back();
+        self.goals = None;
+        self.seat.leave(self.senses.position);
     }
 
-    fn go_back(&mut self) {
-        self.goals = None;
-        self.plan.go_back(self.senses.position);
+    /// The leg under way.
+    fn leg(&self) -> u32 {
+        self.seat.plan().map_or(0, OwnPlan::leg)
     }
 
     /// What to do in the coming tick.
-    fn steer(&mut self) -> Command {
+    fn steer(&mut self) -> Option<Command> {
         if self.control == Control::Suspended {
             // It stays where it is.
             let Senses { heading, depth, .. } = self.senses;
-            return Command { heading, speed: 0.0, vertical: Vertical::Depth(depth) };
+            return Some(Command { heading, speed: 0.0, vertical: Vertical::Depth(depth) });
         }
         if let Some(goals) = &mut self.goals {
             goals.heading = goals.heading + goals.rate * TICK_S;
-            return goals.command();
+            return Some(goals.command());
         }
-        let Senses { position, course, heading, .. } = self.senses;
+        let Senses { position, course, heading, flow, .. } = self.senses;
+        let known = Known { position, course, heading, flow: flow.unwrap_or(Vector::ZERO) };
         let happenings = &mut self.happenings;
-        match self.plan.step(position, course, &mut |milestone| happenings.push(Happening::Plan(milestone))) {
-            Some(course) => self.over_ground(course),
-            // It floats up and waits to be found.
-            None => Command { heading, speed: 0.0, vertical: Vertical::Depth(0.0) },
-        }
-    }
-
-    /// A course over ground at the route's speed, through water that moves.
-    fn over_ground(&self, course: Heading) -> Command {
-        let flow = self.senses.flow.unwrap_or(Vector::ZERO);
-        let most = self.vehicle.limits().speed.unwrap_or(f64::INFINITY);
-        let water = through_water(course, self.plan.speed(), flow, most);
-        Command { heading: water.heading, speed: water.speed, vertical: self.vertical }
+        self.seat.steer(known, &mut |milestone| happenings.push(Happening::Plan(milestone)))
     }
 
     /// Takes in what was sensed, and passes on what has messages of its own.
@@ -432,14 +418,15 @@ impl<V: Vehicle> FrontSeat<V> {
     }
 
     fn mode(&self) -> Mode {
-        let closest = if self.plan.returns_to_closest_point() { Mode::CLOSEST_POINT } else { 0 };
+        let closest =
+            if self.seat.plan().is_some_and(OwnPlan::returns_to_closest_point) { Mode::CLOSEST_POINT } else { 0 };
         if self.given_up {
             Mode::new(Phase::Over, Mode::NOT_ALLOWED)
         } else if self.control == Control::Suspended {
             Mode::new(Phase::Suspended, closest | Mode::ENABLED | Mode::ACTIVE)
         } else if self.is_driven() {
             Mode::new(Phase::InMission, closest | Mode::ENABLED | Mode::ACTIVE)
-        } else if self.plan.is_over() {
+        } else if self.seat.is_over() {
             Mode::new(Phase::Over, 0)
         } else {
             let answer = match self.control {
@@ -486,7 +473,7 @@ impl<V: Vehicle> FrontSeat<V> {
             heading_rate: s.turn_rate,
             heading_goal: goal.map_or(s.heading, |c| c.heading),
             mode: self.mode(),
-            leg: Some(self.plan.leg()),
+            leg: Some(self.leg()),
         }));
     }
 

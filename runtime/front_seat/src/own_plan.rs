@@ -2,10 +2,9 @@
 //! driven. On release it returns to the point where the guest took over, or to the closest point of its leg, and goes on
 //! (J. A. Farrell et al., the 2003 trials).
 
-use crate::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
-use crate::route::{Route, UnderWay};
-use crate::{Goto, turning_radius};
 use albacore_geometry::{Heading, Point};
+use albacore_guidance::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
+use albacore_guidance::{Goto, Route, UnderWay, turning_radius};
 
 /// A plan under way.
 #[derive(Clone, Debug)]
