@@ -11,6 +11,7 @@ use crate::source::Span;
 use crate::syntax::tree::{self, Condition, ForOver};
 use crate::types::{Type, is_number};
 use albacore_arithmetic::INT_MAX;
+use albacore_program::senses;
 
 /// A loop that takes no time goes round this often at most: every tick must end, and soon.
 const ROUNDS_MAX: f64 = 10_000.0;
@@ -139,8 +140,8 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         }
-        match self.hir.inputs.iter().position(|input| input.name == "position") {
-            Some(id) => self.def_value(&Def::Input(id), "position", span),
+        match self.hir.inputs.iter().position(|input| input.name == senses::POSITION) {
+            Some(id) => self.def_value(&Def::Input(id), senses::POSITION, span),
             None => self.unknown(span),
         }
     }

@@ -9,17 +9,17 @@ use crate::hir::{
 };
 use crate::source::Span;
 use crate::suggest;
-use albacore_program::Guide;
+use albacore_program::{Guide, senses};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Inputs that the machine reads without being asked: to go over ground in moving water, and to hold a vertical limit.
-const BY_THE_MACHINE: [&str; 4] = ["flow", "depth", "altitude", "water_depth"];
+const BY_THE_MACHINE: [&str; 4] = [senses::FLOW, senses::DEPTH, senses::ALTITUDE, senses::WATER_DEPTH];
 
 /// Inputs that a `hold` keeps its place by, where they have come; without them it lies still.
-const BY_HOLD: [&str; 2] = ["position", "course"];
+const BY_HOLD: [&str; 2] = [senses::POSITION, senses::COURSE];
 
 /// Inputs that are never too old: they tell how things stand with the vehicle, and that of one not heard from as well.
-const OF_THE_LINK: [&str; 2] = ["control", "vehicle_mode"];
+const OF_THE_LINK: [&str; 2] = [senses::CONTROL, senses::VEHICLE_MODE];
 
 /// So many places are shown where an input is read.
 const PLACES_MAX: usize = 3;
@@ -84,8 +84,8 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
 
 /// An entry of `requires` for each input that comes seldom or late, so that a mission which takes it over waits long enough.
 const SELDOM: [(&str, &str); 2] = [
-    ("battery", "battery fresh 1 min, else abort"),
-    ("flow", "flow fresh 30 s, at first 0 m/s toward north, else abort"),
+    (senses::BATTERY, "battery fresh 1 min, else abort"),
+    (senses::FLOW, "flow fresh 30 s, at first 0 m/s toward north, else abort"),
 ];
 
 /// Entries of `requires` for inputs, which can be pasted.
@@ -225,16 +225,16 @@ impl Walk<'_> {
             StmtKind::Timed(timed) => match &timed.action {
                 Action::Call(id, _) => self.activity(*id),
                 Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, _) => {
-                    self.note("position", stmt.span);
-                    self.note("course", stmt.span);
-                    self.note("heading", stmt.span);
+                    self.note(senses::POSITION, stmt.span);
+                    self.note(senses::COURSE, stmt.span);
+                    self.note(senses::HEADING, stmt.span);
                 }
                 Action::Guide(Guide::Hold, _) => {
                     self.holds = true;
-                    self.note("heading", stmt.span);
+                    self.note(senses::HEADING, stmt.span);
                 }
                 Action::Guide(Guide::Wait, _) | Action::Watch | Action::Override(_) => {}
-                _ => self.note("heading", stmt.span),
+                _ => self.note(senses::HEADING, stmt.span),
             },
             _ => {}
         });

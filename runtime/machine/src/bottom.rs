@@ -9,7 +9,7 @@ use crate::Event;
 use crate::slope::{SLOPE_MAX, Slope};
 use crate::state::{Limits, Run};
 use albacore_geometry::Point;
-use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program, Slot};
+use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program, Slot, senses};
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -265,7 +265,9 @@ impl Run {
     fn heard_lately(&self, p: &Program) -> Option<Heard> {
         let required = p.mission.requires.iter().zip(&self.state.requires);
         let fresh = required
-            .filter(|(require, _)| matches!(&*p.inputs[require.input as usize].name, "altitude" | "water_depth"))
+            .filter(|(require, _)| {
+                matches!(&*p.inputs[require.input as usize].name, senses::ALTITUDE | senses::WATER_DEPTH)
+            })
             .map(|(_, numbers)| numbers.fresh)
             .fold(LIMIT_FRESH_S / TICK_S, f64::min);
         let doubted = self.state.bottom.doubted;

@@ -3,7 +3,7 @@
 use crate::state::{Run, Senses};
 use albacore_arithmetic::{Age, Operation};
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_program::{Input, Program, Slot};
+use albacore_program::{Input, Program, Slot, senses};
 use albacore_vehicle::channels::{ALTITUDE, POSITION};
 use albacore_vehicle::{Channel, Sample};
 
@@ -34,7 +34,7 @@ pub(crate) fn wiring(program: &Program, channels: &[Channel]) -> Result<Vec<Opti
     for require in &program.mission.requires {
         let name = &program.inputs[require.input as usize].name;
         // Who drives is told with every snapshot, and by no channel.
-        if *name != "control" && !channels.iter().any(|c| c.name == *name) {
+        if name != senses::CONTROL && !channels.iter().any(|c| c.name == *name) {
             let delivered = channels.iter().map(|c| c.name.clone()).collect();
             return Err(MissingInput { name: name.clone(), delivered });
         }
@@ -47,13 +47,13 @@ pub(crate) fn wiring(program: &Program, channels: &[Channel]) -> Result<Vec<Opti
 pub(crate) fn senses(program: &Program) -> Senses {
     let at = |name: &str| program.inputs.iter().find(|i| i.name == name).map(|i| i.at);
     Senses {
-        position: at("position"),
-        course: at("course"),
-        heading: at("heading"),
-        flow: at("flow"),
-        depth: at("depth"),
-        altitude: at("altitude"),
-        control: at("control"),
+        position: at(senses::POSITION),
+        course: at(senses::COURSE),
+        heading: at(senses::HEADING),
+        flow: at(senses::FLOW),
+        depth: at(senses::DEPTH),
+        altitude: at(senses::ALTITUDE),
+        control: at(senses::CONTROL),
     }
 }
 

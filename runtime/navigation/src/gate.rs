@@ -5,10 +5,11 @@
 //! of a channel that is wrong more often than now and then, even where it happens to fit. What no sensor can measure is never
 //! believed. The limits are those of the watch ([`crate::HealthMonitor`]).
 
-use crate::health::Kind;
-use albacore_geometry::math::{asin, degrees};
+use albacore_geometry::math::asin;
 use albacore_geometry::{Heading, Point};
-use albacore_vehicle::channels::{ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, POSITION, SPEED};
+use albacore_vehicle::channels::{
+    self, ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, Measurement, POSITION, SPEED, measurement,
+};
 use albacore_vehicle::{Reading, TICK_S};
 use std::fmt;
 
@@ -37,22 +38,10 @@ const DOUBTS_MAX: u32 = 20;
 /// That a channel was doubted is told again when it was not for so many ticks: 15 s.
 const AGAIN_TICKS: u64 = 150;
 
-/// The channels that are judged: what is measured of the vehicle itself, which is slow. What is measured of the water (flow, chemical,
-/// temperature, salinity) may have any edge, and a mode is a word and no measure.
-const JUDGED: [(u16, Kind); 7] = [
-    (POSITION, Kind::Position),
-    (COURSE, Kind::Course),
-    (HEADING, Kind::Heading),
-    (SPEED, Kind::Speed),
-    (DEPTH, Kind::Depth),
-    (ALTITUDE, Kind::Altitude),
-    (BATTERY, Kind::Battery),
-];
-
 /// What is told of a doubt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doubt {
-    kind: Kind,
+    channel: u16,
     change: Change,
 }
 
@@ -68,19 +57,12 @@ enum Change {
 
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (name, kind) = (self.kind.name(), self.kind);
-        let by = |change: f64| match kind {
-            Kind::Position => format!("{change:.0} m away"),
-            Kind::Course | Kind::Heading => format!("{:.0} deg off", degrees(change)),
-            Kind::Speed | Kind::Flow => format!("{change:.1} m/s off"),
-            Kind::Chemical => format!("{change:.2} off"),
-            Kind::Battery => format!("{:.0} % off", 100.0 * change),
-            Kind::Depth | Kind::Altitude => format!("{change:.1} m off"),
-        };
+        let Measurement { name, quantity, .. } = measurement(self.channel);
+        let by = |change: f64| quantity.show_difference(change);
         match self.change {
             Change::Rejected(change, time) => write!(f, "rejected: {name}, {} in {time:.1} s", by(change)),
             Change::Believed(change, time) => write!(f, "believed: {name}, {} for {time:.1} s", by(change)),
-            Change::Impossible(sigma) if kind == Kind::Position => {
+            Change::Impossible(sigma) if self.channel == POSITION => {
                 write!(f, "rejected: {name}, a sigma of {sigma:.1} m cannot be")
             }
             Change::Impossible(value) => write!(f, "rejected: {name}, {value:.1} cannot be"),
@@ -100,7 +82,7 @@ struct Doubtful {
 /// A channel and what is believed of it.
 #[derive(Clone, Copy, Debug)]
 struct Channel {
-    kind: Kind,
+    number: u16,
     believed: Option<(Reading, u64)>,
     /// Whether a second sample has confirmed what is believed.
     confirmed: bool,
@@ -116,7 +98,8 @@ struct Channel {
 /// The gate of one run.
 #[derive(Clone, Debug)]
 pub struct Gate {
-    channels: [Channel; JUDGED.len()],
+    /// Those that are judged.
+    channels: Vec<Channel>,
     /// The speed over ground that was believed last, m/s.
     speed: f64,
     events: Vec<Doubt>,
@@ -124,20 +107,21 @@ pub struct Gate {
 
 impl Default for Gate {
     fn default() -> Self {
-        Gate { channels: JUDGED.map(|(_, kind)| Channel::new(kind)), speed: 0.0, events: Vec::new() }
+        let judged = (0..).zip(&channels::ALL).filter(|(_, row)| row.is_gated);
+        Gate { channels: judged.map(|(number, _)| Channel::new(number)).collect(), speed: 0.0, events: Vec::new() }
     }
 }
 
 impl Gate {
     /// Whether a sample of a tick is believed.
     pub fn believes(&mut self, tick: u64, channel: u16, reading: Reading) -> bool {
-        let Some(index) = JUDGED.iter().position(|(judged, _)| *judged == channel) else { return true };
-        if channel == COURSE && self.speed < HAS_COURSE && is_possible(Kind::Course, reading) {
+        let Some(judge) = self.channels.iter_mut().find(|judged| judged.number == channel) else { return true };
+        if channel == COURSE && self.speed < HAS_COURSE && is_possible(COURSE, reading) {
             // What follows has nothing to follow.
-            self.channels[index] = Channel::new(Kind::Course);
+            *judge = Channel::new(COURSE);
             return true;
         }
-        let believed = self.channels[index].judge(tick, reading, self.speed, &mut self.events);
+        let believed = judge.judge(tick, reading, self.speed, &mut self.events);
         if channel == SPEED && believed {
             self.speed = reading[0];
         }
@@ -151,8 +135,8 @@ impl Gate {
 }
 
 impl Channel {
-    fn new(kind: Kind) -> Self {
-        Channel { kind, believed: None, confirmed: false, came: 0, doubtful: None, doubts: 0, doubted: None }
+    fn new(number: u16) -> Self {
+        Channel { number, believed: None, confirmed: false, came: 0, doubtful: None, doubts: 0, doubted: None }
     }
 
     /// Judges a sample of a vehicle that makes a speed over ground, m/s.
@@ -161,34 +145,34 @@ impl Channel {
         if reading.iter().any(|x| !x.is_finite()) {
             return true;
         }
-        let kind = self.kind;
-        if !is_possible(kind, reading) {
+        let number = self.number;
+        if !is_possible(number, reading) {
             self.came = tick;
             self.doubtful = None;
-            self.doubt(tick, Change::Impossible(if kind == Kind::Position { reading[2] } else { reading[0] }), events);
+            self.doubt(tick, Change::Impossible(if number == POSITION { reading[2] } else { reading[0] }), events);
             return false;
         }
         let seconds = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         let came = std::mem::replace(&mut self.came, tick);
         let is_next = match self.believed {
-            Some((before, _)) => follows(kind, reading, before, seconds(came), speed),
-            None => begins(kind, reading),
+            Some((before, _)) => follows(number, reading, before, seconds(came), speed),
+            None => begins(number, reading),
         };
         if is_next && self.doubts <= DOUBTS_TRUSTED {
             self.believe(tick, reading);
             return true;
         }
         let (before, at) = self.believed.unwrap_or((Reading::default(), 0));
-        let change = change(kind, reading, before);
+        let change = measurement(number).quantity.difference(reading, before);
         let first = Doubtful { reading, tick, since: tick, samples: 1 };
         let doubtful = match self.doubtful {
-            Some(d) if follows(kind, reading, d.reading, seconds(d.tick), speed) => {
+            Some(d) if follows(number, reading, d.reading, seconds(d.tick), speed) => {
                 Doubtful { since: d.since, samples: d.samples + 1, ..first }
             }
             _ => first,
         };
         let lasts = seconds(doubtful.since);
-        let nearer = kind == Kind::Altitude && reading[0] < before[0];
+        let nearer = number == ALTITUDE && reading[0] < before[0];
         let persists = if self.believed.is_none() || !self.confirmed {
             doubtful.samples >= FIRST_SAMPLES
         } else if nearer {
@@ -197,7 +181,7 @@ impl Channel {
             doubtful.samples >= PERSISTS_SAMPLES && lasts >= PERSISTS_S
         };
         if persists {
-            events.push(Doubt { kind, change: Change::Believed(change, lasts) });
+            events.push(Doubt { channel: number, change: Change::Believed(change, lasts) });
             // A bottom that comes nearer is believed for itself; the channel is as doubtful as before.
             self.doubts = if nearer { self.doubts } else { 0 };
             self.believe(tick, reading);
@@ -219,7 +203,7 @@ impl Channel {
     fn doubt(&mut self, tick: u64, change: Change, events: &mut Vec<Doubt>) {
         let again = self.doubted.is_some_and(|last| tick < last + AGAIN_TICKS);
         if !again {
-            events.push(Doubt { kind: self.kind, change });
+            events.push(Doubt { channel: self.number, change });
         }
         self.doubted = Some(tick);
         self.doubts = (self.doubts + DOUBT).min(DOUBTS_MAX);
@@ -227,40 +211,31 @@ impl Channel {
 }
 
 /// Whether a reading can be. A position may be anywhere: where missions are is not known here; its standard deviation may not.
-fn is_possible(kind: Kind, reading: Reading) -> bool {
-    if kind == Kind::Position { reading[2] >= 0.0 } else { kind.can_be(reading) }
+fn is_possible(number: u16, reading: Reading) -> bool {
+    if number == POSITION { reading[2] >= 0.0 } else { measurement(number).quantity.can_be(reading) }
 }
 
 /// Whether a reading can follow another after some seconds, of a vehicle that makes a speed over ground, m/s. The gate judges a course
 /// of a vehicle under way alone.
-fn follows(kind: Kind, now: Reading, before: Reading, time: f64, speed: f64) -> bool {
-    if kind != Kind::Course {
-        return kind.can_follow(now, before, time);
+fn follows(number: u16, now: Reading, before: Reading, time: f64, speed: f64) -> bool {
+    if number != COURSE {
+        return measurement(number).can_follow(now, before, time);
     }
     let (now, before) = (Heading::from_radians(now[0]), Heading::from_radians(before[0]));
     let sway = asin(((SWAY * time).min(SWAY_MAX) / speed).min(1.0));
     let turn = now - before;
     // What waves add to a turn is to either side.
     let turned = before + turn.signum() * (turn.abs() - sway).max(0.0);
-    Kind::Heading.can_follow([turned.radians(), 0.0, 0.0, 0.0], [before.radians(), 0.0, 0.0, 0.0], time)
+    measurement(HEADING).can_follow([turned.radians(), 0.0, 0.0, 0.0], [before.radians(), 0.0, 0.0, 0.0], time)
 }
 
 /// Whether a first reading is where missions begin.
-fn begins(kind: Kind, reading: Reading) -> bool {
-    match kind {
-        Kind::Position => Point::new(reading[0], reading[1]).distance(Point::ORIGIN) <= BEGINS_WITHIN_M,
-        Kind::Depth => reading[0] <= BEGINS_ABOVE_M,
-        Kind::Battery => reading[0] >= BEGINS_CHARGED,
+fn begins(number: u16, reading: Reading) -> bool {
+    match number {
+        POSITION => Point::new(reading[0], reading[1]).distance(Point::ORIGIN) <= BEGINS_WITHIN_M,
+        DEPTH => reading[0] <= BEGINS_ABOVE_M,
+        BATTERY => reading[0] >= BEGINS_CHARGED,
         _ => true,
-    }
-}
-
-/// By how much a reading differs from another, in SI units.
-fn change(kind: Kind, now: Reading, before: Reading) -> f64 {
-    match kind {
-        Kind::Position | Kind::Flow => Point::new(now[0], now[1]).distance(Point::new(before[0], before[1])),
-        Kind::Course | Kind::Heading => (Heading::from_radians(now[0]) - Heading::from_radians(before[0])).abs(),
-        _ => (now[0] - before[0]).abs(),
     }
 }
 

@@ -10,15 +10,15 @@ mod mirrored;
 mod motion;
 mod noise;
 
-use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH};
+use albacore_vehicle::channels::{
+    self, ALTITUDE, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH, measurement,
+};
 use albacore_vehicle::{Command, Control, Reading, Snapshot, Vertical};
 use channel::Channel;
 use commanded::Commanded;
 use mirrored::Mirrored;
 use motion::Motion;
 use std::fmt;
-
-pub use channel::Kind;
 
 /// What was seen is over when it was not seen for so many ticks: 15 s.
 const WELL_AFTER_TICKS: u64 = 150;
@@ -31,31 +31,19 @@ const FOLLOWS_TICKS: u64 = 10;
 /// Below this speed over ground a vehicle stands still, m/s.
 const AT_REST: f64 = 0.05;
 
-/// The channels that are watched.
-const WATCHED: [(u16, Kind); 8] = [
-    (POSITION, Kind::Position),
-    (COURSE, Kind::Course),
-    (HEADING, Kind::Heading),
-    (SPEED, Kind::Speed),
-    (DEPTH, Kind::Depth),
-    (ALTITUDE, Kind::Altitude),
-    (FLOW, Kind::Flow),
-    (CHEMICAL, Kind::Chemical),
-];
-
 /// Something that is not as it should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anomaly {
     /// No sample for five of its periods, and for 2 s.
-    Silent(Kind),
+    Silent(u16),
     /// A number that is none.
-    NotANumber(Kind),
+    NotANumber(u16),
     /// A number that cannot be measured.
-    OutOfRange(Kind),
+    OutOfRange(u16),
     /// A change that no vehicle can make.
-    Jumps(Kind),
+    Jumps(u16),
     /// The same number again and again, where it must change.
-    Stuck(Kind),
+    Stuck(u16),
     /// The positions move otherwise than speed tells.
     SpeedAgainstPosition,
     /// The positions move elsewhere than course tells.
@@ -84,11 +72,11 @@ pub struct AnomalyEvent {
 impl fmt::Display for Anomaly {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Anomaly::Silent(kind) => write!(f, "{} silent", kind.name()),
-            Anomaly::NotANumber(kind) => write!(f, "{} not a number", kind.name()),
-            Anomaly::OutOfRange(kind) => write!(f, "{} out of range", kind.name()),
-            Anomaly::Jumps(kind) => write!(f, "{} jumps", kind.name()),
-            Anomaly::Stuck(kind) => write!(f, "{} stuck", kind.name()),
+            Anomaly::Silent(channel) => write!(f, "{} silent", measurement(*channel).name),
+            Anomaly::NotANumber(channel) => write!(f, "{} not a number", measurement(*channel).name),
+            Anomaly::OutOfRange(channel) => write!(f, "{} out of range", measurement(*channel).name),
+            Anomaly::Jumps(channel) => write!(f, "{} jumps", measurement(*channel).name),
+            Anomaly::Stuck(channel) => write!(f, "{} stuck", measurement(*channel).name),
             Anomaly::SpeedAgainstPosition => f.write_str("speed and position disagree"),
             Anomaly::CourseAgainstPosition => f.write_str("course and position disagree"),
             Anomaly::HeadingAgainstMotion => f.write_str("heading and motion disagree"),
@@ -110,7 +98,8 @@ impl fmt::Display for AnomalyEvent {
 /// The watch of one run.
 #[derive(Clone, Debug)]
 pub struct HealthMonitor {
-    channels: [Channel; WATCHED.len()],
+    /// Those that are watched.
+    channels: Vec<Channel>,
     mirrored: Mirrored,
     motion: Motion,
     commanded: Commanded,
@@ -155,8 +144,9 @@ struct Anomalies {
 
 impl Default for HealthMonitor {
     fn default() -> Self {
+        let watched = (0..).zip(&channels::ALL).filter(|(_, row)| row.is_watched);
         HealthMonitor {
-            channels: WATCHED.map(|(_, kind)| Channel::new(kind)),
+            channels: watched.map(|(number, _)| Channel::new(number)).collect(),
             mirrored: Mirrored::default(),
             motion: Motion::default(),
             commanded: Commanded::default(),
@@ -172,15 +162,15 @@ impl HealthMonitor {
     pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<AnomalyEvent> {
         self.anomalies.tick = tick;
         let is_steered = self.is_steered(tick, command);
-        let hides = |channel: &Channel| channel.is_of(Kind::Depth) && channel.rests(tick) > FOLLOWS_TICKS;
+        let hides = |channel: &Channel| channel.is_of(DEPTH) && channel.rests(tick) > FOLLOWS_TICKS;
         let is_blind = self.channels.iter().any(hides);
         let mut heard = Heard { tick, ..Heard::default() };
         let mut water_depth = None;
         for sample in &snapshot.samples {
-            match WATCHED.iter().position(|(channel, _)| *channel == sample.channel) {
-                Some(index) => {
-                    let told = self.channels[index].hear(tick, sample.reading, &mut self.anomalies);
-                    heard.take(sample.channel, told);
+            match self.channels.iter_mut().find(|channel| channel.is_of(sample.channel)) {
+                Some(channel) => {
+                    let credible = channel.hear(tick, sample.reading, &mut self.anomalies);
+                    heard.take(sample.channel, credible);
                 }
                 None if sample.channel == WATER_DEPTH => water_depth = Some(sample.reading[0]),
                 None => {}
@@ -188,14 +178,14 @@ impl HealthMonitor {
         }
         self.mirrored.look(&heard);
         for channel in &mut self.channels {
-            if channel.is_of(Kind::Depth) {
+            if channel.is_of(DEPTH) {
                 channel.moves(self.mirrored.is_the_vehicles());
             }
-            if channel.is_of(Kind::Altitude) {
+            if channel.is_of(ALTITUDE) {
                 channel.learns(!(is_steered && is_blind));
             }
             // A vehicle that stands still has no course.
-            if channel.is_of(Kind::Course) && self.motion.speed() < AT_REST {
+            if channel.is_of(COURSE) && self.motion.speed() < AT_REST {
                 channel.excuse(tick);
             }
             channel.wait(tick, &mut self.anomalies);
@@ -235,7 +225,7 @@ impl HealthMonitor {
 }
 
 impl Heard {
-    fn take(&mut self, channel: u16, told: Option<Credible>) {
+    fn take(&mut self, channel: u16, credible: Option<Credible>) {
         let place = match channel {
             POSITION => &mut self.position,
             COURSE => &mut self.course,
@@ -246,7 +236,7 @@ impl Heard {
             FLOW => &mut self.flow,
             _ => return,
         };
-        *place = told.or(*place);
+        *place = credible.or(*place);
     }
 }
 

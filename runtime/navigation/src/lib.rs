@@ -13,5 +13,5 @@ mod trust;
 
 pub use dead_reckoning::DeadReckoning;
 pub use flow_estimate::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates, Verdict};
-pub use health::{Anomaly, AnomalyEvent, HealthMonitor, Kind};
+pub use health::{Anomaly, AnomalyEvent, HealthMonitor};
 pub use trust::Trust;

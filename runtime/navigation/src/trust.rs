@@ -8,18 +8,14 @@
 //! journal holds what came and what was believed.
 
 use crate::gate::Gate;
-use crate::health::{Anomaly, HealthMonitor, Kind};
+use crate::health::{Anomaly, HealthMonitor};
 use crate::sounding::Sounding;
-use albacore_vehicle::channels::{ALTITUDE, COURSE, DEPTH, HEADING, POSITION, WATER_DEPTH};
+use albacore_vehicle::channels::{ALTITUDE, DEPTH, POSITION, measurement};
 use albacore_vehicle::{Command, Sample, Snapshot};
 
 /// What speaks against a position.
-const MISPLACED: [Anomaly; 4] = [
-    Anomaly::Stuck(Kind::Position),
-    Anomaly::Jumps(Kind::Position),
-    Anomaly::SpeedAgainstPosition,
-    Anomaly::CourseAgainstPosition,
-];
+const MISPLACED: [Anomaly; 4] =
+    [Anomaly::Stuck(POSITION), Anomaly::Jumps(POSITION), Anomaly::SpeedAgainstPosition, Anomaly::CourseAgainstPosition];
 
 /// What is believed in one run: a function of what came and what was commanded.
 #[derive(Clone, Debug, Default)]
@@ -36,14 +32,15 @@ impl Trust {
         let mut events: Vec<String> = Vec::new();
         events.extend(self.health.look(tick, snapshot, command).iter().map(ToString::to_string));
         // Depth and altitude tell of one another: with a depth that stands still nothing is known of the bottom.
-        let depth_is_stuck = self.health.sees(Anomaly::Stuck(Kind::Depth));
+        let depth_is_stuck = self.health.sees(Anomaly::Stuck(DEPTH));
         let is_misplaced = MISPLACED.iter().any(|anomaly| self.health.sees(*anomaly));
         // What is made of others is doubtful with them, and so it is looked at after them.
-        let altitude_is_stuck = self.health.sees(Anomaly::Stuck(Kind::Altitude));
+        let altitude_is_stuck = self.health.sees(Anomaly::Stuck(ALTITUDE));
         let mut doubtful: Vec<u16> = altitude_is_stuck.then_some(ALTITUDE).into_iter().collect();
+        let sources = |sample: &Sample| measurement(sample.origin()).sources;
         for made in [false, true] {
-            for sample in snapshot.samples.iter_mut().filter(|sample| sources(sample.channel).is_empty() != made) {
-                let believed = !sources(sample.channel).iter().any(|source| doubtful.contains(source))
+            for sample in snapshot.samples.iter_mut().filter(|sample| sources(sample).is_empty() != made) {
+                let believed = !sources(sample).iter().any(|source| doubtful.contains(source))
                     && (!altitude_is_stuck || sample.channel != ALTITUDE)
                     && self.gate.believes(tick, sample.channel, sample.reading);
                 if !believed {
@@ -71,16 +68,6 @@ impl Trust {
             _ => {}
         }
         true
-    }
-}
-
-/// What a channel is made of by the vehicle: the depth of the water is the sum of the two, and the velocity over ground is turned with
-/// the compass.
-fn sources(channel: u16) -> &'static [u16] {
-    match channel {
-        WATER_DEPTH => &[DEPTH, ALTITUDE],
-        COURSE => &[HEADING],
-        _ => &[],
     }
 }
 

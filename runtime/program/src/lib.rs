@@ -10,6 +10,7 @@ mod guide;
 pub mod number;
 mod op;
 pub mod seen;
+pub mod senses;
 mod shape;
 mod slot;
 mod verify;

@@ -6,6 +6,7 @@ use albacore_lang::code::Code;
 use albacore_lang::diagnostic::{Diagnostic, distance};
 use albacore_lang::source::Span;
 use albacore_lang::{FAR_M, SAME_PLANE_M, Script};
+use albacore_program::senses;
 use albacore_sim::{Ground, NoGo, Scenario};
 use albacore_vehicle::channels;
 
@@ -106,7 +107,7 @@ fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
 fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
     let told = world.channels();
     // Who drives is told with every snapshot, and by no channel.
-    let is_told = |input: &str| input == "control" || told.iter().any(|channel| channel.name == input);
+    let is_told = |input: &str| input == senses::CONTROL || told.iter().any(|channel| channel.name == input);
     let finding = |(input, span): (&str, Span)| {
         let message = format!("the vehicle of `{scenario}` has no sensor for `{input}`");
         let help = match channels::all().iter().any(|channel| channel.name == input) {
@@ -120,7 +121,7 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
 
 /// A flow that the mission requires, and that the profiler takes for an error.
 fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Option<Diagnostic> {
-    let (_, span) = script.requirements(mission).into_iter().find(|(input, _)| *input == "flow")?;
+    let (_, span) = script.requirements(mission).into_iter().find(|(input, _)| *input == senses::FLOW)?;
     let above = world.flow.upper.as_ref().map_or(0.0, |upper| upper.mean.length());
     let (speed, fastest) = (world.flow.speed().max(above), world.adcp.gates.fastest);
     let message = format!(

@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use crate::recorders::{InMemory, Recorder};
 use crate::summary::Summary;
 use albacore_geometry::Point;
-use albacore_program::Program;
+use albacore_program::{Program, senses};
 use albacore_trace::journal::{Ending, Entry, JournalHeader, Reader, Unreadable};
 use albacore_trace::{Active, BehaviorTrace, Step, TickRecord};
 use std::sync::Arc;
@@ -88,7 +88,7 @@ impl Derived {
     fn new(plan: &Plan, header: &JournalHeader) -> Self {
         Derived {
             program: Arc::clone(&plan.program),
-            position: header.channels.iter().position(|channel| channel.name == "position"),
+            position: header.channels.iter().position(|channel| channel.name == senses::POSITION),
             active: Active::default(),
             believed: None,
         }

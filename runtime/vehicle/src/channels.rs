@@ -1,55 +1,126 @@
 //! The channels of the vehicles that we know: simulated ones and those at the end of a link deliver the same, so that a mission
-//! runs on either.
+//! runs on either. This is the one table of them: sensors, faults, the watch over samples, and links read it.
 
-use crate::Channel;
+use crate::{Channel, Quantity, Reading};
+use albacore_geometry::math::PI;
 
-/// What is measured, in the order of the channel numbers: name, and how many numbers.
-const CHANNELS: [(&str, usize); 13] = [
-    ("position", 3),     // m north, m east, standard deviation in m an axis
-    ("course", 1),       // rad over ground
-    ("heading", 1),      // rad
-    ("speed", 1),        // m/s over ground
-    ("depth", 1),        // m
-    ("altitude", 1),     // m above the bottom
-    ("water_depth", 1),  // m
-    ("flow", 2),         // m/s toward north and east
-    ("chemical", 1),     // ratio of full scale
-    ("battery", 1),      // ratio
-    ("vehicle_mode", 1), // the place in the library's `enum VehicleMode`
-    ("temperature", 1),  // degrees Celsius
-    ("salinity", 1),     // practical salinity
-];
+/// A row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Measurement {
+    /// Its name, which an `input` of the same name reads.
+    pub name: &'static str,
+    /// What its numbers are.
+    pub quantity: Quantity,
+    /// What is measured of a vehicle, which is slow, changes by no more than this. None: by any.
+    change_max: Option<Change>,
+    /// Whether a sample that cannot follow the one before is withheld. What is measured of the water may have any edge.
+    pub is_gated: bool,
+    /// Whether the watch looks at it.
+    pub is_watched: bool,
+    /// What the vehicle makes it of: doubtful with any of them.
+    pub sources: &'static [u16],
+}
 
-/// Where the vehicle believes to be.
-pub const POSITION: u16 = 0;
-/// Its direction over ground.
-pub const COURSE: u16 = 1;
-/// Where its nose points.
-pub const HEADING: u16 = 2;
-/// Its speed over ground.
-pub const SPEED: u16 = 3;
-/// Its depth.
-pub const DEPTH: u16 = 4;
-/// Its height above the bottom.
-pub const ALTITUDE: u16 = 5;
-/// The depth of the water.
-pub const WATER_DEPTH: u16 = 6;
-/// The current.
-pub const FLOW: u16 = 7;
-/// The chemical sensor.
-pub const CHEMICAL: u16 = 8;
-/// What is left in the battery.
-pub const BATTERY: u16 = 9;
-/// What the vehicle's own mission is about.
-pub const VEHICLE_MODE: u16 = 10;
-/// The temperature of the water, degrees Celsius.
-pub const TEMPERATURE: u16 = 11;
-/// The practical salinity of the water.
-pub const SALINITY: u16 = 12;
+/// A greatest change: so much a second, and so much besides.
+#[derive(Clone, Copy, Debug)]
+struct Change {
+    rate: f64,
+    step: f64,
+}
 
-/// All of them.
+impl Measurement {
+    const fn of(name: &'static str, quantity: Quantity) -> Self {
+        Measurement { name, quantity, change_max: None, is_gated: false, is_watched: false, sources: &[] }
+    }
+
+    const fn changes(self, rate: f64, step: f64) -> Self {
+        Measurement { change_max: Some(Change { rate, step }), ..self }
+    }
+
+    const fn gated(self) -> Self {
+        Measurement { is_gated: true, ..self }
+    }
+
+    const fn watched(self) -> Self {
+        Measurement { is_watched: true, ..self }
+    }
+
+    const fn made_of(self, sources: &'static [u16]) -> Self {
+        Measurement { sources, ..self }
+    }
+
+    /// Whether one reading can follow another after some seconds.
+    pub fn can_follow(&self, now: Reading, before: Reading, time: f64) -> bool {
+        let Some(Change { rate, step }) = self.change_max else { return true };
+        let error = if self.quantity == Quantity::Position {
+            // A fix may correct what both expect of their errors: six standard deviations. The later is no excuse for itself: its
+            // own error is no larger here than that of the one before.
+            let own = now[2].min(before[2]);
+            6.0 * (own * own + before[2] * before[2]).sqrt()
+        } else {
+            0.0
+        };
+        self.quantity.difference(now, before) <= rate * time + error + step
+    }
+}
+
+/// The rows, and each channel's number: its place among them.
+macro_rules! channels {
+    ($($(#[$doc:meta])* $number:ident: $row:expr;)*) => {
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms, reason = "the constants that come of it are its names")]
+        enum Number { $($number),* }
+        $($(#[$doc])* pub const $number: u16 = Number::$number as u16;)*
+        /// All of them, each at the place of its number.
+        pub const ALL: [Measurement; [$(Number::$number as u16),*].len()] = [$($row),*];
+    };
+}
+
+channels! {
+    /// Where the vehicle believes to be. A fix of who tells no sigma may correct 5 m.
+    POSITION: Measurement::of("position", Quantity::Position).changes(10.0, 5.0).gated().watched();
+    /// Its direction over ground, turned from its body's with the compass: at rest it is any, and the gate has a rule of its own.
+    COURSE: Measurement::of("course", Quantity::Direction).gated().watched().made_of(&[HEADING]);
+    /// Where its nose points.
+    HEADING: Measurement::of("heading", Quantity::Direction).changes(PI / 3.0, PI / 12.0).gated().watched();
+    /// Its speed over ground.
+    SPEED: Measurement::of("speed", Quantity::Speed).changes(2.0, 1.0).gated().watched();
+    /// Its depth.
+    DEPTH: Measurement::of("depth", Quantity::Height).changes(3.0, 1.0).gated().watched();
+    /// Its height above the bottom.
+    ALTITUDE: Measurement::of("altitude", Quantity::Height).changes(5.0, 1.2).gated().watched();
+    /// The depth of the water.
+    WATER_DEPTH: Measurement::of("water_depth", Quantity::Height).made_of(&[DEPTH, ALTITUDE]);
+    /// The current.
+    FLOW: Measurement::of("flow", Quantity::Flow).changes(0.0, 1.0).watched();
+    /// The chemical sensor: the edge of a plume is sharp.
+    CHEMICAL: Measurement::of("chemical", Quantity::Ratio).watched();
+    /// What is left in the battery. A gauge is coarse; a battery that is empty in a quarter of an hour is none of ours.
+    BATTERY: Measurement::of("battery", Quantity::Ratio).changes(0.001, 0.1).gated();
+    /// What the vehicle's own mission is about: the place in the library's `enum VehicleMode`.
+    VEHICLE_MODE: Measurement::of("vehicle_mode", Quantity::Word);
+    /// The temperature of the water.
+    TEMPERATURE: Measurement::of("temperature", Quantity::Temperature);
+    /// The practical salinity of the water.
+    SALINITY: Measurement::of("salinity", Quantity::Salinity);
+}
+
+/// A channel of ours by its number.
+///
+/// # Panics
+///
+/// Where there is none of that number: numbers are the constants of this table.
+pub fn measurement(channel: u16) -> &'static Measurement {
+    &ALL[usize::from(channel)]
+}
+
+/// The name of a channel of ours.
+pub const fn name(channel: u16) -> &'static str {
+    ALL[channel as usize].name
+}
+
+/// All of them, as a vehicle delivers them.
 pub fn all() -> Vec<Channel> {
-    CHANNELS.iter().map(|&(name, width)| Channel { name: name.to_owned(), width }).collect()
+    ALL.iter().map(|row| Channel { name: row.name.to_owned(), width: row.quantity.width() }).collect()
 }
 
 /// Those of a vehicle without a CTD. A mission that requires what it does not measure is refused before it begins.

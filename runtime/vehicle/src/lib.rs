@@ -5,9 +5,11 @@
 
 pub mod channels;
 mod limits;
+mod quantity;
 mod truth;
 
 pub use limits::{Beyond, LimitWatch, Limits};
+pub use quantity::Quantity;
 pub use truth::Truth;
 
 use albacore_geometry::Heading;
@@ -90,6 +92,11 @@ impl Sample {
     /// Whether it is of a channel, and no limit is to go by it.
     pub fn is_doubted_of(&self, channel: u16) -> bool {
         self.channel == WITHHELD | channel || self.channel == DOUBTED | channel
+    }
+
+    /// The channel that it came on, believed or not.
+    pub fn origin(&self) -> u16 {
+        self.channel & !(WITHHELD | DOUBTED)
     }
 
     /// The channel of one that inputs take.

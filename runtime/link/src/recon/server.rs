@@ -16,6 +16,9 @@ use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::Route;
 use albacore_guidance::parameters::TURN_RATE_MAX;
+use albacore_vehicle::channels::{
+    ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
+};
 use albacore_vehicle::{Beyond, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
@@ -361,24 +364,23 @@ impl<V: Vehicle> Server<V> {
         let (mut temperature, mut salinity) = (None, None);
         // On the wire there is no number for what is none.
         for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
-            let Some(channel) = self.vehicle.channels().get(sample.channel as usize) else { continue };
             let [a, b, ..] = sample.reading;
-            match channel.name.as_str() {
-                "position" => self.senses.position = Point::new(a, b),
-                "course" => self.senses.course = Heading::from_radians(a),
-                "heading" => self.senses.heading = Heading::from_radians(a),
-                "speed" => self.senses.speed = a,
-                "depth" => self.senses.depth = a,
-                "altitude" => self.senses.altitude = Some(a),
-                "flow" => self.senses.flow = Some(Vector::new(a, b)),
-                "chemical" => self.say(&FromVehicle::Fluorometer { gain: 1.0, value: a * FULL_SCALE_VOLTS }),
-                "battery" => {
+            match sample.channel {
+                POSITION => self.senses.position = Point::new(a, b),
+                COURSE => self.senses.course = Heading::from_radians(a),
+                HEADING => self.senses.heading = Heading::from_radians(a),
+                SPEED => self.senses.speed = a,
+                DEPTH => self.senses.depth = a,
+                ALTITUDE => self.senses.altitude = Some(a),
+                FLOW => self.senses.flow = Some(Vector::new(a, b)),
+                CHEMICAL => self.say(&FromVehicle::Fluorometer { gain: 1.0, value: a * FULL_SCALE_VOLTS }),
+                BATTERY => {
                     self.senses.battery = a;
                     let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);
                     self.say(&FromVehicle::Battery { capacity, available, percent });
                 }
-                "temperature" => temperature = Some(a),
-                "salinity" => salinity = Some(a),
+                TEMPERATURE => temperature = Some(a),
+                SALINITY => salinity = Some(a),
                 _ => {}
             }
         }

@@ -1,8 +1,9 @@
 //! What was told against what was commanded: a vehicle that does not follow, or a sensor that does not tell that it does.
 
-use super::{Anomalies, Anomaly, Credible, Heard, Kind};
+use super::{Anomalies, Anomaly, Credible, Heard};
 use albacore_geometry::Heading;
 use albacore_geometry::math::PI;
+use albacore_vehicle::channels::{ALTITUDE, DEPTH, HEADING};
 use albacore_vehicle::{Command, Vertical};
 
 /// The heading may be so far from the one commanded, rad, and further for so many ticks, 20 s, in which it turns towards that by no
@@ -143,7 +144,7 @@ impl Commanded {
             anomalies.see(Anomaly::HeadingNotAsCommanded);
         }
         if ticks.min(told.same) > HEADING_SAME {
-            anomalies.see(Anomaly::Stuck(Kind::Heading));
+            anomalies.see(Anomaly::Stuck(HEADING));
         }
     }
 
@@ -178,7 +179,7 @@ impl Commanded {
             // A hull without way may well stay where it is.
             let is_still = has_way && told.same > DEPTH_SAME && self.depth.last >= SURFACE;
             if is_depth && is_still && !self.is_level(heard.tick) {
-                anomalies.see(Anomaly::Stuck(Kind::Depth));
+                anomalies.see(Anomaly::Stuck(DEPTH));
             }
         }
     }
@@ -216,7 +217,7 @@ impl Commanded {
         }
         let then = *self.depth_then.get_or_insert(self.depth);
         if told.same > ALTITUDE_SAME && self.depth.differs(then) {
-            anomalies.see(Anomaly::Stuck(Kind::Altitude));
+            anomalies.see(Anomaly::Stuck(ALTITUDE));
         }
     }
 }

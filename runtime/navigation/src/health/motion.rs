@@ -1,9 +1,10 @@
 //! The channels of motion against one another: positions against course and speed, heading against the way through the water.
 
-use super::{Anomalies, Anomaly, Heard, Kind};
+use super::{Anomalies, Anomaly, Heard};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::TICK_S;
+use albacore_vehicle::channels::{FLOW, POSITION};
 
 /// Positions and velocities are compared over about so long, s.
 const WINDOW_S: f64 = 60.0;
@@ -64,7 +65,7 @@ impl Motion {
         self.altitude = number(heard.altitude, self.altitude);
         self.look_at_flow(heard, anomalies);
         if heard.position.is_some_and(|p| p.same >= POSITION_SAME && self.speed > SPEED_MIN) {
-            anomalies.see(Anomaly::Stuck(Kind::Position));
+            anomalies.see(Anomaly::Stuck(POSITION));
         }
         let velocity = heard.course.zip(heard.speed);
         let velocity = velocity.map(|(course, speed)| (Heading::from_radians(course.reading[0]), speed.reading[0]));
@@ -79,7 +80,7 @@ impl Motion {
         let before = self.position.replace((heard.tick, here));
         let (Some((tick, there)), Some((course, speed))) = (before, velocity) else { return };
         let ticks = heard.tick.saturating_sub(tick);
-        if ticks == 0 || ticks > GAP_MAX || anomalies.sees(Anomaly::Stuck(Kind::Position)) {
+        if ticks == 0 || ticks > GAP_MAX || anomalies.sees(Anomaly::Stuck(POSITION)) {
             return;
         }
         let time = ticks as f64 * TICK_S;
@@ -121,7 +122,7 @@ impl Motion {
         let Some(told) = heard.flow else { return };
         self.flow = Some((heard.tick, Vector::new(told.reading[0], told.reading[1])));
         if told.lively && told.same.min(self.measures) > FLOW_SAME {
-            anomalies.see(Anomaly::Stuck(Kind::Flow));
+            anomalies.see(Anomaly::Stuck(FLOW));
         }
     }
 }

@@ -1,5 +1,6 @@
 use super::*;
 use albacore_geometry::{Heading, Point};
+use albacore_vehicle::channels::CHEMICAL;
 use albacore_vehicle::{TICK_S, Vertical};
 
 /// What a healthy vehicle tells that swims a square at 2 m/s, 3 m deep, and what one of them makes of it.
@@ -221,7 +222,7 @@ fn garbage_is_no_noise_by_which_a_rest_is_stuck() {
         let mut snapshot = Snapshot::default();
         snapshot.push(ALTITUDE, &[altitude]);
         let sighted = health.look(tick, &snapshot, None);
-        assert!(sighted.iter().all(|told| told.anomaly != Anomaly::Stuck(Kind::Altitude)), "{tick}: {sighted:?}");
+        assert!(sighted.iter().all(|told| told.anomaly != Anomaly::Stuck(ALTITUDE)), "{tick}: {sighted:?}");
     }
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use albacore_vehicle::channels::{BATTERY, SPEED};
+use albacore_vehicle::channels::{BATTERY, COURSE, HEADING, SPEED, WATER_DEPTH};
 
 /// What is withheld of samples, by tick and channel, and what is told.
 fn withheld(samples: impl Fn(u64) -> Vec<(u16, f64)>) -> (Vec<(u64, u16)>, Vec<String>) {

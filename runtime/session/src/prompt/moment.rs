@@ -3,7 +3,7 @@
 use albacore_lang::prompt::{Left, Named};
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_navigation::Trust;
-use albacore_program::number;
+use albacore_program::{number, senses};
 use albacore_sim::Simulator;
 use albacore_trace::{BehaviorTrace, Header};
 use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
@@ -226,9 +226,9 @@ impl Moment {
             let channel = self.vehicle.channels().iter().position(|c| c.name == name)?;
             self.snapshot.samples.iter().rev().find(|s| s.input_channel() as usize == channel).map(|s| s.reading)
         };
-        let [north, east, ..] = sensed("position").unwrap_or([f64::NAN; 4]);
-        let heading = number::heading(sensed("heading").map_or(f64::NAN, |r| r[0]));
-        let depth = number::metres(sensed("depth").map_or(f64::NAN, |r| r[0]));
+        let [north, east, ..] = sensed(senses::POSITION).unwrap_or([f64::NAN; 4]);
+        let heading = number::heading(sensed(senses::HEADING).map_or(f64::NAN, |r| r[0]));
+        let depth = number::metres(sensed(senses::DEPTH).map_or(f64::NAN, |r| r[0]));
         let place = number::point(albacore_geometry::Point::new(north, east));
         format!("{}  at {place}  heading {heading}  depth {depth}", number::seconds(self.tick))
     }

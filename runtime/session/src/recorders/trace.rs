@@ -3,6 +3,7 @@
 use super::{Recorder, Sensor, missed};
 use crate::plan::Plan;
 use albacore_geometry::Heading;
+use albacore_program::senses;
 use albacore_trace::{BehaviorTrace, Header};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::{Channel, TICK_S};
@@ -24,8 +25,8 @@ impl Trace {
         };
         Trace {
             lines: BehaviorTrace::new(&plan.program, &header),
-            heading: Sensor::new(channels, "heading"),
-            depth: Sensor::new(channels, "depth"),
+            heading: Sensor::new(channels, senses::HEADING),
+            depth: Sensor::new(channels, senses::DEPTH),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use albacore_geometry::Point;
 use albacore_program::{ActivityId, Body, Program};
 use albacore_trace::{Step, TickRecord};
-use albacore_vehicle::Channel;
+use albacore_vehicle::{Channel, channels};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    pub fn new(plan: &Plan, channels: &[Channel]) -> Self {
+    pub fn new(plan: &Plan, delivered: &[Channel]) -> Self {
         let program = Arc::clone(&plan.program);
         let of_table = |body: &Body| match body {
             Body::Table(table) => table.behaviors.iter().map(|behavior| behavior.activity).collect(),
@@ -40,7 +40,7 @@ impl Track {
         Track {
             in_tables: program.activities.iter().flat_map(|activity| of_table(&activity.body)).collect(),
             program,
-            chemical: channels.iter().position(|channel| channel.name == "chemical"),
+            chemical: delivered.iter().position(|channel| channel.name == channels::name(channels::CHEMICAL)),
             has_plume: plan.scenario.has_plume(),
             points: Vec::new(),
             behaviors: Vec::new(),

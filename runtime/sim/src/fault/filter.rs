@@ -94,7 +94,7 @@ impl Filter {
 
     /// Whether a sample passes, and as what.
     fn passes(&mut self, tick: u64, sample: &mut Sample) -> bool {
-        let width = self.sensor.width();
+        let width = self.sensor.quantity().width();
         match self.disorder {
             SensorFault::Off => return false,
             SensorFault::Stuck => match self.last.iter().find(|last| last.channel == sample.channel) {

@@ -2,8 +2,8 @@
 
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Vector};
-use albacore_vehicle::Reading;
-use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED};
+use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, measurement};
+use albacore_vehicle::{Quantity, Reading};
 use serde::Deserialize;
 
 /// A sensor that can fail, with the channels that come from it alone.
@@ -41,50 +41,44 @@ impl Sensor {
         Sensor::Chemical,
     ];
 
+    /// The channel that it is named after.
+    pub(crate) fn channel(self) -> u16 {
+        match self {
+            Sensor::Position => POSITION,
+            Sensor::Heading => HEADING,
+            Sensor::Speed => SPEED,
+            Sensor::Depth => DEPTH,
+            Sensor::Altitude => ALTITUDE,
+            Sensor::Flow => FLOW,
+            Sensor::Chemical => CHEMICAL,
+        }
+    }
+
     /// What a scenario calls it.
     pub fn name(self) -> &'static str {
-        match self {
-            Sensor::Position => "position",
-            Sensor::Heading => "heading",
-            Sensor::Speed => "speed",
-            Sensor::Depth => "depth",
-            Sensor::Altitude => "altitude",
-            Sensor::Flow => "flow",
-            Sensor::Chemical => "chemical",
-        }
+        measurement(self.channel()).name
     }
 
     /// Whether a channel comes from it.
     pub(crate) fn has(self, channel: u16) -> bool {
-        match self {
-            Sensor::Position => channel == POSITION,
-            Sensor::Heading => channel == HEADING || channel == COURSE,
-            Sensor::Speed => channel == SPEED,
-            Sensor::Depth => channel == DEPTH,
-            Sensor::Altitude => channel == ALTITUDE,
-            Sensor::Flow => channel == FLOW,
-            Sensor::Chemical => channel == CHEMICAL,
-        }
+        channel == self.channel() || self == Sensor::Heading && channel == COURSE
     }
 
-    /// How many numbers of a reading it uses.
-    pub(crate) fn width(self) -> usize {
-        match self {
-            Sensor::Position => 3,
-            Sensor::Flow => 2,
-            _ => 1,
-        }
+    /// What it measures.
+    pub(crate) fn quantity(self) -> Quantity {
+        measurement(self.channel()).quantity
     }
 
     /// The greatest size of what comes as garbage: some times what can be.
     pub(crate) fn garbage(self) -> f64 {
-        match self {
-            Sensor::Position => 1e6,
-            Sensor::Heading => 6.0 * PI,
-            Sensor::Speed => 30.0,
-            Sensor::Depth | Sensor::Altitude => 20_000.0,
-            Sensor::Flow => 20.0,
-            Sensor::Chemical => 3.0,
+        match self.quantity() {
+            Quantity::Position => 1e6,
+            Quantity::Direction => 6.0 * PI,
+            Quantity::Speed => 30.0,
+            Quantity::Height => 20_000.0,
+            Quantity::Flow => 20.0,
+            Quantity::Ratio => 3.0,
+            Quantity::Temperature | Quantity::Salinity | Quantity::Word => 1000.0,
         }
     }
 
@@ -96,13 +90,14 @@ impl Sensor {
             let there = Vector::new(a, b) + off;
             [there.north, there.east, c, d]
         };
-        match self {
-            Sensor::Position => moved(50.0),
-            Sensor::Flow => moved(0.1),
-            Sensor::Heading => [turned(a, size * 20.0 * PI / 180.0), b, c, d],
-            Sensor::Speed => [(a + size * 0.5).max(0.0), b, c, d],
-            Sensor::Depth | Sensor::Altitude => [(a + size * 2.0).max(0.0), b, c, d],
-            Sensor::Chemical => [(a + size * 0.05).clamp(0.0, 1.0), b, c, d],
+        match self.quantity() {
+            Quantity::Position => moved(50.0),
+            Quantity::Flow => moved(0.1),
+            Quantity::Direction => [turned(a, size * 20.0 * PI / 180.0), b, c, d],
+            Quantity::Speed => [(a + size * 0.5).max(0.0), b, c, d],
+            Quantity::Height => [(a + size * 2.0).max(0.0), b, c, d],
+            Quantity::Ratio => [(a + size * 0.05).clamp(0.0, 1.0), b, c, d],
+            Quantity::Temperature | Quantity::Salinity | Quantity::Word => [a + size, b, c, d],
         }
     }
 }
