@@ -230,7 +230,8 @@ fn the_controller_sees_what_the_vehicle_believes_as_fine_as_the_dialect_says() {
 fn temperature_and_salinity_come_of_a_vehicle_that_has_a_ctd() {
     let stratification =
         Stratification { surface: 18.0, bottom: 8.0, surface_salinity: 31.0, thermocline: 3.0, ..Default::default() };
-    let scenario = Scenario { stratification, ctd: Some(Ctd::default()), ..still_water() };
+    let mut scenario = Scenario { stratification, ..still_water() };
+    scenario.instruments.ctd = Some(Ctd::default());
     let mut pair = Pair::of(&scenario, "100x30x2", 1, 0.0);
     let mut came = Vec::new();
     for _ in 0..100 {

@@ -123,7 +123,7 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
 fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Option<Diagnostic> {
     let (_, span) = script.requirements(mission).into_iter().find(|(input, _)| *input == senses::FLOW)?;
     let above = world.flow.upper.as_ref().map_or(0.0, |upper| upper.mean.length());
-    let (speed, fastest) = (world.flow.speed().max(above), world.adcp.gates.fastest);
+    let (speed, fastest) = (world.flow.speed().max(above), world.instruments.adcp.gates.fastest);
     let message = format!(
         "the flow of `{scenario}` is {speed:.2} m/s, and its profiler takes {fastest:.2} m/s and more for an error: `flow` \
          will be missing, or too slow"

@@ -83,7 +83,7 @@ fn concentration_underway(duck: Duck) -> f64 {
     let mut scenario = duck.scenario();
     scenario.vehicle.start = scenario.sources[0].at;
     scenario.vehicle.depth = 4.0;
-    scenario.fluorometer.rate = FAST_HZ;
+    scenario.instruments.fluorometer.rate = FAST_HZ;
     let heading = scenario.flow.mean.toward();
     let mut begin = Simulator::new(&scenario, 1).unwrap();
     begin.take_over().unwrap();

@@ -28,10 +28,12 @@ pub use fault::{Fault, FaultKind, Sensor, SensorFault};
 pub use noise::{Noise, Stream};
 pub use recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
 pub use scenario::{
-    Adcp, Battery, Bottom, Compass, Ctd, Dvl, Flow, Fluorometer, Gps, Grid, Ground, HullSetup, KinematicHull, Lbl,
-    Looks, Meander, Navigation, NoGo, OwnMission, Patch, Pit, Plane, Plume, Pressure, Scenario, ScenarioError,
-    ScenarioIssue, Setting, Sounder, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow, VehicleSetup,
-    Waves, Why,
+    Bottom, Flow, Grid, Ground, HullSetup, KinematicHull, Meander, NoGo, OwnMission, Patch, Pit, Plane, Plume,
+    Scenario, ScenarioError, ScenarioIssue, Setting, Source, Stratification, SubmersibleHull, Tide, Times, UpperFlow,
+    VehicleSetup, Waves, Why,
+};
+pub use sensors::{
+    Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, InstrumentSetup, Lbl, Looks, Navigation, Pressure, Sounder,
 };
 pub use simulator::Simulator;
 pub use survey::Survey;

@@ -1,9 +1,9 @@
 //! Two worlds for tests and benchmarks: the June 2003 trial at Duck, with and without its vertical part.
 
 use crate::scenario::{
-    Bottom, Flow, Ground, HullSetup, KinematicHull, Lbl, Meander, Navigation, Plane, Plume, Scenario, Source,
-    VehicleSetup,
+    Bottom, Flow, Ground, HullSetup, KinematicHull, Meander, Plane, Plume, Scenario, Source, VehicleSetup,
 };
+use crate::sensors::{InstrumentSetup, Lbl, Navigation};
 use albacore_geometry::{Area, Heading, Point};
 
 /// Where the mean flow of the trial goes, degrees.
@@ -26,7 +26,10 @@ pub fn duck_2003_flat() -> Scenario {
         plume: Some(Plume::default()),
         sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
         vehicle: VehicleSetup { start: place(527.0, -163.5), ..VehicleSetup::default() },
-        navigation: Some(Navigation { walk: 0.05, lbl: Some(Lbl::default()) }),
+        instruments: InstrumentSetup {
+            navigation: Some(Navigation { walk: 0.05, lbl: Some(Lbl::default()) }),
+            ..InstrumentSetup::default()
+        },
         ..Scenario::default()
     }
 }

@@ -2,10 +2,8 @@
 
 mod bottom;
 mod flow;
-mod instruments;
 mod issues;
 mod plume;
-mod sensors;
 mod setting;
 mod source;
 mod stratification;
@@ -13,11 +11,9 @@ mod vehicle;
 
 pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
-pub use instruments::{Battery, Compass, Ctd, Dvl, Gps, Pressure};
 pub(crate) use issues::{FLOW_MAX, OfClause, ScenarioIssues, rounded_down, told};
 pub use issues::{ScenarioError, ScenarioIssue, Why};
 pub use plume::Plume;
-pub use sensors::{Adcp, Fluorometer, Lbl, Looks, Navigation, Sounder};
 pub use setting::Setting;
 pub(crate) use source::SPIN_UP_MAX_S;
 pub use source::{Patch, Source, Times};
@@ -26,9 +22,10 @@ pub use vehicle::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, Vehicle
 
 use crate::fault::{self, Fault};
 use crate::recorded::{self, RecordedPlume};
+use crate::sensors::InstrumentSetup;
 use albacore_front_seat::Handover;
 use albacore_geometry::Area;
-use albacore_vehicle::{Channel, Limits, channels};
+use albacore_vehicle::{Channel, Limits};
 
 /// The most clauses of one name in a scenario.
 const CLAUSES_MAX: usize = 1024;
@@ -64,26 +61,8 @@ pub struct Scenario {
     pub own_mission: Option<OwnMission>,
     /// How it answers who asks to drive; none: it gives way at once.
     pub handover: Option<Handover>,
-    /// How the vehicle knows its position; none: perfectly.
-    pub navigation: Option<Navigation>,
-    /// The chemical sensor.
-    pub fluorometer: Fluorometer,
-    /// The flow sensor.
-    pub adcp: Adcp,
-    /// The echo sounder.
-    pub sounder: Sounder,
-    /// The compass.
-    pub compass: Compass,
-    /// The pressure gauge.
-    pub pressure: Pressure,
-    /// The Doppler log.
-    pub dvl: Dvl,
-    /// The receiver of satellite fixes; none: it has none. It needs a [`Navigation`].
-    pub gps: Option<Gps>,
-    /// The sensor of temperature and salinity; none: the vehicle has none.
-    pub ctd: Option<Ctd>,
-    /// The battery and its gauge.
-    pub battery: Battery,
+    /// Its instruments.
+    pub instruments: InstrumentSetup,
     /// What goes wrong. Default nothing.
     pub faults: Vec<Fault>,
 }
@@ -91,7 +70,7 @@ pub struct Scenario {
 impl Scenario {
     /// What its vehicle tells.
     pub fn channels(&self) -> Vec<Channel> {
-        if self.ctd.is_some() { channels::all() } else { channels::without_ctd() }
+        self.instruments.channels()
     }
 
     /// What its vehicle makes of commands, whoever gives them: its own limits, and its hull's speed.
@@ -157,8 +136,7 @@ impl Scenario {
             recorded::check(self, &mut objections);
         }
         vehicle::check(self, &mut objections);
-        sensors::check(self, &mut objections);
-        instruments::check(self, &mut objections);
+        self.instruments.check(&mut objections);
         fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }
     }

@@ -4,23 +4,18 @@ use crate::fault::Faults;
 use crate::hull::Hull;
 use crate::incidents::Incidents;
 use crate::scenario::{Scenario, ScenarioError};
-use crate::sensors::{Battery, Compass, Ctd, Dvl, EchoSounder, Fluorometer, Positioning, Pressure, Profiler, View};
+use crate::sensors::{Instruments, Surroundings};
 use crate::survey::Survey;
 use crate::world::World;
 use albacore_front_seat::{FrontSeat, Known};
 use albacore_geometry::{Point, Vector};
-use albacore_vehicle::channels::{
-    ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE, VEHICLE_MODE,
-    WATER_DEPTH,
-};
+use albacore_vehicle::channels::VEHICLE_MODE;
 use albacore_vehicle::{
     Beyond, Channel, Command, Control, LimitWatch, Limits, Snapshot, TICK_S, Truth, Vehicle, VehicleError, Vertical,
 };
 
 /// Ticks between what the vehicle tells of its own mission.
 const MODE_TICKS: u64 = 10;
-/// A sample this near a tick, in ticks, is taken on it.
-const ON_THE_TICK: f64 = 1e-6;
 
 /// What a vehicle lets go of that gives up, kg in the water: it floats up then though it be as heavy as the water.
 const DROP_WEIGHT_KG: f64 = 2.0;
@@ -31,25 +26,12 @@ pub struct Simulator {
     channels: Vec<Channel>,
     world: World,
     vehicle: Hull,
-    /// Where the chemical sensor's intake was a tick ago, and its height above the bottom (m).
-    intake: (Point, f64),
-    intake_ahead: f64,
-    positioning: Positioning,
-    profiler: Profiler,
-    fluorometer: Fluorometer,
-    sounder: EchoSounder,
-    compass: Compass,
-    pressure: Pressure,
-    dvl: Dvl,
-    ctd: Option<Ctd>,
-    battery: Battery,
+    instruments: Instruments,
     endurance: f64,
     /// The battery is empty.
     spent: bool,
     front_seat: FrontSeat,
     watch: LimitWatch,
-    /// The latest estimate of the current, for the front seat.
-    flow: Vector,
     control: Control,
     /// The same as it was told last.
     told: Control,
@@ -75,17 +57,7 @@ impl Simulator {
             channels: scenario.channels(),
             vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
-            intake: (start, 0.0),
-            intake_ahead: scenario.fluorometer.ahead,
-            positioning: Positioning::new(scenario.navigation.as_ref(), scenario.gps.as_ref(), start, seed),
-            profiler: Profiler::new(&scenario.adcp, seed),
-            fluorometer: Fluorometer::new(&scenario.fluorometer, seed),
-            sounder: EchoSounder::new(&scenario.sounder, seed),
-            compass: Compass::new(&scenario.compass, seed),
-            pressure: Pressure::new(&scenario.pressure, seed),
-            dvl: Dvl::new(&scenario.dvl, seed),
-            ctd: scenario.ctd.as_ref().map(|ctd| Ctd::new(ctd, seed)),
-            battery: Battery::new(&scenario.battery, seed),
+            instruments: Instruments::new(&scenario.instruments, start, seed),
             endurance: vehicle.endurance,
             spent: false,
             front_seat: FrontSeat::new(
@@ -95,7 +67,6 @@ impl Simulator {
                 scenario.limits().speed.unwrap_or(f64::INFINITY),
             ),
             watch: LimitWatch::new(scenario.limits()),
-            flow: Vector::ZERO,
             control: Control::Disconnected,
             told: Control::Disconnected,
             command: None,
@@ -106,7 +77,6 @@ impl Simulator {
             tick: None,
         };
         simulator.observe();
-        simulator.intake = simulator.intake_now();
         Ok(simulator)
     }
 
@@ -168,7 +138,6 @@ impl Simulator {
         let water_depth = self.water_depth_here();
         let command = command.map(|command| self.watch.clamp_command(tick, &command, water_depth));
         self.did = command;
-        self.intake = self.intake_now();
         self.vehicle.stick_rudder(ailing.rudder);
         self.vehicle.flood(ailing.water - if self.gives_up() { DROP_WEIGHT_KG } else { 0.0 });
         self.vehicle
@@ -176,25 +145,13 @@ impl Simulator {
             .map_err(|why| VehicleError(why.to_string()))?;
         let motion = self.vehicle.motion();
         let altitude = self.world.water_depth(motion.position) - motion.depth;
-        let measured = if self.dvl.has_lock(altitude) { Some(self.measured_velocity(tick)) } else { None };
-        self.positioning.step(tick, measured, motion.position, motion.depth);
+        self.instruments.step(tick, motion, altitude);
         Ok(())
     }
 
     /// How deep the water is where the vehicle is, m.
     fn water_depth_here(&self) -> f64 {
         self.truth.depth + self.truth.altitude
-    }
-
-    /// The velocity over ground as the Doppler log measures it and the compass turns it, m/s.
-    fn measured_velocity(&self, tick: u64) -> Vector {
-        let motion = self.vehicle.motion();
-        let velocity =
-            self.dvl.imperfect(tick, motion.ground_velocity, motion.heading).unwrap_or(motion.ground_velocity);
-        match self.compass.error(tick, motion.heading) {
-            Some(error) => velocity.length() * (velocity.toward() + error).unit(),
-            None => velocity,
-        }
     }
 
     /// Whether nobody can drive it any more.
@@ -209,8 +166,12 @@ impl Simulator {
 
     /// What the front seat knows.
     fn known(&self) -> Known {
-        let (position, _) = self.positioning.belief(self.truth.position);
-        Known { position, course: self.truth.course, heading: self.truth.heading, flow: self.flow }
+        Known {
+            position: self.instruments.position(self.truth.position),
+            course: self.truth.course,
+            heading: self.truth.heading,
+            flow: self.instruments.flow(),
+        }
     }
 
     /// What its own mission is about, as the library's `enum VehicleMode` numbers it; none without one.
@@ -228,7 +189,7 @@ impl Simulator {
         let v = self.vehicle.motion();
         let time = self.time_s();
         let altitude = self.world.water_depth(v.position) - v.depth;
-        let (intake, height) = self.intake_now();
+        let (intake, height) = self.instruments.intake(v, &self.world);
         self.truth = Truth {
             position: v.position,
             heading: v.heading,
@@ -249,83 +210,18 @@ impl Simulator {
         self.incidents.observe(position, depth + altitude, self.vehicle.motion().aground || altitude <= 0.0);
     }
 
-    /// Where the chemical sensor's intake is, and its height above the bottom (m).
-    fn intake_now(&self) -> (Point, f64) {
-        let v = self.vehicle.motion();
-        let intake = v.position + self.intake_ahead * v.heading.unit();
-        (intake, (self.world.water_depth(intake) - v.depth).max(0.0))
-    }
-
-    fn sample_chemical(&mut self, tick: u64, snapshot: &mut Snapshot) {
-        let (to, to_height) = self.intake_now();
-        let (from, from_height) = self.intake;
-        while let Some((sample, time)) = self.fluorometer.due(tick) {
-            // How long before this tick the sample was taken, in ticks.
-            let back = (tick as f64 - time / TICK_S).clamp(0.0, 1.0);
-            let concentration = if back <= ON_THE_TICK {
-                self.truth.concentration
-            } else {
-                let place = to + back * (from - to);
-                self.world.concentration(place, to_height + back * (from_height - to_height), time)
-            };
-            self.fluorometer.send(tick, self.fluorometer.reading(sample, concentration));
-        }
-        while let Some(reading) = self.fluorometer.sample(tick) {
-            snapshot.push(CHEMICAL, &[reading]);
-        }
-    }
-
+    /// Adds what it tells at a tick.
     fn measure(&mut self, tick: u64, snapshot: &mut Snapshot) {
-        let truth = self.truth;
-        let echo = self.sounder.sample(tick, truth.altitude);
-        let (position, sigma) = self.positioning.belief(truth.position);
-        snapshot.push(POSITION, &[position.north, position.east, sigma]);
-        let compass = truth.heading + self.compass.error(tick, truth.heading).unwrap_or(0.0);
-        let velocity = self.measured_velocity(tick);
-        let velocity = self.dvl.sample(tick, truth.altitude, velocity);
-        if let Some(velocity) = velocity {
-            snapshot.push(COURSE, &[velocity.toward().radians()]);
-        }
-        if let Some(heading) = self.compass.sample(tick, compass) {
-            snapshot.push(HEADING, &[heading.radians()]);
-        }
-        if let Some(velocity) = velocity {
-            snapshot.push(SPEED, &[velocity.length()]);
-        }
-        let depth = (truth.depth + self.world.wave_head(truth.position, truth.altitude, self.time_s())).max(0.0);
-        let depth = self.pressure.sample(tick, depth);
-        if let Some(depth) = depth {
-            snapshot.push(DEPTH, &[depth]);
-        }
-        if let Some(echo) = echo {
-            snapshot.push(ALTITUDE, &[echo]);
-        }
-        if let (Some(depth), Some(echo)) = (depth, echo) {
-            snapshot.push(WATER_DEPTH, &[depth + echo]);
-        }
-        let view = View {
+        let mut around = Surroundings {
+            tick,
+            world: &mut self.world,
+            truth: &self.truth,
             ground_velocity: self.vehicle.motion().ground_velocity,
-            heading: truth.heading,
-            compass,
-            depth: truth.depth,
-            altitude: truth.altitude,
+            current: self.faults.ailing().current,
+            charge: (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0),
+            compass: self.truth.heading,
         };
-        let (time, current) = (self.time_s(), self.faults.ailing().current);
-        let flow_at = |height| self.world.flow(truth.position, height, time) + current;
-        if let Some(flow) = self.profiler.sample(tick, &view, flow_at) {
-            self.flow = flow;
-            snapshot.push(FLOW, &[flow.north, flow.east]);
-        }
-        self.sample_chemical(tick, snapshot);
-        let water = |depth| self.world.stratification().at(depth);
-        if let Some((temperature, salinity)) = self.ctd.as_mut().and_then(|ctd| ctd.sample(tick, truth.depth, water)) {
-            snapshot.push(TEMPERATURE, &[temperature]);
-            snapshot.push(SALINITY, &[salinity]);
-        }
-        let charge = (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0);
-        if let Some(charge) = self.battery.reading(tick, charge) {
-            snapshot.push(BATTERY, &[charge]);
-        }
+        self.instruments.measure(&mut around, snapshot);
         if tick.is_multiple_of(MODE_TICKS)
             && let Some(mode) = self.mode()
         {

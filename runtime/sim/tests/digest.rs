@@ -16,7 +16,7 @@ fn fold(digest: u64, word: u64) -> u64 {
 fn digest(seed: u64) -> Result<u64, Box<dyn Error>> {
     let mut scenario = presets::duck_2003();
     scenario.vehicle.start = scenario.sources[0].at;
-    scenario.fluorometer.false_alarms = 0.01;
+    scenario.instruments.fluorometer.false_alarms = 0.01;
     let mut simulator = Simulator::new(&scenario, seed)?;
     let mut snapshot = Snapshot::default();
     let mut digest = 0xCBF2_9CE4_8422_2325;

@@ -1,7 +1,7 @@
 //! A vehicle in a recorded plume, through the port alone.
 
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_sim::{Adcp, RecordedPlume, Recording, RecordingHeader, Scenario, Simulator, Tide, presets};
+use albacore_sim::{RecordedPlume, Recording, RecordingHeader, Scenario, Simulator, Tide, presets};
 use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 use std::sync::Arc;
@@ -16,7 +16,8 @@ fn recording() -> Result<Arc<Recording>, Box<dyn Error>> {
 /// In the record from a moment on, at a place.
 fn scenario(start: f64, place: Point) -> Result<Scenario, Box<dyn Error>> {
     let recording = Some(RecordedPlume { start, ..RecordedPlume::new(recording()?) });
-    let mut scenario = Scenario { recording, adcp: Adcp { noise: 0.0, ..Adcp::default() }, ..Scenario::default() };
+    let mut scenario = Scenario { recording, ..Scenario::default() };
+    scenario.instruments.adcp.noise = 0.0;
     (scenario.vehicle.start, scenario.vehicle.depth) = (place, 5.0);
     Ok(scenario)
 }

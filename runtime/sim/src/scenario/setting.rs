@@ -3,11 +3,9 @@
 use super::flow::MeanFlow;
 use super::source::{Leak, Patch};
 use super::vehicle::{OwnRows, OwnWaypoints};
-use super::{
-    Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Ground, Navigation, NoGo, Pit, Plane, Plume, Pressure,
-    Scenario, Sounder, Source, Stratification, Tide, UpperFlow, VehicleSetup, Waves,
-};
+use super::{Ground, NoGo, Pit, Plane, Plume, Scenario, Source, Stratification, Tide, UpperFlow, VehicleSetup, Waves};
 use crate::fault::Fault;
+use crate::sensors::{Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Navigation, Pressure, Sounder};
 use albacore_front_seat::Handover;
 use albacore_geometry::Area;
 use albacore_vehicle::Limits;
@@ -73,16 +71,16 @@ impl Scenario {
             Setting::Rows(rows) => self.own_mission = Some(rows.into()),
             Setting::Waypoints(waypoints) => self.own_mission = Some(waypoints.into()),
             Setting::Handover(handover) => self.handover = Some(handover),
-            Setting::Navigation(navigation) => self.navigation = Some(navigation),
-            Setting::Fluorometer(fluorometer) => self.fluorometer = fluorometer,
-            Setting::Adcp(adcp) => self.adcp = adcp,
-            Setting::Sounder(sounder) => self.sounder = sounder,
-            Setting::Compass(compass) => self.compass = compass,
-            Setting::Pressure(pressure) => self.pressure = pressure,
-            Setting::Dvl(dvl) => self.dvl = dvl,
-            Setting::Gps(gps) => self.gps = Some(gps),
-            Setting::Ctd(ctd) => self.ctd = Some(ctd),
-            Setting::Battery(battery) => self.battery = battery,
+            Setting::Navigation(navigation) => self.instruments.navigation = Some(navigation),
+            Setting::Fluorometer(fluorometer) => self.instruments.fluorometer = fluorometer,
+            Setting::Adcp(adcp) => self.instruments.adcp = adcp,
+            Setting::Sounder(sounder) => self.instruments.sounder = sounder,
+            Setting::Compass(compass) => self.instruments.compass = compass,
+            Setting::Pressure(pressure) => self.instruments.pressure = pressure,
+            Setting::Dvl(dvl) => self.instruments.dvl = dvl,
+            Setting::Gps(gps) => self.instruments.gps = Some(gps),
+            Setting::Ctd(ctd) => self.instruments.ctd = Some(ctd),
+            Setting::Battery(battery) => self.instruments.battery = battery,
             Setting::Fault(fault) => self.faults.push(fault),
         }
     }

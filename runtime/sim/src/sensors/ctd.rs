@@ -2,27 +2,64 @@
 
 use super::delay::Delay;
 use super::rate::is_due;
+use super::{Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
-use crate::scenario;
+use albacore_vehicle::Snapshot;
+use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
+use serde::Deserialize;
+
+/// The CTD: conductivity and temperature, and the practical salinity that is derived from them and the pressure.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ctd {
+    /// Samples a second. Default 1.
+    pub rate: f64,
+    /// Standard deviation of a temperature, degrees Celsius. Default 0.
+    pub temperature_noise: f64,
+    /// Its constant error, degrees Celsius: too warm. Default 0.
+    pub temperature_bias: f64,
+    /// Standard deviation of a salinity. Default 0.
+    pub salinity_noise: f64,
+    /// Its constant error: too salty. Default 0.
+    pub salinity_bias: f64,
+    /// Above this depth its cell runs dry, and it tells nothing, m. Default 0.2.
+    pub above: f64,
+    /// Between a sample and its being told, s. Default 0.
+    pub delay: f64,
+}
+
+impl Default for Ctd {
+    fn default() -> Self {
+        Ctd {
+            rate: 1.0,
+            temperature_noise: 0.0,
+            temperature_bias: 0.0,
+            salinity_noise: 0.0,
+            salinity_bias: 0.0,
+            above: 0.2,
+            delay: 0.0,
+        }
+    }
+}
 
 /// A CTD.
 #[derive(Clone, Debug)]
-pub struct Ctd {
-    settings: scenario::Ctd,
+pub struct CtdProbe {
+    settings: Ctd,
     temperature: Noise,
     salinity: Noise,
     delay: Delay<(f64, f64)>,
 }
 
-impl Ctd {
+impl CtdProbe {
     /// That of a run.
-    pub fn new(settings: &scenario::Ctd, seed: u64) -> Self {
+    pub fn new(settings: &Ctd, seed: u64) -> Self {
         let (temperature, salinity) = (Noise::new(seed, Stream::CtdTemperature), Noise::new(seed, Stream::CtdSalinity));
-        Ctd { settings: settings.clone(), temperature, salinity, delay: Delay::new(settings.delay) }
+        CtdProbe { settings: settings.clone(), temperature, salinity, delay: Delay::new(settings.delay) }
     }
 
     /// What it tells at a tick and a depth (m): temperature (degrees Celsius) and practical salinity.
-    pub fn sample(&mut self, tick: u64, depth: f64, water: impl FnOnce(f64) -> (f64, f64)) -> Option<(f64, f64)> {
+    fn sample(&mut self, tick: u64, depth: f64, water: impl FnOnce(f64) -> (f64, f64)) -> Option<(f64, f64)> {
         self.delay.pass(tick, self.reading(tick, depth, water))
     }
 
@@ -41,6 +78,16 @@ impl Ctd {
     }
 }
 
+impl Instrument for CtdProbe {
+    fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
+        let water = |depth| around.world.stratification().at(depth);
+        if let Some((temperature, salinity)) = self.sample(around.tick, around.truth.depth, water) {
+            snapshot.push(TEMPERATURE, &[temperature]);
+            snapshot.push(SALINITY, &[salinity]);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,15 +96,15 @@ mod tests {
 
     #[test]
     fn noise_and_bias_are_as_told_at_the_rate_that_is_told() {
-        let settings = scenario::Ctd {
+        let settings = Ctd {
             rate: 5.0,
             temperature_noise: 0.02,
             temperature_bias: 0.5,
             salinity_noise: 0.1,
             salinity_bias: -1.0,
-            ..scenario::Ctd::default()
+            ..Ctd::default()
         };
-        let ctd = Ctd::new(&settings, 1);
+        let ctd = CtdProbe::new(&settings, 1);
         let told: Vec<(f64, f64)> = (0..20_000).filter_map(|tick| ctd.reading(tick, 3.0, |_| WATER)).collect();
         assert_eq!(told.len(), 10_000);
         let moments = |of: fn(&(f64, f64)) -> f64| {
@@ -71,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_perfect_one_tells_the_truth_and_a_dry_one_nothing() {
-        let ctd = Ctd::new(&scenario::Ctd::default(), 1);
+        let ctd = CtdProbe::new(&Ctd::default(), 1);
         let water = |depth: f64| (20.0 - depth, 30.0 + depth);
         assert_eq!(ctd.reading(10, 3.0, water), Some((17.0, 33.0)));
         assert_eq!((ctd.reading(10, 0.1, water), ctd.reading(11, 3.0, water)), (None, None));

@@ -2,8 +2,38 @@
 
 use super::delay::Delay;
 use super::rate::is_due;
+use super::{EVERY_TICK, Instrument, InstrumentSetup, Surroundings};
 use crate::noise::{Noise, Stream};
-use crate::scenario::Sounder;
+use crate::scenario::{ScenarioIssues, told};
+use albacore_vehicle::Snapshot;
+use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
+use serde::Deserialize;
+
+/// The echo sounder: the height above the bottom, and with the vehicle's depth that of the water.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sounder {
+    /// Echoes a second. Default 10: at every tick.
+    pub rate: f64,
+    /// Standard deviation of one echo, m. Default 0.
+    pub noise: f64,
+    /// Its constant error, m: too far. Default 0.
+    pub bias: f64,
+    /// It hears no echo from nearer than this, m. Default 0.
+    pub nearest: f64,
+    /// It hears no echo from farther than this, m. Default none: from anywhere.
+    pub farthest: Option<f64>,
+    /// The share of echoes that are lost. Default 0.
+    pub dropouts: f64,
+    /// Between an echo and its being told, s. Default 0.
+    pub delay: f64,
+}
+
+impl Default for Sounder {
+    fn default() -> Self {
+        Sounder { rate: EVERY_TICK, noise: 0.0, bias: 0.0, nearest: 0.0, farthest: None, dropouts: 0.0, delay: 0.0 }
+    }
+}
 
 /// A sounder.
 #[derive(Clone, Debug)]
@@ -22,7 +52,7 @@ impl EchoSounder {
     }
 
     /// What it tells at a tick when the true altitude is `altitude`, m.
-    pub fn sample(&mut self, tick: u64, altitude: f64) -> Option<f64> {
+    fn sample(&mut self, tick: u64, altitude: f64) -> Option<f64> {
         self.delay.pass(tick, self.reading(tick, altitude))
     }
 
@@ -38,6 +68,29 @@ impl EchoSounder {
         let is_perfect = s.noise == 0.0 && s.bias == 0.0;
         Some(if is_perfect { altitude } else { (altitude + s.bias + noise).max(0.0) })
     }
+}
+
+impl Instrument for EchoSounder {
+    fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
+        let Some(echo) = self.sample(around.tick, around.truth.altitude) else { return };
+        snapshot.push(ALTITUDE, &[echo]);
+        let depth = snapshot.samples.iter().find(|sample| sample.channel == DEPTH).map(|sample| sample.reading[0]);
+        if let Some(depth) = depth {
+            snapshot.push(WATER_DEPTH, &[depth + echo]);
+        }
+    }
+}
+
+/// What of it cannot be.
+pub(super) fn check(setup: &InstrumentSetup, issues: &mut ScenarioIssues) {
+    let Sounder { nearest, farthest: Some(farthest), .. } = setup.sounder else { return };
+    let (farthest_m, nearest_m) = (told(farthest), told(nearest));
+    issues.of("sounder").unless(
+        Some("farthest"),
+        farthest > nearest,
+        format!("`sounder` hears from {farthest_m} m at most, and not from nearer than {nearest_m} m"),
+        "make `farthest` greater than `nearest`, or it hears nothing",
+    );
 }
 
 #[cfg(test)]

@@ -2,9 +2,7 @@
 
 use super::{driven, names, scenario};
 use albacore_geometry::{Point, Vector};
-use albacore_sim::{
-    Adcp, Bottom, Fluorometer, Lbl, Looks, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow, presets,
-};
+use albacore_sim::{Adcp, Bottom, Lbl, Looks, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow, presets};
 use albacore_vehicle::{Snapshot, Vehicle};
 
 #[test]
@@ -51,14 +49,14 @@ fn a_downward_look_is_not_deceived_by_a_low_boundary() {
     let upper = UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() };
     let mut layered = scenario();
     layered.flow.upper = Some(upper);
-    layered.adcp.looks = Looks::Down;
+    layered.instruments.adcp.looks = Looks::Down;
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
-    layered.adcp.looks = Looks::Both;
+    layered.instruments.adcp.looks = Looks::Both;
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!((last[0] - 0.1).abs() < 0.02 && (last[1] - 0.05).abs() < 0.02, "of neither layer: {last:?}");
     // It begins at 2 m: nothing of the 2 m below can be measured, once the vehicle is down there.
-    layered.adcp = Adcp { blanking: 2.0, looks: Looks::Down, ..Adcp::default() };
+    layered.instruments.adcp = Adcp { blanking: 2.0, looks: Looks::Down, ..Adcp::default() };
     layered.vehicle.depth = 8.0;
     assert_eq!(driven(&layered, 400, "flow").unwrap(), Vec::<[f64; 4]>::new());
 }
@@ -70,11 +68,11 @@ fn late_instruments_tell_what_was() {
     let prompt = scenario();
     let (late, delay) = (15, 1.5);
     let mut tardy = prompt.clone();
-    tardy.compass.delay = delay;
-    tardy.dvl.delay = delay;
-    tardy.pressure.delay = delay;
-    tardy.sounder.delay = delay;
-    tardy.adcp.delay = delay;
+    tardy.instruments.compass.delay = delay;
+    tardy.instruments.dvl.delay = delay;
+    tardy.instruments.pressure.delay = delay;
+    tardy.instruments.sounder.delay = delay;
+    tardy.instruments.adcp.delay = delay;
     for channel in channels {
         let [before, after] = [&prompt, &tardy].map(|scenario| driven(scenario, 60, channel).unwrap());
         // The last flow of a minute is told at 58 s.
@@ -91,12 +89,13 @@ fn late_instruments_tell_what_was() {
 
 #[test]
 fn a_profiler_looks_as_often_as_told_and_a_log_errs_ahead() {
-    let scenario = Scenario { adcp: Adcp { rate: 2.0, looks: Looks::Both, ..Adcp::default() }, ..scenario() };
+    let mut scenario = scenario();
+    (scenario.instruments.adcp.rate, scenario.instruments.adcp.looks) = (2.0, Looks::Both);
     let flows = driven(&scenario, 60, "flow").unwrap().len();
     assert!((100..=112).contains(&flows), "two a second, once ten are heard under way: {flows}");
     let speed = |bias| {
         let mut scenario = scenario.clone();
-        scenario.dvl.bias = bias;
+        scenario.instruments.dvl.bias = bias;
         driven(&scenario, 60, "speed").unwrap()[599][0]
     };
     assert!((speed(0.1) - speed(0.0) - 0.1).abs() < 1e-3);
@@ -105,7 +104,8 @@ fn a_profiler_looks_as_often_as_told_and_a_log_errs_ahead() {
 #[test]
 fn a_fix_makes_the_position_jump() {
     let lbl = Lbl { every: 60.0, ..Lbl::default() };
-    let navigated = Scenario { navigation: Some(Navigation { walk: 0.05, lbl: Some(lbl) }), ..scenario() };
+    let mut navigated = scenario();
+    navigated.instruments.navigation = Some(Navigation { walk: 0.05, lbl: Some(lbl) });
     let positions = driven(&navigated, 100, "position").unwrap();
     assert_eq!(positions[0][2], 0.0);
     assert!((positions[599][2] - 0.05 * 59.9_f64.sqrt()).abs() < 1e-9);
@@ -116,8 +116,8 @@ fn a_fix_makes_the_position_jump() {
 
 #[test]
 fn a_fast_chemical_sensor_gives_several_samples_a_tick() {
-    let fast =
-        Scenario { fluorometer: Fluorometer { rate: 50.0, ..Fluorometer::default() }, ..presets::duck_2003_flat() };
+    let mut fast = presets::duck_2003_flat();
+    fast.instruments.fluorometer.rate = 50.0;
     assert_eq!(driven(&fast, 10, "chemical").unwrap().len(), 496, "0 to 9.9 s");
 }
 
@@ -130,7 +130,7 @@ fn over_a_pit_the_water_is_deeper_and_echoes_are_as_noisy_as_told() {
     let deepest = exact.iter().map(|sample| sample[0]).fold(0.0, f64::max);
     assert!((deepest - 12.0).abs() < 0.02 && (exact[0][0] - 10.0).abs() < 0.01, "{deepest}");
 
-    over.sounder = Sounder { noise: 0.05, ..Sounder::default() };
+    over.instruments.sounder = Sounder { noise: 0.05, ..Sounder::default() };
     let errors: Vec<f64> = driven(&over, 60, "water_depth")
         .unwrap()
         .iter()

@@ -2,10 +2,68 @@
 
 use super::delay::Delay;
 use super::rate::{is_due, sample};
+use super::{Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
-use crate::scenario::{Adcp, Looks};
 use albacore_geometry::{Heading, Vector};
-use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate};
+use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates};
+use albacore_vehicle::Snapshot;
+use albacore_vehicle::channels::FLOW;
+use serde::Deserialize;
+
+/// The flow sensor: an acoustic Doppler current profiler that looks up and down by turns. Its defaults are those of the
+/// 2005 paper's Appendix B.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Adcp {
+    /// Standard deviation of each component of the velocity of one bin, m/s. Default 0.05.
+    pub noise: f64,
+    /// Its constant error, m/s: so much too fast through the water, ahead. Default 0.
+    pub bias: f64,
+    /// It measures nothing nearer than this, m: it is still ringing. Default 0.75.
+    pub blanking: f64,
+    /// The thickness of a bin, m. Default 0.5.
+    pub bin: f64,
+    /// The flow is averaged over so many bins, the nearest that are valid. Default 1.
+    pub count: u32,
+    /// Which looks the flow is estimated from. Default upward.
+    pub looks: Looks,
+    /// Looks a second. Default 1.
+    pub rate: f64,
+    /// Between a look and the estimate that it enters, s. Default 0.
+    pub delay: f64,
+    /// What a look must be to enter the estimate. Default that of the 2005 paper.
+    #[serde(flatten)]
+    pub gates: FlowGates,
+}
+
+impl Default for Adcp {
+    fn default() -> Self {
+        let gates = FlowGates::default();
+        Adcp {
+            noise: 0.05,
+            bias: 0.0,
+            blanking: 0.75,
+            bin: 0.5,
+            count: 1,
+            looks: Looks::Up,
+            rate: 1.0,
+            delay: 0.0,
+            gates,
+        }
+    }
+}
+
+/// The looks of the profiler that the flow is estimated from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Looks {
+    /// Upward: every other one, as the 2005 paper has it.
+    #[default]
+    Up,
+    /// Downward: every other one.
+    Down,
+    /// Both.
+    Both,
+}
 
 /// Near the bottom the echo of the side lobes, which go straight down, drowns that of the beams, which go 20 degrees aslant: the
 /// last 1 - cos 20 deg of the altitude cannot be measured (Teledyne RD Instruments, Principles of Operation, 2011).
@@ -13,17 +71,17 @@ const SIDE_LOBE_SHARE: f64 = 0.06;
 
 /// What the profiler sees of the vehicle.
 #[derive(Clone, Copy, Debug)]
-pub struct View {
+struct View {
     /// Velocity over ground, m/s.
-    pub ground_velocity: Vector,
+    ground_velocity: Vector,
     /// Where the nose points.
-    pub heading: Heading,
+    heading: Heading,
     /// Where the compass says that it points: the estimate turns by it.
-    pub compass: Heading,
+    compass: Heading,
     /// Depth, m.
-    pub depth: f64,
+    depth: f64,
     /// Height above the bottom, m.
-    pub altitude: f64,
+    altitude: f64,
 }
 
 /// Where the profiler looks.
@@ -41,6 +99,8 @@ pub struct Profiler {
     noise: Vec<Noise>,
     estimate: FlowEstimate,
     delay: Delay<Vector>,
+    /// The latest that it told.
+    told: Vector,
 }
 
 impl Profiler {
@@ -48,12 +108,17 @@ impl Profiler {
     pub fn new(settings: &Adcp, seed: u64) -> Self {
         let noise = (0..settings.count).map(|bin| Noise::sub(seed, Stream::Adcp, bin)).collect();
         let estimate = FlowEstimate::new(settings.gates.clone());
-        Profiler { settings: settings.clone(), noise, estimate, delay: Delay::new(settings.delay) }
+        Profiler { settings: settings.clone(), noise, estimate, delay: Delay::new(settings.delay), told: Vector::ZERO }
+    }
+
+    /// The flow that it told last, m/s toward; none at first.
+    pub fn told(&self) -> Vector {
+        self.told
     }
 
     /// The mean flow that it tells at a tick, m/s toward; `flow_at` is the velocity of the water at a height above the bottom (m).
-    pub fn sample(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
-        let mean = self.measure(tick, view, flow_at);
+    fn sample(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
+        let mean = self.mean(tick, view, flow_at);
         self.delay.pass(tick, mean)
     }
 
@@ -61,7 +126,7 @@ impl Profiler {
     ///
     /// All noise is put on the velocity through the water: a flow sample is the difference of both, so no more can be told
     /// from it. A look without a valid bin tells an exact zero, which the estimate takes for a missing value: the mean stays.
-    fn measure(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
+    fn mean(&mut self, tick: u64, view: &View, flow_at: impl Fn(f64) -> Vector) -> Option<Vector> {
         let look = self.look(tick)?;
         self.estimate.hear(&AdcpMessage {
             over_ground: BodyVelocity::of_tangent(view.ground_velocity, view.heading),
@@ -120,6 +185,24 @@ impl Profiler {
     }
 }
 
+impl Instrument for Profiler {
+    fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
+        let truth = around.truth;
+        let view = View {
+            ground_velocity: around.ground_velocity,
+            heading: truth.heading,
+            compass: around.compass,
+            depth: truth.depth,
+            altitude: truth.altitude,
+        };
+        let flow_at = |height| around.world.flow(truth.position, height, around.time_s()) + around.current;
+        if let Some(flow) = self.sample(around.tick, &view, flow_at) {
+            self.told = flow;
+            snapshot.push(FLOW, &[flow.north, flow.east]);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,7 +221,7 @@ mod tests {
     /// northward component over that tells the height at which it was measured.
     fn height(settings: &Adcp, view: &View) -> Option<f64> {
         let mut profiler = Profiler::new(settings, 1);
-        let heard = (0..400).filter_map(|tick| profiler.measure(tick, view, |height| Vector::new(0.1 * height, 0.0)));
+        let heard = (0..400).filter_map(|tick| profiler.mean(tick, view, |height| Vector::new(0.1 * height, 0.0)));
         heard.last().map(|flow| flow.north / 0.1)
     }
 
@@ -201,9 +284,9 @@ mod tests {
     fn a_look_without_a_valid_bin_leaves_the_mean_as_it_was() {
         let mut profiler = Profiler::new(&quiet(Looks::Down), 1);
         let flow = Vector::new(0.0, 0.1);
-        (0..400).for_each(|tick| _ = profiler.measure(tick, &view(), |_| flow));
+        (0..400).for_each(|tick| _ = profiler.mean(tick, &view(), |_| flow));
         let low = View { altitude: 1.3, ..view() };
-        let last = profiler.measure(410, &low, |_| -1.0 * flow).unwrap();
+        let last = profiler.mean(410, &low, |_| -1.0 * flow).unwrap();
         assert!((last - flow).length() < 1e-12);
     }
 

@@ -1,12 +1,91 @@
 //! What the vehicle believes of its position: dead reckoning with noisy velocity, and noisy acoustic fixes.
 
+use super::InstrumentSetup;
 use super::delay::Delay;
 use crate::noise::{Noise, Stream};
-use crate::scenario::{Gps, Lbl, Navigation};
+use crate::scenario::ScenarioIssues;
 use albacore_geometry::math::TAU;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::DeadReckoning;
 use albacore_vehicle::TICK_S;
+use serde::{Deserialize, Deserializer};
+
+/// How the vehicle knows its position: dead reckoning from a known start, and acoustic fixes.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Navigation {
+    /// Growth of the position error, m/s^0.5: its standard deviation an axis after t seconds is this times the root of t.
+    /// Default 0.05. 0 is perfect.
+    #[serde(default, rename = "dead_reckoning", deserialize_with = "walk")]
+    pub walk: f64,
+    /// Long-baseline fixes. Default none.
+    #[serde(rename = "fixes")]
+    pub lbl: Option<Lbl>,
+}
+
+/// Dead reckoning as a script says it.
+#[derive(Deserialize)]
+struct Growth {
+    walk: f64,
+}
+
+fn walk<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Growth::deserialize(from).map(|growth| growth.walk)
+}
+
+impl Default for Navigation {
+    fn default() -> Self {
+        Navigation { walk: 0.05, lbl: None }
+    }
+}
+
+/// Long-baseline acoustic fixes, applied as jumps.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lbl {
+    /// Time between fixes, s; the first comes after one such time. Default 120.
+    pub every: f64,
+    /// Standard deviation of a fix, m an axis. Default 2.
+    pub sigma: f64,
+    /// A fix is taken only if it disagrees with dead reckoning by more than this, m. Default 0: always.
+    pub gate: f64,
+    /// The share of fixes that are outliers: reflections, heard for the direct way. Default 0.
+    pub outliers: f64,
+    /// How far an outlier is off, m, in any direction. Default 50.
+    pub outlier: f64,
+    /// The transponders drift with this velocity, m/s, and all fixes with them. Default none.
+    pub drift: Vector,
+    /// Between a fix's moment and its coming, s. Default 0.
+    pub delay: f64,
+}
+
+impl Default for Lbl {
+    fn default() -> Self {
+        Lbl { every: 120.0, sigma: 2.0, gate: 0.0, outliers: 0.0, outlier: 50.0, drift: Vector::ZERO, delay: 0.0 }
+    }
+}
+
+/// Satellite fixes at the surface, taken by dead reckoning.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gps {
+    /// Time between fixes, s. Default 1.
+    pub every: f64,
+    /// Standard deviation of a fix, m an axis. Default 5.
+    pub sigma: f64,
+    /// The antenna is out of the water above this depth, m. Default 0.3.
+    pub above: f64,
+    /// The constant error of its fixes, m. Default none.
+    pub bias: Vector,
+    /// Between a fix's moment and its coming, s. Default 0.
+    pub delay: f64,
+}
+
+impl Default for Gps {
+    fn default() -> Self {
+        Gps { every: 1.0, sigma: 5.0, above: 0.3, bias: Vector::ZERO, delay: 0.0 }
+    }
+}
 
 /// The vehicle's own navigation, or the truth where a scenario has none.
 #[derive(Clone, Debug)]
@@ -93,6 +172,28 @@ fn lbl_error(lbl: &Lbl, tick: u64, outliers: Noise) -> Vector {
     }
     drifted + lbl.outlier * Heading::from_radians(TAU * outliers.uniform(2 * tick + 1)).unit()
 }
+
+/// What of it cannot be.
+pub(super) fn check(setup: &InstrumentSetup, issues: &mut ScenarioIssues) {
+    if let Some(lbl) = setup.navigation.as_ref().and_then(|navigation| navigation.lbl.as_ref()) {
+        issues.of("lbl").at_most("drift", lbl.drift.length(), LBL_DRIFT_MAX);
+    }
+    if let Some(gps) = &setup.gps {
+        let mut of = issues.of("gps");
+        of.at_most("bias", gps.bias.length(), GPS_BIAS_MAX);
+        of.unless(
+            None,
+            setup.navigation.is_some(),
+            "`gps` needs a `navigation`: without one the vehicle knows its position exactly",
+            "add `navigation(dead_reckoning())` to the scenario, or leave `gps` out",
+        );
+    }
+}
+
+/// Transponders drift no faster than this, m/s.
+const LBL_DRIFT_MAX: f64 = 1.0;
+/// No constant error of a fix is larger, m.
+const GPS_BIAS_MAX: f64 = 1000.0;
 
 #[cfg(test)]
 mod tests {
