@@ -126,6 +126,7 @@ fn an_interruption_stops_the_vehicle_and_not_the_session() {
     lines.write_all(format!("{}\n", ["steer 90 deg for 9 h"; 200].join("; ")).as_bytes()).unwrap();
     let mut said = String::new();
     while !said.contains("2 m") {
+        assert_eq!(child.try_wait().unwrap(), None, "{said}");
         std::thread::sleep(std::time::Duration::from_millis(10));
         said.clear();
         std::fs::File::open(&out).unwrap().read_to_string(&mut said).unwrap();
