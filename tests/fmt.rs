@@ -81,8 +81,7 @@ fn tree(text: &str) -> String {
 }
 
 fn comments(text: &str) -> Vec<&str> {
-    let comments = parse(FILE, text).comments;
-    comments.iter().map(|c| text[c.span.start as usize..c.span.end as usize].trim_end()).collect()
+    parse(FILE, text).concrete.comments().map(|c| text[c.start as usize..c.end as usize].trim_end()).collect()
 }
 
 /// Formats a text, and holds the result against it. Gives whether the text can be read.

@@ -16,6 +16,7 @@ mod graph;
 mod imports;
 mod lag;
 mod mixups;
+mod names;
 mod new;
 mod pages;
 mod reference;

@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
+use albacore_lang::source::FileId;
+use albacore_lang::syntax::parse;
 use albacore_session::{Files, Script, Source};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -48,6 +50,37 @@ fn check(path: &Path, text: &str) -> Script {
         names.iter().for_each(|name| drop(script.mission(name)));
     }
     script
+}
+
+/// The concrete tree of a text: what stands in no leaf is blank, and no two leaves overlap.
+fn assert_nothing_is_lost(name: &str, text: &str) {
+    let mut at = 0;
+    let is_blank = |text: &str| text.chars().all(|c| c.is_whitespace() || c == '\u{feff}');
+    for leaf in parse(FileId(0), text).concrete.leaves() {
+        let (start, end) = (leaf.start as usize, leaf.end as usize);
+        assert!(at <= start && is_blank(&text[at..start]), "{name}, from byte {at} to {start}:\n{text}");
+        at = end;
+    }
+    assert!(is_blank(&text[at..]), "{name}, from byte {at}:\n{text}");
+}
+
+#[test]
+fn every_word_of_a_script_is_in_its_concrete_tree() {
+    for path in scripts() {
+        let (name, text) = (path.display().to_string(), std::fs::read_to_string(&path).unwrap());
+        assert_nothing_is_lost(&name, &text);
+        for (i, (start, end)) in tokens(&text).into_iter().enumerate() {
+            if i.is_multiple_of(SAMPLED) {
+                assert_nothing_is_lost(&name, &text[..end]);
+                assert_nothing_is_lost(&name, &format!("{}{}", &text[..start], &text[end..]));
+            }
+        }
+    }
+    for text in
+        ["\u{feff}// a\n/* b */ const c = 1 m /* d\ne */\n-- f", "goto (\n\n}", "mission é { \"", "a\rb // c\rd"]
+    {
+        assert_nothing_is_lost("a text", text);
+    }
 }
 
 /// Scripts cut off after a token, and without it: of one token of so many, and with `SPOIL_ONE_OF=1` of every.

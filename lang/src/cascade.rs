@@ -3,7 +3,7 @@
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Sources, Span};
-use crate::syntax::Unread;
+use crate::syntax::{Unread, words};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Findings that nothing has a name: what could not be read may have declared it.
@@ -43,18 +43,6 @@ const PARTS: [Code; 16] = [
 const CALLS: [Code; 6] =
     [Code::TypesMismatch, Code::ArgsLabel, Code::ArgsMany, Code::ArgsMissing, Code::ArgsTwice, Code::FlowUnused];
 
-/// Words after which the name of what can be called is declared.
-const CALLABLE: [&str; 5] = ["fn", "behavior", "strategy", "overlay", "record"];
-
-/// Words after which a name is declared, inside a declaration.
-const DECLARING: [&str; 8] = ["let", "var", "memory", "signal", "behavior", "area", "for", "clause"];
-
-/// Words after which anything is declared, at the margin too.
-const NAMING: [&str; 17] = [
-    "let", "var", "memory", "signal", "behavior", "area", "clause", "const", "enum", "record", "unit", "input", "fn",
-    "strategy", "overlay", "mission", "scenario",
-];
-
 /// The names that unreadable text may have declared.
 pub struct Cascades<'a> {
     /// Those of whole declarations, known everywhere.
@@ -92,7 +80,7 @@ impl<'a> Cascades<'a> {
             match u.item {
                 None => {
                     names.known.extend(words(text));
-                    let named = words(text).zip(words(text).skip(1)).filter(|(word, _)| CALLABLE.contains(word));
+                    let named = words(text).zip(words(text).skip(1)).filter(|(word, _)| words::declares_called(word));
                     echoes.callable.extend(named.map(|(_, name)| name));
                 }
                 Some(_) => names.known.extend(declared(text)),
@@ -150,7 +138,7 @@ fn declared(text: &str) -> Vec<&str> {
     while let Some(word) = words(rest).next() {
         let at = rest.find(word).unwrap_or(0);
         rest = &rest[at + word.len()..];
-        if DECLARING.contains(&before) || rest.trim_start().starts_with(':') {
+        if words::declares_inside(before) || rest.trim_start().starts_with(':') {
             names.push(word);
         }
         before = word;
@@ -166,7 +154,7 @@ fn lacks_name(text: &str) -> bool {
     let mut rest = text;
     while let Some(word) = words(rest).next() {
         rest = &rest[rest.find(word).unwrap_or(0) + word.len()..];
-        if NAMING.contains(&word) && !rest.trim_start().starts_with(is_word) {
+        if words::declares(word) && !rest.trim_start().starts_with(is_word) {
             return true;
         }
     }

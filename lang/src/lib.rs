@@ -17,6 +17,7 @@ pub mod fmt;
 pub mod hir;
 mod loader;
 mod lower;
+pub mod names;
 mod other_languages;
 pub mod prompt;
 mod rules;
@@ -86,6 +87,7 @@ pub struct Script {
     /// Where missions and scenarios stand among all, by their names.
     mission_ids: BTreeMap<String, hir::ActivityId>,
     scenario_ids: BTreeMap<String, usize>,
+    names: names::Names,
     overrides: Vec<Override>,
     broken: Broken,
 }
@@ -194,8 +196,19 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
     let mission_ids = missions.iter().map(|(info, id)| (info.name.clone(), *id)).collect();
-    let Checked { hir, types, .. } = checked;
-    Script { sources: sources.clone(), findings, hir, types, missions, mission_ids, scenario_ids, overrides, broken }
+    let Checked { hir, types, names, .. } = checked;
+    Script {
+        sources: sources.clone(),
+        findings,
+        hir,
+        types,
+        missions,
+        mission_ids,
+        scenario_ids,
+        names,
+        overrides,
+        broken,
+    }
 }
 
 impl Script {
@@ -218,6 +231,11 @@ impl Script {
     /// Whether a scenario has no error.
     pub fn scenario_is_sound(&self, name: &str) -> bool {
         self.scenario_ids.get(name).is_some_and(|id| !self.broken.holds(self.hir.scenarios[*id].span))
+    }
+
+    /// The names that the script and its modules declare, and where each is used.
+    pub fn names(&self) -> &names::Names {
+        &self.names
     }
 
     /// The missions of the script's own file.

@@ -339,7 +339,7 @@ impl Prompt {
             let meant = |f: &Diagnostic| f.severity == Severity::Error && f.code.group() != "missions";
             findings.extend(rules::check(&hir, &types, mission).into_iter().filter(meant));
         }
-        if let Some(place) = rules::first_watch(&hir, mission) {
+        if let Some(place) = hir.first_watch(mission) {
             findings.push(
                 Diagnostic::error(Code::TimeControl, place, "at the prompt the vehicle is yours already")
                     .help("`watch` and `override` belong to a mission that is run as a guest of its vehicle"),
@@ -420,7 +420,7 @@ fn instant(value: tree::Expr) -> tree::Timed {
 fn is_item(text: &str) -> bool {
     let word: String = text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
     let after = text.trim_start()[word.len()..].trim_start();
-    syntax::begins_item(&word) && after.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '"')
+    syntax::words::begins_item(&word) && after.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '"')
 }
 
 /// Whether a clause means something in a table or among the declarations of a mission only.

@@ -1,6 +1,7 @@
 //! Types: what keeps a heading from being taken for an angle, and a point for a vector.
 
 use crate::dimension::Dimension;
+use crate::source::Span;
 use albacore_program::Shape;
 use std::sync::Arc;
 
@@ -46,6 +47,8 @@ pub struct RecordInfo {
     pub module: String,
     /// Its fields.
     pub fields: Vec<(String, Type)>,
+    /// Where they are declared.
+    pub places: Vec<Span>,
 }
 
 /// An enum as the checker knows it.

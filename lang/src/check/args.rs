@@ -83,7 +83,12 @@ impl<'t> Checker<'t> {
                     };
                     self.report(finding.help("leave one of them out"));
                 }
-                (Some(i), _) => given[i] = Some(&arg.value),
+                (Some(i), label) => {
+                    given[i] = Some(&arg.value);
+                    if let (Some(label), Some(_)) = (label, declared) {
+                        self.names_used.refer(label.span, params[i].span);
+                    }
+                }
                 (None, Some(label)) => {
                     failed = true;
                     let finding = Diagnostic::error(
@@ -219,6 +224,11 @@ impl<'t> Checker<'t> {
             Def::Record(id) => {
                 let record = self.types.records[*id].clone();
                 let params: Vec<(&str, Type)> = record.fields.iter().map(|(n, t)| (n.as_str(), t.clone())).collect();
+                for label in args.iter().filter_map(|arg| arg.label.as_ref()) {
+                    if let Some(field) = params.iter().position(|(name, _)| *name == label.node) {
+                        self.names_used.refer(label.span, record.places[field]);
+                    }
+                }
                 match self.simple_args(&record.name, &params, args, span) {
                     Some(values) => self.make(ExprKind::Record(values), Type::Record(*id), span),
                     None => self.unknown(span),

@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::facts::Fact;
-use super::{Checker, Temporal, flow};
+use super::{Checker, Def, Temporal, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Block, Expr, ExprKind, Stmt, StmtKind, VarKind};
@@ -203,6 +203,7 @@ impl<'t> Checker<'t> {
         for arm in arms {
             let mut indices = Vec::new();
             for name in &arm.names {
+                self.refer_to(name.span, self.scope.module, &name.node, |def| matches!(def, Def::Variant(..)));
                 match by_name.get(name.node.as_str()).copied() {
                     Some(i) if !seen.insert(i) => self.report(Diagnostic::error(
                         Code::TypesMatch,

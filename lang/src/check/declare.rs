@@ -151,12 +151,20 @@ impl<'t> Checker<'t> {
             self.report(finding);
             return;
         }
+        self.names_used.define(name, def.what());
+        self.places[module].insert(name.node.clone(), name.span);
         self.names[module].insert(name.node.clone(), def);
     }
 
     fn declare_item(&mut self, m: usize, item: &'t Item) {
         match item {
-            Item::Use(_) | Item::Test(_) => {}
+            Item::Use(paths) => {
+                for name in paths.iter().filter_map(|path| path.parts.last()) {
+                    self.names_used.define(name, "a module");
+                    self.import_places[m].insert(name.node.clone(), name.span);
+                }
+            }
+            Item::Test(_) => {}
             Item::Const(c) => {
                 self.consts.push(Lazy::Unchecked { module: m, name: &c.name, ty: c.ty.as_ref(), value: &c.value });
                 self.define(m, &c.name, Def::Const(self.consts.len() - 1));
@@ -179,6 +187,7 @@ impl<'t> Checker<'t> {
                     name: name.node.clone(),
                     module: self.modules[m].name.clone(),
                     fields: Vec::new(),
+                    places: Vec::new(),
                 });
                 self.define(m, name, Def::Record(self.types.records.len() - 1));
             }
@@ -188,7 +197,12 @@ impl<'t> Checker<'t> {
                 }
             }
             Item::Input { name, .. } => {
-                self.hir.inputs.push(hir::Input { name: name.node.clone(), ty: Type::Unknown, fields: Vec::new() });
+                self.hir.inputs.push(hir::Input {
+                    name: name.node.clone(),
+                    ty: Type::Unknown,
+                    fields: Vec::new(),
+                    places: Vec::new(),
+                });
                 self.define(m, name, Def::Input(self.hir.inputs.len() - 1));
             }
             Item::Clause { name, result, of_vehicle, .. } => {
@@ -244,8 +258,10 @@ impl<'t> Checker<'t> {
         match item {
             Item::Record { name, fields } => {
                 self.fields_once(fields);
+                let places = fields.iter().map(|f| f.name.span).collect();
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Record(id)) = self.names[m].get(&name.node) {
+                    self.types.records[id].places = places;
                     self.types.records[id].fields = fields;
                     if self.holds_itself(id) {
                         self.types.records[id].fields.clear();
@@ -257,11 +273,13 @@ impl<'t> Checker<'t> {
             }
             Item::Input { name, ty, fields } => {
                 self.fields_once(fields);
+                let places = fields.iter().map(|f| f.name.span).collect();
                 let ty = self.written_type(m, ty);
                 let fields = fields.iter().map(|f| (f.name.node.clone(), self.written_type(m, &f.ty))).collect();
                 if let Some(&Def::Input(id)) = self.names[m].get(&name.node) {
                     self.hir.inputs[id].ty = ty;
                     self.hir.inputs[id].fields = fields;
+                    self.hir.inputs[id].places = places;
                 }
             }
             _ => {}
@@ -271,6 +289,7 @@ impl<'t> Checker<'t> {
     fn fields_once(&mut self, fields: &[tree::Field]) {
         let mut firsts: BTreeMap<&str, Span> = BTreeMap::new();
         for tree::Field { name, .. } in fields {
+            self.names_used.define(name, "a field");
             let first = *firsts.entry(&name.node).or_insert(name.span);
             if first != name.span {
                 let finding =

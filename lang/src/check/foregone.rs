@@ -1,7 +1,7 @@
 //! What a condition comes to without a run, as far as its form tells. It proves no theorems: what is not seen here is taken to depend on
 //! the run.
 
-use crate::hir::{Block, Builtin, Expr, ExprKind, Interval, TestNames, VarId, VarKind, children, same_value};
+use crate::hir::{Block, Builtin, Expr, ExprKind, Interval, TestNames, VarId, VarKind, same_value};
 use crate::types::Type;
 
 /// Why an expectation says nothing.
@@ -34,9 +34,7 @@ impl Expectations<'_> {
     /// Whether something of a run is read. The mission's area is none: it is the same in all.
     fn reads_run(&self, e: &Expr) -> bool {
         let is_read = |id: VarId| (self.kind)(id) == VarKind::Signal && id != self.names.area;
-        let mut reads = matches!(e.kind, ExprKind::Var(id) if is_read(id));
-        children(e, &mut |child| reads |= self.reads_run(child));
-        reads
+        e.contains(|e| matches!(e.kind, ExprKind::Var(id) if is_read(id)))
     }
 
     /// Whether a condition holds, where that is known without a run.
@@ -125,9 +123,7 @@ impl Expectations<'_> {
 
 /// Whether something in it was not understood, which has been told.
 fn has_fault(e: &Expr) -> bool {
-    let mut has = e.ty == Type::Unknown;
-    children(e, &mut |child| has |= has_fault(child));
-    has
+    e.contains(|e| e.ty == Type::Unknown)
 }
 
 /// What `and` or `or` joins, however often.

@@ -10,7 +10,7 @@ use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
 use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree;
-use crate::types::Type;
+use crate::types::{RecordInfo, Type};
 use albacore_arithmetic::{Age, Operation, counted};
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
@@ -79,7 +79,7 @@ impl<'t> Checker<'t> {
             return value;
         }
         if let Some(module) = self.module_named(base) {
-            return match self.names[module].get(&member.node).cloned() {
+            return match self.defined_in(module, member).cloned() {
                 Some(def) => {
                     let module = if let tree::ExprKind::Name(name) = &base.kind { name } else { "" };
                     self.def_value(&def, &format!("{module}.{}", member.node), span)
@@ -138,10 +138,11 @@ impl<'t> Checker<'t> {
                 self.operation(Builtin::At, vec![value, zero], inner.optional(), span)
             }
             (Type::Record(id), field) => {
-                let fields = self.types.records[id].fields.clone();
+                let RecordInfo { fields, places, .. } = self.types.records[id].clone();
                 let mut at = 0;
-                for (name, ty) in fields {
+                for ((name, ty), place) in fields.into_iter().zip(places) {
                     if name == field {
+                        self.names_used.refer(member.span, place);
                         return part(self, value, at, ty);
                     }
                     at += self.types.words(&ty);
@@ -200,8 +201,9 @@ impl<'t> Checker<'t> {
             _ => {}
         }
         let mut at = self.types.words(&input.ty);
-        for (name, ty) in input.fields {
+        for ((name, ty), place) in input.fields.into_iter().zip(input.places) {
             if name == member.node {
+                self.names_used.refer(member.span, place);
                 return read(InputPart::Field(at), ty);
             }
             at += self.types.words(&ty);

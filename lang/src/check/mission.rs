@@ -115,7 +115,10 @@ impl Checker<'_> {
         let hold_for = require.hold_for.as_ref().map(|e| self.duration(e, "the time after `hold for`"));
         for name in &require.inputs {
             let input = match self.lookup(self.scope.module, &name.node) {
-                Some(super::Def::Input(id)) => *id,
+                Some(super::Def::Input(id)) => {
+                    self.refer_to(name.span, self.scope.module, &name.node, |_| true);
+                    *id
+                }
                 other => {
                     let finding = match other {
                         Some(def) => Diagnostic::error(

@@ -45,6 +45,7 @@ pub use table::never_ends;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
 use crate::hir::{self, Hir, Interval};
+use crate::names::Names;
 use crate::prompt::Known;
 use crate::source::{Source, Span};
 use crate::suggest;
@@ -240,6 +241,9 @@ pub struct Checker<'t> {
     files: BTreeMap<String, Result<Vec<u8>, FileFault>>,
     holed: area_file::Holed,
     names: Vec<BTreeMap<String, Def>>,
+    /// Where each module declares what it does, and its imports, by their names.
+    places: Vec<BTreeMap<String, Span>>,
+    import_places: Vec<BTreeMap<String, Span>>,
     consts: Vec<Lazy<'t>>,
     signals: Vec<Lazy<'t>>,
     /// How many constants and signals wait for others.
@@ -279,6 +283,8 @@ pub struct Checked {
     pub overrides: Vec<Override>,
     /// What is wrong with it.
     pub findings: Vec<Diagnostic>,
+    /// What its names stand for.
+    pub names: Names,
     /// Names that nobody uses. In a file with an error nobody can tell: what uses them may be what could not be understood.
     pub unused: Vec<Diagnostic>,
     /// The files of data that were read.
@@ -293,6 +299,8 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         files: BTreeMap::new(),
         holed: area_file::Holed::default(),
         names: modules.iter().map(|_| BTreeMap::new()).collect(),
+        places: modules.iter().map(|_| BTreeMap::new()).collect(),
+        import_places: modules.iter().map(|_| BTreeMap::new()).collect(),
         consts: Vec::new(),
         signals: Vec::new(),
         waiting: 0,
@@ -322,6 +330,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         types: checker.types,
         overrides: checker.overrides,
         findings: checker.findings,
+        names: checker.names_used.into_names(),
         unused,
         files,
     }

@@ -33,12 +33,39 @@ impl<'t> Checker<'t> {
         own.chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
     }
 
+    /// The name at a place is one of those among which [`Checker::lookup_if`] looks.
+    pub(super) fn refer_to(&self, at: Span, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) {
+        let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
+        let own = std::iter::successors(Some(module), |&m| self.modules[m].extends);
+        let of = own.chain(preludes).find(|&m| self.names[m].get(name).is_some_and(&wanted));
+        if let Some(place) = of.and_then(|m| self.places[m].get(name)) {
+            self.names_used.refer(at, *place);
+        }
+    }
+
     /// What a module of its imports defines under a name.
-    fn imported(&self, module: usize, from: &str, name: &str) -> Option<&Def> {
-        let imported = *self.modules[module].imports.get(from)?;
-        self.names_used.import(module, from);
-        self.names_used.mention(imported, name);
-        self.names[imported].get(name)
+    fn imported(&self, module: usize, (from, at): (&str, Span), name: &tree::Name) -> Option<&Def> {
+        let imported = self.import(module, from, at)?;
+        self.defined_in(imported, name)
+    }
+
+    /// Where an imported name leads.
+    fn import(&self, module: usize, name: &str, at: Span) -> Option<usize> {
+        let imported = *self.modules[module].imports.get(name)?;
+        self.names_used.import(module, name);
+        if let Some(place) = self.import_places[module].get(name) {
+            self.names_used.refer(at, *place);
+        }
+        Some(imported)
+    }
+
+    /// What a module defines under a name.
+    pub(super) fn defined_in(&self, module: usize, name: &tree::Name) -> Option<&Def> {
+        self.names_used.mention(module, &name.node);
+        if let Some(place) = self.places[module].get(&name.node) {
+            self.names_used.refer(name.span, *place);
+        }
+        self.names[module].get(&name.node)
     }
 
     /// What `name` or `module.name` stands for where a path is written.
@@ -46,9 +73,10 @@ impl<'t> Checker<'t> {
         match path.parts.as_slice() {
             [name] => {
                 self.names_used.mention(module, &name.node);
+                self.refer_to(name.span, module, &name.node, |_| true);
                 self.lookup(module, &name.node)
             }
-            [from, name] => self.imported(module, &from.node, &name.node),
+            [from, name] => self.imported(module, (&from.node, from.span), name),
             _ => None,
         }
     }
@@ -95,15 +123,19 @@ impl<'t> Checker<'t> {
 
     pub(super) fn name(&mut self, name: &str, span: Span) -> Expr {
         if let Some(id) = self.local(name) {
-            self.names_used.read(self.scope.vars[id].span);
+            let declared = self.scope.vars[id].span;
+            self.names_used.read(declared);
+            self.names_used.refer(span, declared);
             return self.variable(id, span);
         }
         // What can only be called is no value: a behavior `flow` leaves the input `flow` what it is.
         let value = self.lookup_if(self.scope.module, name, |def| !def.can_be_called());
+        let is_value = value.is_some();
         let found = value.or_else(|| self.lookup(self.scope.module, name)).cloned();
         match found {
             Some(def) => {
                 self.names_used.mention(self.scope.module, name);
+                self.refer_to(span, self.scope.module, name, |def| !is_value || !def.can_be_called());
                 self.def_value(&def, name, span)
             }
             // What was refused has no name, and has been told.
@@ -273,12 +305,13 @@ impl<'t> Checker<'t> {
         match &e.kind {
             K::Name(name) => {
                 self.names_used.mention(self.scope.module, name);
+                self.refer_to(e.span, self.scope.module, name, Def::can_be_called);
                 let callable = self.lookup_if(self.scope.module, name, Def::can_be_called);
                 callable.cloned().map_or(Found::Nothing, Found::Def)
             }
             K::Member(base, member) => match &base.kind {
                 K::Name(module) if self.local(module).is_none() => {
-                    let def = self.imported(self.scope.module, module, &member.node);
+                    let def = self.imported(self.scope.module, (module, base.span), member);
                     def.cloned().map_or(Found::Nothing, Found::Def)
                 }
                 _ => Found::Nothing,
@@ -290,10 +323,7 @@ impl<'t> Checker<'t> {
     /// The module that a name stands for, when it is no value.
     pub(super) fn module_named(&self, e: &tree::Expr) -> Option<usize> {
         match &e.kind {
-            tree::ExprKind::Name(name) if self.local(name).is_none() => {
-                let imported = self.modules[self.scope.module].imports.get(name).copied();
-                imported.inspect(|_| self.names_used.import(self.scope.module, name))
-            }
+            tree::ExprKind::Name(name) if self.local(name).is_none() => self.import(self.scope.module, name, e.span),
             _ => None,
         }
     }
@@ -326,6 +356,7 @@ impl<'t> Checker<'t> {
             return None;
         };
         let var = self.scope.vars[id].clone();
+        self.names_used.refer(name.span, var.span);
         if var.kind != VarKind::Memory
             && let Some(known) = self.known_at_prompt().and_then(|known| known.get(id))
         {

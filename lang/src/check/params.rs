@@ -47,6 +47,7 @@ impl<'t> Checker<'t> {
         let mut infos: Vec<ParamInfo> = Vec::new();
         let mut firsts: BTreeMap<&str, Span> = BTreeMap::new();
         for param in params {
+            self.names_used.define(&param.name, "a parameter");
             let first = *firsts.entry(&param.name.node).or_insert(param.name.span);
             if first != param.name.span {
                 let finding = Diagnostic::error(

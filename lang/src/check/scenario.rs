@@ -46,6 +46,7 @@ impl<'t> Checker<'t> {
         let mut infos = Vec::new();
         for (param, nested) in params.iter().zip(&nested) {
             if nested.is_some() {
+                self.names_used.define(&param.name, "a parameter");
                 infos.push(super::ParamInfo {
                     name: param.name.node.clone(),
                     ty: Type::Unknown,
@@ -207,6 +208,11 @@ impl<'t> Checker<'t> {
         let mut plain_args = Vec::new();
         let mut failed = false;
         for arg in args {
+            if let Some(label) = &arg.label
+                && let Some(param) = params.iter().find(|param| param.name == label.node)
+            {
+                self.names_used.refer(label.span, param.span);
+            }
             let head = match &arg.value.kind {
                 K::Call(callee, _) => callee.as_ref(),
                 _ => &arg.value,
@@ -325,7 +331,10 @@ impl<'t> Checker<'t> {
         };
         let is_wanted = |def: &Def| matches!(def, Def::Clause(id) if fits(self.clauses[*id].kind.as_ref()));
         match self.lookup_if(self.scope.module, name, is_wanted) {
-            Some(Def::Clause(id)) => Some(*id),
+            Some(Def::Clause(id)) => {
+                self.refer_to(e.span, self.scope.module, name, is_wanted);
+                Some(*id)
+            }
             _ => None,
         }
     }

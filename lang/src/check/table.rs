@@ -42,6 +42,7 @@ impl<'t> Checker<'t> {
                         .label(earlier.span, "the first");
                         self.report(finding);
                     }
+                    self.names_used.define(&b.name, "a behavior");
                     names.push(&b.name);
                     behaviors.push(self.nested(id, b));
                 }
@@ -144,7 +145,9 @@ impl<'t> Checker<'t> {
 
     fn behavior_named(&mut self, name: &tree::Name, names: &Names) -> Option<usize> {
         let found = names.index(&name.node);
-        if found.is_none() {
+        if let Some(index) = found {
+            self.names_used.refer(name.span, names.all[index].span);
+        } else {
             let known = || names.all.iter().map(|n| n.node.as_str());
             let finding =
                 Diagnostic::error(Code::RulesUnknown, name.span, format!("there is no behavior `{}` here", name.node));

@@ -108,7 +108,13 @@ impl<'t> Checker<'t> {
             }
             _ => {
                 let is_own = name == self.mission_name(test.mission) && test.area.as_ref() == Some(&member.node);
-                is_own.then_some(test.names.area)?
+                let id = is_own.then_some(test.names.area)?;
+                let mission = &self.hir.activities[test.mission];
+                self.names_used.refer(base.span, mission.span);
+                if let Some(area) = mission.vars.iter().find(|var| var.kind == VarKind::Area) {
+                    self.names_used.refer(member.span, area.span);
+                }
+                id
             }
         };
         Some(self.variable(id, span))

@@ -4,6 +4,7 @@ use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::{self, Dimension, Unit};
+use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree::{self, Ty, TyKind};
 use crate::types::Type;
@@ -32,6 +33,14 @@ impl<'t> Checker<'t> {
             _ => None,
         };
         let found = dimension::unit(&word.node, &own);
+        // A unit may be made of several: `fathom/s`.
+        let mut start = word.span.start;
+        for part in word.node.split_inclusive(|c: char| !c.is_alphanumeric() && c != '_') {
+            let name = part.trim_end_matches(|c: char| !c.is_alphanumeric() && c != '_');
+            let at = Span { start, end: start + name.len() as u32, ..word.span };
+            self.refer_to(at, module, name, |def| matches!(def, Def::Unit(_)));
+            start += part.len() as u32;
+        }
         if found.is_none() {
             let known: Vec<&str> = dimension::UNITS.iter().map(|(name, ..)| *name).collect();
             let finding = Diagnostic::error(Code::UnitsUnknown, word.span, format!("`{}` is no unit", word.node))

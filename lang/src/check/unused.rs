@@ -4,6 +4,7 @@ use super::Checker;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::VarKind;
+use crate::names::{Names, what_of};
 use crate::source::Span;
 use crate::syntax::tree::{ActivityKind, File, Item, Name};
 use std::cell::RefCell;
@@ -13,6 +14,8 @@ use std::collections::BTreeSet;
 #[derive(Default)]
 pub(super) struct NamesUsed {
     declared: Vec<(Name, VarKind)>,
+    /// What every name stands for.
+    names: RefCell<Names>,
     /// The variables that were read, by the places of their declarations.
     read: BTreeSet<Span>,
     /// The names by which a module's declarations were asked for. Looking a name up changes nothing else: hence the cells.
@@ -22,7 +25,21 @@ pub(super) struct NamesUsed {
 
 impl NamesUsed {
     pub fn declare(&mut self, name: &Name, kind: VarKind) {
+        self.define(name, what_of(kind));
         self.declared.push((name.clone(), kind));
+    }
+
+    pub fn define(&self, name: &Name, what: &'static str) {
+        self.names.borrow_mut().define(name.span, &name.node, what);
+    }
+
+    /// The name at a place is the one that is declared at another.
+    pub fn refer(&self, place: Span, declared: Span) {
+        self.names.borrow_mut().refer(place, declared);
+    }
+
+    pub fn into_names(self) -> Names {
+        self.names.into_inner()
     }
 
     pub fn read(&mut self, declared: Span) {

@@ -110,6 +110,7 @@ impl<'t> Checker<'t> {
     pub(super) fn vehicle_named(&self, e: &tree::Expr) -> Option<usize> {
         let def = match &e.kind {
             ExprKind::Name(name) => {
+                self.refer_to(e.span, self.scope.module, name, |def| matches!(def, Def::Vehicle(_)));
                 self.lookup_if(self.scope.module, name, |def| matches!(def, Def::Vehicle(_))).cloned()
             }
             _ => match self.find(e) {

@@ -4,10 +4,7 @@
 use super::grouped;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{
-    ActivityId, ClauseArg, ClauseUse, Expr, ExprKind, FnId, Hir, Scenario, Test, activity_children, block_children,
-    children,
-};
+use crate::hir::{ActivityId, ClauseArg, ClauseUse, Expr, ExprKind, FnId, Hir, Scenario, Test};
 use crate::source::FileId;
 use std::collections::BTreeSet;
 
@@ -79,7 +76,7 @@ impl Known {
 fn of_activity(hir: &Hir, id: ActivityId) -> Own {
     let activity = &hir.activities[id];
     let mut own = Own { parts: 1 + activity.vars.len(), activities: activity.calls(), fns: BTreeSet::new() };
-    activity_children(activity, &mut |e| own.expr(e));
+    activity.visit(&mut |e| own.expr(e));
     for block in activity.blocks() {
         block.each(&mut |_| own.parts += 1);
     }
@@ -89,18 +86,18 @@ fn of_activity(hir: &Hir, id: ActivityId) -> Own {
 fn of_fn(hir: &Hir, id: FnId) -> Own {
     let function = &hir.fns[id];
     let mut own = Own { parts: 1 + function.vars.len(), activities: Vec::new(), fns: BTreeSet::new() };
-    block_children(&function.body, &mut |e| own.expr(e));
+    function.body.visit(&mut |e| own.expr(e));
     function.body.each(&mut |_| own.parts += 1);
     own
 }
 
 impl Own {
-    fn expr(&mut self, e: &Expr) {
+    fn expr(&mut self, e: &Expr) -> bool {
         self.parts += 1;
         if let ExprKind::Call(id, _) = e.kind {
             self.fns.insert(id);
         }
-        children(e, &mut |child| self.expr(child));
+        true
     }
 }
 

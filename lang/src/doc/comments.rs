@@ -1,7 +1,6 @@
 //! Which comment belongs to what.
 
 use crate::source::{FileId, Span};
-use crate::syntax::Comment;
 use std::collections::BTreeMap;
 
 /// The comments of a source, by what they may belong to.
@@ -25,7 +24,7 @@ struct Group<'a> {
 
 impl<'a> Comments<'a> {
     /// `first` is where the first declaration begins.
-    pub fn new(source: &'a str, comments: &[Comment], first: usize) -> Self {
+    pub fn new(source: &'a str, comments: impl Iterator<Item = Span>, first: usize) -> Self {
         let mut sorted = Comments {
             source,
             of_file: Vec::new(),
@@ -35,7 +34,7 @@ impl<'a> Comments<'a> {
         };
         let mut last_of_file = None;
         for comment in comments {
-            let (start, end) = (comment.span.start as usize, comment.span.end as usize);
+            let (start, end) = (comment.start as usize, comment.end as usize);
             let text = source.get(start..end).unwrap_or("").trim_end();
             let is_alone = sorted.line_before(start).trim().is_empty();
             if let Some(line) = text.strip_prefix("//!") {

@@ -9,8 +9,8 @@ mod written;
 
 use crate::diagnostic::has_error;
 use crate::source::{FileId, Source, Span};
+use crate::syntax;
 use crate::syntax::tree::Item;
-use crate::syntax::{self, Rule};
 use comments::Comments;
 use written::Written;
 
@@ -78,16 +78,13 @@ pub struct Behavior {
 pub fn page(source: &Source) -> Option<Page> {
     let file = FileId(0);
     let parsed = syntax::parse(file, &source.text);
-    let spans: Vec<Span> = syntax::concrete(file, &source.text, |pairs| {
-        let items = pairs.flat_map(|pair| pair.into_inner()).filter(|pair| pair.as_rule() != Rule::EOI);
-        items.map(|pair| written::trimmed(file, pair.as_span())).collect()
-    })?;
+    let spans: Vec<Span> = parsed.concrete.root(&source.text).inner().map(|item| item.span()).collect();
     if has_error(&parsed.findings) || spans.len() != parsed.file.items.len() {
         return None;
     }
     let written = Written::new(&source.text);
     let first = spans.first().map_or(source.text.len(), |span| span.start as usize);
-    let mut comments = Comments::new(&source.text, &parsed.comments, first);
+    let mut comments = Comments::new(&source.text, parsed.concrete.comments(), first);
     let (mut declarations, mut tests) = (Vec::new(), Vec::new());
     for (item, span) in parsed.file.items.iter().zip(spans) {
         match item {

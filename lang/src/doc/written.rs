@@ -1,6 +1,6 @@
 //! Stretches of a source as a reader wants them: without the blanks of the place that they stand in.
 
-use crate::source::{FileId, Span};
+use crate::source::Span;
 use crate::syntax::tree::Block;
 
 /// A source to take stretches from.
@@ -40,10 +40,4 @@ impl<'a> Written<'a> {
     pub fn between(&self, start: u32, end: u32) -> &'a str {
         self.0.get(start as usize..end as usize).unwrap_or("")
     }
-}
-
-/// A stretch that the grammar has read, without what it skipped at the end.
-pub fn trimmed(file: FileId, span: pest::Span) -> Span {
-    let end = span.start() + span.as_str().trim_end().len();
-    Span { file, start: span.start() as u32, end: end as u32 }
 }

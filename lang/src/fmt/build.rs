@@ -1,17 +1,16 @@
 //! From what the grammar has read to a document. The words are the source's own: nothing is spelt anew.
 
 use super::doc::{Clause, Column, Comment, Doc, Indent, Word};
-use crate::syntax::{self, Rule};
-use pest::iterators::{Pair, Pairs};
+use crate::syntax::{ConcreteTree, Node, Rule};
 
 /// The document of a file.
-pub fn file<'a>(source: &'a str, comments: &[syntax::Comment], pairs: Pairs<Rule>) -> Doc<'a> {
+pub fn file<'a>(source: &'a str, tree: &'a ConcreteTree) -> Doc<'a> {
     let starts = std::iter::once(0).chain(source.match_indices('\n').map(|(at, _)| at + 1)).collect();
-    let comments = comments.iter().map(|c| (c.span.start as usize, c.span.end as usize)).collect();
+    let comments = tree.comments().map(|c| (c.start as usize, c.end as usize)).collect();
     let at = if source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
     let mut builder =
         Builder { source, starts, comments, seen: 0, at, led: None, tight: false, after: None, blocks: 0 };
-    let items: Vec<Pair<Rule>> = pairs.flat_map(Pair::into_inner).filter(|p| p.as_rule() != Rule::EOI).collect();
+    let items = tree.root(source).inner().collect();
     Doc::Concat(builder.entries(items, source.len(), ";", true))
 }
 
@@ -129,59 +128,48 @@ impl<'a> Builder<'a> {
         Word { text: self.slice(start, end), blanks, padded: padded && blanks > 0, column }
     }
 
-    /// The signs before a place that the grammar has no rule for. Ends at a `{`, and gives where that stands.
-    fn signs(&mut self, docs: &mut Vec<Doc<'a>>, input: &str, until: usize, rule: Rule) -> Option<usize> {
-        let from = self.at.min(until);
-        for (offset, sign) in input.get(from..until).unwrap_or("").char_indices() {
-            let start = from + offset;
-            let tight = match sign {
-                '{' => return Some(start),
-                c if c.is_whitespace() || c == '\u{feff}' => continue,
-                '(' | '[' if rule == Rule::index => BOTH,
-                '(' | '[' => RIGHT,
-                '.' | '^' | '°' | '\'' => BOTH,
-                ')' | ']' | ',' | ':' | ';' => LEFT,
-                _ => NEITHER,
-            };
-            self.word(docs, start, start + sign.len_utf8(), tight, None);
-            self.after = match sign {
-                ',' => Some(After::Fill(Indent::Further)),
-                '=' => Some(After::Author(Indent::Further)),
-                _ => None,
-            };
-        }
-        None
+    /// A sign that the grammar has no rule for.
+    fn sign(&mut self, docs: &mut Vec<Doc<'a>>, sign: Node<'a>, of: Rule) {
+        let tight = match sign.text() {
+            "(" | "[" if of == Rule::index => BOTH,
+            "(" | "[" => RIGHT,
+            "." | "^" | "°" | "'" => BOTH,
+            ")" | "]" | "," | ":" | ";" => LEFT,
+            _ => NEITHER,
+        };
+        self.word(docs, sign.start(), sign.end(), tight, None);
+        self.after = match sign.text() {
+            "," => Some(After::Fill(Indent::Further)),
+            "=" => Some(After::Author(Indent::Further)),
+            _ => None,
+        };
     }
 
-    fn node(&mut self, pair: Pair<Rule>) -> Doc<'a> {
-        match pair.as_rule() {
+    fn node(&mut self, node: Node<'a>) -> Doc<'a> {
+        match node.rule() {
             Rule::expr => {
-                let items: Vec<_> = pair.into_inner().collect();
+                let items: Vec<_> = node.inner().collect();
                 self.chain(&items)
             }
-            Rule::params | Rule::clause_params | Rule::args | Rule::list => self.list(pair),
-            Rule::if_expr => self.choice(pair),
-            Rule::match_expr => Doc::Anchor(vec![self.sequence(pair)]),
-            Rule::text => self.leaf(pair),
-            Rule::block | Rule::test_block => self.sequence(pair),
-            _ if pair.clone().into_inner().next().is_none() => self.leaf(pair),
-            _ => self.sequence(pair),
+            Rule::params | Rule::clause_params | Rule::args | Rule::list => self.list(node),
+            Rule::if_expr => self.choice(node),
+            Rule::match_expr => Doc::Anchor(vec![self.sequence(node)]),
+            Rule::text => self.leaf(node),
+            _ if node.is_leaf() => self.leaf(node),
+            _ => self.sequence(node),
         }
     }
 
-    fn leaf(&mut self, pair: Pair<Rule>) -> Doc<'a> {
-        let span = pair.as_span();
-        let tight = match pair.as_rule() {
+    fn leaf(&mut self, node: Node<'a>) -> Doc<'a> {
+        let tight = match node.rule() {
             Rule::range_op | Rule::dim_op => BOTH,
             Rule::neg | Rule::pos => RIGHT,
             Rule::maybe | Rule::north_south | Rule::east_west => LEFT,
             _ => NEITHER,
         };
-        // What the grammar looked ahead over is no part of the word.
-        let end = span.start() + span.as_str().trim_end().len();
         let mut docs = Vec::new();
-        self.word(&mut docs, span.start(), end, tight, None);
-        self.after = match pair.as_rule() {
+        self.word(&mut docs, node.start(), node.end(), tight, None);
+        self.after = match node.rule() {
             Rule::arrow | Rule::kw_on | Rule::kw_do => Some(After::Author(Indent::Further)),
             _ => None,
         };
@@ -189,51 +177,57 @@ impl<'a> Builder<'a> {
     }
 
     /// What has no layout of its own: its parts, one after the other.
-    fn sequence(&mut self, pair: Pair<Rule>) -> Doc<'a> {
-        let (input, rule, end) = (pair.get_input(), pair.as_rule(), pair.as_span().end());
+    fn sequence(&mut self, node: Node<'a>) -> Doc<'a> {
+        let (rule, end) = (node.rule(), node.end());
         let mut docs = Vec::new();
-        let mut parts = pair.into_inner();
-        while let Some(part) = parts.peek() {
-            if let Some(open) = self.signs(&mut docs, input, part.as_span().start(), rule) {
-                self.block(&mut docs, open, parts.collect(), end, rule);
-                return Doc::Concat(docs);
-            }
-            parts.next();
-            self.lead(&mut docs, part.as_span().start());
-            match (rule, part.as_rule()) {
+        let mut parts = node.children().filter(|part| part.rule() != Rule::comment);
+        while let Some(part) = parts.next() {
+            match (rule, part.rule()) {
+                (_, Rule::sign) if part.text() == "{" => {
+                    let inside = parts.filter(|part| part.rule() != Rule::sign).collect();
+                    self.block(&mut docs, part.start(), inside, end, rule);
+                    return Doc::Concat(docs);
+                }
+                (_, Rule::sign) => self.sign(&mut docs, part, rule),
                 (Rule::switching, Rule::arrow) => self.begin(&mut docs, part, Column::Arrow),
                 (Rule::switching, Rule::kw_on) => self.begin(&mut docs, part, Column::On),
                 (Rule::do_block, Rule::kw_do) => self.begin(&mut docs, part, Column::Do),
-                _ => docs.push(self.node(part)),
+                _ => {
+                    self.lead(&mut docs, part.start());
+                    docs.push(self.node(part));
+                }
             }
-        }
-        if let Some(open) = self.signs(&mut docs, input, end, rule) {
-            self.block(&mut docs, open, Vec::new(), end, rule);
         }
         Doc::Concat(docs)
     }
 
     /// A word that begins a column of a switching table.
-    fn begin(&mut self, docs: &mut Vec<Doc<'a>>, part: Pair<Rule>, column: Column) {
-        let span = part.as_span();
-        self.word(docs, span.start(), span.end(), NEITHER, Some(column));
+    fn begin(&mut self, docs: &mut Vec<Doc<'a>>, part: Node<'a>, column: Column) {
+        self.word(docs, part.start(), part.end(), NEITHER, Some(column));
         self.after = Some(After::Author(Indent::Further));
     }
 
     /// `( … )` and `[ … ]` with entries.
-    fn list(&mut self, pair: Pair<Rule>) -> Doc<'a> {
-        let (input, rule) = (pair.get_input(), pair.as_rule());
-        let (start, end) = (pair.as_span().start(), pair.as_span().end());
+    fn list(&mut self, node: Node<'a>) -> Doc<'a> {
+        let (rule, start, end) = (node.rule(), node.start(), node.end());
         let mut before = Vec::new();
         self.lead(&mut before, start);
         let tight = if rule == Rule::list { RIGHT } else { BOTH };
         let open = self.bare(start, start + 1, tight, None);
         let mut docs = Vec::new();
-        let mut any = false;
-        for part in pair.into_inner() {
-            self.signs(&mut docs, input, part.as_span().start(), rule);
+        let (mut any, mut comma) = (false, None);
+        let brackets = |part: &Node| part.rule() == Rule::sign && (part.start() == start || part.end() == end);
+        for part in node.children().filter(|part| part.rule() != Rule::comment && !brackets(part)) {
+            if part.rule() == Rule::sign {
+                comma = Some(part);
+                continue;
+            }
+            // One behind the last entry is not the author's: whether it stands there depends on the layout.
+            if let Some(comma) = comma.take() {
+                self.sign(&mut docs, comma, rule);
+            }
             self.after = Some(if any { After::Fill(Indent::Entry) } else { After::Author(Indent::Entry) });
-            self.lead(&mut docs, part.as_span().start());
+            self.lead(&mut docs, part.start());
             docs.push(self.node(part));
             any = true;
         }
@@ -249,7 +243,7 @@ impl<'a> Builder<'a> {
     }
 
     /// `{ … }`.
-    fn block(&mut self, docs: &mut Vec<Doc<'a>>, start: usize, parts: Vec<Pair<Rule>>, end: usize, rule: Rule) {
+    fn block(&mut self, docs: &mut Vec<Doc<'a>>, start: usize, parts: Vec<Node<'a>>, end: usize, rule: Rule) {
         let separator = match rule {
             Rule::enum_item | Rule::record_item | Rule::input_item | Rule::limits => ",",
             _ => ";",
@@ -266,14 +260,14 @@ impl<'a> Builder<'a> {
     }
 
     /// Clauses or entries up to a place. When the author has written them on several lines, each line is a group.
-    fn entries(&mut self, parts: Vec<Pair<Rule>>, end: usize, separator: &'static str, hard: bool) -> Vec<Doc<'a>> {
+    fn entries(&mut self, parts: Vec<Node<'a>>, end: usize, separator: &'static str, hard: bool) -> Vec<Doc<'a>> {
         self.blocks += 1;
         let block = self.blocks;
         let mut lines = Vec::new();
         let mut line = Vec::new();
         for part in parts {
-            let start = part.as_span().start();
-            let is_else = part.as_rule() == Rule::match_arm && self.slice(start, start + 4) == "else";
+            let start = part.start();
+            let is_else = part.rule() == Rule::match_arm && self.slice(start, start + 4) == "else";
             if self.next_entry(&mut lines, &mut line, start) {
                 lines.push(Doc::Hard(Indent::Entry, self.blank(start)));
             } else if !line.is_empty() {
@@ -282,7 +276,7 @@ impl<'a> Builder<'a> {
             (self.at, self.led) = (start, Some(start));
             self.tight = false;
             self.after = None;
-            let clause = Clause { key: self.key(&part), block, row: part.as_rule() == Rule::switching };
+            let clause = Clause { key: self.key(part), block, row: part.rule() == Rule::switching };
             let docs = vec![self.node(part)];
             line.push(Doc::Clause { clause, docs });
         }
@@ -321,16 +315,16 @@ impl<'a> Builder<'a> {
     }
 
     /// What the clauses that may be aligned with this one have in common: its first word, or what it is.
-    fn key(&self, part: &Pair<Rule>) -> &'a str {
-        match part.as_rule() {
+    fn key(&self, part: Node<'a>) -> &'a str {
+        match part.rule() {
             Rule::assign => "=",
             Rule::field => ":",
             Rule::match_arm => "{",
             Rule::require => "fresh",
             Rule::switching => "->",
             _ => {
-                let start = part.as_span().start();
-                let rest = self.slice(start, part.as_span().end());
+                let start = part.start();
+                let rest = self.slice(start, part.end());
                 let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
                 &rest[..length]
             }
@@ -338,14 +332,15 @@ impl<'a> Builder<'a> {
     }
 
     /// `if … { } else if … { } else { }`, which is one thing and not nested.
-    fn choice(&mut self, pair: Pair<Rule>) -> Doc<'a> {
+    fn choice(&mut self, node: Node<'a>) -> Doc<'a> {
         let mut docs = Vec::new();
         let mut part = Vec::new();
-        let mut parts = pair.into_inner();
-        while let Some(next) = parts.next() {
-            let start = next.as_span().start();
-            match next.as_rule() {
-                Rule::if_expr => parts = next.into_inner(),
+        let mut parts: Vec<_> = node.inner().collect();
+        parts.reverse();
+        while let Some(next) = parts.pop() {
+            let start = next.start();
+            match next.rule() {
+                Rule::if_expr => parts.extend(next.inner().collect::<Vec<_>>().into_iter().rev()),
                 Rule::kw_else => {
                     docs.push(Doc::Concat(std::mem::take(&mut part)));
                     let author = self.breaks(start);
@@ -374,22 +369,21 @@ impl<'a> Builder<'a> {
     }
 
     /// Operands and operators: what binds least is broken first.
-    fn chain(&mut self, items: &[Pair<Rule>]) -> Doc<'a> {
-        let Some(least) = items.iter().filter_map(|item| strength(item.as_rule())).min() else {
+    fn chain(&mut self, items: &[Node<'a>]) -> Doc<'a> {
+        let Some(least) = items.iter().filter_map(|item| strength(item.rule())).min() else {
             let mut docs = Vec::new();
             for item in items {
-                self.lead(&mut docs, item.as_span().start());
-                docs.push(self.node(item.clone()));
+                self.lead(&mut docs, item.start());
+                docs.push(self.node(*item));
             }
             return Doc::Concat(docs);
         };
         let mut docs = Vec::new();
-        for part in items.chunk_by(|a, b| strength(a.as_rule()) != Some(least) && strength(b.as_rule()) != Some(least))
-        {
+        for part in items.chunk_by(|a, b| strength(a.rule()) != Some(least) && strength(b.rule()) != Some(least)) {
             let Some(first) = part.first() else { continue };
-            self.lead(&mut docs, first.as_span().start());
-            if strength(first.as_rule()) == Some(least) {
-                docs.push(self.node(first.clone()));
+            self.lead(&mut docs, first.start());
+            if strength(first.rule()) == Some(least) {
+                docs.push(self.node(*first));
                 self.after = Some(After::Fill(Indent::Further));
             } else {
                 docs.push(self.chain(part));

@@ -12,7 +12,7 @@ mod table;
 
 use crate::diagnostic::{Diagnostic, has_error};
 use crate::source::FileId;
-use crate::syntax::{self, Comment};
+use crate::syntax::{self, Parsed};
 
 /// No line is wider, unless nothing in it can be broken, or it is a row of a switching table.
 const WIDTH: usize = 120;
@@ -41,8 +41,7 @@ fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     if has_error(&parsed.findings) {
         return Err(parsed.findings);
     }
-    let doc = syntax::concrete(file, source, |pairs| build::file(source, &parsed.comments, pairs));
-    let mut lines = doc.map(|doc| print::print(&doc)).unwrap_or_default();
+    let mut lines = print::print(&build::file(source, &parsed.concrete));
     table::align(&mut lines);
     align::declarations(&mut lines);
     align::comments(&mut lines);
@@ -50,18 +49,15 @@ fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     // Better not formatted than not the same script: a fault of ours must not reach a person's file.
     let again = syntax::parse(file, &formatted);
     let is_whole = !has_error(&again.findings) && again.file.items.len() == parsed.file.items.len();
-    Ok(if is_whole && words(&again.comments, &formatted) == words(&parsed.comments, source) {
-        formatted
-    } else {
-        source.to_string()
-    })
+    Ok(if is_whole && words(&again, &formatted) == words(&parsed, source) { formatted } else { source.to_string() })
 }
 
 /// What comments say.
-fn words<'a>(comments: &[Comment], text: &'a str) -> Vec<&'a str> {
-    comments
-        .iter()
-        .filter_map(|comment| text.get(comment.span.start as usize..comment.span.end as usize))
+fn words<'a>(parsed: &Parsed, text: &'a str) -> Vec<&'a str> {
+    parsed
+        .concrete
+        .comments()
+        .filter_map(|comment| text.get(comment.start as usize..comment.end as usize))
         .map(str::trim_end)
         .collect()
 }

@@ -1,12 +1,14 @@
 //! The checked program: names resolved, types known, every conversion spelt out. What lowering reads.
 
 mod activity;
+mod position;
 mod same;
 mod simulated;
 mod walk;
 
 pub use activity::*;
 pub use albacore_arithmetic::Interval;
+pub use position::middle;
 pub use same::{mentions_done, same_condition, same_value};
 pub use simulated::*;
 pub use walk::{activity_children, block_children, calls_in, children};
@@ -372,4 +374,6 @@ pub struct Input {
     pub ty: Type,
     /// Its further fields.
     pub fields: Vec<(String, Type)>,
+    /// Where those are declared.
+    pub places: Vec<Span>,
 }

@@ -4,12 +4,7 @@ use super::{Builtin, Expr, ExprKind, InputPart};
 
 /// Whether a condition speaks of the end of a body.
 pub fn mentions_done(e: &Expr) -> bool {
-    match &e.kind {
-        ExprKind::Done => true,
-        ExprKind::Do(_, operands) => operands.iter().any(mentions_done),
-        ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) => mentions_done(inner),
-        _ => false,
-    }
+    e.contains(|e| matches!(e.kind, ExprKind::Done))
 }
 
 /// Whether one condition holds whenever another does; of values, whether they are the same. `false` when in doubt.

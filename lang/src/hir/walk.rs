@@ -4,6 +4,7 @@ use super::{
     Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Stmt, StmtKind, Target,
     TextPart, With,
 };
+use crate::source::Span;
 use crate::types::Type;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,9 +20,24 @@ impl Hir {
         }
         called
     }
-}
 
-impl Hir {
+    /// Where a mission watches or overrides, if it does: then it is a guest of its vehicle.
+    pub fn first_watch(&self, mission: ActivityId) -> Option<Span> {
+        self.called_from(mission).into_iter().find_map(|id| {
+            let mut found = None;
+            if let Body::Sequence(block) = &self.activities[id].body {
+                block.each(&mut |stmt| {
+                    if let StmtKind::Timed(timed) = &stmt.kind
+                        && matches!(timed.action, Action::Watch | Action::Override(_))
+                    {
+                        found.get_or_insert(stmt.span);
+                    }
+                });
+            }
+            found
+        })
+    }
+
     /// The types of what a mission and all that it calls report, by name.
     pub fn reports(&self, mission: ActivityId) -> BTreeMap<String, Vec<Type>> {
         let mut types = BTreeMap::<String, Vec<Type>>::new();
@@ -55,6 +71,11 @@ impl Activity {
         }
         blocks.extend(self.mission.iter().filter_map(|m| m.recovery.as_ref()).map(|(_, block)| block));
         blocks
+    }
+
+    /// Visits every expression of its own, as [`Expr::visit`] does.
+    pub fn visit<'e>(&'e self, f: &mut dyn FnMut(&'e Expr) -> bool) {
+        activity_children(self, &mut |e| e.visit(f));
     }
 
     /// The activities that it names itself.
@@ -101,14 +122,13 @@ impl Activity {
 
 /// The functions that a block calls.
 pub fn calls_in(block: &Block) -> Vec<FnId> {
-    fn walk(e: &Expr, calls: &mut Vec<FnId>) {
+    let mut calls = Vec::new();
+    block.visit(&mut |e| {
         if let ExprKind::Call(id, _) = e.kind {
             calls.push(id);
         }
-        children(e, &mut |child| walk(child, calls));
-    }
-    let mut calls = Vec::new();
-    block_children(block, &mut |e| walk(e, &mut calls));
+        true
+    });
     calls
 }
 
@@ -151,6 +171,11 @@ impl Block {
         }
     }
 
+    /// Visits every expression of its statements, and of the blocks inside them, as [`Expr::visit`] does.
+    pub fn visit<'e>(&'e self, f: &mut dyn FnMut(&'e Expr) -> bool) {
+        block_children(self, &mut |e| e.visit(f));
+    }
+
     /// The variables that its statements assign.
     pub fn assigned(&self) -> Vec<usize> {
         let mut vars = Vec::new();
@@ -166,10 +191,30 @@ impl Block {
 }
 
 impl Expr {
+    /// Visits it and what is inside it, outer expressions first; not what is inside one for which `f` gives `false`.
+    pub fn visit<'e>(&'e self, f: &mut dyn FnMut(&'e Expr) -> bool) {
+        if f(self) {
+            children(self, &mut |child| child.visit(f));
+        }
+    }
+
+    /// Whether it is such, or something inside it.
+    pub fn contains(&self, is_such: impl Fn(&Expr) -> bool) -> bool {
+        let mut found = false;
+        self.visit(&mut |e| {
+            found |= is_such(e);
+            !found
+        });
+        found
+    }
+
     /// How many parts it has: itself, and those of each in it.
     pub fn parts(&self) -> usize {
-        let mut parts = 1;
-        children(self, &mut |child| parts += child.parts());
+        let mut parts = 0;
+        self.visit(&mut |_| {
+            parts += 1;
+            true
+        });
         parts
     }
 

@@ -1,11 +1,9 @@
 //! Activities to code: the pieces that the machine runs at each point of a tick.
 
-use super::watch::{Timer, positions};
+use super::watch::Timer;
 use super::{Lowering, SortedBy, Sorter, slot};
 use crate::hir::{self, Decl, Expr, ExprKind, Kind, Var, children};
-use crate::rules;
 use crate::types::Type;
-use albacore_geometry::{Geodetic, longitude_beside, longitude_within};
 use albacore_program::{
     Abort, Activity, ActivityKind, Body, Channel, Code, Limits, Op, Recovery, Require, Slot, Valued, header,
 };
@@ -28,7 +26,7 @@ impl<'a> Lowering<'a> {
         mission.name = activity.name.clone();
         mission.activity = unit.activity;
         mission.base = slot(base);
-        mission.guest = rules::first_watch(self.hir, id).is_some();
+        mission.guest = self.hir.first_watch(id).is_some();
         mission.origin = self.origin;
         let words = base.saturating_add(unit.words);
         self.program.words = slot(words);
@@ -40,10 +38,10 @@ impl<'a> Lowering<'a> {
         let mut found = Vec::new();
         for decl in &mission.decls {
             if let Decl::Area(_, e) = decl {
-                positions(e, &mut found);
+                found.extend(e.positions());
             }
         }
-        self.origin = middle(&found).or(self.origin);
+        self.origin = hir::middle(&found).or(self.origin);
     }
 
     /// The subroutines that put ordered lists in order.
@@ -341,12 +339,4 @@ impl<'a> Lowering<'a> {
         });
         self.program.activities.len() as u32 - 1
     }
-}
-
-/// The middle of some positions, each by the turn of longitude that is nearest to the first.
-pub(super) fn middle(positions: &[(f64, f64)]) -> Option<Geodetic> {
-    let (_, first) = *positions.first()?;
-    let n = positions.len() as f64;
-    let sum = positions.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + longitude_beside(*lon, first)));
-    Some(Geodetic::from_degrees(sum.0 / n, longitude_within(sum.1 / n)))
 }

@@ -33,13 +33,6 @@ use albacore_geometry::{Geodetic, Point, TangentFrame};
 use albacore_program::{ABSOLUTE, Addr, Claims, Input, Op, Program, Shape, Slot};
 use std::collections::BTreeMap;
 
-/// Where the frame about an area touches the globe: in the middle of the positions that it is made of.
-pub fn origin_of(area: &hir::Expr) -> Option<Geodetic> {
-    let mut found = Vec::new();
-    watch::positions(area, &mut found);
-    activity::middle(&found)
-}
-
 /// A lowered function.
 #[derive(Clone, Copy)]
 struct FnCode {

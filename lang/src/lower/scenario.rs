@@ -1,11 +1,9 @@
 //! Scenarios to code that computes their numbers, and a description of what each number is.
 
-use super::activity::middle;
-use super::watch::scenario_positions;
 use super::{Lowering, slot};
 use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{ClauseArg, ClauseUse, ExprKind, Hir, TextPart};
+use crate::hir::{self, ClauseArg, ClauseUse, ExprKind, Hir, TextPart};
 use crate::source::{Sources, Span};
 use crate::types::{Type, TypeTable};
 use albacore_geometry::Geodetic;
@@ -81,13 +79,12 @@ pub fn scenario(
         return Err(vec![finding]);
     }
     let mut lowering = Lowering::new(hir, types, sources);
-    let mut positions = Vec::new();
-    scenario_positions(&scenario.clauses, &mut positions);
+    let positions: Vec<_> = scenario.clauses.iter().flat_map(hir::ClauseUse::positions).collect();
     let places: Vec<_> = positions.iter().map(|(lat, lon)| Geodetic::from_degrees(*lat, *lon)).collect();
     // About an origin far away nothing would keep its shape: it is computed where it lies, and told to lie elsewhere.
     let is_near =
         |origin: &Geodetic| places.is_empty() || places.iter().any(|place| place.great_circle(*origin) <= SAME_PLANE_M);
-    lowering.origin = origin.filter(is_near).or_else(|| middle(&positions));
+    lowering.origin = origin.filter(is_near).or_else(|| hir::middle(&positions));
     for clause in &scenario.clauses {
         lowering.prepare_clause(clause);
     }

@@ -1,7 +1,7 @@
 //! Switching tables to code: for each behavior its guards, and for each rule what happens when it fires.
 
 use super::Lowering;
-use crate::hir::{self, Block, Decl, Expr, ExprKind, InputPart, VarId, VarKind, children};
+use crate::hir::{self, Block, Decl, Expr, ExprKind, InputPart, VarId, VarKind, children, mentions_done};
 use crate::types::Type;
 use albacore_program::{Body, Entry, Exit, Op, Rule, Shape, Table, Target, Valued, Watched, WatchedCode};
 use std::collections::{BTreeMap, BTreeSet};
@@ -161,10 +161,4 @@ impl<'a> Lowering<'a> {
         }
         out
     }
-}
-
-fn mentions_done(e: &Expr) -> bool {
-    let mut found = matches!(e.kind, ExprKind::Done);
-    children(e, &mut |child| found |= mentions_done(child));
-    found
 }

@@ -1,7 +1,7 @@
 //! Temporal operators: each has a place in the frame, is set back when its watch begins and updated at every tick.
 
 use super::Lowering;
-use crate::hir::{self, Activity, ClauseArg, Expr, ExprKind, InputPart, activity_children, children};
+use crate::hir::{Activity, Expr, ExprKind, InputPart, children};
 use albacore_program::{Op, Slot};
 
 /// A temporal operator in place.
@@ -87,31 +87,10 @@ fn temporal_nodes<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
 
 /// For each input the most samples that any `hits` of an activity counts back.
 pub(super) fn samples_counted(activity: &Activity, kept: &mut [u32]) {
-    fn walk(e: &Expr, kept: &mut [u32]) {
+    activity.visit(&mut |e| {
         if let ExprKind::Input(id, InputPart::Hits(_, of)) = &e.kind {
             kept[*id] = kept[*id].max(*of);
         }
-        children(e, &mut |child| walk(child, kept));
-    }
-    activity_children(activity, &mut |e| walk(e, kept));
-}
-
-/// The first geodetic positions of an expression, to find the origin of a frame.
-pub(super) fn positions(e: &Expr, out: &mut Vec<(f64, f64)>) {
-    if let ExprKind::Geodetic { latitude_deg, longitude_deg } = e.kind {
-        out.push((latitude_deg, longitude_deg));
-    }
-    children(e, &mut |child| positions(child, out));
-}
-
-/// All geodetic positions of a scenario.
-pub(super) fn scenario_positions(clauses: &[hir::ClauseUse], out: &mut Vec<(f64, f64)>) {
-    for clause in clauses {
-        for (_, arg) in &clause.args {
-            match arg {
-                ClauseArg::Value(e) => positions(e, out),
-                ClauseArg::Nested(inner) => scenario_positions(std::slice::from_ref(inner), out),
-            }
-        }
-    }
+        true
+    });
 }

@@ -8,23 +8,6 @@ use crate::source::Span;
 use albacore_program::Guide;
 use std::collections::BTreeSet;
 
-/// Where a mission watches or overrides, if it does: then it is a guest of its vehicle.
-pub fn first_watch(hir: &Hir, mission: ActivityId) -> Option<Span> {
-    hir.called_from(mission).into_iter().find_map(|id| {
-        let mut found = None;
-        if let Body::Sequence(block) = &hir.activities[id].body {
-            block.each(&mut |stmt| {
-                if let StmtKind::Timed(timed) = &stmt.kind
-                    && matches!(timed.action, Action::Watch | Action::Override(_))
-                {
-                    found.get_or_insert(stmt.span);
-                }
-            });
-        }
-        found
-    })
-}
-
 struct Walk<'a> {
     hir: &'a Hir,
     /// Why the mission drives only in its overrides.
@@ -35,7 +18,7 @@ struct Walk<'a> {
 
 /// The statements of a guest that command outside of an override, and the overrides inside another.
 pub(super) fn check(hir: &Hir, mission: ActivityId) -> Vec<Diagnostic> {
-    let Some(guest) = first_watch(hir, mission) else { return Vec::new() };
+    let Some(guest) = hir.first_watch(mission) else { return Vec::new() };
     let mut walk = Walk { hir, guest, seen: BTreeSet::new(), findings: Findings::default() };
     walk.activity(mission, false);
     if let Some((_, recovery)) = hir.activities[mission].mission.as_ref().and_then(|m| m.recovery.as_ref()) {

@@ -174,12 +174,14 @@ impl<'h> Fixed<'h> {
     }
 
     fn tests(&mut self, unit: Unit, e: &Expr) {
-        if let ExprKind::Var(var) = e.kind
-            && e.ty != Type::Area
-        {
-            self.tested.insert((unit, var));
-        }
-        children(e, &mut |child| self.tests(unit, child));
+        e.visit(&mut |e| {
+            if let ExprKind::Var(var) = e.kind
+                && e.ty != Type::Area
+            {
+                self.tested.insert((unit, var));
+            }
+            true
+        });
     }
 
     /// The places that guidance is given, each with where it is written: points, and both ends of lines.

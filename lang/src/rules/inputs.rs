@@ -5,7 +5,6 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{
     Action, Activity, Block, Body, Decl, Expr, ExprKind, Hir, InputPart, Mission, StmtKind, VarKind, With,
-    activity_children, children,
 };
 use crate::source::Span;
 use crate::suggest;
@@ -139,17 +138,20 @@ fn walk(hir: &Hir, mission: usize) -> Walk<'_> {
 
 /// What is computed while the first samples are awaited: it can be made of constants and of parameters alone.
 fn computed_first(activity: &Activity, parts: &Mission) -> Vec<Diagnostic> {
-    fn find(activity: &Activity, e: &Expr, found: &mut Vec<Span>) {
-        match e.kind {
-            ExprKind::Input(..) => found.push(e.span),
-            ExprKind::Var(id) if activity.vars.get(id).is_some_and(|v| v.kind != VarKind::Param) => found.push(e.span),
-            _ => children(e, &mut |child| find(activity, child, found)),
-        }
-    }
+    let is_sensed = |e: &Expr| match e.kind {
+        ExprKind::Input(..) => true,
+        ExprKind::Var(id) => activity.vars.get(id).is_some_and(|v| v.kind != VarKind::Param),
+        _ => false,
+    };
     let mut found = Vec::new();
     let requires = parts.requires.iter();
     let numbers = requires.flat_map(|r| [Some(&r.fresh), r.at_first.as_ref(), r.hold_for.as_ref()]).flatten();
-    numbers.chain(&parts.within).for_each(|e| find(activity, e, &mut found));
+    for number in numbers.chain(&parts.within) {
+        number.visit(&mut |e| {
+            found.extend(is_sensed(e).then_some(e.span));
+            !is_sensed(e)
+        });
+    }
     // An entry for several inputs is written once.
     found.sort();
     found.dedup();
@@ -186,7 +188,13 @@ impl Walk<'_> {
             return;
         }
         let activity = &self.hir.activities[id];
-        activity_children(activity, &mut |e| self.expr(e));
+        // Functions read no inputs, and signals of a module are written out where they are used.
+        activity.visit(&mut |e| {
+            if let ExprKind::Input(id, part) = &e.kind {
+                self.reads(*id, part, e.span);
+            }
+            true
+        });
         for decl in &activity.decls {
             if let Decl::With(items) = decl {
                 self.with(items);
@@ -208,14 +216,6 @@ impl Walk<'_> {
                 self.activity(*id);
             }
         }
-    }
-
-    fn expr(&mut self, e: &Expr) {
-        if let ExprKind::Input(id, part) = &e.kind {
-            self.reads(*id, part, e.span);
-        }
-        // Functions read no inputs, and signals of a module are written out where they are used.
-        children(e, &mut |child| self.expr(child));
     }
 
     /// Guidance reads inputs of its own, and calls lead on.

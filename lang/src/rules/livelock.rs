@@ -4,9 +4,7 @@ use super::levels::{Level, Signals};
 use crate::check::never_ends;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{
-    Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Rule, Stmt, StmtKind, Target, VarId, children, leaving,
-};
+use crate::hir::{Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Rule, Stmt, StmtKind, Target, VarId, leaving};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
@@ -256,13 +254,9 @@ impl<'h> Table<'h> {
 }
 
 fn is_timed(e: &Expr) -> bool {
-    let mut found = matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..));
-    children(e, &mut |child| found |= is_timed(child));
-    found
+    e.contains(|e| matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..)))
 }
 
 fn mentions_after(e: &Expr) -> bool {
-    let mut found = matches!(e.kind, ExprKind::After(_));
-    children(e, &mut |child| found |= mentions_after(child));
-    found
+    e.contains(|e| matches!(e.kind, ExprKind::After(_)))
 }

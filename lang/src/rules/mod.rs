@@ -15,7 +15,6 @@ mod reports;
 mod swapped;
 mod unreached;
 
-pub use control::first_watch;
 pub use livelock::check as livelocks;
 pub use overlaps::check as overlaps;
 pub use places::{FAR_M, operating_area};

@@ -6,7 +6,7 @@ use super::swapped;
 use super::swapped::hemisphere;
 use crate::code::Code;
 use crate::diagnostic::{Diagnostic, distance};
-use crate::hir::{Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
+use crate::hir::{self, Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
 use crate::source::Span;
 use crate::types::TypeTable;
 use albacore_geometry::{
@@ -165,7 +165,7 @@ pub(super) fn written_area(hir: &Hir, mission: usize) -> Option<&Expr> {
 /// The same, and the frame that it lies in.
 fn of_mission(hir: &Hir, mission: usize) -> Option<(Area, Span, Option<TangentFrame>)> {
     let written = written_area(hir, mission)?;
-    let frame = crate::lower::origin_of(written).map(|origin| TangentFrame { origin });
+    let frame = hir::middle(&written.positions()).map(|origin| TangentFrame { origin });
     Some((area(written, frame)?, written.span, frame))
 }
 

@@ -4,8 +4,7 @@
 use super::places::written_area;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, activity_children, children};
-use crate::lower::origin_of;
+use crate::hir::{self, Builtin, Expr, ExprKind, Hir};
 use albacore_geometry::Geodetic;
 
 /// What is within this, m, of the places of a script is meant to lie there.
@@ -14,10 +13,14 @@ const NEAR_M: f64 = 100_000.0;
 /// What is said of such a file.
 pub const HELP: &str = "latitude and longitude seem to be swapped: GeoJSON and KML want the longitude first";
 
-/// The finding for a mission whose area would lie near the places that its statements name if its file had the longitude first.
+/// The finding for a mission whose area would lie near the places that its statements name if its file had the longitude first. Those
+/// of files are not counted.
 pub(super) fn check(hir: &Hir, mission: usize) -> Option<Diagnostic> {
     let mut places = Vec::new();
-    activity_children(&hir.activities[mission], &mut |e| written(e, &mut places));
+    hir.activities[mission].visit(&mut |e| {
+        places.extend(e.position().map(|(latitude, longitude)| Geodetic::from_degrees(latitude, longitude)));
+        !of_file(e)
+    });
     of_mission(hir, mission, &places)
 }
 
@@ -49,20 +52,10 @@ pub fn hemisphere(place: Geodetic, other: Geodetic) -> Option<String> {
 
 /// Whether an area of a file is far from all places, and would be near one if its positions were exchanged.
 pub(super) fn would_be_near(area: &Expr, places: &[Geodetic]) -> bool {
-    let Some(middle) = of_file(area).then(|| origin_of(area)).flatten() else { return false };
+    let Some(middle) = of_file(area).then(|| hir::middle(&area.positions())).flatten() else { return false };
     let exchanged = Geodetic { latitude_rad: middle.longitude_rad, longitude_rad: middle.latitude_rad };
     let is_near = |at: Geodetic| places.iter().any(|place| place.great_circle(at) < NEAR_M);
     exchanged.latitude_deg().abs() <= 90.0 && !is_near(middle) && is_near(exchanged)
-}
-
-/// The positions on the globe that somebody has written in an expression, not those of files.
-fn written(e: &Expr, places: &mut Vec<Geodetic>) {
-    if let ExprKind::Geodetic { latitude_deg, longitude_deg } = e.kind {
-        places.push(Geodetic::from_degrees(latitude_deg, longitude_deg));
-    }
-    if !of_file(e) {
-        children(e, &mut |child| written(child, places));
-    }
 }
 
 /// Whether an area is one of a file: all its corners stand where it stands itself.

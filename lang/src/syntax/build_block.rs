@@ -1,7 +1,8 @@
-//! From the grammar's pairs to the tree: blocks and their clauses.
+//! From the concrete tree to the tree of what is said: blocks and their clauses.
 
-use super::build::{Builder, P, Place, activity, is_inclusive, parts, take, ty};
+use super::build::{Builder, Place, activity, is_inclusive, take, ty};
 use super::build_expr::{cond, expr, expr_stmt, name, text};
+use super::concrete::Node;
 use super::tree::*;
 use super::{NESTING_MAX, Rule};
 use crate::code::Code;
@@ -9,18 +10,16 @@ use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
 /// A block, or the lines of a prompt, which have no braces.
-pub(super) fn block(b: &mut Builder, pair: P) -> Block {
-    let span = b.span(&pair);
-    let pairs = pair.into_inner();
+pub(super) fn block(b: &mut Builder, node: Node) -> Block {
+    let span = node.span();
     // A clause is large, and most blocks hold few: a vector that grows would take room for more than there are.
-    let mut clauses = Vec::with_capacity(pairs.len());
-    for pair in pairs {
-        match pair.as_rule() {
-            Rule::EOI => {}
-            Rule::bad => b.bad(&pair, Place::Clause),
+    let mut clauses = Vec::with_capacity(node.inner().count());
+    for node in node.inner() {
+        match node.rule() {
+            Rule::bad => b.bad(node, Place::Clause),
             _ => {
-                let span = b.span(&pair);
-                clauses.extend(clause(b, pair).map(|kind| Clause { kind, span }));
+                let span = node.span();
+                clauses.extend(clause(b, node).map(|kind| Clause { kind, span }));
             }
         }
     }
@@ -36,56 +35,56 @@ pub(super) fn block(b: &mut Builder, pair: P) -> Block {
     Block { clauses, span }
 }
 
-fn clause(b: &mut Builder, pair: P) -> Option<ClauseKind> {
-    let rule = pair.as_rule();
-    let span = b.span(&pair);
+fn clause(b: &mut Builder, node: Node) -> Option<ClauseKind> {
+    let rule = node.rule();
+    let span = node.span();
     if rule == Rule::guided {
-        return Some(ClauseKind::Timed(guided(b, pair)?));
+        return Some(ClauseKind::Timed(guided(b, node)?));
     }
     if rule == Rule::expr_stmt {
-        return Some(ClauseKind::Timed(expr_stmt(b, pair)?));
+        return Some(ClauseKind::Timed(expr_stmt(b, node)?));
     }
-    let mut inner = parts(pair).peekable();
+    let mut inner = node.parts().peekable();
     Some(match rule {
         Rule::behavior => ClauseKind::Behavior(activity(b, rule, inner)?),
         Rule::with => ClauseKind::With(inner.filter_map(|p| with_item(b, p)).collect()),
         Rule::signal => ClauseKind::Signal {
-            name: name(b, inner.next()?),
+            name: name(inner.next()?),
             ty: take(&mut inner, Rule::ty).map(|p| ty(b, p)),
             value: cond(b, inner.next()?),
         },
         Rule::memory => ClauseKind::Memory {
-            name: name(b, inner.next()?),
+            name: name(inner.next()?),
             ty: ty(b, inner.next()?),
             init: inner.next().map(|p| expr(b, p)),
         },
         Rule::let_stmt => ClauseKind::Let {
-            name: name(b, inner.next()?),
+            name: name(inner.next()?),
             ty: take(&mut inner, Rule::ty).map(|p| ty(b, p)),
             value: {
                 let value = inner.next()?;
-                if value.as_rule() == Rule::guided { guided(b, value)? } else { expr_stmt(b, value)? }
+                if value.rule() == Rule::guided { guided(b, value)? } else { expr_stmt(b, value)? }
             },
         },
         Rule::var_stmt => ClauseKind::Var {
-            name: name(b, inner.next()?),
+            name: name(inner.next()?),
             ty: take(&mut inner, Rule::ty).map(|p| ty(b, p)),
             value: expr(b, inner.next()?),
         },
-        Rule::assign => ClauseKind::Assign { name: name(b, inner.next()?), value: expr(b, inner.next()?) },
+        Rule::assign => ClauseKind::Assign { name: name(inner.next()?), value: expr(b, inner.next()?) },
         Rule::reaction => ClauseKind::Reaction { on: cond(b, inner.next()?), block: block(b, inner.next()?) },
-        Rule::start => ClauseKind::Start(name(b, inner.next()?)),
-        Rule::area => ClauseKind::Area { name: name(b, inner.next()?), value: expr(b, inner.next()?) },
+        Rule::start => ClauseKind::Start(name(inner.next()?)),
+        Rule::area => ClauseKind::Area { name: name(inner.next()?), value: expr(b, inner.next()?) },
         Rule::limits => ClauseKind::Limits(inner.map(|p| expr(b, p)).collect()),
         Rule::requires => ClauseKind::Requires(inner.filter_map(|p| require(b, p)).collect()),
         Rule::recovery => ClauseKind::Recovery {
-            within: take(&mut inner, Rule::mod_within).and_then(|p| parts(p).next()).map(|p| expr(b, p)),
+            within: take(&mut inner, Rule::mod_within).and_then(|p| p.parts().next()).map(|p| expr(b, p)),
             block: block(b, inner.next()?),
         },
         Rule::amend => ClauseKind::Amend(block(b, inner.next()?)),
         Rule::abort => ClauseKind::Abort { why: text(b, inner.next()?), on: inner.next().map(|p| cond(b, p)) },
         Rule::finish => {
-            let value = inner.find(|p| p.as_rule() == Rule::expr).map(|p| expr(b, p));
+            let value = inner.find(|p| p.rule() == Rule::expr).map(|p| expr(b, p));
             ClauseKind::Finish(value)
         }
         Rule::report => ClauseKind::Report {
@@ -93,19 +92,19 @@ fn clause(b: &mut Builder, pair: P) -> Option<ClauseKind> {
             value: expr(b, inner.next()?),
             fields: inner
                 .filter_map(|p| {
-                    let mut field = p.into_inner();
-                    Some((name(b, field.next()?), expr(b, field.next()?)))
+                    let mut field = p.inner();
+                    Some((name(field.next()?), expr(b, field.next()?)))
                 })
                 .collect(),
         },
         Rule::log => ClauseKind::Log(expr(b, inner.next()?)),
         Rule::for_stmt => ClauseKind::For {
-            name: name(b, inner.next()?),
+            name: name(inner.next()?),
             over: {
                 let first = expr(b, inner.next()?);
-                match inner.next_if(|next| next.as_rule() == Rule::range_op) {
+                match inner.next_if(|next| next.rule() == Rule::range_op) {
                     Some(op) => {
-                        ForOver::Range(Range { first, inclusive: is_inclusive(&op), last: expr(b, inner.next()?) })
+                        ForOver::Range(Range { first, inclusive: is_inclusive(op), last: expr(b, inner.next()?) })
                     }
                     None => ForOver::List(first),
                 }
@@ -122,35 +121,35 @@ fn clause(b: &mut Builder, pair: P) -> Option<ClauseKind> {
     })
 }
 
-fn with_item(b: &mut Builder, pair: P) -> Option<WithItem> {
-    let item = pair.into_inner().next()?;
-    Some(if item.as_rule() == Rule::setpoint {
+fn with_item(b: &mut Builder, node: Node) -> Option<WithItem> {
+    let item = node.inner().next()?;
+    Some(if item.rule() == Rule::setpoint {
         WithItem::Setpoint(setpoint(b, item)?)
     } else {
         WithItem::Overlay(expr(b, item))
     })
 }
 
-fn setpoint(b: &mut Builder, pair: P) -> Option<Setpoint> {
-    let span = b.span(&pair);
-    let mut inner = pair.into_inner();
-    Some(Setpoint { channel: name(b, inner.next()?), value: expr(b, inner.next()?), span })
+fn setpoint(b: &mut Builder, node: Node) -> Option<Setpoint> {
+    let span = node.span();
+    let mut inner = node.inner();
+    Some(Setpoint { channel: name(inner.next()?), value: expr(b, inner.next()?), span })
 }
 
-fn require(b: &mut Builder, pair: P) -> Option<Require> {
+fn require(b: &mut Builder, node: Node) -> Option<Require> {
     let mut require = None;
     let mut inputs = Vec::new();
-    for part in parts(pair) {
-        match part.as_rule() {
-            Rule::name => inputs.push(name(b, part)),
+    for part in node.parts() {
+        match part.rule() {
+            Rule::name => inputs.push(name(part)),
             Rule::expr => {
                 let inputs = std::mem::take(&mut inputs);
                 require =
                     Some(Require { inputs, fresh: expr(b, part), at_first: None, hold_for: None, answered: false });
             }
-            Rule::at_first => require.as_mut()?.at_first = parts(part).next().map(|p| expr(b, p)),
+            Rule::at_first => require.as_mut()?.at_first = part.parts().next().map(|p| expr(b, p)),
             _ => {
-                let hold_for = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| expr(b, p));
+                let hold_for = part.inner().find(|p| p.rule() == Rule::expr).map(|p| expr(b, p));
                 let require = require.as_mut()?;
                 require.hold_for = hold_for;
                 require.answered = true;
@@ -160,7 +159,7 @@ fn require(b: &mut Builder, pair: P) -> Option<Require> {
     require
 }
 
-fn switching_rule<'a>(b: &mut Builder, inner: impl Iterator<Item = P<'a>>, span: Span) -> Option<SwitchingRule> {
+fn switching_rule<'a>(b: &mut Builder, inner: impl Iterator<Item = Node<'a>>, span: Span) -> Option<SwitchingRule> {
     let mut rule = SwitchingRule {
         sources: Vec::new(),
         sources_span: span,
@@ -170,36 +169,36 @@ fn switching_rule<'a>(b: &mut Builder, inner: impl Iterator<Item = P<'a>>, span:
         effect: None,
     };
     for part in inner {
-        let span = b.span(&part);
-        match part.as_rule() {
+        let span = part.span();
+        match part.rule() {
             Rule::sources => {
                 rule.sources_span = span;
-                rule.sources = part.into_inner().filter(|p| p.as_rule() == Rule::name).map(|p| name(b, p)).collect();
+                rule.sources = part.inner().filter(|p| p.rule() == Rule::name).map(name).collect();
             }
             Rule::target => {
-                let words: Vec<P> = part.into_inner().collect();
-                let value = words.get(1).cloned();
-                rule.target = match words.first()?.as_rule() {
+                let words: Vec<Node> = part.inner().collect();
+                let value = words.get(1).copied();
+                rule.target = match words.first()?.rule() {
                     Rule::kw_finish => Target::Finish(value.map(|p| expr(b, p)), span),
                     Rule::kw_abort => Target::Abort(text(b, value?), span),
-                    _ => Target::Behavior(name(b, words.first()?.clone())),
+                    _ => Target::Behavior(name(*words.first()?)),
                 };
             }
             Rule::cond => rule.on = cond(b, part),
             Rule::then_back => rule.back = Some(span),
-            _ => rule.effect = parts(part).next().map(|p| block(b, p)),
+            _ => rule.effect = part.parts().next().map(|p| block(b, p)),
         }
     }
     Some(rule)
 }
 
-fn guided(b: &mut Builder, pair: P) -> Option<Timed> {
-    let span = b.span(&pair);
-    let mut inner = pair.into_inner().peekable();
+fn guided(b: &mut Builder, node: Node) -> Option<Timed> {
+    let span = node.span();
+    let mut inner = node.inner().peekable();
     let first = inner.next()?;
-    let action = match first.as_rule() {
+    let action = match first.rule() {
         Rule::verb => {
-            let verb = name(b, first);
+            let verb = name(first);
             let mut args = Vec::new();
             while let Some(arg) = take(&mut inner, Rule::arg) {
                 args.extend(super::build_expr::arg(b, arg));
@@ -215,20 +214,25 @@ fn guided(b: &mut Builder, pair: P) -> Option<Timed> {
     Some(modified(b, action, inner, span))
 }
 
-fn override_block(b: &mut Builder, pair: P) -> Option<Override> {
-    let mut inner = parts(pair).peekable();
+fn override_block(b: &mut Builder, node: Node) -> Option<Override> {
+    let mut inner = node.parts().peekable();
     let offered = take(&mut inner, Rule::when_offered).is_some();
-    let answer = take(&mut inner, Rule::mod_within).and_then(|p| parts(p).next()).map(|p| expr(b, p));
+    let answer = take(&mut inner, Rule::mod_within).and_then(|p| p.parts().next()).map(|p| expr(b, p));
     Some(Override { offered, answer, block: block(b, inner.next()?) })
 }
 
 /// Reads the modifiers of a statement, each once at most.
-pub(super) fn modified<'a>(b: &mut Builder, action: Action, pairs: impl Iterator<Item = P<'a>>, span: Span) -> Timed {
+pub(super) fn modified<'a>(
+    b: &mut Builder,
+    action: Action,
+    pairs: impl Iterator<Item = Node<'a>>,
+    span: Span,
+) -> Timed {
     let mut timed = Timed { action, duration: None, until: None, within: None, at: Vec::new(), repeated: None, span };
-    for pair in pairs {
-        let place = b.span(&pair);
-        let rule = pair.as_rule();
-        let mut inner = parts(pair).peekable();
+    for node in pairs {
+        let place = node.span();
+        let rule = node.rule();
+        let mut inner = node.parts().peekable();
         let taken = match rule {
             Rule::mod_for => inner.next().and_then(|p| timed.duration.replace(expr(b, p))).is_some(),
             Rule::mod_until => inner.next().and_then(|p| timed.until.replace(cond(b, p))).is_some(),

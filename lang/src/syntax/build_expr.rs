@@ -1,14 +1,14 @@
-//! From the grammar's pairs to the tree: expressions, by precedence climbing over the flat list that the grammar gives.
+//! From the concrete tree to the tree of what is said: expressions, by precedence climbing over the flat list that the grammar gives.
 
 use super::Rule;
-use super::build::{Builder, parts};
+use super::build::Builder;
 use super::build_block::{block, modified};
+use super::concrete::Node;
 use super::places;
 use super::tree::*;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
-use pest::iterators::Pair;
 
 /// An expression has this many operands and operators at most, and an operand this many suffixes.
 const TERMS_MAX: usize = 256;
@@ -16,20 +16,18 @@ const TERMS_MAX: usize = 256;
 /// An expression is nested this deep at most, by whatever nests it: all that comes after goes down by calling itself.
 const HEIGHT_MAX: usize = 256;
 
-type P<'a> = Pair<'a, Rule>;
-
-pub(super) fn name(b: &Builder, pair: P) -> Name {
-    Spanned { node: pair.as_str().trim_end().to_string(), span: b.span(&pair) }
+pub(super) fn name(node: Node) -> Name {
+    Spanned { node: node.text().to_string(), span: node.span() }
 }
 
-pub(super) fn path(b: &Builder, pair: P) -> Path {
-    let span = b.span(&pair);
-    Path { parts: pair.into_inner().map(|p| name(b, p)).collect(), span }
+pub(super) fn path(node: Node) -> Path {
+    let span = node.span();
+    Path { parts: node.inner().map(|p| name(p)).collect(), span }
 }
 
-pub(super) fn cond(b: &mut Builder, pair: P) -> Expr {
-    let span = b.span(&pair);
-    let mut inner = parts(pair);
+pub(super) fn cond(b: &mut Builder, node: Node) -> Expr {
+    let span = node.span();
+    let mut inner = node.parts();
     let holds = inner.next().map(|p| expr(b, p));
     let duration = inner.next().map(|p| expr(b, p));
     match (holds, duration) {
@@ -39,30 +37,30 @@ pub(super) fn cond(b: &mut Builder, pair: P) -> Expr {
     }
 }
 
-pub(super) fn condition(b: &mut Builder, pair: P) -> Option<Condition> {
-    let mut inner = parts(pair);
+pub(super) fn condition(b: &mut Builder, node: Node) -> Option<Condition> {
+    let mut inner = node.parts();
     let first = inner.next()?;
-    Some(if first.as_rule() == Rule::name {
-        Condition::Let { name: name(b, first), value: expr(b, inner.next()?) }
+    Some(if first.rule() == Rule::name {
+        Condition::Let { name: name(first), value: expr(b, inner.next()?) }
     } else {
         Condition::Holds(cond(b, first))
     })
 }
 
-pub(super) fn expr_stmt(b: &mut Builder, pair: P) -> Option<Timed> {
-    let span = b.span(&pair);
-    let mut inner = pair.into_inner();
+pub(super) fn expr_stmt(b: &mut Builder, node: Node) -> Option<Timed> {
+    let span = node.span();
+    let mut inner = node.inner();
     let value = expr(b, inner.next()?);
     Some(modified(b, Action::Expr(value), inner, span))
 }
 
-pub(super) fn args(b: &mut Builder, pair: P) -> Vec<Arg> {
-    pair.into_inner().filter_map(|p| arg(b, p)).collect()
+pub(super) fn args(b: &mut Builder, node: Node) -> Vec<Arg> {
+    node.inner().filter_map(|p| arg(b, p)).collect()
 }
 
-pub(super) fn arg(b: &mut Builder, pair: P) -> Option<Arg> {
-    let mut inner = pair.into_inner().peekable();
-    let label = inner.next_if(|p| p.as_rule() == Rule::label).map(|p| name(b, p));
+pub(super) fn arg(b: &mut Builder, node: Node) -> Option<Arg> {
+    let mut inner = node.inner().peekable();
+    let label = inner.next_if(|p| p.rule() == Rule::label).map(|p| name(p));
     Some(Arg { label, value: expr(b, inner.next()?) })
 }
 
@@ -101,15 +99,15 @@ fn prefix(rule: Rule) -> Option<(Unary, u8)> {
     })
 }
 
-pub(super) fn expr(b: &mut Builder, pair: P) -> Expr {
-    let span = b.span(&pair);
-    let pairs: Vec<P> = pair.into_inner().collect();
-    if pairs.len() > TERMS_MAX {
+pub(super) fn expr(b: &mut Builder, node: Node) -> Expr {
+    let span = node.span();
+    let nodes: Vec<Node> = node.inner().collect();
+    if nodes.len() > TERMS_MAX {
         return refused(b, span, format!("this expression has more than {TERMS_MAX} parts"));
     }
     let mut at = 0;
     let outer = std::mem::take(&mut b.height);
-    let built = climb(b, &pairs, &mut at, 0);
+    let built = climb(b, &nodes, &mut at, 0);
     if b.height > HEIGHT_MAX {
         b.height = outer;
         return refused(b, span, format!("this expression is nested deeper than {HEIGHT_MAX} levels"));
@@ -119,22 +117,21 @@ pub(super) fn expr(b: &mut Builder, pair: P) -> Expr {
 }
 
 /// Whether a quantity has a direction for its unit: `36.18N`.
-fn is_direction(quantity: &P) -> bool {
-    let unit = quantity.as_str().trim_end().trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+fn is_direction(quantity: Node) -> bool {
+    let unit = quantity.text().trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
     matches!(unit.trim_start().trim_start_matches('°'), "N" | "S" | "E" | "W")
 }
 
 /// Refuses a comma for a decimal point, where it can be read as one between two values: `with speed 1,5 m/s`.
-fn refuse_comma(b: &mut Builder, decimals: &P) -> bool {
-    let (text, start) = (decimals.as_span().get_input(), decimals.as_span().start());
-    let Some(before) = text[..start].strip_suffix(',') else { return false };
+fn refuse_comma(b: &mut Builder, decimals: Node) -> bool {
+    let Some(before) = b.prepared[..decimals.start()].strip_suffix(',') else { return false };
     let head = before.trim_end_matches(|c: char| c.is_ascii_digit());
     let follows_word = head.ends_with([' ', '\t']) && head.trim_end().ends_with(|c: char| c.is_alphabetic());
-    let decimals_text = decimals.as_str().trim_end();
+    let decimals_text = decimals.text();
     if !follows_word || head.len() == before.len() || decimals_text.ends_with(|c: char| c.is_ascii_digit()) {
         return false;
     }
-    let span = Span { start: (b.base + head.len()) as u32, ..b.span(decimals) };
+    let span = Span { start: head.len() as u32, ..decimals.span() };
     let quantity = format!("{}.{decimals_text}", &before[head.len()..]);
     b.refused.push(
         Diagnostic::error(Code::SyntaxExpected, span, "decimals follow a point, not a comma")
@@ -144,18 +141,16 @@ fn refuse_comma(b: &mut Builder, decimals: &P) -> bool {
 }
 
 /// Refuses a position as others write it, once for both of its halves; gives whether it is one.
-fn refused_position(b: &mut Builder, half: &P) -> bool {
-    let span = b.span(half);
+fn refused_position(b: &mut Builder, half: Node) -> bool {
+    let span = half.span();
     if b.refused.last().is_some_and(|f| f.span().start <= span.start && span.end <= f.span().end) {
         return true;
     }
-    let text = half.as_span().get_input();
-    let start = half.as_span().start();
+    let (text, start) = (b.prepared, half.start());
     // A sign before the first half is an operator to the grammar.
     let start = if text[..start].ends_with('-') { start - 1 } else { start };
     let Some((length, ours)) = places::position(&text[start..]) else { return false };
-    let start = (b.base + start) as u32;
-    let span = Span { start, end: start + length as u32, ..span };
+    let span = Span { start: start as u32, end: (start + length) as u32, ..span };
     b.refused.push(places::finding(span, &ours));
     true
 }
@@ -171,29 +166,29 @@ fn refused(b: &mut Builder, span: Span, message: String) -> Expr {
 
 /// Precedence climbing; leaves the height of what it built. The grammar never gives an operator without its operand, so
 /// `at` always finds one.
-fn climb(b: &mut Builder, pairs: &[P], at: &mut usize, least: u8) -> Expr {
-    let first = pairs[*at].clone();
+fn climb(b: &mut Builder, nodes: &[Node], at: &mut usize, least: u8) -> Expr {
+    let first = nodes[*at];
     *at += 1;
-    let mut left = match prefix(first.as_rule()) {
+    let mut left = match prefix(first.rule()) {
         Some((unary, binds)) => {
-            let op = Spanned { node: unary, span: b.span(&first) };
-            let operand = climb(b, pairs, at, binds);
+            let op = Spanned { node: unary, span: first.span() };
+            let operand = climb(b, nodes, at, binds);
             let span = op.span.to(operand.span);
             b.height += 1;
             Expr { kind: ExprKind::Unary(op, Box::new(operand)), span }
         }
         None => operand(b, first),
     };
-    while let Some((binary, binds)) = pairs.get(*at).and_then(|p| infix(p.as_rule())) {
+    while let Some((binary, binds)) = nodes.get(*at).and_then(|p| infix(p.rule())) {
         if binds < least {
             break;
         }
-        let op = Spanned { node: binary, span: b.span(&pairs[*at]) };
+        let op = Spanned { node: binary, span: nodes[*at].span() };
         *at += 1;
         // `^` and `else` group to the right, all others to the left.
         let right_least = if matches!(binary, Binary::Pow | Binary::Else) { binds } else { binds + 1 };
         let height = b.height;
-        let right = climb(b, pairs, at, right_least);
+        let right = climb(b, nodes, at, right_least);
         b.height = b.height.max(height) + 1;
         let span = left.span.to(right.span);
         left = Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span };
@@ -201,25 +196,25 @@ fn climb(b: &mut Builder, pairs: &[P], at: &mut usize, least: u8) -> Expr {
     left
 }
 
-fn operand(b: &mut Builder, pair: P) -> Expr {
-    let mut inner = pair.into_inner();
-    let Some(first) = inner.next() else { return nothing(b) };
+fn operand(b: &mut Builder, node: Node) -> Expr {
+    let mut inner = node.inner();
+    let Some(first) = inner.next() else { return Expr { kind: ExprKind::None, span: node.span() } };
     b.height = 0;
     let mut value = primary(b, first);
     b.height += 1;
     for (i, suffix) in inner.enumerate() {
-        let span = value.span.to(b.span(&suffix));
+        let span = value.span.to(suffix.span());
         if i == TERMS_MAX {
             b.height = 0;
             return refused(b, span, format!("more than {TERMS_MAX} of these follow one another"));
         }
-        let kind = match suffix.as_rule() {
+        let kind = match suffix.rule() {
             Rule::args => ExprKind::Call(Box::new(value), args(b, suffix)),
-            Rule::member => match suffix.into_inner().next() {
-                Some(label) => ExprKind::Member(Box::new(value), name(b, label)),
+            Rule::member => match suffix.inner().next() {
+                Some(label) => ExprKind::Member(Box::new(value), name(label)),
                 None => continue,
             },
-            _ => match suffix.into_inner().next() {
+            _ => match suffix.inner().next() {
                 Some(at) => ExprKind::Index(Box::new(value), Box::new(expr(b, at))),
                 None => continue,
             },
@@ -228,11 +223,6 @@ fn operand(b: &mut Builder, pair: P) -> Expr {
         b.height += 1;
     }
     value
-}
-
-/// Stands where the grammar promised a child and gave none: never reached, and harmless.
-fn nothing(b: &Builder) -> Expr {
-    Expr { kind: ExprKind::None, span: Span { file: b.file, start: 0, end: 0 } }
 }
 
 /// The whole number that a number is written as, told by its digits: what is held of it may have been rounded.
@@ -256,53 +246,53 @@ fn whole(text: &str) -> Option<u64> {
     Some(format!("{digits}{}", "0".repeat(zeros)).parse().unwrap_or(u64::MAX))
 }
 
-fn primary(b: &mut Builder, pair: P) -> Expr {
-    let span = b.span(&pair);
-    let kind = match pair.as_rule() {
+fn primary(b: &mut Builder, node: Node) -> Expr {
+    let span = node.span();
+    let kind = match node.rule() {
         Rule::quantity => {
-            if is_direction(&pair) && refused_position(b, &pair) {
+            if is_direction(node) && refused_position(b, node) {
                 return Expr { kind: ExprKind::Name(String::new()), span };
             }
-            if refuse_comma(b, &pair) {
+            if refuse_comma(b, node) {
                 return Expr { kind: ExprKind::Name(String::new()), span };
             }
-            let mut inner = pair.into_inner();
-            let text = inner.next().map_or("0", |number| number.as_str());
-            let unit = inner.next().map(|u| name(b, u));
+            let mut inner = node.inner();
+            let text = inner.next().map_or("0", |number| number.text());
+            let unit = inner.next().map(|u| name(u));
             ExprKind::Number { value: text.parse().unwrap_or(0.0), whole: whole(text), unit }
         }
         Rule::geodetic => {
-            let mut halves = pair.into_inner().map(|half| degrees(b, half));
+            let mut halves = node.inner().map(|half| degrees(b, half));
             ExprKind::Geodetic {
                 latitude_deg: halves.next().unwrap_or(0.0),
                 longitude_deg: halves.next().unwrap_or(0.0),
             }
         }
-        Rule::text => return text(b, pair),
-        Rule::list => ExprKind::List(pair.into_inner().map(|p| expr(b, p)).collect()),
-        Rule::paren => match pair.into_inner().next() {
+        Rule::text => return text(b, node),
+        Rule::list => ExprKind::List(node.inner().map(|p| expr(b, p)).collect()),
+        Rule::paren => match node.inner().next() {
             Some(inside) => ExprKind::Paren(Box::new(cond(b, inside))),
             None => ExprKind::None,
         },
-        Rule::if_expr => if_expr(b, pair).unwrap_or(ExprKind::None),
-        Rule::match_expr => match_expr(b, pair).unwrap_or(ExprKind::None),
-        Rule::kw_done => ExprKind::Done,
-        Rule::kw_true => ExprKind::Bool(true),
-        Rule::kw_false => ExprKind::Bool(false),
-        Rule::kw_none => ExprKind::None,
-        _ => ExprKind::Name(pair.as_str().to_string()),
+        Rule::if_expr => if_expr(b, node).unwrap_or(ExprKind::None),
+        Rule::match_expr => match_expr(b, node).unwrap_or(ExprKind::None),
+        Rule::v_done => ExprKind::Done,
+        Rule::v_true => ExprKind::Bool(true),
+        Rule::v_false => ExprKind::Bool(false),
+        Rule::v_none => ExprKind::None,
+        _ => ExprKind::Name(node.text().to_string()),
     };
     Expr { kind, span }
 }
 
-fn if_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
-    let mut inner = parts(pair);
+fn if_expr(b: &mut Builder, node: Node) -> Option<ExprKind> {
+    let mut inner = node.parts();
     let condition = Box::new(condition(b, inner.next()?)?);
     let then = block(b, inner.next()?);
     let otherwise = match inner.next() {
         // `else if` is a block of one expression.
-        Some(chained) if chained.as_rule() == Rule::if_expr => {
-            let span = b.span(&chained);
+        Some(chained) if chained.rule() == Rule::if_expr => {
+            let span = chained.span();
             let value = primary(b, chained);
             let only = Timed {
                 action: Action::Expr(value),
@@ -321,17 +311,17 @@ fn if_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
     Some(ExprKind::If { condition, then, otherwise })
 }
 
-fn match_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
-    let mut inner = parts(pair);
+fn match_expr(b: &mut Builder, node: Node) -> Option<ExprKind> {
+    let mut inner = node.parts();
     let on = Box::new(expr(b, inner.next()?));
     let mut arms = Vec::new();
     let mut crowded = false;
     for arm in inner {
-        if arm.as_rule() == Rule::crowded_arm {
+        if arm.rule() == Rule::crowded_arm {
             crowded = true;
             continue;
         }
-        let span = b.span(&arm);
+        let span = arm.span();
         if std::mem::take(&mut crowded) {
             b.refused.push(
                 Diagnostic::error(Code::LayoutLine, span, "this arm begins on the line of another")
@@ -339,9 +329,9 @@ fn match_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
             );
         }
         let mut names = Vec::new();
-        for part in parts(arm) {
-            if part.as_rule() == Rule::name {
-                names.push(name(b, part));
+        for part in arm.parts() {
+            if part.rule() == Rule::name {
+                names.push(name(part));
             } else {
                 arms.push(MatchArm { names: std::mem::take(&mut names), block: block(b, part), span });
             }
@@ -351,12 +341,12 @@ fn match_expr(b: &mut Builder, pair: P) -> Option<ExprKind> {
 }
 
 /// Degrees, and minutes when written; south and west are negative.
-fn degrees(b: &mut Builder, pair: P) -> f64 {
-    let span = b.span(&pair);
+fn degrees(b: &mut Builder, node: Node) -> f64 {
+    let span = node.span();
     let mut value = 0.0;
     let mut unit = 1.0;
-    for part in pair.into_inner() {
-        match part.as_str() {
+    for part in node.inner() {
+        match part.text() {
             "S" | "W" => value = -value,
             number => {
                 let number = number.parse::<f64>().unwrap_or(0.0);
@@ -374,22 +364,22 @@ fn degrees(b: &mut Builder, pair: P) -> f64 {
     value
 }
 
-pub(super) fn text(b: &mut Builder, pair: P) -> Expr {
-    let span = b.span(&pair);
+pub(super) fn text(b: &mut Builder, node: Node) -> Expr {
+    let span = node.span();
     let mut text = Vec::new();
-    for part in pair.into_inner() {
-        if part.as_rule() == Rule::text_part {
-            let begin = b.span(&part).start;
-            text.push(TextPart::Literal(unescape(b, begin, part.as_str())));
-        } else if let Some(hole) = part.into_inner().next().and_then(|p| p.into_inner().next()) {
+    for part in node.inner() {
+        if part.rule() == Rule::text_part {
+            text.push(TextPart::Literal(unescape(b, part)));
+        } else if let Some(hole) = part.inner().next().and_then(|p| p.inner().next()) {
             text.push(TextPart::Hole(expr(b, hole)));
         }
     }
     Expr { kind: ExprKind::Text(text), span }
 }
 
-/// A piece of a text, which begins at a byte of the source, as it is meant.
-fn unescape(b: &mut Builder, begin: u32, written: &str) -> String {
+/// A piece of a text as it is meant.
+fn unescape(b: &mut Builder, part: Node) -> String {
+    let written = part.text();
     let mut out = String::with_capacity(written.len());
     let mut chars = written.char_indices();
     while let Some((at, c)) = chars.next() {
@@ -402,8 +392,8 @@ fn unescape(b: &mut Builder, begin: u32, written: &str) -> String {
             Some((_, 't')) => out.push('\t'),
             Some((_, c @ ('"' | '\\' | '{' | '}'))) => out.push(c),
             Some((_, other)) => {
-                let start = begin + at as u32;
-                let span = Span { file: b.file, start, end: start + 1 + other.len_utf8() as u32 };
+                let start = part.span().start + at as u32;
+                let span = Span { start, end: start + 1 + other.len_utf8() as u32, ..part.span() };
                 b.refused.push(Diagnostic::error(Code::SyntaxText, span, format!("a text has no `\\{other}`")).help(
                     "there are `\\\"`, `\\\\`, `\\{`, `\\}`, `\\n` and `\\t`; a backslash itself is written `\\\\`",
                 ));

@@ -122,7 +122,7 @@ fn block(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     if first == "else" && rest.starts_with('{') && head != "else" {
         return write(format!("else if {} {{", head.trim_start_matches("else").trim()));
     }
-    let begins_body = super::errors::CLAUSE_WORDS.contains(&word(rest)) && word(rest) != "if" && word(rest) != "for";
+    let begins_body = super::words::begins_clause(word(rest)) && word(rest) != "if" && word(rest) != "for";
     (expected.contains("`{`") && begins_body && first != "mission").then(|| Habit {
         message: Some("a block stands between `{` and `}`".to_string()),
         help: in_block(head, line_end(rest)),

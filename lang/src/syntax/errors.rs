@@ -2,6 +2,7 @@
 
 use super::build::{Bad, Place};
 use super::habits::{self, habit, line_end, untyped_memory, valueless};
+use super::words::{self, begins_item};
 use super::{Grammar, Rule, elsewhere, places, slips};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -12,44 +13,17 @@ use pest::Parser;
 use pest::error::{Error, ErrorVariant, InputLocation};
 use std::collections::BTreeSet;
 
-/// Words that may begin an item.
-const ITEM_WORDS: [&str; 16] = [
-    "use", "const", "enum", "record", "unit", "input", "fn", "signal", "behavior", "strategy", "overlay", "mission",
-    "scenario", "vehicle", "test", "clause",
-];
-
-/// Whether a word begins what stands at the left margin.
-pub fn begins_item(word: &str) -> bool {
-    ITEM_WORDS.contains(&word)
-}
-
 /// Whether a line at the left margin begins an item: `vehicle ours {` does, and `vehicle(…)` is a clause of a scenario.
 pub(super) fn line_begins_item(line: &str) -> bool {
     let word = line.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
     begins_item(word) && !line[word.len()..].trim_start_matches([' ', '\t']).starts_with('(')
 }
 
-/// Words that may begin a clause of a block.
-pub(super) const CLAUSE_WORDS: [&str; 32] = [
-    "behavior", "with", "signal", "memory", "let", "var", "on", "start", "area", "limits", "requires", "recovery",
-    "amend", "abort", "finish", "report", "log", "if", "match", "for", "while", "loop", "goto", "follow", "dubins",
-    "steer", "keep", "hold", "loiter", "wait", "watch", "override",
-];
-
-/// What begins the declaration of something that is called.
-const CALLABLE: [&str; 4] = ["behavior", "strategy", "fn", "record"];
-
-/// Words that stand between two operands, and between a statement and its modifiers.
-const OPERATOR_WORDS: [&str; 10] = ["and", "or", "toward", "on", "do", "then", "until", "within", "at", "in"];
-
-/// Words that may begin a clause of a test.
-const TEST_WORDS: [&str; 3] = ["run", "expect", "snapshot"];
-
 /// The names that a text declares, of what is called as a statement or as a value.
 pub(super) fn callable(text: &str) -> BTreeSet<&str> {
     let heads = text.lines().filter_map(|line| {
         let (kind, name) = line.trim_start().split_once(' ')?;
-        CALLABLE.contains(&kind).then(|| habits::word(name.trim_start()))
+        words::declares_with_arguments(kind).then(|| habits::word(name.trim_start()))
     });
     heads.collect()
 }
@@ -58,15 +32,15 @@ pub(super) fn callable(text: &str) -> BTreeSet<&str> {
 pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>, bad: &Bad) -> Diagnostic {
     let (start, end) = (bad.span.start as usize, bad.span.end as usize);
     let stretch = &text[start..end];
-    let (rule, words) = match bad.place {
-        Place::Item | Place::Head => (Rule::item_only, &ITEM_WORDS[..]),
-        Place::Clause => (Rule::clause_only, &CLAUSE_WORDS[..]),
-        Place::TestClause => (Rule::test_clause_only, &TEST_WORDS[..]),
+    let (rule, first_words): (_, Vec<&str>) = match bad.place {
+        Place::Item | Place::Head => (Rule::item_only, words::of_items().collect()),
+        Place::Clause => (Rule::clause_only, words::of_clauses().collect()),
+        Place::TestClause => (Rule::test_clause_only, words::of_tests().collect()),
     };
     // A word of the language is the worse mistake.
     let nameable = |(end, habit)| {
         let name = stretch[..end].rsplit([' ', '\t']).next().unwrap_or_default();
-        (!is_reserved(name)).then_some((end, habit))
+        (!words::is_reserved(name)).then_some((end, habit))
     };
     let word: String = stretch.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
     if let Some((end, habit)) = untyped_memory(stretch).or_else(|| nameable(valueless(stretch)?)) {
@@ -78,7 +52,7 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
     });
     // A first word that nothing begins with is the mistake itself, wherever the grammar gave up.
-    let begins = words.contains(&word.as_str());
+    let begins = first_words.contains(&word.as_str());
     let after_word = stretch[word.len()..].trim_start();
     if !begins && !word.is_empty() && offset <= word.len() + (stretch.len() - word.len() - after_word.len()) {
         let span = Span { file, start: start as u32, end: (start + word.len()) as u32 };
@@ -91,8 +65,8 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
         if let Some(help) = other_languages::repeated(&word, after_word) {
             return finding.help(help);
         }
-        if OPERATOR_WORDS.contains(&word.as_str()) {
-            let mend = match super::scan::goes_on_after(&word) {
+        if words::stands_between(&word) {
+            let mend = match words::goes_on_after(&word) {
                 true => format!("end that line with `{word}`, and it goes on here"),
                 false => "write this at its end".to_string(),
             };
@@ -114,7 +88,7 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
             let given = if after_word.starts_with(['(', ':', '=']) { "…" } else { line_end(after_word) };
             return finding.help(format!("what is called has its arguments in brackets: `{word}({given})`"));
         }
-        return match suggest::nearest(&word, words.iter().copied()) {
+        return match suggest::nearest(&word, first_words.iter().copied()) {
             Some(near) => finding.help(format!("did you mean `{near}`?")),
             None if bad.place == Place::Item => {
                 finding.help("a file holds behaviors, strategies, missions, scenarios, …")
@@ -153,7 +127,7 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
         return slip.finding(span);
     }
     let wants_name = expected.split([',', ' ']).any(|word| word == "name");
-    if wants_name && is_reserved(token) {
+    if wants_name && words::is_reserved(token) {
         return Diagnostic::error(Code::SyntaxReserved, span, format!("`{token}` is a word of the language, no name"))
             .help("choose another name; as a field or a label it may stand");
     }
@@ -191,7 +165,7 @@ fn is_position(before: &str, rest: &str) -> bool {
 /// How to part two values that stand side by side: in brackets, or the second with a label.
 fn missing_comma(before: &str, rest: &str, token: &str) -> Option<String> {
     let ends_value = |c: char| c.is_alphanumeric() || matches!(c, '_' | ')' | ']' | '%');
-    let begins_value = token.starts_with(|c: char| c.is_alphanumeric() || c == '_') && !is_reserved(token);
+    let begins_value = token.starts_with(|c: char| c.is_alphanumeric() || c == '_') && !words::is_reserved(token);
     if !begins_value || !before.trim_end().ends_with(ends_value) {
         return None;
     }
@@ -200,10 +174,6 @@ fn missing_comma(before: &str, rest: &str, token: &str) -> Option<String> {
     }
     let open = before.matches(['(', '[']).count() > before.matches([')', ']']).count();
     open.then(|| "write a comma between two arguments or elements".to_string())
-}
-
-fn is_reserved(word: &str) -> bool {
-    Grammar::parse(Rule::reserved, word).is_ok_and(|mut pairs| pairs.next().is_some_and(|p| p.as_str() == word))
 }
 
 /// The word or sign at the front of a text.
@@ -251,12 +221,12 @@ fn expectation(rules: &[Rule]) -> String {
 
 fn kind(rule: Rule) -> String {
     use Rule::*;
-    let words = match rule {
+    let kind = match rule {
         EOI | sep => "the end",
         name | label | path => "a name",
         quantity | number | expr | operand | cond | condition | geodetic | paren | list | if_expr | match_expr
-        | neg | pos | not | no | becomes | after | kw_not | kw_no | kw_becomes | kw_after | kw_true | kw_false
-        | kw_none | kw_done | hole_expr | arg => "a value",
+        | neg | pos | not | no | becomes | after | kw_not | kw_no | kw_becomes | kw_after | v_true | v_false
+        | v_none | v_done | hole_expr | arg => "a value",
         unit => "a unit",
         text | text_part | hole => "a text",
         op_else | op_or | op_and | op_eq | op_ne | op_le | op_ge | op_lt | op_gt | op_add | op_sub | op_toward
@@ -271,7 +241,7 @@ fn kind(rule: Rule) -> String {
         labelled => "a field, `NAME: VALUE`",
         dim_op | maybe | order | dim_factor => "",
         default => "`=`",
-        setpoint | w_channel => "`depth`, `altitude` or `speed`",
+        setpoint | channel => "`depth`, `altitude` or `speed`",
         mod_for | kw_for => "`for`",
         mod_until | kw_until => "`until`",
         mod_within | kw_within => "`within`",
@@ -281,14 +251,7 @@ fn kind(rule: Rule) -> String {
         target => "a behavior, `finish` or `abort`",
         overlay_kind => "`amends` or `sets`",
         require => "an input",
-        other => return keyword(other).map(|k| format!("`{k}`")).unwrap_or_default(),
+        other => return words::of_rule(other).map(|word| format!("`{word}`")).unwrap_or_default(),
     };
-    words.to_string()
-}
-
-/// The word of a keyword rule, from its own name.
-fn keyword(rule: Rule) -> Option<String> {
-    let name = format!("{rule:?}");
-    let word = name.strip_prefix("kw_").or_else(|| name.strip_prefix("w_"))?;
-    Some(if word == "all" { "always".to_string() } else { word.to_string() })
+    kind.to_string()
 }

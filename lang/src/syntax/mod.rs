@@ -4,6 +4,7 @@ mod braces;
 mod build;
 mod build_block;
 mod build_expr;
+mod concrete;
 mod confusables;
 mod elsewhere;
 mod errors;
@@ -13,17 +14,20 @@ mod quotient;
 mod scan;
 mod slips;
 pub mod tree;
-mod words;
+pub mod words;
 
-pub use errors::begins_item;
-pub use scan::{Comment, NESTING_MAX};
+pub use concrete::ConcreteTree;
+pub(crate) use concrete::Node;
+pub use scan::NESTING_MAX;
 
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
+use concrete::Planter;
 use grammar::Grammar;
 pub(crate) use grammar::Rule;
 use pest::Parser;
+use pest::iterators::Pair;
 use scan::Scanned;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -40,14 +44,14 @@ mod grammar {
 /// What a source says.
 #[derive(Clone, Debug)]
 pub struct Parsed {
-    /// All that could be read.
+    /// All that could be read, and where what could not stands.
+    pub concrete: ConcreteTree,
+    /// What that says.
     pub file: tree::File,
-    /// All that could not.
+    /// All that could not be read.
     pub findings: Vec<Diagnostic>,
     /// Where that stands.
     pub unread: Vec<Unread>,
-    /// The comments, in order: the formatter and the documentation need them.
-    pub comments: Vec<Comment>,
 }
 
 /// A stretch that could not be read. What it declares, nobody knows.
@@ -61,25 +65,13 @@ pub struct Unread {
 
 /// Reads a source file.
 pub fn parse(file: FileId, source: &str) -> Parsed {
-    let mut unread = Vec::new();
-    let (trees, mut findings, comments, passed_over) = read(file, source, Rule::file, declarations, |b, pairs| {
-        let before = b.bad.len();
-        let tree = build::file(b, pairs);
-        let bad = &b.bad[before..];
-        unread.extend(bad.iter().map(|bad| Unread { span: bad.span, item: bad.item }));
-        // A declaration whose head is unreadable is known by no name.
-        unread.extend(
-            bad.iter().filter(|bad| bad.place == build::Place::Head).map(|bad| Unread { span: bad.span, item: None }),
-        );
-        tree
-    });
-    unread.extend(passed_over.into_iter().map(|span| Unread { span, item: None }));
-    if trees.is_empty() {
-        unread.push(Unread { span: Span { file, start: 0, end: source.len() as u32 }, item: None });
-    }
-    findings.extend(quotient::doubts(source, &comments));
-    let items = trees.into_iter().flat_map(|tree| tree.items).collect();
-    Parsed { file: tree::File { items }, findings, unread, comments }
+    let Read { concrete, built, bad, passed_over, findings } =
+        read(file, source, Rule::file, declarations, build::file);
+    let mut unread: Vec<Unread> = bad.iter().map(|bad| Unread { span: bad.span, item: bad.item }).collect();
+    // A declaration whose head is unreadable is known by no name.
+    let heads = bad.iter().filter(|bad| bad.place == build::Place::Head).map(|bad| bad.span);
+    unread.extend(heads.chain(passed_over).map(|span| Unread { span, item: None }));
+    Parsed { concrete, file: built, findings, unread }
 }
 
 /// Where each declaration stands.
@@ -91,11 +83,8 @@ fn declarations(scanned: &Scanned) -> Vec<Range<usize>> {
 /// Reads statements that stand in no block: the lines of a prompt.
 pub fn parse_lines(file: FileId, source: &str) -> (tree::Block, Vec<Diagnostic>) {
     let whole = |scanned: &Scanned| std::iter::once(0..scanned.text.len()).collect();
-    let (block, mut findings, comments, _) =
-        read(file, source, Rule::lines, whole, |b, mut pairs| pairs.next().map(|pair| build_block::block(b, pair)));
-    findings.extend(quotient::doubts(source, &comments));
-    let nothing = tree::Block { clauses: Vec::new(), span: Span { file, start: 0, end: source.len() as u32 } };
-    (block.into_iter().flatten().next().unwrap_or(nothing), findings)
+    let read = read(file, source, Rule::lines, whole, build_block::block);
+    (read.built, read.findings)
 }
 
 /// Whether a text wants another line: a bracket is open, or its last line says that it goes on.
@@ -128,84 +117,86 @@ pub fn statements(source: &str) -> Vec<&str> {
     statements
 }
 
-/// What the grammar reads in a source without mistakes: every word, in the rules to which it belongs.
-pub(crate) fn concrete<T>(
-    file: FileId,
-    source: &str,
-    build: impl FnOnce(pest::iterators::Pairs<Rule>) -> T,
-) -> Option<T> {
-    let scanned = scan::scan(file, source);
-    if !scanned.brackets_fit() {
-        return None;
-    }
-    Grammar::parse(Rule::file, &scanned.text).ok().map(build)
-}
-
 /// A stretch of a source with blanks for its comments.
 pub(crate) fn uncommented(file: FileId, stretch: &str) -> String {
     scan::scan(file, stretch).text
 }
 
-/// Reads a source by a rule of the grammar, a part at a time: what was built of each, the findings, the comments, the parts that were
-/// passed over. What the grammar makes of a text is far larger than the text: of a part it is small, and soon gone. A part whose brackets
-/// do not fit, however its margins are read, is passed over: the grammar would look for the end of each block once more for each that it
-/// stands in.
+/// What came of reading a source.
+struct Read<T> {
+    concrete: ConcreteTree,
+    built: T,
+    /// The stretches that could not be read, and the parts that were passed over.
+    bad: Vec<build::Bad>,
+    passed_over: Vec<Span>,
+    findings: Vec<Diagnostic>,
+}
+
+/// Reads a source by a rule of the grammar, a part at a time, and builds what it says. What the grammar makes of a text is far larger than
+/// the text: of a part it is small, and soon gone. A part whose brackets do not fit, however its margins are read, is passed over: the
+/// grammar would look for the end of each block once more for each that it stands in.
 fn read<T>(
     file: FileId,
     source: &str,
     rule: Rule,
     parts: impl FnOnce(&Scanned) -> Vec<Range<usize>>,
-    mut build: impl FnMut(&mut build::Builder, pest::iterators::Pairs<Rule>) -> T,
-) -> (Vec<T>, Vec<Diagnostic>, Vec<Comment>, Vec<Span>) {
+    build: impl FnOnce(&mut build::Builder, Node) -> T,
+) -> Read<T> {
     let mut scanned = scan::scan_mended(file, source);
     let mut findings = std::mem::take(&mut scanned.findings);
+    let scanned = scanned;
+    let mut planter = Planter::new(file, source, &scanned, rule);
+    let mut passed_over = Vec::new();
     // Too deep: the grammar itself would be at the mercy of the thread's stack.
-    if findings.iter().any(|f| f.code == Code::SyntaxNesting) {
-        return (Vec::new(), findings, scanned.comments, Vec::new());
-    }
-    let mut builder = build::Builder::new(file);
-    let (mut built, mut passed_over) = (Vec::new(), Vec::new());
+    let too_deep = findings.iter().any(|f| f.code == Code::SyntaxNesting);
     let all_fit = !findings.iter().any(|f| f.code == Code::SyntaxBracket);
     for part in parts(&scanned) {
         let span = Span { file, start: part.start as u32, end: part.end as u32 };
-        builder.base = part.start;
-        let text = &scanned.text[part];
-        if !(all_fit || scan::scan(file, text).brackets_fit()) {
+        let text = &scanned.text[part.clone()];
+        if too_deep || !(all_fit || scan::scan(file, text).brackets_fit()) {
+            planter.unread(part.end);
             passed_over.push(span);
             continue;
         }
         match Grammar::parse(rule, text) {
-            Ok(pairs) => built.push(build(&mut builder, pairs)),
-            Err(error) => findings.push(errors::finding(file, text, builder.base, &error)),
+            Ok(pairs) => planter.read(part.start, pairs.flat_map(Pair::into_inner)),
+            Err(error) => {
+                planter.unread(part.end);
+                passed_over.push(span);
+                findings.push(errors::finding(file, text, part.start, &error));
+            }
         }
     }
+    let concrete = planter.finish();
+    let mut builder = build::Builder::new(&scanned.text);
+    let built = build(&mut builder, concrete.root(source));
     findings.append(&mut builder.refused);
     // A bracket that does not fit has been reported: what it made unreadable is no second mistake.
     let told = ReportedLines::of(&findings, source);
     let unread: Vec<_> = builder.bad.iter().filter(|bad| !told.touches(bad.span)).collect();
     let callable = if unread.is_empty() { BTreeSet::new() } else { errors::callable(&scanned.text) };
     findings.extend(unread.into_iter().map(|bad| errors::of_bad_stretch(file, &scanned.text, &callable, bad)));
-    (built, findings, scanned.comments, passed_over)
+    findings.extend(quotient::doubts(source, &scanned.comments));
+    Read { concrete, built, bad: builder.bad, passed_over, findings }
 }
 
 /// Reads one expression, such as the value of `--set lambda=6s`.
 pub fn parse_expression(file: FileId, source: &str) -> Result<tree::Expr, Diagnostic> {
-    let scanned = scan::scan(file, source);
-    if let Some(finding) = scanned.findings.into_iter().next() {
-        return Err(finding);
+    let mut scanned = scan::scan(file, source);
+    if !scanned.findings.is_empty() {
+        return Err(scanned.findings.swap_remove(0));
     }
     let text = scanned.text.trim_end();
-    let mut builder = build::Builder::new(file);
-    match Grammar::parse(Rule::expr_only, text) {
-        Ok(mut pairs) => match pairs.next() {
-            Some(pair) => {
-                let value = build_expr::expr(&mut builder, pair);
-                builder.refused.into_iter().next().map_or(Ok(value), Err)
-            }
-            None => Err(Diagnostic::error(Code::SyntaxExpected, Span { file, start: 0, end: 0 }, "a value is missing")),
-        },
-        Err(error) => Err(errors::finding(file, text, 0, &error)),
-    }
+    let pairs = Grammar::parse(Rule::expr_only, text).map_err(|error| errors::finding(file, text, 0, &error))?;
+    let mut planter = Planter::new(file, source, &scanned, Rule::expr_only);
+    planter.read(0, pairs);
+    let concrete = planter.finish();
+    let mut builder = build::Builder::new(&scanned.text);
+    let Some(node) = concrete.root(source).inner().next() else {
+        return Err(Diagnostic::error(Code::SyntaxExpected, Span { file, start: 0, end: 0 }, "a value is missing"));
+    };
+    let value = build_expr::expr(&mut builder, node);
+    builder.refused.into_iter().next().map_or(Ok(value), Err)
 }
 
 /// The lines of which something has been said, in order: from the first byte of the first to the last of the last.

@@ -7,7 +7,8 @@ mod nesting;
 
 use super::braces;
 use super::confusables::{self, deceives};
-use super::errors::{begins_item, line_begins_item};
+use super::errors::line_begins_item;
+use super::words::{self, begins_item};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
@@ -16,40 +17,13 @@ use nesting::{Brackets, Open};
 /// Brackets, blocks and `else if` may be nested this deep, on every machine and in every build.
 pub const NESTING_MAX: usize = 64;
 
-/// Words that begin an item of a file. An item stands at the left margin, which is how an unclosed brace is found.
-const ITEM_WORDS: [&str; 14] = [
-    "use", "const", "enum", "record", "unit", "input", "clause", "fn", "strategy", "overlay", "mission", "scenario",
-    "vehicle", "test",
-];
-
-/// Words after which a line goes on.
-const OPEN_WORDS: [&str; 9] = ["and", "or", "not", "toward", "else", "on", "do", "becomes", "no"];
-
-/// Whether a line that ends in a word goes on in the next.
-pub fn goes_on_after(word: &str) -> bool {
-    OPEN_WORDS.contains(&word)
-}
-
-/// Words that begin a statement and never go on with one.
-const BEGINNING_WORDS: [&str; 18] = [
-    "use", "const", "behavior", "strategy", "mission", "scenario", "overlay", "with", "signal", "memory", "let", "var",
-    "start", "report", "log", "while", "loop", "test",
-];
-
-/// A comment of the source.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Comment {
-    /// Where it stands, slashes included.
-    pub span: Span,
-}
-
 /// The text for the grammar, and what was found on the way.
 #[derive(Clone, Debug)]
 pub struct Scanned {
     /// As long as the source, byte for byte.
     pub text: String,
-    /// The comments, in order.
-    pub comments: Vec<Comment>,
+    /// The comments, in order, slashes included.
+    pub comments: Vec<Span>,
     /// Brackets that do not fit, characters that deceive.
     pub findings: Vec<Diagnostic>,
     /// Where declarations begin, in which nothing outside them is open; the first is the beginning of the text.
@@ -106,7 +80,7 @@ pub(super) fn scan_mended(file: FileId, source: &str) -> Scanned {
     }
     let mut bare = source.as_bytes().to_vec();
     for comment in &scanned.comments {
-        bare[comment.span.start as usize..comment.span.end as usize].fill(b' ');
+        bare[comment.start as usize..comment.end as usize].fill(b' ');
     }
     let mended = braces::mend(file, &String::from_utf8(bare).unwrap_or_default());
     if mended.findings.is_empty() {
@@ -145,7 +119,7 @@ struct Scanner<'a> {
     /// Nested too deep, which has been said.
     deep: bool,
     last: Last,
-    comments: Vec<Comment>,
+    comments: Vec<Span>,
     findings: Vec<Diagnostic>,
     starts: Vec<usize>,
     /// What comes next begins here, when that has been looked for.
@@ -237,7 +211,7 @@ impl<'a> Scanner<'a> {
         let word: String = self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
         // In a strategy a behavior may stand at the margin too; in round brackets nothing is declared.
         let block = self.open.innermost('{').map_or(0, |at| at + 1);
-        let level = if ITEM_WORDS.contains(&word.as_str()) { 0 } else { block };
+        let level = if words::begins_outer_item(&word) { 0 } else { block };
         if self.open.len() > level && line_begins_item(self.rest()) {
             self.all_unclosed(level);
             self.chained = 0;
@@ -280,7 +254,7 @@ impl<'a> Scanner<'a> {
         let next = self.next();
         let length = next.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(next.len());
         let at_margin = self.source[..self.source.len() - next.len()].ends_with('\n');
-        BEGINNING_WORDS.contains(&&next[..length])
+        words::begins_afresh(&next[..length])
             || (at_margin && begins_item(&next[..length]) && next[length..].starts_with(' '))
     }
 
@@ -314,7 +288,7 @@ impl<'a> Scanner<'a> {
         if let Some((offset, c)) = self.rest()[..length].char_indices().find(|&(_, c)| deceives(c)) {
             self.deceptive(c, start + offset);
         }
-        self.comments.push(Comment { span: self.span(start, end) });
+        self.comments.push(self.span(start, end));
         self.blank(start, end);
         self.at = end;
     }
@@ -425,7 +399,7 @@ impl<'a> Scanner<'a> {
             self.too_deep(self.at, length, 0);
         }
         self.after_else = word == "else" && !is_field;
-        self.last = if OPEN_WORDS.contains(&word) && !is_field { Last::Goes } else { Last::Ends };
+        self.last = if words::goes_on_after(word) && !is_field { Last::Goes } else { Last::Ends };
         self.at += length;
     }
 
