@@ -21,6 +21,8 @@ const NEARER_SAMPLES: u32 = 2;
 /// A first sample has nothing to follow: within so much, m, of where missions begin it is believed, and elsewhere with the second.
 const BEGINS_WITHIN_M: f64 = 2_000.0;
 const BEGINS_ABOVE_M: f64 = 20.0;
+/// ... and a position whose standard deviation is no more than this, m: a larger one would let any other follow it.
+const BEGINS_SIGMA_M: f64 = 100.0;
 /// ... or a first battery with less in it than this.
 const BEGINS_CHARGED: f64 = 0.2;
 const FIRST_SAMPLES: u32 = 2;
@@ -166,7 +168,7 @@ impl Channel {
         let change = measurement(number).quantity.difference(reading, before);
         let first = Doubtful { reading, tick, since: tick, samples: 1 };
         let doubtful = match self.doubtful {
-            Some(d) if follows(number, reading, d.reading, seconds(d.tick), speed) => {
+            Some(d) if follows(number, reading, self.held(d.reading), seconds(d.tick), speed) => {
                 Doubtful { since: d.since, samples: d.samples + 1, ..first }
             }
             _ => first,
@@ -192,6 +194,14 @@ impl Channel {
             self.doubt(tick, Change::Rejected(change, seconds(at)), events);
         }
         false
+    }
+
+    /// A doubtful reading as the next is held against it: its standard deviation is as doubtful as itself, and counts no more than
+    /// that of the last position that was believed.
+    fn held(&self, doubtful: Reading) -> Reading {
+        let [a, b, sigma, d] = doubtful;
+        let most = self.believed.map_or(BEGINS_SIGMA_M, |(before, _)| before[2]);
+        if self.number == POSITION { [a, b, sigma.min(most), d] } else { doubtful }
     }
 
     fn believe(&mut self, tick: u64, reading: Reading) {
@@ -232,7 +242,10 @@ fn follows(number: u16, now: Reading, before: Reading, time: f64, speed: f64) ->
 /// Whether a first reading is where missions begin.
 fn begins(number: u16, reading: Reading) -> bool {
     match number {
-        POSITION => Point::new(reading[0], reading[1]).distance(Point::ORIGIN) <= BEGINS_WITHIN_M,
+        POSITION => {
+            Point::new(reading[0], reading[1]).distance(Point::ORIGIN) <= BEGINS_WITHIN_M
+                && reading[2] <= BEGINS_SIGMA_M
+        }
         DEPTH => reading[0] <= BEGINS_ABOVE_M,
         BATTERY => reading[0] >= BEGINS_CHARGED,
         _ => true,

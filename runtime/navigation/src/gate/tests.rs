@@ -34,6 +34,22 @@ fn what_persists_is_believed_after_two_seconds() {
     assert_eq!(said, told(&lines));
 }
 
+/// Their standard deviations are as random as themselves, and excuse nothing.
+#[test]
+fn two_random_positions_at_the_start_do_not_agree() {
+    let random = [[359_000.0, 0.0, 700_000.0], [-120_000.0, 235_000.0, 900_000.0]];
+    let after = |first: u64, count: u64| {
+        let place = move |tick: u64| match tick.checked_sub(first) {
+            Some(at) if at < count => random[at as usize % 2],
+            _ => [0.2 * tick as f64, 0.0, 1.0],
+        };
+        judged(POSITION, (0..100).map(move |tick| (tick, place(tick)))).0
+    };
+    assert_eq!(after(1, 2), [1, 2]);
+    assert_eq!(after(0, 2), [0, 1]);
+    assert_eq!(after(1, 10), (1..12).collect::<Vec<_>>());
+}
+
 /// Dead reckoning whose own error lets expect it is corrected at once.
 #[test]
 fn a_fix_within_the_errors_of_both_is_believed_at_once() {
