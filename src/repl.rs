@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 /// A line that goes on in so many others is taken as it is: it is no script.
-const LINES_AT_ONCE_MAX: usize = 10_000;
+const LINES_AT_ONCE_MAX: usize = 1_000;
 
 /// A line is no longer than this, in bytes; no more are read before it is taken as it is.
 const LINE_BYTES_MAX: u64 = 1 << 20;

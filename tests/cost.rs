@@ -322,3 +322,31 @@ fn what_counts_few_steps_takes_little_time() {
         assert_eq!(output.status.code(), Some(0), "{name}: {told:.2000}");
     }
 }
+
+/// Names of the same letters pass every test that is quicker than a comparison, and comparing takes the product of two lengths.
+#[test]
+fn long_names_are_not_compared_with_one_another() {
+    let names = |letters: fn(usize) -> String, line: fn(&str, usize) -> String| lines(1000, |i| line(&letters(i), i));
+    let known = names(|i| format!("x{}{i:0>4}", "y".repeat(245)), |name, _| format!("let {name} = 1 m"));
+    let unknown = names(|i| format!("x{}y{i:0>4}", "y".repeat(243)), |name, i| format!("let w{i} = {name}"));
+    let (output, told) = run_within(&["check"], "names", &script("", &(known + &unknown)), None);
+    assert_eq!(output.status.code(), Some(3), "{told:.2000}");
+}
+
+/// A line at the prompt takes no longer than what has been named before it makes it.
+#[test]
+fn lines_at_the_prompt_are_read_in_time() {
+    let named = lines(1000, |i| format!("let x{i} = {i}"));
+    let unclosed = format!("fn f() -> Int {{\n{}", "1\n".repeat(3_000));
+    for (name, typed) in [("named", named), ("unclosed", unclosed)] {
+        let input = file_of(name);
+        std::fs::write(&input, typed).unwrap();
+        let output = Command::new("sh")
+            .args(["-c", &format!("ulimit -t {TIME}; exec \"$0\" repl < \"$1\"")])
+            .args([Path::new(env!("CARGO_BIN_EXE_albacore")), &input])
+            .output()
+            .unwrap();
+        std::fs::remove_file(&input).unwrap();
+        assert!(output.status.code().is_some(), "{name}: ended after {TIME} s");
+    }
+}

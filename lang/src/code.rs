@@ -132,6 +132,7 @@ codes! {
         PromptValue = "value",
     }
     ranges {
+        RangesConstant = "constant",
         RangesDuration = "duration",
         RangesEmpty = "empty",
         RangesHeading = "heading",

@@ -137,7 +137,8 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     let checked = check::check(modules, loader.library, overrides.clone());
     let echoes = Cascades::of(unread, sources);
     let later = checked.findings.into_iter().filter(|f| !echoes.holds_back(f, sources));
-    findings.extend(later.map(|finding| missing_use(finding, sources, loader.library)));
+    let declared_below = |finding| declared_below(finding, sources, &modules[MAIN].tree, &checked.names);
+    findings.extend(later.map(|finding| declared_below(missing_use(finding, sources, loader.library))));
     for file in checked.files {
         sources.add(file);
     }
@@ -300,6 +301,25 @@ impl Script {
     pub fn scenario(&self, name: &str, origin: Option<Geodetic>) -> Option<Result<ScenarioProgram, Vec<Diagnostic>>> {
         let id = self.scenario_ids.get(name)?;
         Some(lower::scenario(&self.hir, &self.types, &self.sources, *id, origin))
+    }
+}
+
+/// A name that stands before its declaration in the same activity.
+fn declared_below(finding: Diagnostic, sources: &Sources, main: &tree::File, names: &names::Names) -> Diagnostic {
+    let span = finding.span();
+    if finding.code != Code::NamesUnknown || finding.help.is_some() {
+        return finding;
+    }
+    let name = sources.text(span);
+    let around = main.items.iter().find_map(|item| match item {
+        Item::Activity(a) if a.body.span.holds(span) => Some(a.body.span),
+        _ => None,
+    });
+    let is_below = |place: Span| place.start > span.end && around.is_some_and(|around| around.holds(place));
+    let below = names.definitions().find(|(place, definition)| definition.name == name && is_below(*place));
+    match below {
+        Some((place, _)) => finding.label(place, "declared here").help("a declaration is known behind it: move it up"),
+        None => finding,
     }
 }
 

@@ -22,12 +22,14 @@ use albacore_geometry::Geodetic;
 use albacore_program::{Program, Slot};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use value::slot_of;
+use value::slots;
 
 /// The mission that a line becomes. No script can declare a mission of this name.
 pub(crate) const MISSION: &str = "line at the prompt";
 /// What a line's value is called when the line gives it no name.
 const VALUE: &str = "value of the line";
+/// So many lines declare something at most: each is looked through again with each that follows.
+const DECLARING_LINES_MAX: usize = 1000;
 /// What is in force before any `with` is typed.
 const SETPOINTS_AT_FIRST: &str = "with depth 3 m, speed 1.5 m/s";
 
@@ -136,6 +138,12 @@ impl Prompt {
         let module = loader.read(source, String::new(), false, &mut Vec::new());
         let mut findings = std::mem::take(&mut loader.findings);
         (self.sources, self.modules, self.known) = (loader.sources, loader.modules, loader.known);
+        if self.modules.iter().filter(|m| m.extends.is_some()).count() >= DECLARING_LINES_MAX {
+            let span = Span { file: FileId(self.sources.iter().count() as u32 - 1), start: 0, end: text.len() as u32 };
+            let message = format!("more than {DECLARING_LINES_MAX} lines of this session declare something");
+            let finding = Diagnostic::error(Code::ImportsMany, span, message);
+            findings.push(finding.help("write the declarations into a file, and open it: `albacore repl FILE.alb`"));
+        }
         let read = &mut self.modules[module];
         read.extends = Some(top);
         for (name, leads) in imports {
@@ -366,7 +374,8 @@ impl Prompt {
         let program = lower::line(hir, types, &self.sources, *mission, origin)?;
         let activity = &hir.activities[*mission];
         let base = program.mission.base;
-        let slot = |id: VarId| base + slot_of(types, &activity.vars, id);
+        let slots = slots(types, &activity.vars);
+        let slot = |id: VarId| base + slots[id];
         let leaves = |id: VarId, name: Option<String>, held: Held| {
             let hir::Var { ty, range, .. } = activity.vars[id].clone();
             let range = if held == Held::Var { check::range_of_var(&ty, range) } else { range };

@@ -1,7 +1,7 @@
 //! "Did you mean": the nearest of the names that exist.
 
-/// A longer name, in bytes, is no slip of another, and comparing takes as long as the product of two lengths.
-const COMPARED_MAX: usize = 255;
+/// No search is made for what a longer name, in bytes, may have meant: comparing two takes as long as the product of their lengths.
+const COMPARED_MAX: usize = 64;
 
 /// The candidate nearest to a misspelt name, when it is near enough to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -24,26 +24,31 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// How long a word is and which letters it has: tells most words apart without comparing them.
+/// How long a word is, and how often it has which letter: tells most words apart without comparing them.
 struct Letters {
     length: usize,
-    set: u128,
+    /// By their codes, the two cases of a letter as one. None where a letter is outside ASCII: its lower case may be longer.
+    counts: Option<[u8; 128]>,
 }
 
 impl Letters {
     fn of(word: &str) -> Self {
-        let letter = |c: char| 1 << (c.to_ascii_lowercase() as u32 % 128);
-        // Lower case may be longer, for letters outside ASCII: they are let through.
-        let set = if word.is_ascii() { word.chars().fold(0, |set, c| set | letter(c)) } else { 0 };
-        Letters { length: word.chars().count(), set }
+        let counts = word.is_ascii().then(|| {
+            let mut counts = [0_u8; 128];
+            word.bytes().for_each(|b| {
+                let count = &mut counts[usize::from(b.to_ascii_lowercase())];
+                *count = count.saturating_add(1);
+            });
+            counts
+        });
+        Letters { length: word.chars().count(), counts }
     }
 
     /// A slip of the fingers changes one letter for another at most.
     fn may_be(&self, other: &Letters, slips: usize) -> bool {
-        let plain = self.set != 0 && other.set != 0;
-        !plain
-            || (self.length.abs_diff(other.length) <= slips
-                && (self.set ^ other.set).count_ones() as usize <= 2 * slips)
+        let (Some(ours), Some(theirs)) = (&self.counts, &other.counts) else { return true };
+        let differ = |(a, b): (&u8, &u8)| usize::from(a.abs_diff(*b));
+        self.length.abs_diff(other.length) <= slips && ours.iter().zip(theirs).map(differ).sum::<usize>() <= 2 * slips
     }
 }
 

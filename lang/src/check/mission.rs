@@ -8,7 +8,7 @@ use crate::hir::{Expr, ExprKind, Interval, Mission, Require};
 use crate::source::Spanned;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind};
 use crate::types::Type;
-use albacore_program::{Channel, LIMIT_FRESH_S, LIMIT_PATIENCE_S};
+use albacore_program::{Channel, LIMIT_FRESH_S, LIMIT_PATIENCE_S, TURN_RATE_MIN};
 
 /// The limits that are no channel's.
 const TURN_RATE: &str = "turn_rate";
@@ -62,6 +62,14 @@ impl Checker<'_> {
         };
         let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
         self.not_negative(&value, "the limit");
+        if value.range.high >= 0.0 && value.range.low < 0.0 && value.ty != Type::Unknown {
+            let finding = Diagnostic::error(
+                Code::MissionsLimit,
+                value.span,
+                "this limit may be negative, and would hold nothing",
+            );
+            self.report(finding.help("give what it is computed from a range of its own: `in 1 m..30 m`"));
+        }
         if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel.0 && *l == least) {
             let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
                 .label(first.span, "the first")
@@ -83,6 +91,11 @@ impl Checker<'_> {
         if value.range.high <= 0.0 {
             let finding = Diagnostic::error(Code::MissionsLimit, value.span, "a vehicle with this limit never turns");
             self.report(finding.help("give what it can turn in a second: `turn_rate <= 6 deg/s`"));
+        } else if value.range.low < TURN_RATE_MIN && value.ty != Type::Unknown {
+            let finding = Diagnostic::error(Code::MissionsLimit, value.span, "this limit may be less than 0.1 deg/s");
+            let help = "a vehicle needs that much to go anywhere: write a larger one, or give what it is computed from a range of its own, \
+                        `in 1 deg/s..10 deg/s`";
+            self.report(finding.help(help));
         }
         if let Some(first) = &mission.turn_rate {
             let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")

@@ -1,5 +1,6 @@
 //! Parameters: their types, ranges and defaults, and what `--set` puts in place of a default.
 
+use super::expr::article;
 use super::{Checker, ParamInfo, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -68,13 +69,14 @@ impl<'t> Checker<'t> {
                 let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, what));
                 value
             });
-            match (&default, written) {
-                (Some(default), Some(range)) => self.in_range(default, range, &param.name.node, param.name.span),
-                (Some(default), None) if owner.is_some() => self.sensible_default(default, &param.name.node),
-                _ => {}
-            }
             // A function may well be given the negative difference of two times; what takes time may not.
             let range = written.or_else(|| owner.and_then(|_| Self::implied_range(&ty)));
+            if let Some(default) = &default {
+                let is_told = written.is_none() && owner.is_some() && self.sensible_default(default, &param.name.node);
+                if let (false, Some(range)) = (is_told, range) {
+                    self.in_range(default, range, &param.name.node, param.name.span);
+                }
+            }
             infos.push(ParamInfo { name: param.name.node.clone(), ty, default, range, span: param.name.span });
         }
         infos
@@ -161,10 +163,34 @@ impl<'t> Checker<'t> {
                     .help("write `..`, which holds both ends"),
             );
         }
+        if first.ty != Type::Unknown && last.ty != Type::Unknown && !can_have_a_range(ty) {
+            let ty = self.type_name(ty);
+            let finding = Diagnostic::error(
+                Code::RangesConstant,
+                range.first.span.to(range.last.span),
+                "no range can hold this parameter",
+            );
+            self.report(
+                finding
+                    .here(format!("{} is no number", article(&ty)))
+                    .help("leave the range out, and test the value where it is used"),
+            );
+            return None;
+        }
         let without_last = if range.inclusive { 0.0 } else { 1.0 };
         match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
             // What is of another type has been told of.
             _ if first.ty == Type::Unknown || last.ty == Type::Unknown => None,
+            // A whole turn ends where it begins.
+            (Some(low), Some(high)) if *ty == Type::Heading && low == high => {
+                let finding = Diagnostic::error(
+                    Code::RangesEmpty,
+                    range.first.span.to(range.last.span),
+                    "this range holds one heading alone",
+                );
+                self.report(finding.help("leave the range out: a parameter without one takes any heading"));
+                None
+            }
             (Some(low), Some(high)) if low <= high => Some(Interval::new(low, high)),
             (Some(_), Some(_)) => {
                 self.report(
@@ -177,7 +203,18 @@ impl<'t> Checker<'t> {
                 );
                 None
             }
-            _ => None,
+            (low, _) => {
+                let unknown = if low.is_none() { first.span } else { last.span };
+                let finding = Diagnostic::error(
+                    Code::RangesConstant,
+                    unknown,
+                    "this end of a range is no number that is known here",
+                );
+                self.report(
+                    finding.help("write it as a number, or as a constant that is made of numbers by operators alone"),
+                );
+                None
+            }
         }
     }
 
@@ -251,6 +288,11 @@ impl<'t> Checker<'t> {
         };
         format!("{} {}", short(significant(x / display.scale)), display.unit)
     }
+}
+
+/// Whether the values of a type lie in an order, so that a range can hold them.
+fn can_have_a_range(ty: &Type) -> bool {
+    matches!(ty.present(), Type::Int | Type::Quantity(_) | Type::Heading | Type::Depth | Type::Altitude)
 }
 
 /// A number without rows of zeros.

@@ -82,20 +82,21 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// The default of a parameter that has no range of its own.
-    pub(super) fn sensible_default(&mut self, value: &Expr, param: &str) {
+    /// The default of a parameter that has no range of its own; tells whether it was refused.
+    pub(super) fn sensible_default(&mut self, value: &Expr, param: &str) -> bool {
         if value.range.high >= 0.0 {
-            return;
+            return false;
         }
         let what = match value.ty {
             Type::Quantity(Dimension::TIME) => "Duration",
             Type::Quantity(Dimension::SPEED) => "Speed",
-            _ => return,
+            _ => return false,
         };
         self.report(
             Diagnostic::error(Code::RangesNegative, value.span, format!("`{param}` is a {what}, and this is negative"))
                 .help("leave the sign out; a range of its own, `in LOW..HIGH`, would let it be negative"),
         );
+        true
     }
 
     /// A constant angle where a heading is expected.

@@ -3,7 +3,7 @@
 use crate::Script;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Interval, VarId, VarKind};
+use crate::hir::{self, Interval, VarKind};
 use crate::source::Span;
 use crate::types::{Type, TypeTable};
 use albacore_program::{Program, Shape, Slot};
@@ -136,9 +136,9 @@ impl Script {
             hir::Decl::Signal(id, _) | hir::Decl::Memory(id, _) | hir::Decl::Area(id, _) => Some(*id),
             hir::Decl::With(_) => None,
         });
-        let mut names = Vec::new();
+        let (mut names, slots) = (Vec::new(), slots(&self.types, vars));
         for id in (0..found.params).chain(declared) {
-            let at = slot_of(&self.types, vars, id) as usize;
+            let at = slots[id] as usize;
             let shape = self.types.shape(&vars[id].ty);
             // A text is of the mission's program, and means nothing in that of another line.
             if shape.has_text() {
@@ -163,7 +163,13 @@ impl Script {
     }
 }
 
-/// Where a variable is in the frame of its unit: they lie one after the other, in the order of their declaration.
-pub(super) fn slot_of(types: &TypeTable, vars: &[hir::Var], id: VarId) -> Slot {
-    vars[..id].iter().map(|v| types.words(&v.ty)).sum()
+/// Where each variable is in the frame of its unit: they lie one after the other, in the order of their declaration.
+pub(super) fn slots(types: &TypeTable, vars: &[hir::Var]) -> Vec<Slot> {
+    let mut next = 0;
+    let slots = vars.iter().map(|var| {
+        let slot = next;
+        next += types.words(&var.ty);
+        slot
+    });
+    slots.collect()
 }

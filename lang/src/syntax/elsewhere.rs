@@ -345,6 +345,13 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
     }
     if let name @ ("radius" | "turns" | "clockwise") = word(rest) {
         let value = value[name.len()..].trim_start_matches([':', '=', ' ']);
+        // `loiter p, 20 m radius`
+        if let (true, Some((number, unit))) = (value.is_empty(), quantity(before)) {
+            return Some(Habit {
+                message: None,
+                help: format!("write `{name}: {}`", format!("{number} {unit}").trim_end()),
+            });
+        }
         return write(format!(", {name}: {value}"));
     }
     if !rest.starts_with(|c: char| c.is_ascii_digit()) || last == verb {
@@ -404,7 +411,10 @@ fn text(before: &str, rest: &str) -> Option<Habit> {
             if let Some(why) = rest.strip_prefix('(').and_then(quoted) {
                 return write(format!("abort {why}"));
             }
-            let condition = line_end(rest).trim_start_matches(|c: char| c.is_alphabetic()).trim();
+            let condition = line_end(rest);
+            let condition = condition.find('"').map_or(condition, |why| &condition[why..]);
+            let joins = matches!(word(condition), "if" | "when" | "on" | "because");
+            let condition = if joins { condition[word(condition).len()..].trim() } else { condition };
             return match condition {
                 "" => write("abort \"why\""),
                 why if quoted(why).is_some() => write(format!("abort {why}")),
@@ -428,6 +438,14 @@ fn text(before: &str, rest: &str) -> Option<Habit> {
         let value = rest[1..].trim_start()[name.len()..].trim_start_matches([',', ' ', ':']);
         let value = line_end(value).trim_end_matches(')');
         return write(format!("report {name}: {}", if value.is_empty() { "position" } else { value }));
+    }
+    let is_value = rest.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    if first == "log" && is_value && before.trim_end().ends_with('"') && before.matches('"').count() == 2 {
+        let text = before.split('"').nth(1).unwrap_or("").trim_end();
+        return Some(Habit {
+            message: None,
+            help: format!("one text holds it all: `log \"{text} {{{}}}\"`", line_end(rest)),
+        });
     }
     if first == "log" && rest.starts_with([',', '+']) {
         let value = line_end(&rest[1..]);

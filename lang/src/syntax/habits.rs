@@ -241,6 +241,12 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
             help: format!("write `at {setpoints}`, or `with {setpoints}` on a line before it"),
         });
     }
+    // `report "x": position, depth`
+    if word(before.trim_start()) == "report" {
+        let is_field = before.trim_end().ends_with(',') && channel(first).is_some();
+        return is_field
+            .then(|| Habit { message: None, help: format!("a field has a label: write `{first}: {first}`") });
+    }
     // `goto p speed 3 m/s`, `goto p speed: 3 m/s`
     if let Some(channel) = channel(first) {
         let value = rest[first.len()..].trim_start().trim_start_matches(':');
@@ -282,10 +288,16 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
             Some((_, unit)) if !unit.contains('/') && !unit.starts_with("kn") => "depth",
             _ => "speed",
         };
-        return Some(Habit {
-            message: None,
-            help: format!("say what `{value}` is: `at {channel} {value}`, for example"),
-        });
+        // `goto p at 2 m/s speed`
+        let (named, value) = match value.rsplit_once(' ') {
+            Some((value, last)) if ["depth", "altitude", "speed"].contains(&last) => (Some(last), value),
+            _ => (None, value),
+        };
+        let help = match named {
+            Some(channel) => format!("the channel comes first: `at {channel} {value}`"),
+            None => format!("say what `{value}` is: `at {channel} {value}`, for example"),
+        };
+        return Some(Habit { message: None, help });
     }
     None
 }

@@ -46,9 +46,6 @@ pub const FILTER_BANDWIDTH: f64 = 5.0;
 /// The fastest turn a command asks for, in radians per second: 10 degrees per second (2005 paper, Sec. V).
 pub const TURN_RATE_MAX: f64 = 10.0 * DEGREE;
 
-/// No vehicle that goes anywhere turns more slowly, in radians per second: a tenth of a degree per second. Ours.
-pub const TURN_RATE_MIN: f64 = 0.1 * DEGREE;
-
 /// Paths are planned with a turning circle this much wider than the vehicle's tightest, so that feedback has
 /// something left to correct with. Ours: the paper's 10 m cannot be flown at its own 2 m/s and 10 degrees per second
 /// (11.5 m).

@@ -4,9 +4,8 @@ use crate::guide::Filter;
 use crate::state::{Asked, Limits, Run};
 use crate::{Event, execute::Stop};
 use albacore_geometry::Heading;
-use albacore_guidance::parameters::TURN_RATE_MIN;
 use albacore_guidance::through_water;
-use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, header};
+use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, TURN_RATE_MIN, header};
 use albacore_vehicle::{Command, TICK_S};
 
 /// An amendment smaller than this, in radians, is not worth a line of trace; it ends below half of it.

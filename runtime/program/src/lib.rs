@@ -107,6 +107,8 @@ pub const LIMIT_FRESH_S: f64 = 5.0;
 /// How long, in seconds, a mission holds for the depth that a vertical limit needs before it aborts, unless its `requires` says
 /// otherwise.
 pub const LIMIT_PATIENCE_S: f64 = 30.0;
+/// The least limit on the rate of turn, rad/s: a tenth of a degree a second. No vehicle that goes anywhere turns more slowly.
+pub const TURN_RATE_MIN: f64 = 0.1 * (std::f64::consts::PI / 180.0);
 
 /// What no command may exceed: each is code, run at the mission's start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -20,6 +20,7 @@ use albacore_sim::Scenario;
 use albacore_vehicle::{Control, Snapshot, TICK_S, Vehicle};
 use command::{Command, HELP, TICKS_MAX};
 use moment::{Moment, Past, Task};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -155,9 +156,9 @@ impl Prompt {
 
     /// The values that a line can name: what the running mission knows, innermost first, then what was named at the prompt.
     fn known(&self) -> Vec<Named> {
-        let mut known: Vec<Named> = Vec::new();
+        let (mut known, mut names) = (Vec::new(), BTreeSet::new());
         let mut add = |named: Named| {
-            if !known.iter().any(|k| k.name == named.name) {
+            if names.insert(named.name.clone()) {
                 known.push(named);
             }
         };

@@ -8,10 +8,9 @@ use super::value::Value;
 use super::watch::Watch;
 use super::world::World;
 use albacore_geometry::Heading;
-use albacore_guidance::parameters::TURN_RATE_MIN;
 use albacore_lang::hir::{Activity, Block, Body, Decl, Kind, With};
 use albacore_lang::types::Type;
-use albacore_program::Cause;
+use albacore_program::{Cause, TURN_RATE_MIN};
 
 /// Why the mission is aborted.
 pub struct Aborted(pub String);
