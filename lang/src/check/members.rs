@@ -75,6 +75,13 @@ fn has_order(ty: &Type) -> bool {
 
 impl<'t> Checker<'t> {
     pub(super) fn member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Expr {
+        // Half typed, which has been told: what stands before the dot is looked at all the same.
+        if member.node.is_empty() {
+            if self.module_named(base).is_none() {
+                self.expr(base, None);
+            }
+            return self.unknown(span);
+        }
         if let Some(value) = self.test_member(base, member, span) {
             return value;
         }

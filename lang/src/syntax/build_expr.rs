@@ -4,8 +4,8 @@ use super::Rule;
 use super::build::Builder;
 use super::build_block::{block, modified};
 use super::concrete::Node;
-use super::places;
 use super::tree::*;
+use super::{errors, places};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
@@ -211,8 +211,8 @@ fn operand(b: &mut Builder, node: Node) -> Expr {
         let kind = match suffix.rule() {
             Rule::args => ExprKind::Call(Box::new(value), args(b, suffix)),
             Rule::member => match suffix.inner().next() {
-                Some(label) => ExprKind::Member(Box::new(value), name(label)),
-                None => continue,
+                Some(label) if label.rule() == Rule::label => ExprKind::Member(Box::new(value), name(label)),
+                _ => return half_typed(b, value, suffix),
             },
             _ => match suffix.inner().next() {
                 Some(at) => ExprKind::Index(Box::new(value), Box::new(expr(b, at))),
@@ -223,6 +223,16 @@ fn operand(b: &mut Builder, node: Node) -> Expr {
         b.height += 1;
     }
     value
+}
+
+/// `op.`: the value before the dot is read, so that it is known what may follow.
+fn half_typed(b: &mut Builder, value: Expr, member: Node) -> Expr {
+    let blanks = b.prepared[member.end()..].bytes().take_while(|byte| matches!(byte, b' ' | b'\t' | b'\r')).count();
+    let at = member.end() + blanks;
+    b.refused.push(errors::unexpected(member.span().file, b.prepared, 0, at, "a name"));
+    let span = value.span.to(member.span());
+    let missing = Spanned { node: String::new(), span: Span { start: at as u32, end: at as u32, ..span } };
+    Expr { kind: ExprKind::Member(Box::new(value), missing), span }
 }
 
 /// The whole number that a number is written as, told by its digits: what is held of it may have been rounded.

@@ -109,17 +109,26 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
     let offset = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
     };
+    match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => unexpected(file, text, start, offset, &expectation(positives)),
+        // The grammar's own guard against what nests without a bracket: `if if if …`.
+        ErrorVariant::CustomError { .. } => {
+            let span = Span {
+                file,
+                start: (start + offset) as u32,
+                end: (start + offset + token(&text[offset..]).len()) as u32,
+            };
+            Diagnostic::error(Code::SyntaxNesting, span, "this is nested too deep to be read")
+                .help("name its inner parts with `let`, or make functions of them")
+        }
+    }
+}
+
+/// The finding for a stretch, which begins in its file at `start`, that could be read up to an offset, where something else was expected.
+pub(super) fn unexpected(file: FileId, text: &str, start: usize, offset: usize, expected: &str) -> Diagnostic {
     let rest = &text[offset..];
     let token = token(rest);
     let span = Span { file, start: (start + offset) as u32, end: (start + offset + token.len()) as u32 };
-    let expected = match &error.variant {
-        ErrorVariant::ParsingError { positives, .. } => expectation(positives),
-        // The grammar's own guard against what nests without a bracket: `if if if …`.
-        ErrorVariant::CustomError { .. } => {
-            return Diagnostic::error(Code::SyntaxNesting, span, "this is nested too deep to be read")
-                .help("name its inner parts with `let`, or make functions of them");
-        }
-    };
     let before = text[..offset].rsplit(['\n', ';', '{']).next().unwrap_or("");
     if let Some(slip) = slips::slip(before, rest) {
         let at = start + offset - before.len() + slip.start;
@@ -141,7 +150,7 @@ pub(super) fn finding(file: FileId, text: &str, start: usize, error: &Error<Rule
         let span = Span { file, start: at as u32, end: (at + length) as u32 };
         return places::finding(span, &ours);
     }
-    match habit(before, rest, &expected) {
+    match habit(before, rest, expected) {
         Some(habit) => Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or(message)).help(habit.help),
         None => match missing_comma(before, rest, token) {
             Some(help) => {
