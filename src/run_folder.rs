@@ -10,8 +10,8 @@ use crate::exit::Exit;
 use crate::made::{Comment, Made};
 use crate::message;
 use crate::synced::WRITTEN_INTO;
-use albacore_session::{Run, Summary};
-use folder::{Folder, JOURNAL, PICTURE, RECORD, Refusal, TRACE};
+use albacore_session::{PICTURE, RUN_FILES, Run, Summary};
+use folder::{Folder, JOURNAL, RECORD, Refusal};
 pub use folder::{Place, is_of_a_run};
 pub use record::{Asked, Record};
 use std::fmt::Display;
@@ -115,24 +115,22 @@ impl RunFolder {
         let Some((folder, record)) = self.files.as_mut() else { return Left::default() };
         let (path, room) = (folder.path.clone(), folder.record.room());
         record.ends(summary);
-        [TRACE, PICTURE].into_iter().for_each(|name| record.loses(name, "not written yet"));
+        RUN_FILES.iter().for_each(|file| record.loses(file.name, "not written yet"));
         let begun = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.write(&text));
         let (is_there, mut troubles) = (folder.is_there(), Vec::new());
         if is_there {
-            let trace = Made::new(run.trace().to_string(), Comment::Line);
-            for (name, made) in [(TRACE, trace), (PICTURE, Made::new(run.svg(), Comment::Markup))] {
-                match disk::make(&path.join(name), &made) {
-                    Ok(()) => record.has(name),
+            for file in &RUN_FILES {
+                let comment = if file.is_markup { Comment::Markup } else { Comment::Line };
+                match disk::make(&path.join(file.name), &Made::new(run.file(file), comment)) {
+                    Ok(()) => record.has(file.name),
                     Err(error) => {
-                        record.loses(name, &error);
-                        troubles.push((disk::not_written(&path.join(name), &error), None));
+                        record.loses(file.name, &error);
+                        troubles.push((disk::not_written(&path.join(file.name), &error), None));
                     }
                 }
             }
         } else {
-            [TRACE, PICTURE]
-                .into_iter()
-                .for_each(|name| record.loses(name, "the run's folder may be another's by then"));
+            RUN_FILES.iter().for_each(|file| record.loses(file.name, "the run's folder may be another's by then"));
             if folder.is_recorded() {
                 record.also_loses(JOURNAL, GONE);
             }
@@ -170,7 +168,7 @@ impl RunFolder {
         }
         self.failed |= !troubles.is_empty();
         troubles.iter().for_each(|(what, help)| message::error(what, help.as_deref()));
-        let picture = troubles.is_empty().then(|| path.join(PICTURE));
+        let picture = troubles.is_empty().then(|| path.join(PICTURE.name));
         Left { folder: is_there.then_some(path), picture }
     }
 

@@ -4,7 +4,7 @@ use super::record::is_record;
 use crate::clock::Utc;
 use crate::disk::{self, Reserved};
 use crate::exit::Exit;
-use albacore_session::{is_journal, is_journal_as_left};
+use albacore_session::{RUN_FILES, is_journal, is_journal_as_left};
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind, Seek};
 use std::path::{Path, PathBuf};
@@ -13,12 +13,11 @@ use std::path::{Path, PathBuf};
 pub const JOURNAL: &str = "journal";
 /// What the run was of, and what became of it.
 pub const RECORD: &str = "run.json";
-/// What the mission did.
-pub const TRACE: &str = "trace.txt";
-/// Where it went.
-pub const PICTURE: &str = "run.svg";
 
-const FILES: [&str; 4] = [JOURNAL, RECORD, TRACE, PICTURE];
+/// All that it leaves but its journal.
+fn beside_journal() -> impl Iterator<Item = &'static str> + Clone {
+    std::iter::once(RECORD).chain(RUN_FILES.iter().map(|file| file.name))
+}
 
 /// Where runs go of which nobody says where.
 const RUNS: &str = "albacore-runs";
@@ -60,7 +59,8 @@ pub struct Refusal(pub String, pub &'static str, pub Exit);
 /// Whether a path is one of the files that a run leaves, in a folder that a run has.
 pub fn is_of_a_run(path: &Path) -> bool {
     let has = |name: &str| path.with_file_name(name).symlink_metadata().is_ok();
-    path.file_name().is_some_and(|name| FILES.iter().any(|file| name == *file)) && (has(JOURNAL) || has(RECORD))
+    path.file_name().is_some_and(|name| beside_journal().any(|file| name == file) || name == JOURNAL)
+        && (has(JOURNAL) || has(RECORD))
 }
 
 impl Folder {
@@ -124,11 +124,9 @@ impl Folder {
 /// Sees to it that a folder holds none of a run's files: with `replace` an earlier run is removed, and nothing that no run left so.
 fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal> {
     let is_there = |name: &&str| folder.join(name).symlink_metadata().is_ok();
-    match FILES.iter().find(|name| is_there(name)) {
-        None => return Ok(()),
-        // Whoever begins a run creates its journal first, and whoever replaces one removes that last.
-        Some(&name) if name != JOURNAL => return Err(alone(&folder.join(name))),
-        Some(_) => {}
+    // Whoever begins a run creates its journal first, and whoever replaces one removes that last.
+    if !is_there(&JOURNAL) {
+        return beside_journal().find(|name| is_there(name)).map_or(Ok(()), |name| Err(alone(&folder.join(name))));
     }
     let path = folder.join(JOURNAL);
     if !path.is_file() || path.is_symlink() {
@@ -150,11 +148,11 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
         return Err(foreign(&path));
     }
     // What is not to be removed is said before anything is.
-    if let Some(name) = [RECORD, TRACE, PICTURE].iter().find(|name| is_there(name) && !is_left(&folder.join(name))) {
+    if let Some(name) = beside_journal().find(|name| is_there(name) && !is_left(&folder.join(name))) {
         return Err(foreign(&folder.join(name)));
     }
     // Whoever ends this in between finds no record beside another journal, and no picture beside another record.
-    let done = [RECORD, TRACE, PICTURE, JOURNAL].iter().try_for_each(|name| {
+    let done = beside_journal().chain([JOURNAL]).try_for_each(|name| {
         let path = folder.join(name);
         remove(&path).map_err(|error| unwritable(&path, &error))
     });
@@ -226,12 +224,13 @@ mod tests {
         for allowed in 0..4 {
             let folder = tempfile::tempdir().unwrap();
             // As they are when they have just been created.
-            FILES.iter().for_each(|name| std::fs::write(folder.path().join(name), "").unwrap());
+            let files = || beside_journal().chain([JOURNAL]);
+            files().for_each(|name| std::fs::write(folder.path().join(name), "").unwrap());
             let mut removed = 0;
             let mut remove = |path: &Path| {
-                let old: Vec<&str> = FILES.into_iter().filter(|name| folder.path().join(name).exists()).collect();
+                let old: Vec<&str> = files().filter(|name| folder.path().join(name).exists()).collect();
                 assert!(old.contains(&JOURNAL), "after {removed}: {old:?}");
-                assert!(old.len() == FILES.len() || !old.contains(&RECORD), "after {removed}: {old:?}");
+                assert!(old.len() == files().count() || !old.contains(&RECORD), "after {removed}: {old:?}");
                 removed += 1;
                 if removed > allowed { Err(ErrorKind::PermissionDenied.into()) } else { disk::remove(path) }
             };

@@ -1,8 +1,7 @@
 //! A run that is over, read back from its journal: the records that it left feed the same recorders that it fed as it went.
 
-use crate::picture;
 use crate::plan::Plan;
-use crate::recorders::{InMemory, Recorder};
+use crate::recorders::{InMemory, Recorder, RunFile, WorldAtEnd};
 use crate::summary::Summary;
 use albacore_geometry::Point;
 use albacore_program::{Program, senses};
@@ -70,9 +69,9 @@ impl PastRun {
         self.memory.trace.lines()
     }
 
-    /// The picture as SVG, without the plume: a journal holds what the vehicle met of it alone.
-    pub fn svg(&self) -> String {
-        picture::of_run(&self.memory, self.in_simulation, Vec::new())
+    /// One of the files that the run has left. A picture is without the plume: a journal holds what the vehicle met of it alone.
+    pub fn file(&self, file: &RunFile) -> String {
+        (file.make)(&self.memory, &WorldAtEnd { in_simulation: self.in_simulation, ..WorldAtEnd::default() })
     }
 }
 

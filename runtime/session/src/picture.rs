@@ -1,6 +1,6 @@
 //! What the picture of a run is made of: what is known of its world, and what is gathered while it goes.
 
-use crate::recorders::InMemory;
+use crate::recorders::{InMemory, WorldAtEnd};
 use crate::summary::{Report, Summary};
 use albacore_geometry::{Geodetic, Point, Vector};
 use albacore_program::number;
@@ -29,19 +29,19 @@ const TOLD_MAX: usize = 8;
 
 /// The picture of a run as SVG: in the world that is known, with the plume's filaments as they are at its end. Of a vehicle at the end of a
 /// link nobody knows how deep the water is.
-pub(crate) fn of_run(run: &InMemory, in_simulation: bool, plume: Vec<(Point, f64)>) -> String {
+pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
     let InMemory { results, track, .. } = run;
     let (summary, scenario) = (results.summary(0.0), &results.plan.scenario);
     let deepest = results.deepest_sought();
     let sounded = if deepest.is_some() { results.area.as_slice() } else { &[] };
-    let depth = |p| if in_simulation { scenario.bottom.depth_at(p) } else { f64::NAN };
+    let depth = |p| if world.in_simulation { scenario.bottom.depth_at(p) } else { f64::NAN };
     let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
     Picture {
         title: summary.mission.clone(),
         subtitle: subtitle(&summary, results.plan.program.mission.origin),
         depths: Depths::sound(sounded, depth),
         area: results.area.clone(),
-        plume,
+        plume: world.plume.clone(),
         deepest,
         start: results.start,
         track: track.points.clone(),

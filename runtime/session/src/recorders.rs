@@ -9,6 +9,7 @@ pub(crate) mod results;
 pub(crate) mod trace;
 pub(crate) mod track;
 
+use crate::picture;
 use crate::plan::Plan;
 use albacore_geometry::Point;
 use albacore_trace::TickRecord;
@@ -51,6 +52,32 @@ impl<R: Recorder> Recorder for Option<R> {
             recorder.miss(steps, tick);
         }
     }
+}
+
+/// A file that is made of what was kept of a run, when it has ended.
+#[derive(Clone, Copy)]
+pub struct RunFile {
+    /// What it is called in the run's folder.
+    pub name: &'static str,
+    /// Whether it is SVG, HTML or the like; else its lines stand for themselves.
+    pub is_markup: bool,
+    pub(crate) make: fn(&InMemory, &WorldAtEnd) -> String,
+}
+
+/// What the mission did.
+pub const TRACE: RunFile =
+    RunFile { name: "trace.txt", is_markup: false, make: |run, _| run.trace.lines().to_string() };
+/// Where it went.
+pub const PICTURE: RunFile = RunFile { name: "run.svg", is_markup: true, make: picture::of_run };
+/// All of them, in the order in which they are written.
+pub const RUN_FILES: [RunFile; 2] = [TRACE, PICTURE];
+
+/// What is known of the world in which a run has ended, beside the records.
+#[derive(Default)]
+pub(crate) struct WorldAtEnd {
+    pub in_simulation: bool,
+    /// The filaments of its plume, each with its radius, m.
+    pub plume: Vec<(Point, f64)>,
 }
 
 /// All that is kept of a run in memory.

@@ -6,10 +6,9 @@ mod driver;
 mod live;
 mod queue;
 
-use crate::picture;
 use crate::plan::{Plan, PlanError};
 use crate::recorders::journal::Journal;
-use crate::recorders::{InMemory, Recorder};
+use crate::recorders::{InMemory, Recorder, RunFile, WorldAtEnd};
 use crate::run_vehicle::RunVehicle;
 use crate::summary::Summary;
 use albacore_geometry::Point;
@@ -177,8 +176,9 @@ impl Run {
         self.memory.trace.lines()
     }
 
-    /// The picture of the run so far, as SVG.
-    pub fn svg(&self) -> String {
-        picture::of_run(&self.memory, self.driver.vehicle().truth().is_some(), self.driver.vehicle().filaments())
+    /// One of the files that a run leaves, of the run so far.
+    pub fn file(&self, file: &RunFile) -> String {
+        let vehicle = self.driver.vehicle();
+        (file.make)(&self.memory, &WorldAtEnd { in_simulation: vehicle.truth().is_some(), plume: vehicle.filaments() })
     }
 }

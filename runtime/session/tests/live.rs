@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot set up its own run has failed")]
 
 use albacore_machine::Machine;
-use albacore_session::{LiveUpdate, Lived, Means, Outcome, Plan, Run, Sink, WAITING_BYTES, load};
+use albacore_session::{LiveUpdate, Lived, Means, Outcome, PICTURE, Plan, Run, Sink, WAITING_BYTES, load};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Ending, Journal};
 use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError};
@@ -142,7 +142,7 @@ fn a_live_run_leaves_the_same_bytes_as_one_that_is_stepped() {
     assert!(disk.bytes() == stepped.bytes(), "the journals differ");
     assert_eq!(lived.run.trace().to_string(), by_step.trace().to_string());
     assert_eq!(lived.run.summary(0.0), by_step.summary(0.0));
-    assert_eq!(lived.run.svg(), by_step.svg());
+    assert_eq!(lived.run.file(&PICTURE), by_step.file(&PICTURE));
 }
 
 #[test]

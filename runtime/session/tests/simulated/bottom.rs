@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
-use albacore_session::{Diagnostic, Outcome, Plan, PlanError, Run, Severity, Source, findings, load_text};
+use albacore_session::{Diagnostic, Outcome, PICTURE, Plan, PlanError, Run, Severity, Source, findings, load_text};
 use std::path::{Path, PathBuf};
 
 const MISSION: &str = "mission north in w within 10 min {
@@ -154,7 +154,7 @@ fn entering_a_no_go_zone_is_told_and_drawn() {
     assert!(told.len() == 2 && told.iter().zip(expected).all(|(line, expected)| line.contains(expected)), "{told:#?}");
     let mut run = Run::new(&plan, 1).unwrap();
     run.to_end();
-    assert!(run.svg().contains(">wreck</text>"));
+    assert!(run.file(&PICTURE).contains(">wreck</text>"));
 }
 
 #[test]

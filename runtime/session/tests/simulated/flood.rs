@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_machine::{LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
-use albacore_session::{Outcome, Plan, Run, Source, load_text};
+use albacore_session::{Outcome, PICTURE, Plan, Run, Source, load_text};
 
 /// Ticks on which the mission's reactions run: a minute, and the tick on which its end is found.
 const TICKS: u64 = 601;
@@ -76,8 +76,8 @@ fn the_first_report_of_each_place_is_always_written() {
 
 #[test]
 fn the_picture_of_many_reports_is_small() {
-    let svg =
-        run("on true { for n in 1..100 { report \"here\": op.center + n * 1 m toward (north + n * 10 deg) } }").svg();
+    let svg = run("on true { for n in 1..100 { report \"here\": op.center + n * 1 m toward (north + n * 10 deg) } }")
+        .file(&PICTURE);
     assert!(svg.len() < 60_000, "{} bytes", svg.len());
     assert!(svg.contains("more reports, in the trace"));
 }

@@ -1,6 +1,6 @@
 //! Scenarios that name a recorded plume: what they bring into the world, and what is said of those that cannot be.
 
-use albacore_session::{Plan, PlanError, Run, Script, Severity, Source, findings, load_text};
+use albacore_session::{PICTURE, Plan, PlanError, Run, Script, Severity, Source, findings, load_text};
 
 /// A mission in a scenario of such clauses, as if it lay beside `missions/recorded.alb`. Its area lies about `center`, and is as large as the record's.
 fn script(center: &str, clauses: &str) -> Script {
@@ -50,7 +50,7 @@ fn a_record_brings_flow_plume_source_and_region() {
     );
     let mut run = Run::new(&plan, 1).unwrap();
     run.step();
-    assert!(run.svg().contains("case_a"), "the picture shows the source");
+    assert!(run.file(&PICTURE).contains("case_a"), "the picture shows the source");
 }
 
 #[test]
