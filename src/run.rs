@@ -288,6 +288,9 @@ fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
         summary.path_length_m,
         summary.switches
     ));
+    if let Some(origin) = summary.origin {
+        lines.add(&format!("  about {origin}"));
+    }
     for report in summary.reports.iter().take(REPORTS_TOLD_MAX) {
         let mut text = format!("  reported {} after {}", report.name, minutes(report.t_s));
         if let (Some(north), Some(east)) = (report.north_m, report.east_m) {

@@ -350,3 +350,10 @@ fn lines_at_the_prompt_are_read_in_time() {
         assert!(output.status.code().is_some(), "{name}: ended after {TIME} s");
     }
 }
+
+#[test]
+fn long_scripts_are_laid_out_in_time() {
+    let statements = lines(30_000, |i| format!("if depth>{}m{{log \"deep\" }} // {i}", i % 9));
+    let (output, told) = run_within(&["fmt", "--check"], "long", &script("", &statements), None);
+    assert_eq!(output.status.code(), Some(1), "{told:.2000}");
+}

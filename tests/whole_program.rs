@@ -45,6 +45,7 @@ fn a_run_gives_one_json_object_with_the_fixed_fields() {
         [
             "digest",
             "mission",
+            "origin",
             "outcome",
             "path_length_m",
             "reason",

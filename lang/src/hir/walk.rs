@@ -178,15 +178,21 @@ impl Block {
 
     /// The variables that its statements assign.
     pub fn assigned(&self) -> Vec<usize> {
-        let mut vars = Vec::new();
-        self.each(&mut |stmt| {
-            if let StmtKind::Set(var, _) | StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) =
-                stmt.kind
-            {
-                vars.push(var);
+        self.assignments().into_iter().map(|(var, _)| var).collect()
+    }
+
+    /// The variables that its statements assign, each with the number that it then is, where that is always the same.
+    pub fn assignments(&self) -> Vec<(usize, Option<f64>)> {
+        let mut assigned = Vec::new();
+        self.each(&mut |stmt| match &stmt.kind {
+            StmtKind::Set(var, value) => {
+                let number = if let ExprKind::Number(x) = value.kind { Some(x) } else { value.range.constant() };
+                assigned.push((*var, number));
             }
+            StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) => assigned.push((*var, None)),
+            _ => {}
         });
-        vars
+        assigned
     }
 }
 

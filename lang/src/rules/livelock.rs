@@ -1,6 +1,6 @@
 //! Rules that undo each other: a table that switches to and fro, or round in a ring, on what goes on to hold gets nowhere.
 
-use super::levels::{Level, Signals};
+use super::levels::{Level, Signals, Way};
 use crate::check::never_ends;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -139,13 +139,13 @@ impl<'h> Table<'h> {
                 }
                 _ => true,
             };
-            self.signals.outlasts(way.0) && read.is_disjoint(&assigned) && lasts()
+            self.signals.outlasts(way.0) && !assigned.iter().any(|change| ends_by(way, &read, *change)) && lasts()
         })
     }
 
-    /// The variables that are assigned where a way leads through: in the behaviors, by the effects of the rules, and by what the
-    /// table does in any of them.
-    fn assigned(&self, way: impl Iterator<Item = (usize, &'h Rule)>) -> BTreeSet<VarId> {
+    /// The variables that are assigned where a way leads through, and to what: in the behaviors, by the effects of the rules, and by
+    /// what the table does in any of them.
+    fn assigned(&self, way: impl Iterator<Item = (usize, &'h Rule)>) -> Vec<(VarId, Option<f64>)> {
         let reactions = |id: ActivityId| self.hir.activities[id].reactions.iter().map(|(_, block)| block);
         let mut blocks: Vec<&Block> = reactions(self.activity).collect();
         for (behavior, rule) in way {
@@ -158,7 +158,7 @@ impl<'h> Table<'h> {
                 }
             }
         }
-        blocks.into_iter().flat_map(Block::assigned).collect()
+        blocks.into_iter().flat_map(Block::assignments).collect()
     }
 
     /// Rings of rules that hold at once and go on to hold, no rule in two of them: the shortest first.
@@ -229,7 +229,7 @@ impl<'h> Table<'h> {
         let mut read = BTreeSet::new();
         ring.iter().for_each(|(rule, _)| self.signals.reads(&self.rules[*rule].on, &mut read));
         let way = ring.iter().map(|&(rule, source)| (source, &self.rules[rule]));
-        read.is_empty() || read.is_disjoint(&self.assigned(way))
+        read.is_empty() || !self.assigned(way).iter().any(|(var, _)| read.contains(var))
     }
 
     fn undoes(&self, ring: &Ring) -> Diagnostic {
@@ -251,6 +251,12 @@ impl<'h> Table<'h> {
             "write `becomes …` in each, or conditions that exclude each other, with room between: `> 4 m` and `< 2 m`"
         })
     }
+}
+
+/// Whether a way in which a condition holds may end by an assignment: not by one that makes so again what already is.
+fn ends_by((e, holds): Way, read: &BTreeSet<VarId>, (var, value): (VarId, Option<f64>)) -> bool {
+    let is_itself = matches!(e.kind, ExprKind::Var(id) if id == var);
+    read.contains(&var) && !(is_itself && value == Some(f64::from(u8::from(holds))))
 }
 
 fn is_timed(e: &Expr) -> bool {

@@ -282,6 +282,18 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
             help: format!("write `at {channel} {value}` in place of `, {channel} {value}`"),
         });
     }
+    // `goto p at 1,5 m/s`
+    if expected.starts_with("`depth`")
+        && let Some((whole, decimals)) = line_end(rest).split_once(',')
+        && whole.chars().all(|c| c.is_ascii_digit())
+        && let Some((_, unit)) = quantity(decimals).filter(|_| decimals.starts_with(|c: char| c.is_ascii_digit()))
+    {
+        let channel = if unit.contains('/') || unit.starts_with("kn") { "speed" } else { "depth" };
+        return Some(Habit {
+            message: Some("decimals follow a point, not a comma".to_string()),
+            help: format!("write `at {channel} {whole}.{decimals}`, for example"),
+        });
+    }
     // `goto p at 3 m/s`
     if expected.starts_with("`depth`") && rest.starts_with(|c: char| c.is_ascii_digit()) {
         let channel = match quantity(value) {

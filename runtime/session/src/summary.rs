@@ -2,6 +2,7 @@
 
 use albacore_geometry::Geodetic;
 use serde::Serialize;
+use std::fmt;
 
 /// The result of a run. Names and units are fixed (DESIGN of the command line): scripts rely on them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -10,6 +11,8 @@ pub struct Summary {
     pub mission: String,
     /// The scenario's name.
     pub scenario: String,
+    /// Where the mission's frame lies on the globe, if it does.
+    pub origin: Option<Origin>,
     /// The seed.
     pub seed: u64,
     /// `completed`, `timed_out`, `aborted`, …
@@ -50,6 +53,27 @@ impl Report {
     /// Where on the globe, as scripts write it.
     pub fn position(&self) -> Option<String> {
         Some(Geodetic::from_degrees(self.latitude_deg?, self.longitude_deg?).to_string())
+    }
+}
+
+/// Where a mission's frame lies.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Origin {
+    /// Its latitude, degrees.
+    pub latitude_deg: f64,
+    /// Its longitude, degrees.
+    pub longitude_deg: f64,
+}
+
+impl From<Geodetic> for Origin {
+    fn from(origin: Geodetic) -> Self {
+        Origin { latitude_deg: origin.latitude_deg(), longitude_deg: origin.longitude_deg() }
+    }
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Geodetic::from_degrees(self.latitude_deg, self.longitude_deg).fmt(f)
     }
 }
 

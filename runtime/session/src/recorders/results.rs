@@ -2,7 +2,7 @@
 
 use super::Recorder;
 use crate::plan::Plan;
-use crate::summary::{Report, Summary};
+use crate::summary::{Origin, Report, Summary};
 use albacore_geometry::{Area, Point};
 use albacore_machine::{Event, Outcome};
 use albacore_trace::{Ending, Release, Step, TickRecord};
@@ -118,6 +118,7 @@ impl Results {
         Summary {
             mission: self.plan.program.mission.name.clone(),
             scenario: self.plan.scenario_name.clone(),
+            origin: self.plan.program.mission.origin.map(Origin::from),
             seed: self.seed,
             outcome: self.outcome().map_or("running", Outcome::name),
             reason: self.reason().to_string(),
