@@ -14,7 +14,7 @@ mod senses;
 use albacore_geometry::math::radians;
 use albacore_geometry::{Area, Heading, Point};
 use albacore_guidance::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
-use albacore_guidance::{CommandFilter, Goto, through_water, turning_radius_in_flow};
+use albacore_guidance::{CommandFilter, Goto, Law, through_water, turning_radius_in_flow};
 use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vertical};
 use cage::Cage;
 use cpt::{Cpt, Parameters};

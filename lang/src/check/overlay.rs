@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, VarKind};
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
-use albacore_program::{Channel, Guide};
+use albacore_program::Channel;
 
 impl<'t> Checker<'t> {
     /// An overlay that owns a channel has nothing to say of the others.
@@ -17,7 +17,7 @@ impl<'t> Checker<'t> {
             let hir::StmtKind::Timed(timed) = &stmt.kind else { return };
             let foreign = match &timed.action {
                 hir::Action::Keep(kept, _) => !same_channel(*kept, channel),
-                hir::Action::Guide(guide, _) => *guide != Guide::Wait,
+                hir::Action::Guide(guide, _) => !guide.law().is_for_overlays,
                 hir::Action::Call(..) => false,
                 hir::Action::Watch | hir::Action::Override(_) => true,
             };

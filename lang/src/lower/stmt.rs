@@ -365,8 +365,7 @@ impl<'a> Lowering<'a> {
     fn go_on(&mut self, running: &Running, action: &Action, setpoints: Slot, ended: Slot) {
         match (running, action) {
             (Running::Guide { guide, args, state }, Action::Guide(_, written)) => {
-                // `steer` reads its course at every tick; all others have frozen their arguments.
-                if matches!(guide, Guide::Steer | Guide::SteerHeading) {
+                if guide.law().reads_arguments_anew() {
                     self.scratch(|l| l.args(written, *args));
                 }
                 self.emit(Op::Guide { guide: *guide, args: *args, state: *state, setpoints, ended });

@@ -6,7 +6,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, Interval, Kind, StmtKind, Timed, With};
 use crate::source::Span;
-use albacore_program::{Channel, Guide};
+use albacore_program::Channel;
 use std::collections::BTreeSet;
 
 /// So many ways to activities are told apart by what the calls on them give.
@@ -182,10 +182,8 @@ impl Walk<'_> {
                 return;
             }
             Action::Override(inner) => return self.block(&inner.block, owners),
-            // A pause goes on as before; standing still needs no speed.
-            Action::Guide(Guide::Wait, _) | Action::Watch => (false, false),
-            Action::Guide(Guide::Hold, _) => (true, false),
-            Action::Guide(..) => (true, true),
+            Action::Watch => (false, false),
+            Action::Guide(guide, _) => (guide.law().needs_vertical, guide.law().needs_speed),
             // What is kept is its own setpoint. In an overlay nothing else is needed.
             Action::Keep(channel, e) => {
                 self.limited(*channel, e);

@@ -8,6 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::other_languages;
 use crate::source::{FileId, Span};
 use crate::suggest;
+use albacore_program::Guide;
 use pest::Parser;
 use pest::error::{Error, ErrorVariant, InputLocation};
 use std::collections::BTreeSet;
@@ -29,12 +30,16 @@ pub(super) fn line_begins_item(line: &str) -> bool {
     begins_item(word) && !line[word.len()..].trim_start_matches([' ', '\t']).starts_with('(')
 }
 
-/// Words that may begin a clause of a block.
-pub(super) const CLAUSE_WORDS: [&str; 32] = [
+/// Words that may begin a clause of a block, besides those of guidance.
+const CLAUSE_WORDS: [&str; 24] = [
     "behavior", "with", "signal", "memory", "let", "var", "on", "start", "area", "limits", "requires", "recovery",
-    "amend", "abort", "finish", "report", "log", "if", "match", "for", "while", "loop", "goto", "follow", "dubins",
-    "steer", "keep", "hold", "loiter", "wait", "watch", "override",
+    "amend", "abort", "finish", "report", "log", "if", "match", "for", "while", "loop", "watch", "override",
 ];
+
+/// Words that may begin a clause of a block.
+pub(super) fn clause_words() -> impl Iterator<Item = &'static str> {
+    CLAUSE_WORDS.into_iter().chain(Guide::ALL.into_iter().map(|guide| guide.law().verb))
+}
 
 /// What begins the declaration of something that is called.
 const CALLABLE: [&str; 4] = ["behavior", "strategy", "fn", "record"];
@@ -59,9 +64,9 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
     let (start, end) = (bad.span.start as usize, bad.span.end as usize);
     let stretch = &text[start..end];
     let (rule, words) = match bad.place {
-        Place::Item | Place::Head => (Rule::item_only, &ITEM_WORDS[..]),
-        Place::Clause => (Rule::clause_only, &CLAUSE_WORDS[..]),
-        Place::TestClause => (Rule::test_clause_only, &TEST_WORDS[..]),
+        Place::Item | Place::Head => (Rule::item_only, ITEM_WORDS.to_vec()),
+        Place::Clause => (Rule::clause_only, clause_words().collect()),
+        Place::TestClause => (Rule::test_clause_only, TEST_WORDS.to_vec()),
     };
     // A word of the language is the worse mistake.
     let nameable = |(end, habit)| {

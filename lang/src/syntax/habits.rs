@@ -302,8 +302,8 @@ pub(super) fn line_end(text: &str) -> &str {
 
 /// Two statements on one line.
 fn crowded(rest: &str) -> Option<Habit> {
-    super::errors::CLAUSE_WORDS
-        .contains(&word(rest))
+    super::errors::clause_words()
+        .any(|begins| begins == word(rest))
         .then(|| Habit { message: None, help: "a statement begins on a line of its own, or after `;`".to_string() })
 }
 

@@ -4,10 +4,10 @@ use super::habits::{line_end, quantity, word};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
+use albacore_program::Guide;
 
-/// Words after which no colon stands.
-const NO_COLON: [&str; 13] =
-    ["within", "for", "until", "at", "on", "goto", "follow", "dubins", "steer", "loiter", "log", "wait", "hold"];
+/// Words after which no colon stands, besides those of guidance.
+const NO_COLON: [&str; 6] = ["within", "for", "until", "at", "on", "log"];
 
 /// A slip on a line: where it begins there, how long it is, what it is, and how to write what is meant.
 pub(super) struct Slip {
@@ -115,7 +115,7 @@ fn colon(before: &str, rest: &str) -> Option<Slip> {
     let before_setpoint = |w: &str| matches!(w, "with" | "at") || w == "keep" && rest.starts_with(':');
     let stands = match is_setpoint {
         true => before.split_whitespace().any(before_setpoint) && !before.contains('('),
-        false => NO_COLON.contains(&word),
+        false => NO_COLON.contains(&word) || word != "keep" && Guide::of_verb(word).next().is_some(),
     };
     let value = line_end(value);
     if !stands || value.is_empty() || value.starts_with('=') {

@@ -94,7 +94,7 @@ fn what_has_no_value_is_found() {
             [Op::Copy { to: 6, from: radius }, Op::Begin { guide: Guide::Loiter, args: 4, state: 8, setpoints: 7 }];
         [args.as_slice(), &[Op::Return]].concat()
     };
-    assert_eq!(why_by_range(circle(0)), Some("a radius may be too small"));
+    assert_eq!(why_by_range(circle(0)), Some("an argument of guidance may be outside its range"));
     assert_eq!(why_by_range(circle(2)), None);
 }
 

@@ -4,7 +4,7 @@ use super::Unsound;
 use super::known::{Implications, Known, Word, widened};
 use super::ranges::{PATIENCE, Ranges};
 use super::written::written;
-use crate::{ABSOLUTE, Addr, GUIDANCE_WORDS, Guide, Op, RADIUS_MIN_M, Slot};
+use crate::{ABSOLUTE, Addr, GUIDANCE_WORDS, Guide, Op, Param, Slot};
 use albacore_arithmetic::{Div, Interval, Operation, Operator, Pow, Sqrt, Ticks, counted};
 use albacore_geometry::AREA_WIDTH_MIN_M;
 
@@ -30,11 +30,8 @@ impl Ranges<'_> {
             }
             Op::Rows { step, .. } => must(range(known, step).low > 0.0, "rows may lie no distance apart")?,
             Op::Begin { guide, args, .. } => {
-                if let Some((offset, may_be_zero)) = guide.radius() {
-                    let radius = range(known, args + offset);
-                    let is_right = radius.low >= RADIUS_MIN_M || may_be_zero && radius.constant() == Some(0.0);
-                    must(is_right, "a radius may be too small")?;
-                }
+                let is_admitted = |(at, param): (u32, &Param)| param.admits(range(known, args + at));
+                must(guide.law().placed_params().all(is_admitted), "an argument of guidance may be outside its range")?;
             }
             _ => {}
         }
