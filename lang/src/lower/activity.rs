@@ -7,7 +7,8 @@ use crate::rules;
 use crate::types::Type;
 use albacore_geometry::{Geodetic, longitude_beside, longitude_within};
 use albacore_program::{
-    Abort, Activity, ActivityKind, Body, Channel, Code, Limits, Op, Recovery, Require, Slot, Valued, header,
+    Abort, Activity, ActivityKind, Body, Channel, Code, Compute, Limits, ListOp, Op, Recovery, Require, Slot, Valued,
+    header,
 };
 
 /// The words that are compared, at most, before a list is put in order anew.
@@ -57,7 +58,7 @@ impl<'a> Lowering<'a> {
             let sorter = self.here();
             let (list, it) = (self.frame.vars[id], self.frame.vars[order.it]);
             let words = self.words(inner);
-            self.emit(Op::Sort { list, words, it, key, value, most: order.most });
+            self.emit(ListOp::Sort { list, words, it, key, value, most: order.most });
             self.typed(it, inner);
             let reads = self.key_reads(order);
             let sorted_by: Option<Vec<SortedBy>> = reads.map(|reads| {
@@ -101,11 +102,11 @@ impl<'a> Lowering<'a> {
         for by in sorted_by {
             self.scratch(|l| {
                 let same = l.temp(1);
-                l.emit(Op::Eq { to: same, a: by.read, b: by.then, words: by.words });
-                changed.push(l.emit(Op::JumpUnless { unless: same, to: 0 }));
+                l.emit(Compute::Eq { to: same, a: by.read, b: by.then, words: by.words });
+                changed.push(l.emit(Compute::jump_unless(same, 0)));
             });
         }
-        let in_order = self.emit(Op::Jump { to: 0 });
+        let in_order = self.emit(Compute::jump(0));
         self.land_all(changed);
         self.sort_by(&sorter);
         self.land(in_order);
@@ -255,13 +256,13 @@ impl<'a> Lowering<'a> {
                 // Nothing is known of its order: no number that a key can read is this one.
                 let sorted_by = self.frame.sorters.get(var).and_then(|sorter| sorter.sorted_by.clone());
                 for by in sorted_by.iter().flatten() {
-                    self.emit(Op::Const { to: by.then, value: f64::MAX });
+                    self.emit(Compute::Const { to: by.then, value: f64::MAX });
                 }
                 match init {
                     Some(e) => self.scratch(|l| l.expr_into(e, to)),
                     None => {
                         let words = self.words(&self.vars[*var].ty);
-                        self.emit(Op::Clear { to, words });
+                        self.emit(Compute::Clear { to, words });
                     }
                 }
             }

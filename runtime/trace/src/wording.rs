@@ -55,14 +55,8 @@ impl Wording {
             }
             Event::Suspended(id) => ("suspend", indented(active.depth(*id), self.names.name(*id))),
             Event::Resumed(id) => {
-                let after = all.iter().find_map(|event| match event {
-                    Event::Left(left, _) if self.names.share_table(*left, *id) => {
-                        Some(format!("{} -> ", self.names.name(*left)))
-                    }
-                    _ => None,
-                });
-                let what = format!("{}{}", after.unwrap_or_default(), self.names.name(*id));
-                ("resume", self.columns(&indented(active.depth(*id), &what), Some(position), "", ""))
+                let what = indented(active.depth(*id), &self.resumed(*id, all));
+                ("resume", self.columns(&what, Some(position), "", ""))
             }
             Event::Switched { rule, from, exit, values } => {
                 let what = indented(active.depth(*from), &self.names.switch_label(*from, *rule));
@@ -85,13 +79,8 @@ impl Wording {
             }
             Event::Logged(text) => ("log", one_line(text)),
             Event::Amending(id, asked, given) => {
-                let line = format!(
-                    "{}  course {} -> {}",
-                    self.names.name(*id),
-                    number::compass(*asked),
-                    number::heading(*given)
-                );
-                ("amend", line)
+                let (asked, given) = (number::compass(*asked), number::heading(*given));
+                ("amend", format!("{}  course {asked} -> {given}", self.names.name(*id)))
             }
             Event::AmendingEnded(id) => ("amend", format!("{}  no more", self.names.name(*id))),
             Event::Limited(channel, asked, given) => {
@@ -128,6 +117,16 @@ impl Wording {
             Event::BottomFound => ("limit", "altitude known again".to_string()),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),
         })
+    }
+
+    /// What goes on, and after what of the same table, if that was left in this tick.
+    fn resumed(&self, id: ActivityId, all: &[Event]) -> String {
+        let after = all.iter().find_map(|event| match event {
+            Event::Left(left, _) if self.names.share_table(*left, id) => Some(self.names.name(*left)),
+            _ => None,
+        });
+        let name = self.names.name(id);
+        after.map_or_else(|| name.to_string(), |after| format!("{after} -> {name}"))
     }
 
     /// What, where, by which rule, and why.

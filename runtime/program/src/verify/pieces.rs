@@ -1,6 +1,6 @@
 //! Where the machine begins to execute.
 
-use crate::{Activity, Addr, Body, Code, Op, Program, Target};
+use crate::{Activity, Addr, Body, Code, ListOp, Op, Program, Target};
 use std::collections::BTreeSet;
 
 impl Program {
@@ -29,8 +29,8 @@ impl Program {
         for op in &self.ops {
             match *op {
                 Op::Call { code, .. } => _ = pieces.insert(code),
-                Op::Sort { key, .. } => _ = pieces.insert(key),
-                Op::PushSorted { sort, .. } => _ = pieces.insert(sort),
+                Op::List(ListOp::Sort { key, .. }) => _ = pieces.insert(key),
+                Op::List(ListOp::PushSorted { sort, .. }) => _ = pieces.insert(sort),
                 _ => {}
             }
         }
