@@ -263,7 +263,7 @@ impl<'a> Lowering<'a> {
                 Compute::Scale { to: to + 1, vector: a, by: inverse + 1 }.into()
             }
             // `number(angle)` has one operand: it is the angle.
-            B::Add if operands.len() == 1 => Compute::Copy { to, from: a },
+            B::Add if operands.len() == 1 => Compute::Copy { to, from: a }.into(),
             B::Add => Compute::two(Operator::Add, to, a, b).into(),
             B::Sub => Compute::two(Operator::Sub, to, a, b).into(),
             B::Mul => Compute::two(Operator::Mul, to, a, b).into(),

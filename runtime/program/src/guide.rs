@@ -127,7 +127,7 @@ impl Param {
     }
 
     /// Whether all of some numbers may be its argument.
-    pub fn admits(&self, range: Interval) -> bool {
+    pub(crate) fn admits(&self, range: Interval) -> bool {
         self.range.is_none_or(|own| own.covers(range))
             || self.default().is_some_and(|default| range.constant() == Some(default))
     }
@@ -135,7 +135,7 @@ impl Param {
 
 impl ParamKind {
     /// How many words an argument of it takes.
-    pub fn words(self) -> u32 {
+    pub(crate) fn words(self) -> u32 {
         match self {
             ParamKind::Line => 4,
             ParamKind::Point => 2,
@@ -194,7 +194,7 @@ impl GuidanceLaw {
     }
 
     /// Each parameter, and how many words of arguments stand before it.
-    pub fn placed_params(&self) -> impl Iterator<Item = (u32, &'static Param)> {
+    pub(crate) fn placed_params(&self) -> impl Iterator<Item = (u32, &'static Param)> {
         self.params.iter().scan(0, |words, param| {
             let at = *words;
             *words += param.kind.words();

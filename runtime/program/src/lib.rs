@@ -15,13 +15,18 @@ mod shape;
 mod slot;
 mod verify;
 
-pub use activity::*;
-pub use cause::*;
-pub use guide::*;
-pub use op::*;
-pub use shape::*;
-pub use slot::*;
+pub use activity::{
+    Abort, Activity, ActivityId, ActivityKind, Body, CallSite, Entry, Exit, OverlaySite, ReportSite, Rule, Table,
+    Target, Text, TextPart, Valued, Watched, WatchedCode, header, setpoints,
+};
+pub use cause::{Cause, OverrideEnd};
+pub use guide::{Channel, Ends, GUIDANCE_WORDS, GuidanceLaw, Guide, Omitted, Param, ParamKind, Steering};
+pub use op::{AreaOp, Compute, ListOp, Op, When};
+pub use shape::{AREA_CORNER_WORDS, AREA_WORDS, Display, ROWS_WORDS, Shape};
+pub use slot::{ABSOLUTE, Addr, Slot};
 pub use verify::{Claim, Claims, Unit, Unsound};
+
+pub(crate) use shape::EDGE_WORDS;
 
 use albacore_arithmetic::Interval;
 use albacore_geometry::Geodetic;

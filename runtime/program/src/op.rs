@@ -77,7 +77,7 @@ pub enum Op {
 
 impl Op {
     /// Where it may jump to.
-    pub fn jump(&self) -> Option<Addr> {
+    pub(crate) fn jump(&self) -> Option<Addr> {
         match *self {
             Op::Compute(Compute::Jump { to, .. }) => Some(to),
             _ => None,
