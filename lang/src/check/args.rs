@@ -12,7 +12,7 @@ use crate::types::Type;
 use crate::{other_languages, suggest};
 use albacore_arithmetic::{Operation, Sqrt};
 use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
-use albacore_program::Guide;
+use albacore_program::{Channel, Guide};
 
 /// What is said of an area that is meant to be round.
 const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";
@@ -90,7 +90,7 @@ impl<'t> Checker<'t> {
                         label.span,
                         format!("`{what}` has no parameter `{}`", label.node),
                     );
-                    let is_setpoint = ["depth", "altitude", "speed"].contains(&label.node.as_str());
+                    let is_setpoint = Channel::named(&label.node).is_some();
                     // Of guidance, setpoints stand after `at` and time limits after `within`, not among its arguments.
                     let finding = match self.suggestion(&label.node, params.iter().map(|p| p.name.as_str())) {
                         _ if is_setpoint && Guide::takes_arguments(what) => {

@@ -11,7 +11,7 @@ use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree::{self, WithItem};
 use crate::types::Type;
-use albacore_program::{Channel, Ends, Guide, Param, ParamKind};
+use albacore_program::{Channel, Ends, Guide, Param, ParamKind, SetpointKind};
 
 /// The enum of an override's ends, in the library's inputs.
 const OVERRIDE_END: &str = "OverrideEnd";
@@ -235,7 +235,7 @@ impl<'t> Checker<'t> {
         let mut spans: Vec<Span> = Vec::new();
         for setpoint in written {
             let Some((channel, value)) = self.setpoint(setpoint) else { continue };
-            if let Some(i) = setpoints.iter().position(|(c, _)| same_channel(*c, channel)) {
+            if let Some(i) = setpoints.iter().position(|(c, _)| c.row().axis == channel.row().axis) {
                 let earlier = spans[i];
                 self.report(owned_twice(setpoint.span, earlier, channel));
             }
@@ -246,33 +246,19 @@ impl<'t> Checker<'t> {
     }
 
     fn setpoint(&mut self, setpoint: &tree::Setpoint) -> Option<(Channel, hir::Expr)> {
-        let (channel, ty) = match setpoint.channel.node.as_str() {
-            "depth" => (Channel::Depth, Type::Depth),
-            "altitude" => (Channel::Altitude, Type::Altitude),
-            _ => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
-        };
+        let channel = Channel::named(&setpoint.channel.node)?;
+        let ty = setpoint_type(channel);
         // `keep depth + 1 m` reads as "keep depth plus one", and would mean "at a depth of +1 m".
         let mut written = &setpoint.value;
         if let tree::ExprKind::Unary(op, unsigned) = &written.kind
             && matches!(op.node, tree::Unary::Pos | tree::Unary::Neg)
         {
             let more = op.node == tree::Unary::Pos;
-            let help = match (channel, more) {
-                (Channel::Depth, true) => {
-                    "`depth 1 m` is 1 m below the surface, `depth depth + 1 m` 1 m deeper than now"
-                }
-                (Channel::Depth, false) => {
-                    "`depth 1 m` is 1 m below the surface, `depth depth - 1 m` 1 m higher than now"
-                }
-                (Channel::Altitude, true) => {
-                    "`altitude 1 m` is 1 m above the bottom, `altitude altitude + 1 m` 1 m higher than now"
-                }
-                (Channel::Altitude, false) => {
-                    "`altitude 1 m` is 1 m above the bottom, `altitude altitude - 1 m` 1 m deeper than now"
-                }
-                (Channel::Speed, true) => "`speed 1 m/s` is that speed, `speed speed + 1 m/s` 1 m/s faster than now",
-                (Channel::Speed, false) => "`speed 1 m/s` is that speed, `speed speed - 1 m/s` 1 m/s slower than now",
-            };
+            let row = channel.row();
+            let (name, unit, meaning) = (row.name, row.unit, row.meaning);
+            let (sign, change) = if more { ('+', row.more) } else { ('-', row.less) };
+            let help =
+                format!("`{name} 1 {unit}` is {meaning}, `{name} {name} {sign} 1 {unit}` 1 {unit} {change} than now");
             self.report(Diagnostic::error(Code::SyntaxSetpoint, op.span, "no setpoint begins with a sign").help(help));
             written = unsigned;
         }
@@ -289,7 +275,7 @@ impl<'t> Checker<'t> {
             match item {
                 WithItem::Setpoint(setpoint) => {
                     let Some((channel, value)) = self.setpoint(setpoint) else { continue };
-                    if let Some((_, earlier)) = owned.iter().find(|(c, _)| same_channel(*c, channel)) {
+                    if let Some((_, earlier)) = owned.iter().find(|(c, _)| c.row().axis == channel.row().axis) {
                         self.report(owned_twice(setpoint.span, *earlier, channel));
                     }
                     owned.push((channel, setpoint.span));
@@ -363,14 +349,17 @@ pub(super) fn guidance_ends(guide: Guide, args: &[hir::Expr]) -> bool {
     }
 }
 
-/// Depth and altitude are one channel, the vertical.
-pub(super) fn same_channel(a: Channel, b: Channel) -> bool {
-    (a == Channel::Speed) == (b == Channel::Speed)
+/// The type of a setpoint.
+pub(super) fn setpoint_type(channel: Channel) -> Type {
+    match channel.row().kind {
+        SetpointKind::Depth => Type::Depth,
+        SetpointKind::Altitude => Type::Altitude,
+        SetpointKind::Speed => Type::Quantity(Dimension::SPEED),
+    }
 }
 
 fn owned_twice(span: Span, earlier: Span, channel: Channel) -> Diagnostic {
-    let name = if channel == Channel::Speed { "speed" } else { "vertical channel" };
-    Diagnostic::error(Code::ChannelsTwice, span, format!("the {name} is set twice"))
+    Diagnostic::error(Code::ChannelsTwice, span, format!("the {} is set twice", channel.row().axis.title()))
         .label(earlier, "already set here")
         .help("keep one of them")
 }

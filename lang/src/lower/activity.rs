@@ -7,8 +7,7 @@ use crate::rules;
 use crate::types::Type;
 use albacore_geometry::{Geodetic, longitude_beside, longitude_within};
 use albacore_program::{
-    Abort, Activity, ActivityKind, Body, Channel, Code, Compute, Limits, ListOp, Op, Recovery, Require, Slot, Valued,
-    header,
+    Abort, Activity, ActivityKind, Body, Code, Compute, Limits, ListOp, Op, Recovery, Require, Slot, Valued, header,
 };
 
 /// The words that are compared, at most, before a list is put in order anew.
@@ -218,8 +217,7 @@ impl<'a> Lowering<'a> {
                 Kind::Behavior => ActivityKind::Behavior,
                 Kind::Strategy => ActivityKind::Strategy,
                 Kind::AmendsCourse => ActivityKind::AmendsCourse,
-                Kind::Sets(Channel::Speed) => ActivityKind::SetsSpeed,
-                Kind::Sets(_) => ActivityKind::SetsVertical,
+                Kind::Sets(axis) => ActivityKind::Sets(axis),
                 Kind::Mission => ActivityKind::Mission,
             },
             header: at,
@@ -283,14 +281,8 @@ impl<'a> Lowering<'a> {
         let mut limits = Limits::default();
         for (channel, least, e) in &mission.limits {
             let code = Some(self.code(e));
-            match (channel, least) {
-                (Channel::Altitude, true) => limits.altitude_min = code,
-                (Channel::Altitude, false) => limits.altitude_max = code,
-                (Channel::Depth, true) => limits.depth_min = code,
-                (Channel::Depth, false) => limits.depth_max = code,
-                (Channel::Speed, true) => limits.speed_min = code,
-                (Channel::Speed, false) => limits.speed_max = code,
-            }
+            let bounds = &mut limits.setpoints[*channel as usize];
+            *(if *least { &mut bounds.least } else { &mut bounds.greatest }) = code;
         }
         limits.turn_rate_max = mission.turn_rate.as_ref().map(|e| self.code(e));
         limits.latency_max = mission.latency.as_ref().map(|e| self.ticks_code(e));

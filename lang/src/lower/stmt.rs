@@ -5,8 +5,8 @@ use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed, With};
 use crate::types::Type;
 use albacore_arithmetic::Operator;
 use albacore_program::{
-    CallSite, Cause, Channel, Compute, GUIDANCE_WORDS, Guide, ListOp, Op, OverlaySite, OverrideEnd, ReportSite, Slot,
-    header, setpoints,
+    CallSite, Cause, Channel, Compute, GUIDANCE_WORDS, Guide, ListOp, Mark, Op, OverlaySite, OverrideEnd, ReportSite,
+    Slot, header, setpoints,
 };
 
 impl<'a> Lowering<'a> {
@@ -170,13 +170,15 @@ impl<'a> Lowering<'a> {
     }
 
     fn setpoint(&mut self, channel: Channel, e: &Expr, at: Slot) {
-        if channel == Channel::Speed {
-            self.expr_into(e, at + setpoints::SPEED);
-            return;
+        self.expr_into(e, at + channel.row().word);
+        self.mark_set(channel, at);
+    }
+
+    /// Where one word tells which of several channels is set.
+    fn mark_set(&mut self, channel: Channel, at: Slot) {
+        if let Mark::Word(word, value) = channel.row().mark {
+            self.emit(Compute::Const { to: at + word, value });
         }
-        self.expr_into(e, at + setpoints::METRES);
-        let value = if channel == Channel::Depth { setpoints::DEPTH } else { setpoints::ALTITUDE };
-        self.emit(Compute::Const { to: at + setpoints::VERTICAL, value });
     }
 
     fn with(&mut self, items: &[With], body: &Block) {
@@ -384,12 +386,8 @@ impl<'a> Lowering<'a> {
         let Running::Keep { channel, value, own, state } = *running else { return };
         self.scratch(|l| l.expr_into(e, value));
         self.copy(own, setpoints, setpoints::WORDS);
-        let metres = if channel == Channel::Speed { own + setpoints::SPEED } else { own + setpoints::METRES };
-        self.copy(metres, value, 1);
-        if channel != Channel::Speed {
-            let kind = if channel == Channel::Depth { setpoints::DEPTH } else { setpoints::ALTITUDE };
-            self.emit(Compute::Const { to: own + setpoints::VERTICAL, value: kind });
-        }
+        self.copy(own + channel.row().word, value, 1);
+        self.mark_set(channel, own);
         self.emit(Op::Keep { channel, value });
         self.emit(Op::Guide { guide: Guide::Keep, args: value, state, setpoints: own, ended });
     }

@@ -1,7 +1,7 @@
 //! Whole statements as other languages, and other crews, write them.
 
 use super::habits::{Habit, line_end, quantity, word};
-use albacore_program::{Ends, Guide};
+use albacore_program::{Channel, Ends, Guide};
 
 /// Words that a block follows.
 const BEFORE_BLOCK: [&str; 16] = [
@@ -311,7 +311,7 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
     let open = before.matches('(').count() > before.matches(')').count();
     if rest.starts_with('=') && !rest.starts_with("==") && (open || Guide::takes_arguments(verb)) && verb != last {
         let value = super::slips::with_unit(last, line_end(&rest[1..]).trim_end_matches(')'));
-        if !open && ["depth", "altitude", "speed"].contains(&last) {
+        if !open && Channel::named(last).is_some() {
             let message = Some(format!("`at` is missing before `{last}`"));
             return Some(Habit { message, help: format!("write `at {last} {value}` in place of the comma") });
         }
@@ -326,7 +326,7 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
     if !Guide::takes_arguments(verb) && verb != "hold" {
         return None;
     }
-    let is_setpoint = ["depth", "altitude", "speed"].contains(&last);
+    let is_setpoint = Channel::named(last).is_some();
     if before.contains('°') || is_setpoint || rest[word(rest).len()..].trim_start().starts_with(':') {
         return None;
     }
@@ -479,7 +479,7 @@ fn head(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let value = line_end(rest).split(',').next().unwrap_or("").trim_start_matches([':', '=', ' ']);
     let name = last_word(before);
     let bound = name.trim_start_matches("max_").trim_start_matches("min_");
-    let is_limit = ["depth", "altitude", "speed", "turn_rate"].contains(&bound) && before.trim() == name;
+    let is_limit = (Channel::named(bound).is_some() || bound == "turn_rate") && before.trim() == name;
     if is_limit && rest.starts_with(|c: char| matches!(c, ':' | '=') || c.is_ascii_digit()) {
         let sign = if name.starts_with("min_") || bound == "altitude" { ">=" } else { "<=" };
         return write(format!("{bound} {sign} {value}"));

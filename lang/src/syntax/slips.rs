@@ -4,7 +4,7 @@ use super::habits::{line_end, quantity, word};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use albacore_program::Guide;
+use albacore_program::{Channel, Guide};
 
 /// Words after which no colon stands, besides those of guidance.
 const NO_COLON: [&str; 6] = ["within", "for", "until", "at", "on", "log"];
@@ -110,7 +110,7 @@ fn quotes(before: &str, rest: &str) -> Option<Slip> {
 /// `goto: op.center`, `within: 20 min`, `with depth: 3 m`, `at speed=1.5`.
 fn colon(before: &str, rest: &str) -> Option<Slip> {
     let (_, word) = last(before);
-    let is_setpoint = matches!(word, "depth" | "altitude" | "speed");
+    let is_setpoint = Channel::named(word).is_some();
     let value = rest.strip_prefix(':').or_else(|| rest.strip_prefix('=').filter(|_| is_setpoint))?;
     let before_setpoint = |w: &str| matches!(w, "with" | "at") || w == "keep" && rest.starts_with(':');
     let stands = match is_setpoint {
@@ -134,10 +134,12 @@ fn colon(before: &str, rest: &str) -> Option<Slip> {
 /// A value with the unit that its name asks for, where it was written without one.
 pub(super) fn with_unit(name: &str, value: &str) -> String {
     let unit = match name {
-        "radius" | "depth" | "altitude" | "length" | "width" | "north" | "east" | "distance" => "m",
-        "speed" => "m/s",
+        "radius" | "length" | "width" | "north" | "east" | "distance" => "m",
         "heading" | "course" | "along" => "deg",
-        _ => return value.to_string(),
+        _ => match Channel::named(name) {
+            Some(channel) => channel.row().unit,
+            None => return value.to_string(),
+        },
     };
     if value.parse::<f64>().is_ok() { format!("{value} {unit}") } else { value.to_string() }
 }

@@ -79,7 +79,7 @@ impl Run {
         self.chain(p, &mut |id, base| chain.push((id, base)));
         self.pause_overlays(p, &chain);
         let limited = std::mem::take(&mut self.state.limited);
-        for (channel, limited) in [Channel::Depth, Channel::Altitude, Channel::Speed].into_iter().zip(limited) {
+        for (channel, limited) in Channel::ALL.into_iter().zip(limited) {
             if limited {
                 self.events.push(Event::LimitedEnded(channel));
             }

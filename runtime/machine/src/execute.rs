@@ -7,7 +7,6 @@ use crate::lists::Order;
 use crate::state::Run;
 use albacore_geometry::{Area, Heading, Point};
 use albacore_program::{Addr, AreaOp, Channel, ListOp, Op, OverrideEnd, Program, Slot, Text, TextPart, number};
-use albacore_vehicle::Vertical;
 
 /// Why code stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,12 +214,7 @@ impl Run {
             return;
         }
         let value = self.get(value);
-        let overridden = &mut self.state.overridden;
-        match channel {
-            Channel::Depth => overridden.vertical = Some(Vertical::Depth(value)),
-            Channel::Altitude => overridden.vertical = Some(Vertical::Altitude(value)),
-            Channel::Speed => overridden.speed = Some(value),
-        }
+        self.state.overridden.set(channel, value);
     }
 
     fn remember(&mut self, p: &Program, memory: u32, base: Slot) {

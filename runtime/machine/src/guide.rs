@@ -5,8 +5,8 @@ use crate::state::{Asked, Run};
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::parameters::STATION_POSITION_AGE_MAX;
 use albacore_guidance::{CommandFilter, Start, Station, Whereabouts, turning_radius_in_flow};
-use albacore_program::{Guide, Input, Slot, Steering, setpoints};
-use albacore_vehicle::{TICK_S, Vertical};
+use albacore_program::{Channel, Guide, Input, Slot, Steering, setpoints};
+use albacore_vehicle::TICK_S;
 
 /// Speeds below this, in m/s, turn in no circle worth planning with.
 const PLANNING_SPEED_MIN: f64 = 0.1;
@@ -15,9 +15,12 @@ const PLANNING_SPEED_MIN: f64 = 0.1;
 pub(crate) type Filter = CommandFilter;
 
 impl Run {
+    fn speed_in_force(&self, setpoints: Slot) -> Option<f64> {
+        Channel::Speed.in_force(self.slice(setpoints, setpoints::WORDS))
+    }
+
     fn planned_speed(&self, setpoints: Slot) -> f64 {
-        let speed = self.get(setpoints + setpoints::SPEED);
-        (if speed == setpoints::NO_SPEED { self.state.asked.speed } else { speed }).max(PLANNING_SPEED_MIN)
+        self.speed_in_force(setpoints).unwrap_or(self.state.asked.speed).max(PLANNING_SPEED_MIN)
     }
 
     /// The radius of the tightest turn that speed, flow and the command filter allow.
@@ -72,8 +75,7 @@ impl Run {
     fn keep_station(&mut self, state: Slot, setpoints: Slot) {
         self.state.asked.speed = 0.0;
         let most = self.state.limits.speed.1;
-        let speed = self.get(setpoints + setpoints::SPEED);
-        let speed = if speed == setpoints::NO_SPEED { most } else { speed };
+        let speed = self.speed_in_force(setpoints).unwrap_or(most);
         let at = Whereabouts { position: self.known_position(), course: self.course() };
         let mut words = [0.0; Station::WORDS];
         words.copy_from_slice(self.slice(state, Station::WORDS as u32));
@@ -110,15 +112,11 @@ impl Run {
         let asked = &mut self.state.asked;
         asked.course = course;
         asked.over_ground = over_ground;
-        let words = &self.state.words;
-        let word = |offset: u32| words[(at + offset) as usize];
-        if word(setpoints::SPEED) != setpoints::NO_SPEED {
-            asked.speed = word(setpoints::SPEED);
-        }
-        match word(setpoints::VERTICAL) {
-            kind if kind == setpoints::DEPTH => asked.vertical = Vertical::Depth(word(setpoints::METRES)),
-            kind if kind == setpoints::ALTITUDE => asked.vertical = Vertical::Altitude(word(setpoints::METRES)),
-            _ => {}
+        let words = &self.state.words[at as usize..(at + setpoints::WORDS) as usize];
+        for channel in Channel::ALL {
+            if let Some(value) = channel.in_force(words) {
+                asked.set(channel, value);
+            }
         }
     }
 }

@@ -46,7 +46,7 @@ impl Run {
             lift: Lift::default(),
             aground: Aground::default(),
             stands: false,
-            limited: [false; 3],
+            limited: Default::default(),
             requires: Vec::new(),
             link: Requirement::LINK,
             lagged: 0,

@@ -313,12 +313,3 @@ impl Guide {
         Guide::of_verb(verb).any(|guide| !guide.law().params.is_empty())
     }
 }
-
-/// A channel of the command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "each variant is the channel of its name")]
-pub enum Channel {
-    Depth,
-    Altitude,
-    Speed,
-}

@@ -2,12 +2,12 @@
 
 use crate::active::Active;
 use crate::names::Names;
-use crate::words::{INDENT, cause_name, channel_name, control_name, indented};
+use crate::words::{INDENT, cause_name, control_name, indented};
 use albacore_geometry::{Point, TangentFrame};
 use albacore_machine::{Event, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::number;
 use albacore_program::seen::one_line;
-use albacore_program::{ActivityId, Cause, Channel, Program, ReportSite, Rule, Shape};
+use albacore_program::{ActivityId, Cause, Program, ReportSite, Rule, Setpoint, Shape};
 use albacore_vehicle::TICK_S;
 
 /// The widest that the column of what happened gets by itself.
@@ -84,10 +84,10 @@ impl Wording {
             }
             Event::AmendingEnded(id) => ("amend", format!("{}  no more", self.names.name(*id))),
             Event::Limited(channel, asked, given) => {
-                let print = if *channel == Channel::Speed { number::metres_per_second } else { number::metres };
-                ("limit", format!("{}  {} -> {}", channel_name(*channel), print(*asked), print(*given)))
+                let Setpoint { name, print, .. } = channel.row();
+                ("limit", format!("{name}  {} -> {}", print(*asked), print(*given)))
             }
-            Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel_name(*channel))),
+            Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel.row().name)),
             Event::Awaited(input) => ("wait", format!("for the first {}", self.names.input(*input))),
             Event::Stale(input) => ("stale", self.names.input(*input).to_string()),
             Event::Fresh(input) => ("fresh", self.names.input(*input).to_string()),

@@ -10,16 +10,11 @@ impl Program {
         let limits = &mission.limits;
         let mut codes: Vec<Option<Code>> = vec![
             mission.within,
-            limits.altitude_min,
-            limits.altitude_max,
-            limits.depth_min,
-            limits.depth_max,
-            limits.speed_min,
-            limits.speed_max,
             limits.turn_rate_max,
             limits.latency_max,
             mission.recovery.and_then(|recovery| recovery.within),
         ];
+        codes.extend(limits.setpoints.iter().flat_map(|bounds| [bounds.least, bounds.greatest]));
         for require in &mission.requires {
             codes.extend([Some(require.fresh), require.at_first, require.hold_for]);
         }
