@@ -121,7 +121,7 @@ impl FrontSeat {
                 let water = through_water(course, speed, known.flow, self.speed_max);
                 Command { heading: water.heading, speed: water.speed, vertical: self.vertical }
             }
-            None => Command { heading: known.heading, speed: 0.0, vertical: Vertical::Depth(0.0) },
+            None => Command::still(known.heading, 0.0),
         })
     }
 }

@@ -106,6 +106,11 @@ pub(crate) struct Asked {
 }
 
 impl Asked {
+    /// To lie still at a depth.
+    pub fn still(course: Heading, depth: f64) -> Self {
+        Asked { course, over_ground: false, speed: 0.0, vertical: Vertical::Depth(depth) }
+    }
+
     pub fn set(&mut self, channel: Channel, value: f64) {
         match channel {
             Channel::Depth => self.vertical = Vertical::Depth(value),

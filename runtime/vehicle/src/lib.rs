@@ -159,6 +159,13 @@ pub struct Command {
     pub vertical: Vertical,
 }
 
+impl Command {
+    /// To lie still at a depth.
+    pub fn still(heading: Heading, depth: f64) -> Self {
+        Command { heading, speed: 0.0, vertical: Vertical::Depth(depth) }
+    }
+}
+
 /// Why a vehicle can no longer be driven.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
