@@ -1,11 +1,10 @@
 //! From what a statement asks to what the vehicle is told: amendments, limits, command filter, flow compensation.
 
-use crate::guide::Filter;
 use crate::state::{Asked, Limits, Run};
 use crate::{Event, execute::Stop};
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MIN;
-use albacore_guidance::through_water;
+use albacore_guidance::{CommandFilter, through_water};
 use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, header};
 use albacore_vehicle::{Command, TICK_S};
 
@@ -27,7 +26,7 @@ impl Run {
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
         let vertical = self.limit_vertical(p, asked.vertical);
-        let mut filter = Filter::new(self.state.filtered);
+        let mut filter = CommandFilter::new(self.state.filtered);
         let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;
         // Flow compensation may ask for more speed through the water than the mission allows.

@@ -4,15 +4,12 @@ use crate::Event;
 use crate::state::{Asked, Run};
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::parameters::STATION_POSITION_AGE_MAX;
-use albacore_guidance::{CommandFilter, Start, Station, Whereabouts, turning_radius_in_flow};
+use albacore_guidance::{Start, Station, Whereabouts, turning_radius_in_flow};
 use albacore_program::{Channel, Guide, Input, Slot, Steering, setpoints};
 use albacore_vehicle::TICK_S;
 
 /// Speeds below this, in m/s, turn in no circle worth planning with.
 const PLANNING_SPEED_MIN: f64 = 0.1;
-
-/// The filter is a guidance law's too: named here so that the two stay one crate's.
-pub(crate) type Filter = CommandFilter;
 
 impl Run {
     fn speed_in_force(&self, setpoints: Slot) -> Option<f64> {
@@ -39,7 +36,7 @@ impl Run {
                     turning_radius: self.tightest_turn(setpoints),
                 };
                 let args = self.slice(args, guide.law().args_words()).to_vec();
-                (law.begin)(&args, &start, &mut self.state.words[state as usize..]);
+                (law.begin)(&args, &start, &mut self.state.words[state as usize..][..law.words]);
             }
             Steering::Station => self.store_station(state, Station::new(self.known_position())),
             Steering::Along { .. } | Steering::AsBefore | Steering::Nothing => {}
@@ -51,7 +48,7 @@ impl Run {
         match guide.law().steering {
             Steering::Law(law) => {
                 let (position, course) = (self.position(), self.course());
-                let guidance = (law.step)(&mut self.state.words[state as usize..], position, course);
+                let guidance = (law.step)(&mut self.state.words[state as usize..][..law.words], position, course);
                 self.ask(guidance.course, true, setpoints);
                 return guidance.arrived;
             }
