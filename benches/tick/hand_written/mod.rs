@@ -183,9 +183,9 @@ impl Mission {
         let course = self.filter.step(amended, TURN_RATE_MAX, TICK_S);
         if (over_ground || amended != asked) && speed > 0.0 {
             let water = through_water(course, speed, self.senses.flow, SPEED_MAX);
-            Command { heading: water.heading, speed: water.speed, vertical }
+            Command::new(water.heading, water.speed, vertical)
         } else {
-            Command { heading: course, speed, vertical }
+            Command::new(course, speed, vertical)
         }
     }
 }

@@ -160,9 +160,14 @@ pub struct Command {
 }
 
 impl Command {
+    /// To go on a heading at a speed, m/s, at a depth or an altitude.
+    pub const fn new(heading: Heading, speed: f64, vertical: Vertical) -> Self {
+        Command { heading, speed, vertical }
+    }
+
     /// To lie still at a depth.
-    pub fn still(heading: Heading, depth: f64) -> Self {
-        Command { heading, speed: 0.0, vertical: Vertical::Depth(depth) }
+    pub const fn still(heading: Heading, depth: f64) -> Self {
+        Command::new(heading, 0.0, Vertical::Depth(depth))
     }
 }
 
