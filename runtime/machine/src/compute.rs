@@ -118,14 +118,16 @@ impl Frame<'_> {
 
     #[inline]
     fn jumps(&self, when: When) -> bool {
+        let less = |a, b| self.get(a) < self.get(b);
+        let at_most = |a, b| self.get(a) <= self.get(b);
         match when {
             When::Always => true,
             When::True(word) => self.get(word) != 0.0,
             When::False(word) => self.get(word) == 0.0,
-            When::Less(a, b) => self.get(a) < self.get(b),
-            When::NotLess(a, b) => !(self.get(a) < self.get(b)),
-            When::AtMost(a, b) => self.get(a) <= self.get(b),
-            When::NotAtMost(a, b) => !(self.get(a) <= self.get(b)),
+            When::Less(a, b) => less(a, b),
+            When::NotLess(a, b) => !less(a, b),
+            When::AtMost(a, b) => at_most(a, b),
+            When::NotAtMost(a, b) => !at_most(a, b),
         }
     }
 }
