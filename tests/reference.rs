@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot read the reference has failed")]
 
 use crate::examples::{Example, OF_A_FRAGMENT, examples, findings};
+use albacore_program::{Guide, Omitted, ParamKind};
 use albacore_session::{Faults, run_test};
 use std::path::Path;
 
@@ -106,6 +107,35 @@ fn the_table_of_units_is_true() {
     let mut found = findings("units", &script, false);
     found.retain(|(code, _)| !OF_A_FRAGMENT.contains(code));
     assert_eq!(found, []);
+}
+
+/// The arguments of guidance are those of the table of laws, each on a row.
+#[test]
+fn the_table_of_arguments_is_true() {
+    let shown = |kind: ParamKind, value: f64| match kind {
+        ParamKind::Bool => (value == 1.0).to_string(),
+        ParamKind::Length => format!("{value} m"),
+        _ => value.to_string(),
+    };
+    let mut expected = Vec::new();
+    for law in Guide::ALL.into_iter().map(Guide::law) {
+        for param in law.params {
+            let omitted = match param.omitted {
+                Omitted::Refused => "not allowed".to_string(),
+                Omitted::Is(value) => shown(param.kind, value),
+                Omitted::TightestTurn => "the tightest turn".to_string(),
+            };
+            let range =
+                param.range.map_or("any".to_string(), |range| format!("{} or more", shown(param.kind, range.low)));
+            let argument = format!("`{}: {:?}`", param.name, param.kind);
+            expected.push(vec![format!("`{}`", law.verb), argument, omitted, range, param.meaning.to_string()]);
+        }
+    }
+    let is_verb = |word: &str| Guide::takes_arguments(word.trim_matches('`'));
+    let mut written: Vec<Vec<String>> = rows().into_iter().filter(|row| row.len() == 5 && is_verb(&row[0])).collect();
+    expected.sort();
+    written.sort();
+    assert_eq!(written, expected);
 }
 
 /// Every script that shows a rule of time, and its trace, is linked; and what is linked is there.

@@ -34,7 +34,7 @@ pub use suggest::{help as suggestion, nearest};
 
 use crate::code::Code;
 use albacore_geometry::Geodetic;
-use albacore_program::Program;
+use albacore_program::{Channel, Program};
 use broken::Broken;
 use cascade::Cascades;
 use check::{Checked, Override};
@@ -431,3 +431,8 @@ fn only_scenario(main: &tree::File) -> Option<String> {
 pub const ENTRY: FileId = FileId(0);
 /// And so is its module.
 const MAIN: usize = 0;
+
+/// Whether a word names a setpoint, as `depth` in `at depth 3 m`.
+pub fn is_setpoint(word: &str) -> bool {
+    Channel::named(word).is_some()
+}

@@ -1,5 +1,7 @@
 //! Words of other languages, and how ours says what they say.
 
+use albacore_program::Channel;
+
 /// What to write instead of a word that another language would have here.
 pub fn help(word: &str) -> Option<&'static str> {
     Some(match word {
@@ -169,7 +171,7 @@ pub fn command(word: &str, rest: &str) -> Option<String> {
     let value = rest.split(['\n', ';', '{', '}']).next().unwrap_or("").trim_start_matches([':', '=', ' ', '\t']).trim();
     let value = if value.is_empty() { "…" } else { value };
     Some(match word {
-        "speed" | "depth" | "altitude" => {
+        _ if Channel::named(word).is_some() => {
             format!(
                 "write `with {word} {value}`, which holds to the end of the block, or `… at {word} {value}` for one statement"
             )

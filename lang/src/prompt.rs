@@ -19,7 +19,7 @@ use crate::syntax::{self, tree};
 use crate::types::TypeTable;
 use crate::{Library, Script, Wanted, lower, rules};
 use albacore_geometry::Geodetic;
-use albacore_program::{Program, Slot};
+use albacore_program::{Channel, Program, Slot};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use value::slots;
@@ -253,7 +253,7 @@ impl Prompt {
     ) -> Read {
         let channel = |item: &tree::WithItem| match item {
             tree::WithItem::Setpoint(setpoint) => {
-                Some(if setpoint.channel.node == "speed" { "speed" } else { "vertical" })
+                Channel::named(&setpoint.channel.node).map(|channel| channel.row().axis)
             }
             tree::WithItem::Overlay(_) => None,
         };

@@ -3,6 +3,7 @@
 use super::markdown::DIAGRAM;
 use super::names::{Names, Use, anchor};
 use super::{Module, drawn};
+use albacore_session::is_setpoint;
 use albacore_session::seen::shown;
 use pulldown_cmark::{CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd, html};
 
@@ -124,7 +125,7 @@ fn is_part(c: char) -> bool {
 /// A name with what follows its dots. A label, and a channel before its setpoint, name nothing.
 fn word(token: &str, after: &str, home: usize, names: &Names) -> String {
     let next = after.trim_start_matches(' ');
-    let is_label = next.starts_with(':') || (after.starts_with(' ') && next.starts_with(is_part) && is_channel(token));
+    let is_label = next.starts_with(':') || (after.starts_with(' ') && next.starts_with(is_part) && is_setpoint(token));
     let used = if after.starts_with('(') { Use::Called } else { Use::Value };
     // `flow.toward` is a field of `flow`; `search.find` is a name of another module.
     let (head, field) = token.split_once('.').map_or((token, ""), |(head, _)| (head, &token[head.len()..]));
@@ -134,10 +135,6 @@ fn word(token: &str, after: &str, home: usize, names: &Names) -> String {
         Some((shown, field, link)) => format!("<a href=\"{}\">{}</a>{}", target(&link), escaped(shown), escaped(field)),
         None => escaped(token),
     }
-}
-
-fn is_channel(word: &str) -> bool {
-    matches!(word, "depth" | "altitude" | "speed")
 }
 
 fn escaped(text: &str) -> String {

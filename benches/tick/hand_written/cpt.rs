@@ -6,7 +6,7 @@ use super::senses::Senses;
 use albacore_geometry::math::radians;
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_guidance::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
-use albacore_guidance::{Goto, turning_radius_in_flow};
+use albacore_guidance::{Goto, Law, turning_radius_in_flow};
 
 /// Contacts remembered at most.
 const LOST_MAX: usize = 6;

@@ -4,7 +4,7 @@ use super::senses::Senses;
 use albacore_geometry::math::radians;
 use albacore_geometry::{Heading, Line, Point};
 use albacore_guidance::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
-use albacore_guidance::{FollowLine, turning_radius_in_flow};
+use albacore_guidance::{FollowLine, Law, turning_radius_in_flow};
 
 const HALF: f64 = 13.0;
 

@@ -14,7 +14,7 @@ mod senses;
 use albacore_geometry::math::radians;
 use albacore_geometry::{Area, Heading, Point};
 use albacore_guidance::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
-use albacore_guidance::{CommandFilter, Goto, through_water, turning_radius_in_flow};
+use albacore_guidance::{CommandFilter, Goto, Law, through_water, turning_radius_in_flow};
 use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vertical};
 use cage::Cage;
 use cpt::{Cpt, Parameters};
@@ -183,9 +183,9 @@ impl Mission {
         let course = self.filter.step(amended, TURN_RATE_MAX, TICK_S);
         if (over_ground || amended != asked) && speed > 0.0 {
             let water = through_water(course, speed, self.senses.flow, SPEED_MAX);
-            Command { heading: water.heading, speed: water.speed, vertical }
+            Command::new(water.heading, water.speed, vertical)
         } else {
-            Command { heading: course, speed, vertical }
+            Command::new(course, speed, vertical)
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, VarKi
 use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
 use crate::types::Type;
-use albacore_program::Channel;
+use albacore_program::Axis;
 
 /// The parts of an activity, gathered clause by clause.
 #[derive(Default)]
@@ -94,8 +94,9 @@ impl<'t> Checker<'t> {
             ActivityKind::Mission { .. } => Kind::Mission,
             ActivityKind::Overlay { verb, channel } => match (verb.node.as_str(), channel.node.as_str()) {
                 ("amends", "course") => Kind::AmendsCourse,
-                ("sets", "vertical") => Kind::Sets(Channel::Depth),
-                ("sets", "speed") => Kind::Sets(Channel::Speed),
+                ("sets", axis) if Axis::named(axis).is_some() => {
+                    Axis::named(axis).map_or(Kind::AmendsCourse, Kind::Sets)
+                }
                 _ => {
                     self.report(
                         Diagnostic::error(
@@ -266,8 +267,8 @@ impl<'t> Checker<'t> {
                 .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
             );
         }
-        if let Kind::Sets(channel) = kind {
-            self.sets_only(channel, block);
+        if let Kind::Sets(axis) = kind {
+            self.sets_only(axis, block);
         }
         if matches!(kind, Kind::Sets(_)) && !flow::leaves(block) {
             self.report(

@@ -12,14 +12,13 @@ use crate::types::Type;
 use crate::{other_languages, suggest};
 use albacore_arithmetic::{Operation, Sqrt};
 use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
+use albacore_program::{Channel, Guide};
 
 /// What is said of an area that is meant to be round.
 const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";
 
 /// How a time limit is called elsewhere, where it is an argument.
 const TIME_LIMITS: [&str; 5] = ["timeout", "time_limit", "time", "duration", "within"];
-/// Verbs whose setpoints are told after `at`, and whose time limit after `within`, not among their arguments.
-const GUIDANCE: [&str; 5] = ["goto", "follow", "dubins", "loiter", "steer"];
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const NUMBER: Type = Type::Quantity(Dimension::NONE);
@@ -96,12 +95,13 @@ impl<'t> Checker<'t> {
                         label.span,
                         format!("`{what}` has no parameter `{}`", label.node),
                     );
-                    let is_setpoint = ["depth", "altitude", "speed"].contains(&label.node.as_str());
+                    let is_setpoint = Channel::named(&label.node).is_some();
+                    // Of guidance, setpoints stand after `at` and time limits after `within`, not among its arguments.
                     let finding = match self.suggestion(&label.node, params.iter().map(|p| p.name.as_str())) {
-                        _ if is_setpoint && GUIDANCE.contains(&what) => {
+                        _ if is_setpoint && Guide::takes_arguments(what) => {
                             finding.help(format!("what it keeps follows `at`: `{what} … at {} …`", label.node))
                         }
-                        _ if TIME_LIMITS.contains(&&*label.node) && GUIDANCE.contains(&what) => {
+                        _ if TIME_LIMITS.contains(&&*label.node) && Guide::takes_arguments(what) => {
                             finding.help(format!("a time limit follows: `{what} … within 5 min`"))
                         }
                         Some(help) => finding.help(help),

@@ -1,9 +1,8 @@
 //! What a checked block does to time and to what follows it.
 
-use super::timed::loiters_for_ever;
+use super::timed::guidance_ends;
 use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed};
 use crate::source::Span;
-use albacore_program::Guide;
 
 /// Whether every path through a block takes time, or leaves it for good.
 pub(crate) fn takes_time(block: &Block) -> bool {
@@ -69,8 +68,7 @@ pub(super) fn endless(timed: &Timed) -> bool {
         return false;
     }
     match &timed.action {
-        Action::Guide(Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Hold | Guide::Wait, _) => true,
-        Action::Guide(guide, args) => loiters_for_ever(*guide, args),
+        Action::Guide(guide, args) => !guidance_ends(*guide, args),
         Action::Call(..) => false,
         Action::Keep(..) | Action::Watch => true,
         // Whoever reads its end hears that control was taken back, and goes on.

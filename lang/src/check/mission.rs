@@ -1,5 +1,6 @@
 //! What belongs to a mission alone: limits, what it requires, its time, area and recovery.
 
+use super::timed::setpoint_type;
 use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -8,7 +9,7 @@ use crate::hir::{Expr, ExprKind, Interval, Mission, Require};
 use crate::source::Spanned;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind};
 use crate::types::Type;
-use albacore_program::{Channel, LIMIT_FRESH_S, LIMIT_PATIENCE_S, TURN_RATE_MIN};
+use albacore_program::{Axis, Channel, LIMIT_FRESH_S, LIMIT_PATIENCE_S, TURN_RATE_MIN};
 
 /// The limits that are no channel's.
 const TURN_RATE: &str = "turn_rate";
@@ -29,21 +30,16 @@ impl Checker<'_> {
         if matches!(&left.kind, tree::ExprKind::Name(name) if name == LATENCY) {
             return self.latency(limit, op, right, mission);
         }
-        let channel = match &left.kind {
-            tree::ExprKind::Name(name) if name == "altitude" => (Channel::Altitude, Type::Altitude),
-            tree::ExprKind::Name(name) if name == "depth" => (Channel::Depth, Type::Depth),
-            tree::ExprKind::Name(name) if name == "speed" => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
-            _ => {
-                self.report(
-                    Diagnostic::error(
-                        Code::MissionsLimit,
-                        left.span,
-                        "limits hold `altitude`, `depth`, `speed`, `turn_rate` and `latency`",
-                    )
-                    .help(help),
-                );
-                return;
-            }
+        let named = match &left.kind {
+            tree::ExprKind::Name(name) => Channel::named(name),
+            _ => None,
+        };
+        let Some(channel) = named else {
+            let mut names: Vec<&str> = Channel::ALL.iter().map(|channel| channel.row().name).collect();
+            names.sort_unstable();
+            let message = format!("limits hold `{}`, `{TURN_RATE}` and `{LATENCY}`", names.join("`, `"));
+            self.report(Diagnostic::error(Code::MissionsLimit, left.span, message).help(help));
+            return;
         };
         let least = match op.node {
             tree::Binary::Ge => true,
@@ -60,7 +56,7 @@ impl Checker<'_> {
                 return;
             }
         };
-        let value = self.instant(Temporal::No, |c| c.expr_as(right, &channel.1, "the limit"));
+        let value = self.instant(Temporal::No, |c| c.expr_as(right, &setpoint_type(channel), "the limit"));
         self.not_negative(&value, "the limit");
         if value.range.high >= 0.0 && value.range.low < 0.0 && value.ty != Type::Unknown {
             let finding = Diagnostic::error(
@@ -70,13 +66,13 @@ impl Checker<'_> {
             );
             self.report(finding.help("give what it is computed from a range of its own: `in 1 m..30 m`"));
         }
-        if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel.0 && *l == least) {
+        if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel && *l == least) {
             let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
                 .label(first.span, "the first")
                 .help("keep one of them");
             self.report(finding);
         }
-        mission.limits.push((channel.0, least, value));
+        mission.limits.push((channel, least, value));
     }
 
     /// `turn_rate <= 6 deg/s`.
@@ -172,8 +168,7 @@ impl Checker<'_> {
     /// Limits of depth and altitude are held by what is known of the depth: a mission that has one requires that input, whether it
     /// says so or not.
     pub(super) fn require_for_limits(&self, mission: &mut Mission) {
-        let vertical =
-            mission.limits.iter().find(|(channel, ..)| matches!(channel, Channel::Depth | Channel::Altitude));
+        let vertical = mission.limits.iter().find(|(channel, ..)| channel.row().axis == Axis::Vertical);
         let Some((_, _, Expr { span, .. })) = vertical else { return };
         let Some(input) = self.hir.inputs.iter().position(|input| input.name == "depth") else { return };
         if mission.requires.iter().any(|require| require.input == input) {

@@ -1,23 +1,22 @@
 //! What belongs to overlays alone: `amend`, and the channel that one sets.
 
-use super::timed::same_channel;
 use super::{Checker, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, VarKind};
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
-use albacore_program::{Channel, Guide};
+use albacore_program::Axis;
 
 impl<'t> Checker<'t> {
     /// An overlay that owns a channel has nothing to say of the others.
-    pub(super) fn sets_only(&mut self, channel: Channel, block: &hir::Block) {
+    pub(super) fn sets_only(&mut self, axis: Axis, block: &hir::Block) {
         let mut found = Vec::new();
         block.each(&mut |stmt| {
             let hir::StmtKind::Timed(timed) = &stmt.kind else { return };
             let foreign = match &timed.action {
-                hir::Action::Keep(kept, _) => !same_channel(*kept, channel),
-                hir::Action::Guide(guide, _) => *guide != Guide::Wait,
+                hir::Action::Keep(kept, _) => kept.row().axis != axis,
+                hir::Action::Guide(guide, _) => !guide.law().is_for_overlays,
                 hir::Action::Call(..) => false,
                 hir::Action::Watch | hir::Action::Override(_) => true,
             };
@@ -25,8 +24,7 @@ impl<'t> Checker<'t> {
                 found.push(stmt.span);
             }
         });
-        let (name, setpoint) =
-            if channel == Channel::Speed { ("speed", "keep speed V") } else { ("vertical", "keep depth D") };
+        let (name, setpoint) = (axis.name(), axis.example());
         for span in found {
             self.report(
                 Diagnostic::error(

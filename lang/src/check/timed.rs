@@ -11,11 +11,10 @@ use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree::{self, WithItem};
 use crate::types::Type;
-use albacore_program::{Channel, Guide, RADIUS_MIN_M};
+use albacore_program::{Channel, Ends, Guide, Param, ParamKind, SetpointKind};
 
 /// The enum of an override's ends, in the library's inputs.
 const OVERRIDE_END: &str = "OverrideEnd";
-const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 
 impl<'t> Checker<'t> {
     /// The behavior or strategy that an expression calls.
@@ -221,54 +220,13 @@ impl<'t> Checker<'t> {
     }
 
     fn guidance(&mut self, verb: &tree::Name, args: &[tree::Arg], span: Span) -> Option<(Action, bool, Option<Type>)> {
-        let length = |meters: f64| Some((ExprKind::Number(meters), LENGTH, Interval::exactly(meters)));
-        let param =
-            |name: &str, ty: Type, default: Option<(ExprKind, Type, Interval)>, range: Option<Interval>| ParamInfo {
-                name: name.to_string(),
-                ty,
-                default: default.map(|(kind, ty, range)| hir::Expr { kind, ty, span, range }),
-                range,
-                span: verb.span,
-            };
-        let yes = |b: bool| Some((ExprKind::Number(f64::from(u8::from(b))), Type::Bool, Interval::ANY));
-        let positive = Some(Interval::at_least(RADIUS_MIN_M));
-        // A turning radius of 0 stands for the one that the speed and the command filter allow.
-        let turning = || param("radius", LENGTH, length(0.0), positive);
-        let (guide, params, ends) = match verb.node.as_str() {
-            "goto" => {
-                let params =
-                    vec![param("point", Type::Point, None, None), param("radius", LENGTH, length(10.0), positive)];
-                (Guide::Goto, params, true)
-            }
-            "follow" => (Guide::Follow, vec![param("line", Type::Line, None, None), turning()], true),
-            "dubins" => {
-                let params = vec![
-                    param("point", Type::Point, None, None),
-                    param("heading", Type::Heading, None, None),
-                    turning(),
-                    param("all_words", Type::Bool, yes(false), None),
-                ];
-                (Guide::Dubins, params, true)
-            }
-            "loiter" => {
-                let turns = Some((ExprKind::Number(0.0), Type::Quantity(Dimension::NONE), Interval::exactly(0.0)));
-                let params = vec![
-                    param("center", Type::Point, None, None),
-                    param("radius", LENGTH, None, positive),
-                    param("turns", Type::Quantity(Dimension::NONE), turns, Some(Interval::NOT_NEGATIVE)),
-                    param("clockwise", Type::Bool, yes(true), None),
-                ];
-                (Guide::Loiter, params, true)
-            }
-            _ if args.first().and_then(|a| a.label.as_ref()).is_some_and(|l| l.node == "heading") => {
-                (Guide::SteerHeading, vec![param("heading", Type::Heading, None, None)], false)
-            }
-            _ => (Guide::Steer, vec![param("course", Type::Heading, None, None)], false),
-        };
-        let read_anew = matches!(guide, Guide::Steer | Guide::SteerHeading);
+        let label = args.first().and_then(|arg| arg.label.as_ref()).map(|label| label.node.as_str());
+        let guide = Guide::named(&verb.node, label)?;
+        let params: Vec<ParamInfo> =
+            guide.law().params.iter().map(|param| param_info(param, verb.span, span)).collect();
         let read = |c: &mut Self| c.arguments(&verb.node, &params, args, span, None);
-        let values = if read_anew { self.on_later_ticks(read) } else { read(self) }?;
-        let ends = ends && !loiters_for_ever(guide, &values);
+        let values = if guide.law().reads_arguments_anew() { self.on_later_ticks(read) } else { read(self) }?;
+        let ends = guidance_ends(guide, &values);
         Some((Action::Guide(guide, values), ends, None))
     }
 
@@ -277,7 +235,7 @@ impl<'t> Checker<'t> {
         let mut spans: Vec<Span> = Vec::new();
         for setpoint in written {
             let Some((channel, value)) = self.setpoint(setpoint) else { continue };
-            if let Some(i) = setpoints.iter().position(|(c, _)| same_channel(*c, channel)) {
+            if let Some(i) = setpoints.iter().position(|(c, _)| c.row().axis == channel.row().axis) {
                 let earlier = spans[i];
                 self.report(owned_twice(setpoint.span, earlier, channel));
             }
@@ -288,33 +246,19 @@ impl<'t> Checker<'t> {
     }
 
     fn setpoint(&mut self, setpoint: &tree::Setpoint) -> Option<(Channel, hir::Expr)> {
-        let (channel, ty) = match setpoint.channel.node.as_str() {
-            "depth" => (Channel::Depth, Type::Depth),
-            "altitude" => (Channel::Altitude, Type::Altitude),
-            _ => (Channel::Speed, Type::Quantity(Dimension::SPEED)),
-        };
+        let channel = Channel::named(&setpoint.channel.node)?;
+        let ty = setpoint_type(channel);
         // `keep depth + 1 m` reads as "keep depth plus one", and would mean "at a depth of +1 m".
         let mut written = &setpoint.value;
         if let tree::ExprKind::Unary(op, unsigned) = &written.kind
             && matches!(op.node, tree::Unary::Pos | tree::Unary::Neg)
         {
             let more = op.node == tree::Unary::Pos;
-            let help = match (channel, more) {
-                (Channel::Depth, true) => {
-                    "`depth 1 m` is 1 m below the surface, `depth depth + 1 m` 1 m deeper than now"
-                }
-                (Channel::Depth, false) => {
-                    "`depth 1 m` is 1 m below the surface, `depth depth - 1 m` 1 m higher than now"
-                }
-                (Channel::Altitude, true) => {
-                    "`altitude 1 m` is 1 m above the bottom, `altitude altitude + 1 m` 1 m higher than now"
-                }
-                (Channel::Altitude, false) => {
-                    "`altitude 1 m` is 1 m above the bottom, `altitude altitude - 1 m` 1 m deeper than now"
-                }
-                (Channel::Speed, true) => "`speed 1 m/s` is that speed, `speed speed + 1 m/s` 1 m/s faster than now",
-                (Channel::Speed, false) => "`speed 1 m/s` is that speed, `speed speed - 1 m/s` 1 m/s slower than now",
-            };
+            let row = channel.row();
+            let (name, unit, meaning) = (row.name, row.unit, row.meaning);
+            let (sign, change) = if more { ('+', row.more) } else { ('-', row.less) };
+            let help =
+                format!("`{name} 1 {unit}` is {meaning}, `{name} {name} {sign} 1 {unit}` 1 {unit} {change} than now");
             self.report(Diagnostic::error(Code::SyntaxSetpoint, op.span, "no setpoint begins with a sign").help(help));
             written = unsigned;
         }
@@ -331,7 +275,7 @@ impl<'t> Checker<'t> {
             match item {
                 WithItem::Setpoint(setpoint) => {
                     let Some((channel, value)) = self.setpoint(setpoint) else { continue };
-                    if let Some((_, earlier)) = owned.iter().find(|(c, _)| same_channel(*c, channel)) {
+                    if let Some((_, earlier)) = owned.iter().find(|(c, _)| c.row().axis == channel.row().axis) {
                         self.report(owned_twice(setpoint.span, *earlier, channel));
                     }
                     owned.push((channel, setpoint.span));
@@ -375,19 +319,47 @@ impl<'t> Checker<'t> {
     }
 }
 
-/// Whether a statement circles without counting its turns.
-pub(super) fn loiters_for_ever(guide: Guide, args: &[hir::Expr]) -> bool {
-    guide == Guide::Loiter && args.get(2).is_some_and(|turns| turns.range.constant() == Some(0.0))
+/// A parameter of a guidance law, written at `place`; a value that stands in for it belongs to the statement.
+fn param_info(param: &Param, place: Span, statement: Span) -> ParamInfo {
+    let ty = match param.kind {
+        ParamKind::Point => Type::Point,
+        ParamKind::Line => Type::Line,
+        ParamKind::Heading => Type::Heading,
+        ParamKind::Length => Type::Quantity(Dimension::LENGTH),
+        ParamKind::Number => Type::Quantity(Dimension::NONE),
+        ParamKind::Bool => Type::Bool,
+    };
+    let default = param.default().map(|value| {
+        let range = if ty == Type::Bool { Interval::ANY } else { Interval::exactly(value) };
+        hir::Expr { kind: ExprKind::Number(value), ty: ty.clone(), span: statement, range }
+    });
+    ParamInfo { name: param.name.to_string(), ty, default, range: param.range, span: place }
 }
 
-/// Depth and altitude are one channel, the vertical.
-pub(super) fn same_channel(a: Channel, b: Channel) -> bool {
-    (a == Channel::Speed) == (b == Channel::Speed)
+/// Whether guidance comes to an end of its own.
+pub(super) fn guidance_ends(guide: Guide, args: &[hir::Expr]) -> bool {
+    let law = guide.law();
+    match law.ends {
+        Ends::Arrives => true,
+        Ends::Turns(param) => {
+            let turns = law.params.iter().zip(args).find(|(p, _)| p.name == param);
+            turns.is_none_or(|(_, turns)| turns.range.constant() != Some(0.0))
+        }
+        Ends::Never => false,
+    }
+}
+
+/// The type of a setpoint.
+pub(super) fn setpoint_type(channel: Channel) -> Type {
+    match channel.row().kind {
+        SetpointKind::Depth => Type::Depth,
+        SetpointKind::Altitude => Type::Altitude,
+        SetpointKind::Speed => Type::Quantity(Dimension::SPEED),
+    }
 }
 
 fn owned_twice(span: Span, earlier: Span, channel: Channel) -> Diagnostic {
-    let name = if channel == Channel::Speed { "speed" } else { "vertical channel" };
-    Diagnostic::error(Code::ChannelsTwice, span, format!("the {name} is set twice"))
+    Diagnostic::error(Code::ChannelsTwice, span, format!("the {} is set twice", channel.row().axis.title()))
         .label(earlier, "already set here")
         .help("keep one of them")
 }

@@ -3,7 +3,7 @@
 use super::{ActivityId, Block, Expr, InputId, TextPart, Var, VarId, With};
 use crate::source::Span;
 use crate::types::Type;
-use albacore_program::Channel;
+use albacore_program::{Axis, Channel};
 
 /// What kind of activity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub enum Kind {
     Behavior,
     Strategy,
     AmendsCourse,
-    Sets(Channel),
+    Sets(Axis),
     Mission,
 }
 

@@ -6,11 +6,11 @@ mod same;
 mod simulated;
 mod walk;
 
-pub use activity::*;
+pub use activity::{Activity, Body, Decl, Kind, Mission, Require, Rule, Target, leaving};
 pub use albacore_arithmetic::Interval;
 pub use position::middle;
 pub use same::{mentions_done, same_condition, same_value};
-pub use simulated::*;
+pub use simulated::{ClauseArg, ClauseUse, Expect, Scenario, Test, TestNames, When, test_file_name};
 pub use walk::{activity_children, block_children, calls_in, children};
 
 use crate::source::Span;

@@ -5,7 +5,7 @@ use super::{Lowering, SortedBy, Sorter, slot};
 use crate::hir::{self, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::types::Type;
 use albacore_program::{
-    Abort, Activity, ActivityKind, Body, Channel, Code, Limits, Op, Recovery, Require, Slot, Valued, header,
+    Abort, Activity, ActivityKind, Body, Code, Compute, Limits, ListOp, Op, Recovery, Require, Slot, Valued, header,
 };
 
 /// The words that are compared, at most, before a list is put in order anew.
@@ -55,7 +55,7 @@ impl<'a> Lowering<'a> {
             let sorter = self.here();
             let (list, it) = (self.frame.vars[id], self.frame.vars[order.it]);
             let words = self.words(inner);
-            self.emit(Op::Sort { list, words, it, key, value, most: order.most });
+            self.emit(ListOp::Sort { list, words, it, key, value, most: order.most });
             self.typed(it, inner);
             let reads = self.key_reads(order);
             let sorted_by: Option<Vec<SortedBy>> = reads.map(|reads| {
@@ -99,11 +99,11 @@ impl<'a> Lowering<'a> {
         for by in sorted_by {
             self.scratch(|l| {
                 let same = l.temp(1);
-                l.emit(Op::Eq { to: same, a: by.read, b: by.then, words: by.words });
-                changed.push(l.emit(Op::JumpUnless { unless: same, to: 0 }));
+                l.emit(Compute::Eq { to: same, a: by.read, b: by.then, words: by.words });
+                changed.push(l.emit(Compute::jump_unless(same, 0)));
             });
         }
-        let in_order = self.emit(Op::Jump { to: 0 });
+        let in_order = self.emit(Compute::jump(0));
         self.land_all(changed);
         self.sort_by(&sorter);
         self.land(in_order);
@@ -215,8 +215,7 @@ impl<'a> Lowering<'a> {
                 Kind::Behavior => ActivityKind::Behavior,
                 Kind::Strategy => ActivityKind::Strategy,
                 Kind::AmendsCourse => ActivityKind::AmendsCourse,
-                Kind::Sets(Channel::Speed) => ActivityKind::SetsSpeed,
-                Kind::Sets(_) => ActivityKind::SetsVertical,
+                Kind::Sets(axis) => ActivityKind::Sets(axis),
                 Kind::Mission => ActivityKind::Mission,
             },
             header: at,
@@ -253,13 +252,13 @@ impl<'a> Lowering<'a> {
                 // Nothing is known of its order: no number that a key can read is this one.
                 let sorted_by = self.frame.sorters.get(var).and_then(|sorter| sorter.sorted_by.clone());
                 for by in sorted_by.iter().flatten() {
-                    self.emit(Op::Const { to: by.then, value: f64::MAX });
+                    self.emit(Compute::Const { to: by.then, value: f64::MAX });
                 }
                 match init {
                     Some(e) => self.scratch(|l| l.expr_into(e, to)),
                     None => {
                         let words = self.words(&self.vars[*var].ty);
-                        self.emit(Op::Clear { to, words });
+                        self.emit(Compute::Clear { to, words });
                     }
                 }
             }
@@ -280,14 +279,8 @@ impl<'a> Lowering<'a> {
         let mut limits = Limits::default();
         for (channel, least, e) in &mission.limits {
             let code = Some(self.code(e));
-            match (channel, least) {
-                (Channel::Altitude, true) => limits.altitude_min = code,
-                (Channel::Altitude, false) => limits.altitude_max = code,
-                (Channel::Depth, true) => limits.depth_min = code,
-                (Channel::Depth, false) => limits.depth_max = code,
-                (Channel::Speed, true) => limits.speed_min = code,
-                (Channel::Speed, false) => limits.speed_max = code,
-            }
+            let bounds = &mut limits.setpoints[*channel as usize];
+            *(if *least { &mut bounds.least } else { &mut bounds.greatest }) = code;
         }
         limits.turn_rate_max = mission.turn_rate.as_ref().map(|e| self.code(e));
         limits.latency_max = mission.latency.as_ref().map(|e| self.ticks_code(e));

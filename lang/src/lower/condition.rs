@@ -5,7 +5,7 @@
 
 use super::Lowering;
 use crate::hir::{Builtin, Expr, ExprKind};
-use albacore_program::{Addr, Op, Slot};
+use albacore_program::{Addr, Compute, Slot, When};
 
 impl<'a> Lowering<'a> {
     /// Code that goes on behind itself when a condition holds; gives the jumps that are taken when it does not.
@@ -22,9 +22,9 @@ impl<'a> Lowering<'a> {
     pub(super) fn and_or_into(&mut self, is_or: bool, a: &Expr, b: &Expr, to: Slot) {
         let decided = self.scratch(|l| l.jumps(a, is_or));
         self.expr_into(b, to);
-        let end = self.emit(Op::Jump { to: 0 });
+        let end = self.emit(Compute::jump(0));
         self.land_all(decided);
-        self.emit(Op::Const { to, value: f64::from(u8::from(is_or)) });
+        self.emit(Compute::Const { to, value: f64::from(u8::from(is_or)) });
         self.land(end);
     }
 
@@ -36,7 +36,7 @@ impl<'a> Lowering<'a> {
 
     /// Jumps that are taken when a condition is `when`.
     fn jumps(&mut self, condition: &Expr, when: bool) -> Vec<Addr> {
-        let jump = match &condition.kind {
+        let taken = match &condition.kind {
             ExprKind::Do(Builtin::Not, operands) if operands.len() == 1 => return self.jumps(&operands[0], !when),
             ExprKind::Do(op @ (Builtin::And | Builtin::Or), operands) if operands.len() == 2 => {
                 // `or` that is to jump when it holds, and `and` that is to jump when it does not: either side decides.
@@ -53,17 +53,17 @@ impl<'a> Lowering<'a> {
             ExprKind::Do(op @ (Builtin::Lt | Builtin::Le), operands) if operands.len() == 2 => {
                 let (a, b) = (self.expr(&operands[0]), self.expr(&operands[1]));
                 match (*op == Builtin::Lt, when) {
-                    (true, true) => Op::JumpIfLess { a, b, to: 0 },
-                    (true, false) => Op::JumpUnlessLess { a, b, to: 0 },
-                    (false, true) => Op::JumpIfAtMost { a, b, to: 0 },
-                    (false, false) => Op::JumpUnlessAtMost { a, b, to: 0 },
+                    (true, true) => When::Less(a, b),
+                    (true, false) => When::NotLess(a, b),
+                    (false, true) => When::AtMost(a, b),
+                    (false, false) => When::NotAtMost(a, b),
                 }
             }
             _ => {
                 let value = self.expr(condition);
-                if when { Op::JumpIf { if_: value, to: 0 } } else { Op::JumpUnless { unless: value, to: 0 } }
+                if when { When::True(value) } else { When::False(value) }
             }
         };
-        vec![self.emit(jump)]
+        vec![self.emit(Compute::Jump { to: 0, when: taken })]
     }
 }

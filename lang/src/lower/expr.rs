@@ -3,7 +3,8 @@
 use super::{FnCode, Lowering};
 use crate::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart};
 use crate::types::Type;
-use albacore_program::{ABSOLUTE, Code, Input, Op, Slot, Text, Valued};
+use albacore_arithmetic::Operator;
+use albacore_program::{ABSOLUTE, AreaOp, Code, Compute, Input, ListOp, Op, Slot, Text, Valued};
 
 impl<'a> Lowering<'a> {
     /// Code that leaves an expression's value somewhere; a variable's stays where it is.
@@ -29,7 +30,7 @@ impl<'a> Lowering<'a> {
     pub(super) fn number(&mut self, value: f64) -> Slot {
         self.constant(value).unwrap_or_else(|| {
             let to = self.temp(1);
-            self.emit(Op::Const { to, value });
+            self.emit(Compute::Const { to, value });
             to
         })
     }
@@ -42,8 +43,8 @@ impl<'a> Lowering<'a> {
         if to != from {
             match words {
                 0 => return,
-                1 => self.emit(Op::Copy { to, from }),
-                _ => self.emit(Op::CopyMany { to, from, words }),
+                1 => self.emit(Compute::Copy { to, from }),
+                _ => self.emit(Compute::CopyMany { to, from, words }),
             };
         }
     }
@@ -52,18 +53,18 @@ impl<'a> Lowering<'a> {
     pub(super) fn expr_into(&mut self, e: &Expr, to: Slot) {
         let words = self.words(&e.ty).max(1);
         match &e.kind {
-            ExprKind::Number(value) => _ = self.emit(Op::Const { to, value: *value }),
+            ExprKind::Number(value) => _ = self.emit(Compute::Const { to, value: *value }),
             ExprKind::Geodetic { latitude_deg, longitude_deg } => {
                 let point = self.place(e.span, *latitude_deg, *longitude_deg);
-                self.emit(Op::Const { to, value: point.north });
-                self.emit(Op::Const { to: to + 1, value: point.east });
+                self.emit(Compute::Const { to, value: point.north });
+                self.emit(Compute::Const { to: to + 1, value: point.east });
             }
             ExprKind::Text(parts) => {
                 let text = self.text(parts);
-                self.emit(Op::Const { to, value: f64::from(text) });
+                self.emit(Compute::Const { to, value: f64::from(text) });
             }
-            ExprKind::None => _ = self.emit(Op::Clear { to, words }),
-            ExprKind::Done => _ = self.emit(Op::Const { to, value: f64::from(u8::from(self.frame.done)) }),
+            ExprKind::None => _ = self.emit(Compute::Clear { to, words }),
+            ExprKind::Done => _ = self.emit(Compute::Const { to, value: f64::from(u8::from(self.frame.done)) }),
             ExprKind::Var(_) | ExprKind::Unwrap(_) | ExprKind::Part(..) | ExprKind::IsPresent(_) => self.scratch(|l| {
                 let from = l.expr(e);
                 l.copy(to, from, words);
@@ -71,15 +72,15 @@ impl<'a> Lowering<'a> {
             ExprKind::Input(id, part) => self.input(*id, part, to, words),
             ExprKind::Present(inner) => {
                 self.expr_into(inner, to + 1);
-                self.emit(Op::Const { to, value: 1.0 });
+                self.emit(Compute::Const { to, value: 1.0 });
             }
             ExprKind::Else(a, b) => self.scratch(|l| {
                 let value = l.expr(a);
-                let absent = l.emit(Op::JumpUnless { unless: value, to: 0 });
+                let absent = l.emit(Compute::jump_unless(value, 0));
                 // `a else b` where b may be absent too keeps a's presence.
                 let from = if e.ty.is_optional() { value } else { value + 1 };
                 l.copy(to, from, words);
-                let present = l.emit(Op::Jump { to: 0 });
+                let present = l.emit(Compute::jump(0));
                 l.land(absent);
                 l.expr_into(b, to);
                 l.land(present);
@@ -97,8 +98,8 @@ impl<'a> Lowering<'a> {
                 }
             }
             ExprKind::List(elements) => {
-                self.emit(Op::Clear { to, words });
-                self.emit(Op::Const { to, value: elements.len() as f64 });
+                self.emit(Compute::Clear { to, words });
+                self.emit(Compute::Const { to, value: elements.len() as f64 });
                 let mut at = to + 1;
                 for element in elements {
                     self.expr_into(element, at);
@@ -108,7 +109,7 @@ impl<'a> Lowering<'a> {
             ExprKind::If(condition, then, otherwise) => {
                 let unless = self.jumps_unless(condition);
                 self.block_into(then, to);
-                let end = self.emit(Op::Jump { to: 0 });
+                let end = self.emit(Compute::jump(0));
                 self.land_all(unless);
                 self.block_into(otherwise, to);
                 self.land(end);
@@ -153,16 +154,16 @@ impl<'a> Lowering<'a> {
                 self.scratch(|l| {
                     let wanted = l.number(variant as f64);
                     let equal = l.temp(1);
-                    l.emit(Op::Eq { to: equal, a: value, b: wanted, words: 1 });
-                    hits.push(l.emit(Op::JumpIf { if_: equal, to: 0 }));
+                    l.emit(Compute::Eq { to: equal, a: value, b: wanted, words: 1 });
+                    hits.push(l.emit(Compute::jump_if(equal, 0)));
                 });
             }
-            let next = self.emit(Op::Jump { to: 0 });
+            let next = self.emit(Compute::jump(0));
             for hit in hits {
                 self.land(hit);
             }
             body(self, block);
-            ends.push(self.emit(Op::Jump { to: 0 }));
+            ends.push(self.emit(Compute::jump(0)));
             self.land(next);
         }
         if let Some(block) = otherwise {
@@ -251,84 +252,84 @@ impl<'a> Lowering<'a> {
         if op == B::Top {
             // Lists are compared word by word, what is beyond their count too.
             let words = self.words(&operands[0].ty);
-            self.emit(Op::Clear { to, words });
+            self.emit(Compute::Clear { to, words });
         }
-        let op = match op {
-            B::Quotient => Op::Quotient { to, a, b },
+        let op: Op = match op {
+            B::Quotient => Compute::Quotient { to, a, b }.into(),
             B::VectorQuotient => {
                 let (one, inverse) = (self.number(1.0), self.temp(2));
-                self.emit(Op::Quotient { to: inverse, a: one, b });
-                self.emit(Op::Copy { to, from: inverse });
-                Op::Scale { to: to + 1, vector: a, by: inverse + 1 }
+                self.emit(Compute::Quotient { to: inverse, a: one, b });
+                self.emit(Compute::Copy { to, from: inverse });
+                Compute::Scale { to: to + 1, vector: a, by: inverse + 1 }.into()
             }
             // `number(angle)` has one operand: it is the angle.
-            B::Add if operands.len() == 1 => Op::Copy { to, from: a },
-            B::Add => Op::Add { to, a, b },
-            B::Sub => Op::Sub { to, a, b },
-            B::Mul => Op::Mul { to, a, b },
-            B::AddInt => Op::AddInt { to, a, b },
-            B::SubInt => Op::SubInt { to, a, b },
-            B::MulInt => Op::MulInt { to, a, b },
-            B::Div => Op::Div { to, a, b },
-            B::Pow => Op::Pow { to, a, b },
-            B::Neg => Op::Neg { to, a },
-            B::Abs => Op::Abs { to, a },
-            B::Min => Op::Min { to, a, b },
-            B::Max => Op::Max { to, a, b },
-            B::Sqrt => Op::Sqrt { to, a },
-            B::Floor => Op::Floor { to, a },
-            B::Ceil => Op::Ceil { to, a },
-            B::Round => Op::Round { to, a },
-            B::Sin => Op::Sin { to, a },
-            B::Cos => Op::Cos { to, a },
-            B::Heading => Op::WrapHeading { to, a },
-            B::Angle => Op::WrapAngle { to, a },
-            B::Lt => Op::Lt { to, a, b },
-            B::Le => Op::Le { to, a, b },
-            B::Eq => Op::Eq { to, a, b, words: self.words(&operands[0].ty) },
-            B::Not => Op::Not { to, a },
-            B::And => Op::And { to, a, b },
-            B::Or => Op::Or { to, a, b },
-            B::AddVector => Op::AddVector { to, a, b },
-            B::SubVector => Op::SubVector { to, a, b },
-            B::Scale => Op::Scale { to, vector: a, by: b },
-            B::Toward => Op::Toward { to, length: a, heading: b },
-            B::Direction => Op::Direction { to, vector: a },
-            B::Length => Op::Length { to, vector: a },
-            B::Dot => Op::Dot { to, a, b },
-            B::Along => Op::Along { to, vector: a, heading: b },
+            B::Add if operands.len() == 1 => Compute::Copy { to, from: a }.into(),
+            B::Add => Compute::two(Operator::Add, to, a, b).into(),
+            B::Sub => Compute::two(Operator::Sub, to, a, b).into(),
+            B::Mul => Compute::two(Operator::Mul, to, a, b).into(),
+            B::AddInt => Compute::two(Operator::AddInt, to, a, b).into(),
+            B::SubInt => Compute::two(Operator::SubInt, to, a, b).into(),
+            B::MulInt => Compute::two(Operator::MulInt, to, a, b).into(),
+            B::Div => Compute::two(Operator::Div, to, a, b).into(),
+            B::Pow => Compute::two(Operator::Pow, to, a, b).into(),
+            B::Neg => Compute::One { operator: Operator::Neg, to, a }.into(),
+            B::Abs => Compute::One { operator: Operator::Abs, to, a }.into(),
+            B::Min => Compute::two(Operator::Min, to, a, b).into(),
+            B::Max => Compute::two(Operator::Max, to, a, b).into(),
+            B::Sqrt => Compute::One { operator: Operator::Sqrt, to, a }.into(),
+            B::Floor => Compute::One { operator: Operator::Floor, to, a }.into(),
+            B::Ceil => Compute::One { operator: Operator::Ceil, to, a }.into(),
+            B::Round => Compute::One { operator: Operator::Round, to, a }.into(),
+            B::Sin => Compute::One { operator: Operator::Sin, to, a }.into(),
+            B::Cos => Compute::One { operator: Operator::Cos, to, a }.into(),
+            B::Heading => Compute::One { operator: Operator::WrapHeading, to, a }.into(),
+            B::Angle => Compute::One { operator: Operator::WrapAngle, to, a }.into(),
+            B::Lt => Compute::Lt { to, a, b }.into(),
+            B::Le => Compute::Le { to, a, b }.into(),
+            B::Eq => Compute::Eq { to, a, b, words: self.words(&operands[0].ty) }.into(),
+            B::Not => Compute::Not { to, a }.into(),
+            B::And => Compute::And { to, a, b }.into(),
+            B::Or => Compute::Or { to, a, b }.into(),
+            B::AddVector => Compute::AddVector { to, a, b }.into(),
+            B::SubVector => Compute::SubVector { to, a, b }.into(),
+            B::Scale => Compute::Scale { to, vector: a, by: b }.into(),
+            B::Toward => Compute::Toward { to, length: a, heading: b }.into(),
+            B::Direction => Compute::Direction { to, vector: a }.into(),
+            B::Length => Compute::two(Operator::Length, to, a, a + 1).into(),
+            B::Dot => Compute::Dot { to, a, b }.into(),
+            B::Along => Compute::Along { to, vector: a, heading: b }.into(),
             B::Pair | B::Line => return,
-            B::Rectangle => Op::Rectangle { to, center: a, along: b, length: c, width: d },
-            B::Polygon => Op::Polygon { to: to + 1, points: a, ok: to },
-            B::LineVector => Op::SubVector { to, a: a + 2, b: a },
-            B::Center => Op::Center { to, area: a },
-            B::Gap => Op::Gap { to, area: a, point: b },
+            B::Rectangle => AreaOp::Rectangle { to, center: a, along: b, length: c, width: d }.into(),
+            B::Polygon => AreaOp::Polygon { to: to + 1, points: a, ok: to }.into(),
+            B::LineVector => Compute::SubVector { to, a: a + 2, b: a }.into(),
+            B::Center => AreaOp::Center { to, area: a }.into(),
+            B::Gap => AreaOp::Gap { to, area: a, point: b }.into(),
             B::Corner => {
                 let near = if slots.len() > 2 { c } else { self.center_of(a) };
-                Op::Corner { to, area: a, heading: b, near }
+                AreaOp::Corner { to, area: a, heading: b, near }.into()
             }
-            B::NearestEdge => Op::NearestEdge { to, area: a, point: b },
-            B::EdgeGap => Op::EdgeGap { to, edge: a, point: b },
-            B::EdgeTangent => Op::EdgeTangent { to, edge: a, heading: b },
-            B::Exit => Op::Exit { to, area: a, point: b, heading: c },
+            B::NearestEdge => AreaOp::NearestEdge { to, area: a, point: b }.into(),
+            B::EdgeGap => Compute::EdgeGap { to, edge: a, point: b }.into(),
+            B::EdgeTangent => AreaOp::EdgeTangent { to, edge: a, heading: b }.into(),
+            B::Exit => AreaOp::Exit { to, area: a, point: b, heading: c }.into(),
             B::Run => {
                 let exit = self.temp(2);
-                self.emit(Op::Exit { to: exit, area: a, point: b, heading: c });
-                Op::SubVector { to, a: exit, b }
+                self.emit(AreaOp::Exit { to: exit, area: a, point: b, heading: c });
+                Compute::SubVector { to, a: exit, b }.into()
             }
-            B::Top => Op::Top { to, list: a, count: b, words: element_words(self) },
-            B::At => Op::At { to, list: a, index: b, words: element_words(self) },
-            B::Spread => Op::Spread { to, list: a, heading: b },
+            B::Top => ListOp::Top { to, list: a, count: b, words: element_words(self) }.into(),
+            B::At => ListOp::At { to, list: a, index: b, words: element_words(self) }.into(),
+            B::Spread => ListOp::Spread { to, list: a, heading: b }.into(),
         };
         self.emit(op);
-        if let (Op::At { .. }, Type::List(inner, _)) = (op, &operands[0].ty) {
+        if let (Op::List(ListOp::At { .. }), Type::List(inner, _)) = (op, &operands[0].ty) {
             self.typed(to.saturating_add(1), inner);
         }
     }
 
     fn center_of(&mut self, area: Slot) -> Slot {
         let to = self.temp(2);
-        self.emit(Op::Center { to, area });
+        self.emit(AreaOp::Center { to, area });
         to
     }
 
@@ -371,7 +372,7 @@ impl<'a> Lowering<'a> {
         let entry = self.here();
         self.scratch(|l| {
             let seconds = l.expr(e);
-            l.emit(Op::Ticks { to: value, a: seconds });
+            l.emit(Compute::One { operator: Operator::Ticks, to: value, a: seconds });
         });
         self.emit(Op::Return);
         Code { entry, value }

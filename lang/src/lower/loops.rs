@@ -5,7 +5,8 @@ use crate::check::goes_round;
 use crate::hir::{self, Block, Expr};
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
-use albacore_program::{Op, ROWS_WORDS, Slot};
+use albacore_arithmetic::Operator;
+use albacore_program::{AreaOp, Compute, ListOp, ROWS_WORDS, Slot, When};
 
 impl<'a> Lowering<'a> {
     pub(super) fn for_range(&mut self, var: usize, first: &Expr, last: &Expr, inclusive: bool, body: &Block) {
@@ -14,12 +15,15 @@ impl<'a> Lowering<'a> {
             l.expr_into(first, counter);
             l.expr_into(last, end);
         });
-        let goes_on = |to| match inclusive {
-            true => (Op::JumpUnlessAtMost { a: counter, b: end, to }, Op::JumpIfAtMost { a: counter, b: end, to }),
-            false => (Op::JumpUnlessLess { a: counter, b: end, to }, Op::JumpIfLess { a: counter, b: end, to }),
+        let goes_on = |to| {
+            match inclusive {
+                true => [When::NotAtMost(counter, end), When::AtMost(counter, end)],
+                false => [When::NotLess(counter, end), When::Less(counter, end)],
+            }
+            .map(|when| Compute::Jump { to, when })
         };
         // A loop may rely on it that this one takes time. Then there is no way past its first round, whatever the numbers are.
-        let none = (!goes_round(first, last, inclusive)).then(|| self.emit(goes_on(0).0));
+        let none = (!goes_round(first, last, inclusive)).then(|| self.emit(goes_on(0)[0]));
         let top = self.here();
         let to = self.frame.vars[var];
         self.copy(to, counter, 1);
@@ -27,12 +31,12 @@ impl<'a> Lowering<'a> {
         let mut leaves: Vec<_> = none.into_iter().collect();
         if inclusive && last.range.high >= INT_MAX {
             // Where counting may come to its own end, nothing lies beyond the last: it is looked for before one is added.
-            leaves.push(self.emit(Op::JumpUnlessLess { a: counter, b: end, to: 0 }));
+            leaves.push(self.emit(Compute::Jump { to: 0, when: When::NotLess(counter, end) }));
             self.count_up(counter);
-            self.emit(Op::Jump { to: top });
+            self.emit(Compute::jump(top));
         } else {
             self.count_up(counter);
-            self.emit(goes_on(top).1);
+            self.emit(goes_on(top)[1]);
         }
         self.land_all(leaves);
     }
@@ -40,7 +44,7 @@ impl<'a> Lowering<'a> {
     fn count_up(&mut self, counter: Slot) {
         self.scratch(|l| {
             let one = l.number(1.0);
-            l.emit(Op::AddInt { to: counter, a: counter, b: one });
+            l.emit(Compute::two(Operator::AddInt, counter, counter, one));
         });
     }
 
@@ -51,16 +55,16 @@ impl<'a> Lowering<'a> {
         let copy = self.lasting(words);
         let (counter, found) = (self.lasting(1), self.lasting(element.saturating_add(1)));
         self.scratch(|l| l.expr_into(list, copy));
-        self.emit(Op::Const { to: counter, value: 0.0 });
+        self.emit(Compute::Const { to: counter, value: 0.0 });
         let top = self.here();
-        self.emit(Op::At { to: found, list: copy, index: counter, words: element });
+        self.emit(ListOp::At { to: found, list: copy, index: counter, words: element });
         self.typed(found.saturating_add(1), inner);
-        let done = self.emit(Op::JumpUnless { unless: found, to: 0 });
+        let done = self.emit(Compute::jump_unless(found, 0));
         let to = self.frame.vars[var];
         self.copy(to, found + 1, element);
         self.body(body);
         self.count_up(counter);
-        self.emit(Op::Jump { to: top });
+        self.emit(Compute::jump(top));
         self.land(done);
     }
 
@@ -83,32 +87,32 @@ impl<'a> Lowering<'a> {
         let (rows, counter) = (self.lasting(ROWS_WORDS), self.lasting(1));
         self.scratch(|l| {
             let (step, near) = (l.expr(step), l.expr(near));
-            l.emit(Op::Rows { to: rows, area, step, near });
+            l.emit(AreaOp::Rows { to: rows, area, step, near });
         });
-        self.emit(Op::Const { to: counter, value: 0.0 });
+        self.emit(Compute::Const { to: counter, value: 0.0 });
         let top = self.here();
         let to = self.frame.vars[var];
         let done = self.scratch(|l| {
             let there = l.temp(1);
-            l.emit(Op::RowAt { to, there, rows, area, index: counter });
-            l.emit(Op::JumpUnless { unless: there, to: 0 })
+            l.emit(AreaOp::RowAt { to, there, rows, area, index: counter });
+            l.emit(Compute::jump_unless(there, 0))
         });
         self.body(body);
         self.count_up(counter);
-        self.emit(Op::Jump { to: top });
+        self.emit(Compute::jump(top));
         self.land(done);
     }
 
     pub(super) fn for_edges(&mut self, var: usize, area: &Expr, body: &Block) {
         let area = self.walked_area(area);
         let counter = self.lasting(1);
-        self.emit(Op::Const { to: counter, value: 0.0 });
+        self.emit(Compute::Const { to: counter, value: 0.0 });
         let top = self.here();
         let to = self.frame.vars[var];
-        self.emit(Op::EdgeAt { to, area, index: counter });
+        self.emit(Compute::EdgeAt { to, area, index: counter });
         self.body(body);
         self.count_up(counter);
         // An area has an edge: there is no way past the first round.
-        self.emit(Op::JumpIfLess { a: counter, b: area, to: top });
+        self.emit(Compute::Jump { to: top, when: When::Less(counter, area) });
     }
 }

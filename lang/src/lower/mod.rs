@@ -231,10 +231,10 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn emit(&mut self, op: Op) -> Addr {
+    fn emit(&mut self, op: impl Into<Op>) -> Addr {
         self.emitted += 1;
         if self.program.ops.len() < INSTRUCTIONS_MAX {
-            self.program.ops.push(op);
+            self.program.ops.push(op.into());
         }
         self.program.ops.len() as Addr - 1
     }
@@ -246,16 +246,7 @@ impl<'a> Lowering<'a> {
     /// Makes a jump that was emitted before its target was known lead here.
     fn land(&mut self, jump: Addr) {
         let here = self.here();
-        if let Some(
-            Op::Jump { to }
-            | Op::JumpIf { to, .. }
-            | Op::JumpUnless { to, .. }
-            | Op::JumpIfLess { to, .. }
-            | Op::JumpUnlessLess { to, .. }
-            | Op::JumpIfAtMost { to, .. }
-            | Op::JumpUnlessAtMost { to, .. },
-        ) = self.program.ops.get_mut(jump as usize)
-        {
+        if let Some(to) = self.program.ops.get_mut(jump as usize).and_then(Op::jump_mut) {
             *to = here;
         }
     }

@@ -3,8 +3,10 @@
 use super::{Lowering, Sorter};
 use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed, With};
 use crate::types::Type;
+use albacore_arithmetic::Operator;
 use albacore_program::{
-    CallSite, Cause, Channel, GUIDANCE_WORDS, Guide, Op, OverlaySite, OverrideEnd, ReportSite, Slot, header, setpoints,
+    CallSite, Cause, Channel, Compute, GUIDANCE_WORDS, Guide, ListOp, Mark, Op, OverlaySite, OverrideEnd, ReportSite,
+    Slot, header, setpoints,
 };
 
 impl<'a> Lowering<'a> {
@@ -37,20 +39,20 @@ impl<'a> Lowering<'a> {
                 let capacity = self.capacity(*var);
                 match self.frame.sorters.get(var).cloned() {
                     Some(Sorter { entry: sort, it, element, .. }) => {
-                        self.emit(Op::PushSorted { list, item, words, capacity, sort });
+                        self.emit(ListOp::PushSorted { list, item, words, capacity, sort });
                         self.typed(it, &element);
                     }
-                    None => _ = self.emit(Op::Push { list, item, words, capacity }),
+                    None => _ = self.emit(ListOp::Push { list, item, words, capacity }),
                 }
             }
             StmtKind::Remove(var, e) => {
                 let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
-                self.emit(Op::Remove { list, item, words });
+                self.emit(ListOp::Remove { list, item, words });
             }
             StmtKind::Clear(var) => {
                 // All of it: lists are compared word by word, what is beyond their count too.
                 let (to, words) = (self.frame.vars[*var], self.words(&self.vars[*var].ty));
-                self.emit(Op::Clear { to, words });
+                self.emit(Compute::Clear { to, words });
             }
             StmtKind::If(condition, then, otherwise) => {
                 let unless = self.jumps_unless(condition);
@@ -59,7 +61,7 @@ impl<'a> Lowering<'a> {
                     self.land_all(unless);
                     return;
                 }
-                let end = self.emit(Op::Jump { to: 0 });
+                let end = self.emit(Compute::jump(0));
                 self.land_all(unless);
                 self.body(otherwise);
                 self.land(end);
@@ -80,7 +82,7 @@ impl<'a> Lowering<'a> {
                 let top = self.here();
                 let unless = self.scratch(|l| {
                     let value = l.expr(condition);
-                    let unless = l.emit(Op::JumpUnless { unless: value, to: 0 });
+                    let unless = l.emit(Compute::jump_unless(value, 0));
                     if let Some(var) = bind {
                         let (to, words) = (l.frame.vars[*var], l.words(condition.ty.present()));
                         l.copy(to, value + 1, words);
@@ -88,13 +90,13 @@ impl<'a> Lowering<'a> {
                     unless
                 });
                 self.body(body);
-                self.emit(Op::Jump { to: top });
+                self.emit(Compute::jump(top));
                 self.land(unless);
             }
             StmtKind::Loop(body) => {
                 let top = self.here();
                 self.body(body);
-                self.emit(Op::Jump { to: top });
+                self.emit(Compute::jump(top));
             }
             StmtKind::With(items, body) => self.with(items, body),
             StmtKind::Timed(timed) => self.timed(timed),
@@ -168,13 +170,15 @@ impl<'a> Lowering<'a> {
     }
 
     fn setpoint(&mut self, channel: Channel, e: &Expr, at: Slot) {
-        if channel == Channel::Speed {
-            self.expr_into(e, at + setpoints::SPEED);
-            return;
+        self.expr_into(e, at + channel.row().word);
+        self.mark_set(channel, at);
+    }
+
+    /// Where one word tells which of several channels is set.
+    fn mark_set(&mut self, channel: Channel, at: Slot) {
+        if let Mark::Word(word, value) = channel.row().mark {
+            self.emit(Compute::Const { to: at + word, value });
         }
-        self.expr_into(e, at + setpoints::METRES);
-        let value = if channel == Channel::Depth { setpoints::DEPTH } else { setpoints::ALTITUDE };
-        self.emit(Op::Const { to: at + setpoints::VERTICAL, value });
     }
 
     fn with(&mut self, items: &[With], body: &Block) {
@@ -194,7 +198,7 @@ impl<'a> Lowering<'a> {
     fn timed(&mut self, timed: &Timed) {
         let owner = self.frame.header;
         let begun = self.lasting(1);
-        self.emit(Op::Now { to: begun, owner });
+        self.emit(Compute::Now { to: begun, owner });
         // Setpoints of its own are frozen now; without them those in force are used where they are.
         let in_force = owner + header::SETPOINTS;
         let setpoints = if timed.at.is_empty() {
@@ -219,7 +223,7 @@ impl<'a> Lowering<'a> {
         let wait = self.emit(Op::Yield);
         self.update_timers(&timers, owner, Some(begun));
         self.go_on(&action, &timed.action, setpoints, ended);
-        let mut done = vec![self.emit(Op::JumpIf { if_: ended, to: 0 })];
+        let mut done = vec![self.emit(Compute::jump_if(ended, 0))];
         let mut cut_normally = Vec::new();
         let mut cut_off = None;
         if let Some(until) = &timed.until {
@@ -231,7 +235,7 @@ impl<'a> Lowering<'a> {
         if let Some(ticks) = within {
             cut_off = Some(self.jump_if_elapsed(begun, ticks, owner));
         }
-        self.emit(Op::Jump { to: wait });
+        self.emit(Compute::jump(wait));
 
         // Its own end, then `for` and `until`, then `within`: each leaves the outcome where `let` wants it.
         let has_value = match &timed.action {
@@ -252,7 +256,7 @@ impl<'a> Lowering<'a> {
             if jumps.is_empty() {
                 continue;
             }
-            ends.push(self.emit(Op::Jump { to: 0 }));
+            ends.push(self.emit(Compute::jump(0)));
             for jump in jumps {
                 self.land(jump);
             }
@@ -261,17 +265,17 @@ impl<'a> Lowering<'a> {
             }
             if let Running::Override { end, .. } = action {
                 let value = if by_itself == 0.0 { OverrideEnd::TimedOut } else { OverrideEnd::Completed };
-                self.emit(Op::Const { to: end, value: value.number() });
+                self.emit(Compute::Const { to: end, value: value.number() });
                 continue;
             }
             if let Some(to) = result {
                 match &has_value {
                     Some(ty) => {
                         let words = self.words(&ty.clone().optional());
-                        self.emit(Op::Clear { to, words });
+                        self.emit(Compute::Clear { to, words });
                     }
                     // `for` and `until` are normal ends; only `within` cuts off.
-                    None => _ = self.emit(Op::Const { to, value: by_itself }),
+                    None => _ = self.emit(Compute::Const { to, value: by_itself }),
                 }
             }
         }
@@ -290,7 +294,7 @@ impl<'a> Lowering<'a> {
         let ticks = self.lasting(1);
         self.scratch(|l| {
             let seconds = l.expr(duration);
-            l.emit(Op::Ticks { to: ticks, a: seconds });
+            l.emit(Compute::One { operator: Operator::Ticks, to: ticks, a: seconds });
         });
         ticks
     }
@@ -298,8 +302,8 @@ impl<'a> Lowering<'a> {
     pub(super) fn jump_if_elapsed(&mut self, from: Slot, ticks: Slot, owner: Slot) -> u32 {
         self.scratch(|l| {
             let elapsed = l.temp(1);
-            l.emit(Op::Elapsed { to: elapsed, from, ticks, owner });
-            l.emit(Op::JumpIf { if_: elapsed, to: 0 })
+            l.emit(Compute::Elapsed { to: elapsed, from, ticks, owner });
+            l.emit(Compute::jump_if(elapsed, 0))
         })
     }
 
@@ -308,7 +312,7 @@ impl<'a> Lowering<'a> {
             (Running::Call { result, .. }, Some(ty)) => {
                 let words = self.words(ty);
                 if cut && !ty.is_optional() {
-                    self.emit(Op::Const { to, value: 1.0 });
+                    self.emit(Compute::Const { to, value: 1.0 });
                     self.copy(to + 1, *result, words);
                     self.typed(to + 1, ty);
                 } else {
@@ -316,7 +320,7 @@ impl<'a> Lowering<'a> {
                     self.typed(to, ty);
                 }
             }
-            _ => _ = self.emit(Op::Const { to, value: 1.0 }),
+            _ => _ = self.emit(Compute::Const { to, value: 1.0 }),
         }
     }
 
@@ -365,8 +369,7 @@ impl<'a> Lowering<'a> {
     fn go_on(&mut self, running: &Running, action: &Action, setpoints: Slot, ended: Slot) {
         match (running, action) {
             (Running::Guide { guide, args, state }, Action::Guide(_, written)) => {
-                // `steer` reads its course at every tick; all others have frozen their arguments.
-                if matches!(guide, Guide::Steer | Guide::SteerHeading) {
+                if guide.law().reads_arguments_anew() {
                     self.scratch(|l| l.args(written, *args));
                 }
                 self.emit(Op::Guide { guide: *guide, args: *args, state: *state, setpoints, ended });
@@ -383,12 +386,8 @@ impl<'a> Lowering<'a> {
         let Running::Keep { channel, value, own, state } = *running else { return };
         self.scratch(|l| l.expr_into(e, value));
         self.copy(own, setpoints, setpoints::WORDS);
-        let metres = if channel == Channel::Speed { own + setpoints::SPEED } else { own + setpoints::METRES };
-        self.copy(metres, value, 1);
-        if channel != Channel::Speed {
-            let kind = if channel == Channel::Depth { setpoints::DEPTH } else { setpoints::ALTITUDE };
-            self.emit(Op::Const { to: own + setpoints::VERTICAL, value: kind });
-        }
+        self.copy(own + channel.row().word, value, 1);
+        self.mark_set(channel, own);
         self.emit(Op::Keep { channel, value });
         self.emit(Op::Guide { guide: Guide::Keep, args: value, state, setpoints: own, ended });
     }

@@ -2,7 +2,8 @@
 
 use super::Lowering;
 use crate::hir::{Activity, Expr, ExprKind, InputPart, children};
-use albacore_program::{Op, Slot};
+use albacore_arithmetic::Operator;
+use albacore_program::{Compute, Slot};
 
 /// A temporal operator in place.
 pub(super) enum Timer<'e> {
@@ -35,8 +36,8 @@ impl<'a> Lowering<'a> {
     pub(super) fn reset_timers(&mut self, timers: &[Timer]) {
         for timer in timers {
             match timer {
-                Timer::HeldFor { since, .. } => _ = self.emit(Op::Const { to: *since, value: -1.0 }),
-                Timer::Becomes { before, .. } => _ = self.emit(Op::Const { to: *before, value: 1.0 }),
+                Timer::HeldFor { since, .. } => _ = self.emit(Compute::Const { to: *since, value: -1.0 }),
+                Timer::Becomes { before, .. } => _ = self.emit(Compute::Const { to: *before, value: 1.0 }),
                 Timer::After { .. } => {}
             }
         }
@@ -51,18 +52,18 @@ impl<'a> Lowering<'a> {
                     let ExprKind::HeldFor(holds, duration) = &node.kind else { return };
                     let x = l.expr(holds);
                     let ticks = l.ticks(duration);
-                    l.emit(Op::HeldFor { to: *value, x, since: *since, ticks, owner });
+                    l.emit(Compute::HeldFor { to: *value, x, since: *since, ticks, owner });
                 }
                 Timer::Becomes { node, before, value } => {
                     let ExprKind::Becomes(holds) = &node.kind else { return };
                     let x = l.expr(holds);
-                    l.emit(Op::Becomes { to: *value, x, before: *before });
+                    l.emit(Compute::Becomes { to: *value, x, before: *before });
                 }
                 Timer::After { node, value } => {
                     let ExprKind::After(duration) = &node.kind else { return };
                     let ticks = l.ticks(duration);
                     let from = from.unwrap_or_else(|| l.number(0.0));
-                    l.emit(Op::Elapsed { to: *value, from, ticks, owner });
+                    l.emit(Compute::Elapsed { to: *value, from, ticks, owner });
                 }
             });
         }
@@ -72,7 +73,7 @@ impl<'a> Lowering<'a> {
     pub(super) fn ticks(&mut self, duration: &Expr) -> Slot {
         let seconds = self.expr(duration);
         let ticks = self.temp(1);
-        self.emit(Op::Ticks { to: ticks, a: seconds });
+        self.emit(Compute::One { operator: Operator::Ticks, to: ticks, a: seconds });
         ticks
     }
 }

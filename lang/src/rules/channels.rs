@@ -6,7 +6,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, Block, Body, Decl, Expr, ExprKind, Hir, Interval, Kind, StmtKind, Timed, With};
 use crate::source::Span;
-use albacore_program::{Channel, Guide};
+use albacore_program::{Axis, Channel};
 use std::collections::BTreeSet;
 
 /// So many ways to activities are told apart by what the calls on them give.
@@ -22,12 +22,8 @@ enum Owner {
     Overlay(Span),
 }
 
-/// The owners of the two channels that guidance does not set itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Owners {
-    vertical: Owner,
-    speed: Owner,
-}
+/// The owners of what guidance does not set itself, each at the place of its axis.
+type Owners = [Owner; Axis::ALL.len()];
 
 /// A way to an activity, as far as it makes a difference: who owns what there, and the bounds of what the call gives.
 type Way = (usize, Owners, Vec<(u64, u64)>);
@@ -46,7 +42,7 @@ struct Walk<'a> {
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let limits = limits::of(hir, mission);
     let mut walk = Walk { hir, limits, seen: BTreeSet::new(), given: Vec::new(), findings: Findings::default() };
-    walk.activity(mission, Owners { vertical: Owner::Nobody, speed: Owner::Nobody });
+    walk.activity(mission, [Owner::Nobody; Axis::ALL.len()]);
     walk.findings.into_vec()
 }
 
@@ -81,11 +77,11 @@ impl Walk<'_> {
             match item {
                 With::Setpoint(channel, e) => {
                     self.limited(*channel, e);
-                    self.own(&mut owners, *channel, Owner::Setpoint, e.span);
+                    self.own(&mut owners, channel.row().axis, Owner::Setpoint, e.span);
                 }
                 With::Overlay(id, args, place) => {
-                    if let Kind::Sets(channel) = self.hir.activities[*id].kind {
-                        self.own(&mut owners, channel, Owner::Overlay(*place), *place);
+                    if let Kind::Sets(axis) = self.hir.activities[*id].kind {
+                        self.own(&mut owners, axis, Owner::Overlay(*place), *place);
                     }
                     self.findings.called(self.hir, *id, *place);
                     self.called(args, |walk| walk.overlay(*id));
@@ -97,11 +93,8 @@ impl Walk<'_> {
     }
 
     /// Gives a channel a new owner; one that an overlay owns cannot be given away.
-    fn own(&mut self, owners: &mut Owners, channel: Channel, owner: Owner, span: Span) {
-        let (slot, name) = match channel {
-            Channel::Speed => (&mut owners.speed, "speed"),
-            _ => (&mut owners.vertical, "vertical channel"),
-        };
+    fn own(&mut self, owners: &mut Owners, axis: Axis, owner: Owner, span: Span) {
+        let (slot, name) = (&mut owners[axis as usize], axis.title());
         if let Owner::Overlay(earlier) = *slot {
             let finding =
                 Diagnostic::error(Code::ChannelsTwice, span, format!("the {name} belongs to an overlay here"))
@@ -172,7 +165,7 @@ impl Walk<'_> {
     fn timed(&mut self, timed: &Timed, mut owners: Owners, span: Span) {
         for (channel, e) in &timed.at {
             self.limited(*channel, e);
-            self.own(&mut owners, *channel, Owner::Setpoint, e.span);
+            self.own(&mut owners, channel.row().axis, Owner::Setpoint, e.span);
         }
         let (vertical, speed) = match &timed.action {
             Action::Call(id, args) => {
@@ -182,23 +175,21 @@ impl Walk<'_> {
                 return;
             }
             Action::Override(inner) => return self.block(&inner.block, owners),
-            // A pause goes on as before; standing still needs no speed.
-            Action::Guide(Guide::Wait, _) | Action::Watch => (false, false),
-            Action::Guide(Guide::Hold, _) => (true, false),
-            Action::Guide(..) => (true, true),
+            Action::Watch => (false, false),
+            Action::Guide(guide, _) => (guide.law().needs_vertical, guide.law().needs_speed),
             // What is kept is its own setpoint. In an overlay nothing else is needed.
             Action::Keep(channel, e) => {
                 self.limited(*channel, e);
                 (false, false)
             }
         };
-        if vertical && owners.vertical == Owner::Nobody {
+        if vertical && owners[Axis::Vertical as usize] == Owner::Nobody {
             self.findings.tell(
                 Diagnostic::error(Code::ChannelsUnset, span, "how deep? neither depth nor altitude is set here")
                     .help("write `at depth 3 m` after it, or `with altitude 2 m` around it"),
             );
         }
-        if speed && owners.speed == Owner::Nobody {
+        if speed && owners[Axis::Speed as usize] == Owner::Nobody {
             self.findings.tell(
                 Diagnostic::error(Code::ChannelsUnset, span, "how fast? no speed is set here")
                     .help("write `at speed 1.5 m/s` after it, or `with speed 1.5 m/s` around it"),

@@ -5,7 +5,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, ActivityId, Block, Body, Hir, StmtKind};
 use crate::source::Span;
-use albacore_program::Guide;
+use albacore_program::Steering;
 use std::collections::BTreeSet;
 
 struct Walk<'a> {
@@ -56,8 +56,9 @@ impl Walk<'_> {
                         .help("this is called from an `override` or a recovery: call it outside, or leave this out"),
                 ),
                 Action::Override(inner) => self.block(&inner.block, true),
+                Action::Watch => {}
                 // A pause sends nothing that was not sent before.
-                Action::Watch | Action::Guide(Guide::Wait, _) => {}
+                Action::Guide(guide, _) if matches!(guide.law().steering, Steering::Nothing) => {}
                 Action::Guide(..) | Action::Keep(..) if driving => {}
                 Action::Guide(..) | Action::Keep(..) => self.findings.tell(
                     Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle drives itself here")

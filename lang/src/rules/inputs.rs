@@ -8,7 +8,7 @@ use crate::hir::{
 };
 use crate::source::Span;
 use crate::suggest;
-use albacore_program::{Guide, senses};
+use albacore_program::{Guide, Steering, senses};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Inputs that the machine reads without being asked: to go over ground in moving water, and to hold a vertical limit.
@@ -224,19 +224,18 @@ impl Walk<'_> {
             StmtKind::With(items, _) => self.with(items),
             StmtKind::Timed(timed) => match &timed.action {
                 Action::Call(id, _) => self.activity(*id),
-                Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, _) => {
-                    self.note(senses::POSITION, stmt.span);
-                    self.note(senses::COURSE, stmt.span);
-                    self.note(senses::HEADING, stmt.span);
+                Action::Guide(guide, _) => {
+                    self.holds |= matches!(guide.law().steering, Steering::Station);
+                    self.guidance(*guide, stmt.span);
                 }
-                Action::Guide(Guide::Hold, _) => {
-                    self.holds = true;
-                    self.note(senses::HEADING, stmt.span);
-                }
-                Action::Guide(Guide::Wait, _) | Action::Watch | Action::Override(_) => {}
-                _ => self.note(senses::HEADING, stmt.span),
+                Action::Keep(..) => self.guidance(Guide::Keep, stmt.span),
+                Action::Watch | Action::Override(_) => {}
             },
             _ => {}
         });
+    }
+
+    fn guidance(&mut self, guide: Guide, span: Span) {
+        guide.law().inputs.iter().for_each(|input| self.note(input, span));
     }
 }

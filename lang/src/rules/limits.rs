@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::hir::{Expr, Hir, Interval};
 use crate::source::Span;
 use albacore_arithmetic::LARGEST;
-use albacore_program::Channel;
+use albacore_program::{Channel, Setpoint};
 
 /// A limit with its number.
 pub(super) struct Limit {
@@ -36,11 +36,7 @@ pub(super) fn beyond(limits: &[Limit], channel: Channel, setpoint: &Expr, range:
         let end = if l.least { range.low } else { range.high };
         end.abs() < LARGEST && if l.least { end < l.value } else { end > l.value }
     };
-    let (name, unit) = match channel {
-        Channel::Depth => ("depth", "m"),
-        Channel::Altitude => ("altitude", "m"),
-        Channel::Speed => ("speed", "m/s"),
-    };
+    let Setpoint { name, unit, .. } = channel.row();
     let told = |finding: Diagnostic, limit: &Limit| {
         let bound = if limit.least { "least" } else { "greatest" };
         finding.label(limit.span, format!("the {bound} {name}"))

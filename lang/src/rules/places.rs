@@ -12,7 +12,6 @@ use crate::types::TypeTable;
 use albacore_geometry::{
     AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Geodetic, Heading, Point, TangentFrame, goes_round_a_pole,
 };
-use albacore_program::Guide;
 use std::collections::BTreeSet;
 
 /// What is farther from the area than this, m, is nothing to the mission: a no-go zone may well lie beside it, and a vehicle start
@@ -104,14 +103,12 @@ pub(super) fn goals(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnos
         for block in hir.activities[id].blocks() {
             block.each(&mut |stmt| {
                 let StmtKind::Timed(timed) = &stmt.kind else { return };
-                let Action::Guide(Guide::Goto | Guide::Follow | Guide::Dubins | Guide::Loiter, args) = &timed.action
-                else {
-                    return;
-                };
-                let Some(goal) = args.first() else { return };
-                let places = fixed.places(unit, goal).into_iter();
-                let places = places.map(|(span, place)| (span, -area.gap(place), goal.span, asked(place)));
-                outside.extend(places.filter(|(_, out, ..)| *out > GOAL_MARGIN_M));
+                let Action::Guide(guide, args) = &timed.action else { return };
+                for (_, goal) in guide.law().params.iter().zip(args).filter(|(param, _)| param.kind.is_place()) {
+                    let places = fixed.places(unit, goal).into_iter();
+                    let places = places.map(|(span, place)| (span, -area.gap(place), goal.span, asked(place)));
+                    outside.extend(places.filter(|(_, out, ..)| *out > GOAL_MARGIN_M));
+                }
             });
         }
     }

@@ -1,14 +1,13 @@
 //! Whole statements as other languages, and other crews, write them.
 
 use super::habits::{Habit, line_end, quantity, word};
+use albacore_program::{Channel, Ends, Guide};
 
 /// Words that a block follows.
 const BEFORE_BLOCK: [&str; 16] = [
     "if", "else", "while", "for", "loop", "on", "behavior", "strategy", "overlay", "mission", "recovery", "limits",
     "requires", "fn", "scenario", "test",
 ];
-/// The verbs of statements whose arguments have labels.
-const VERBS: [&str; 5] = ["goto", "follow", "dubins", "steer", "loiter"];
 
 /// The habit behind a statement that could be read up to a place; `expected` tells what the grammar would have taken.
 pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habit> {
@@ -274,7 +273,7 @@ fn bracketed(before: &str, rest: &str) -> Option<Habit> {
     let verb = word(before.trim_start());
     let arguments = before.trim_start().strip_prefix(verb)?.trim_start().strip_prefix('(')?;
     let others = line_end(rest);
-    let is_call = VERBS.contains(&verb) && !arguments.contains(['(', ')']) && rest.starts_with(',');
+    let is_call = Guide::takes_arguments(verb) && !arguments.contains(['(', ')']) && rest.starts_with(',');
     is_call.then(|| Habit {
         message: Some(format!("`{verb}` is no function: its arguments stand without parentheses")),
         help: match verb {
@@ -289,7 +288,9 @@ fn bracketed(before: &str, rest: &str) -> Option<Habit> {
 /// `steer east 10 s`, `goto p timeout 10 s`, `loiter p max 5 min`: how long, without the word for it.
 fn lasting(before: &str, rest: &str) -> Option<Habit> {
     let verb = word(before.trim_start());
-    if !VERBS.contains(&verb) || [" for ", " until ", " within ", " at "].iter().any(|word| before.contains(word)) {
+    if !Guide::takes_arguments(verb)
+        || [" for ", " until ", " within ", " at "].iter().any(|word| before.contains(word))
+    {
         return None;
     }
     let value = line_end(rest);
@@ -298,7 +299,7 @@ fn lasting(before: &str, rest: &str) -> Option<Habit> {
     let (_, unit) = quantity(value).filter(|_| value.starts_with(|c: char| c.is_ascii_digit()))?;
     let is_verb_alone = last_word(before) == verb;
     let is_time = matches!(unit, "ms" | "s" | "min" | "h") && !is_verb_alone;
-    let ends = matches!(verb, "goto" | "follow" | "dubins");
+    let ends = Guide::of_verb(verb).any(|guide| guide.law().ends == Ends::Arrives);
     is_time.then(|| write(format!("{} {value}", if limit || ends { "within" } else { "for" }))).flatten()
 }
 
@@ -307,9 +308,9 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
     let verb = word(before.trim_start());
     let last = last_word(before);
     let open = before.matches('(').count() > before.matches(')').count();
-    if rest.starts_with('=') && !rest.starts_with("==") && (open || VERBS.contains(&verb)) && verb != last {
+    if rest.starts_with('=') && !rest.starts_with("==") && (open || Guide::takes_arguments(verb)) && verb != last {
         let value = super::slips::with_unit(last, line_end(&rest[1..]).trim_end_matches(')'));
-        if !open && ["depth", "altitude", "speed"].contains(&last) {
+        if !open && Channel::named(last).is_some() {
             let message = Some(format!("`at` is missing before `{last}`"));
             return Some(Habit { message, help: format!("write `at {last} {value}` in place of the comma") });
         }
@@ -321,10 +322,10 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
     if verb == "keep" && rest.starts_with('=') {
         return write(format!("keep {last} {}", line_end(&rest[1..])));
     }
-    if !VERBS.contains(&verb) && verb != "hold" {
+    if !Guide::takes_arguments(verb) && verb != "hold" {
         return None;
     }
-    let is_setpoint = ["depth", "altitude", "speed"].contains(&last);
+    let is_setpoint = Channel::named(last).is_some();
     if before.contains('°') || is_setpoint || rest[word(rest).len()..].trim_start().starts_with(':') {
         return None;
     }
@@ -343,7 +344,8 @@ fn label(before: &str, rest: &str) -> Option<Habit> {
         let help = "its arguments stand before `for`, `until`, `within` and `at`: `loiter P, radius: 20 m for 5 min`";
         return rest.starts_with(',').then(|| Habit { message: None, help: help.to_string() });
     }
-    if let name @ ("radius" | "turns" | "clockwise") = word(rest) {
+    let name = word(rest);
+    if Guide::of_verb(verb).flat_map(|guide| guide.law().params.iter().skip(1)).any(|param| param.name == name) {
         let value = value[name.len()..].trim_start_matches([':', '=', ' ']);
         // `loiter p, 20 m radius`
         if let (true, Some((number, unit))) = (value.is_empty(), quantity(before)) {
@@ -494,7 +496,7 @@ fn head(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     let value = line_end(rest).split(',').next().unwrap_or("").trim_start_matches([':', '=', ' ']);
     let name = last_word(before);
     let bound = name.trim_start_matches("max_").trim_start_matches("min_");
-    let is_limit = ["depth", "altitude", "speed", "turn_rate"].contains(&bound) && before.trim() == name;
+    let is_limit = (Channel::named(bound).is_some() || bound == "turn_rate") && before.trim() == name;
     if is_limit && rest.starts_with(|c: char| matches!(c, ':' | '=') || c.is_ascii_digit()) {
         let sign = if name.starts_with("min_") || bound == "altitude" { ">=" } else { "<=" };
         return write(format!("{bound} {sign} {value}"));

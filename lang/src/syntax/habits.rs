@@ -1,5 +1,7 @@
 //! What other languages and other pens write here, and how ours writes it: the help of a message about unreadable text.
 
+use albacore_program::Channel;
+
 /// What to say instead of what was expected, when a habit shows; the message may stay as it is.
 pub(super) struct Habit {
     /// What is wrong, where that can be said better than by what was expected.
@@ -227,7 +229,7 @@ pub(super) fn quantity(text: &str) -> Option<(&str, &str)> {
 
 /// A setpoint without the word before it.
 fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
-    let channel = |word: &str| ["depth", "altitude", "speed"].into_iter().find(|c| *c == word);
+    let channel = |word: &str| Channel::named(word).map(|channel| channel.row().name);
     let first = word(rest);
     let has_setpoints = before.split_whitespace().any(|word| word == "with" || word == "at");
     // `goto p with speed 3 m/s`

@@ -4,10 +4,10 @@ use super::habits::{line_end, quantity, word};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
+use albacore_program::{Channel, Guide};
 
-/// Words after which no colon stands.
-const NO_COLON: [&str; 13] =
-    ["within", "for", "until", "at", "on", "goto", "follow", "dubins", "steer", "loiter", "log", "wait", "hold"];
+/// Words after which no colon stands, besides those of guidance.
+const NO_COLON: [&str; 6] = ["within", "for", "until", "at", "on", "log"];
 
 /// A slip on a line: where it begins there, how long it is, what it is, and how to write what is meant.
 pub(super) struct Slip {
@@ -110,12 +110,12 @@ fn quotes(before: &str, rest: &str) -> Option<Slip> {
 /// `goto: op.center`, `within: 20 min`, `with depth: 3 m`, `at speed=1.5`.
 fn colon(before: &str, rest: &str) -> Option<Slip> {
     let (_, word) = last(before);
-    let is_setpoint = matches!(word, "depth" | "altitude" | "speed");
+    let is_setpoint = Channel::named(word).is_some();
     let value = rest.strip_prefix(':').or_else(|| rest.strip_prefix('=').filter(|_| is_setpoint))?;
     let before_setpoint = |w: &str| matches!(w, "with" | "at") || w == "keep" && rest.starts_with(':');
     let stands = match is_setpoint {
         true => before.split_whitespace().any(before_setpoint) && !before.contains('('),
-        false => NO_COLON.contains(&word),
+        false => NO_COLON.contains(&word) || word != "keep" && Guide::of_verb(word).next().is_some(),
     };
     let value = line_end(value);
     if !stands || value.is_empty() || value.starts_with('=') {
@@ -134,10 +134,12 @@ fn colon(before: &str, rest: &str) -> Option<Slip> {
 /// A value with the unit that its name asks for, where it was written without one.
 pub(super) fn with_unit(name: &str, value: &str) -> String {
     let unit = match name {
-        "radius" | "depth" | "altitude" | "length" | "width" | "north" | "east" | "distance" => "m",
-        "speed" => "m/s",
+        "radius" | "length" | "width" | "north" | "east" | "distance" => "m",
         "heading" | "course" | "along" => "deg",
-        _ => return value.to_string(),
+        _ => match Channel::named(name) {
+            Some(channel) => channel.row().unit,
+            None => return value.to_string(),
+        },
     };
     if value.parse::<f64>().is_ok() { format!("{value} {unit}") } else { value.to_string() }
 }

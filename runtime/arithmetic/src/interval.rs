@@ -34,7 +34,7 @@ impl Interval {
     }
 
     /// From one number to another, ends included.
-    pub fn new(low: f64, high: f64) -> Self {
+    pub const fn new(low: f64, high: f64) -> Self {
         let least = if low > 0.0 {
             low
         } else if high < 0.0 {
@@ -46,12 +46,12 @@ impl Interval {
     }
 
     /// A number and all above it.
-    pub fn at_least(low: f64) -> Self {
+    pub const fn at_least(low: f64) -> Self {
         Self::new(low, LARGEST)
     }
 
     /// A number and all below it.
-    pub fn at_most(high: f64) -> Self {
+    pub const fn at_most(high: f64) -> Self {
         Self::new(-LARGEST, high)
     }
 

@@ -5,6 +5,7 @@ use crate::{
     Abs, Add, AddInt, Age, Ceil, Cos, Div, Dot, Floor, Length, Max, Min, Mul, MulInt, Neg, Pow, Round, Sin, Spread,
     Sqrt, Sub, SubInt, Ticks, WrapAngle, WrapHeading,
 };
+use serde::{Deserialize, Serialize};
 
 /// An operation on numbers: what the machine does, and what is known of it before.
 pub trait Operation<const N: usize> {
@@ -24,7 +25,7 @@ pub trait Operation<const N: usize> {
 macro_rules! operators {
     ($($name:ident of $count:literal),* $(,)?) => {
         /// Every operation by its name, for whoever chooses one while running.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         #[allow(missing_docs, reason = "each variant is the operation of its name")]
         pub enum Operator { $($name),* }
 
@@ -38,6 +39,7 @@ macro_rules! operators {
             }
 
             /// What is executed; a missing operand is 0.
+            #[inline]
             pub fn execute(self, operands: &[f64]) -> f64 {
                 match self { $(Operator::$name => <$name as Operation<$count>>::execute(filled(operands, 0.0))),* }
             }

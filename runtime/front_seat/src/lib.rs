@@ -119,9 +119,9 @@ impl FrontSeat {
         Some(match plan.step(known.position, known.course, tell) {
             Some(course) => {
                 let water = through_water(course, speed, known.flow, self.speed_max);
-                Command { heading: water.heading, speed: water.speed, vertical: self.vertical }
+                Command::new(water.heading, water.speed, self.vertical)
             }
-            None => Command { heading: known.heading, speed: 0.0, vertical: Vertical::Depth(0.0) },
+            None => Command::still(known.heading, 0.0),
         })
     }
 }

@@ -4,7 +4,7 @@
 
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::parameters::{ARRIVAL_RADIUS, TURN_RATE_MAX};
-use albacore_guidance::{Goto, Route, UnderWay, turning_radius};
+use albacore_guidance::{Goto, Law, Route, UnderWay, turning_radius};
 
 /// A plan under way.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use crate::dubins::{Pose, Words};
 use crate::goto_pose::GotoPose;
-use crate::law::{Guidance, cross_track};
+use crate::law::{Args, Guidance, Law, Start, cross_track};
 use crate::parameters::{ARRIVAL_RADIUS, LINE_CAPTURE_ANGLE};
 use crate::words::{Reader, Writer};
 use albacore_geometry::{Heading, Line, Point};
@@ -55,8 +55,34 @@ impl FollowLine {
         self.phase == Phase::Along
     }
 
+    /// Whether the line may begin here.
+    fn placed(&self, position: Point, course: Heading) -> bool {
+        position.distance(self.line.start) <= ARRIVAL_RADIUS
+            && (course - self.line.heading()).abs() <= LINE_CAPTURE_ANGLE
+    }
+
+    fn approach_from(&mut self, position: Point, course: Heading) -> Guidance {
+        self.phase = Phase::Approach;
+        self.approaches = self.approaches.saturating_add(1);
+        self.approach.restart(Pose { point: position, heading: course });
+        // A fresh path may have no length; the line's own state decides what an end means.
+        Guidance { arrived: false, ..self.approach.step(position, course) }
+    }
+
+    fn keep(&self, position: Point) -> Guidance {
+        let (direction, offset) = (self.line.heading(), position - self.line.start);
+        let course = direction + cross_track(-offset.right_of(direction));
+        Guidance { course, arrived: offset.along(direction) >= self.line.length() }
+    }
+}
+
+impl Law<{ FollowLine::WORDS }> for FollowLine {
+    fn begin(mut args: Args<'_>, start: &Start) -> Self {
+        FollowLine::new(args.line(), start.radius(args.number()), start.lead())
+    }
+
     /// One tick, from the vehicle's position and its course over ground. Arrived abeam of the line's end.
-    pub fn step(&mut self, position: Point, course: Heading) -> Guidance {
+    fn step(&mut self, position: Point, course: Heading) -> Guidance {
         if self.phase != Phase::Along && self.placed(position, course) {
             self.phase = Phase::Along;
         }
@@ -77,28 +103,7 @@ impl FollowLine {
         }
     }
 
-    /// Whether the line may begin here.
-    fn placed(&self, position: Point, course: Heading) -> bool {
-        position.distance(self.line.start) <= ARRIVAL_RADIUS
-            && (course - self.line.heading()).abs() <= LINE_CAPTURE_ANGLE
-    }
-
-    fn approach_from(&mut self, position: Point, course: Heading) -> Guidance {
-        self.phase = Phase::Approach;
-        self.approaches = self.approaches.saturating_add(1);
-        self.approach.restart(Pose { point: position, heading: course });
-        // A fresh path may have no length; the line's own state decides what an end means.
-        Guidance { arrived: false, ..self.approach.step(position, course) }
-    }
-
-    fn keep(&self, position: Point) -> Guidance {
-        let (direction, offset) = (self.line.heading(), position - self.line.start);
-        let course = direction + cross_track(-offset.right_of(direction));
-        Guidance { course, arrived: offset.along(direction) >= self.line.length() }
-    }
-
-    /// The state as plain numbers.
-    pub fn to_words(self) -> [f64; Self::WORDS] {
+    fn to_words(self) -> [f64; Self::WORDS] {
         let phase = match self.phase {
             Phase::Fresh => 0.0,
             Phase::Approach => 1.0,
@@ -113,8 +118,7 @@ impl FollowLine {
             .finish()
     }
 
-    /// The state back from its numbers.
-    pub fn from_words(words: &[f64; Self::WORDS]) -> Self {
+    fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         FollowLine {
             line: Line { start: reader.point(), end: reader.point() },

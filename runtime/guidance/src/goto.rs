@@ -1,6 +1,6 @@
 //! Drives to a point, and notices when it only circles it.
 
-use crate::law::Guidance;
+use crate::law::{Args, Guidance, Law, Start};
 use crate::parameters::NAVIGATION_JUMP;
 use crate::words::{Reader, Writer};
 use albacore_geometry::math::TAU;
@@ -63,24 +63,6 @@ impl Goto {
         }
     }
 
-    /// One tick, from the vehicle's position and its course over ground.
-    pub fn step(&mut self, position: Point, course: Heading) -> Guidance {
-        let last = if self.started { self.last } else { position };
-        let range = position.distance(self.goal);
-        self.started = true;
-        self.last = position;
-        let bearing = if range > 0.0 { (self.goal - position).toward() } else { course };
-        let reach = if self.lenient { ORBIT_ACCEPT * self.radius } else { self.radius };
-        if closest(self.goal, last, position) <= reach {
-            return Guidance { course: bearing, arrived: true };
-        }
-        if self.leaving && range < STAND_OFF * self.turning_radius {
-            return Guidance { course: self.outward, arrived: false };
-        }
-        self.watch_orbit(last, position, range);
-        Guidance { course: if self.leaving { self.outward } else { bearing }, arrived: false }
-    }
-
     /// Counts the bearing's sweep since the range last fell, and decides what a full turn means.
     fn watch_orbit(&mut self, last: Point, position: Point, range: f64) {
         if self.leaving {
@@ -104,9 +86,32 @@ impl Goto {
             self.outward = (position - self.goal).toward();
         }
     }
+}
 
-    /// The state as plain numbers.
-    pub fn to_words(self) -> [f64; Self::WORDS] {
+impl Law<{ Goto::WORDS }> for Goto {
+    fn begin(mut args: Args<'_>, start: &Start) -> Self {
+        Goto::new(args.point(), args.number(), start.turning_radius)
+    }
+
+    /// One tick, from the vehicle's position and its course over ground.
+    fn step(&mut self, position: Point, course: Heading) -> Guidance {
+        let last = if self.started { self.last } else { position };
+        let range = position.distance(self.goal);
+        self.started = true;
+        self.last = position;
+        let bearing = if range > 0.0 { (self.goal - position).toward() } else { course };
+        let reach = if self.lenient { ORBIT_ACCEPT * self.radius } else { self.radius };
+        if closest(self.goal, last, position) <= reach {
+            return Guidance { course: bearing, arrived: true };
+        }
+        if self.leaving && range < STAND_OFF * self.turning_radius {
+            return Guidance { course: self.outward, arrived: false };
+        }
+        self.watch_orbit(last, position, range);
+        Guidance { course: if self.leaving { self.outward } else { bearing }, arrived: false }
+    }
+
+    fn to_words(self) -> [f64; Self::WORDS] {
         Writer::new()
             .point(self.goal)
             .number(self.radius)
@@ -121,8 +126,7 @@ impl Goto {
             .finish()
     }
 
-    /// The state back from its numbers.
-    pub fn from_words(words: &[f64; Self::WORDS]) -> Self {
+    fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         Goto {
             goal: reader.point(),

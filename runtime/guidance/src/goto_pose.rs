@@ -1,7 +1,7 @@
 //! Drives to a point so as to arrive there on a given heading, along a Dubins path.
 
 use crate::dubins::{Path, Pose, Words, shortest};
-use crate::law::{Guidance, cross_track};
+use crate::law::{Args, Guidance, Law, Start, cross_track};
 use crate::parameters::{CROSS_TRACK_GAIN, CROSS_TRACK_MAX, LINE_CAPTURE_ANGLE, NAVIGATION_JUMP};
 use crate::words::{Reader, Writer};
 use albacore_geometry::{Heading, Point};
@@ -65,10 +65,37 @@ impl GotoPose {
         self.path.length() - self.progress
     }
 
+    /// Begins anew from a pose, with arcs as wide as they have become.
+    pub(crate) fn restart(&mut self, from: Pose) {
+        // Nothing more was learnt of how the vehicle turns.
+        self.jumped = true;
+        self.retries = 0;
+        self.last = from.point;
+        self.plan_again(from);
+    }
+
+    fn plan_again(&mut self, from: Pose) {
+        let wider = (WIDEN * self.path.radius).min(WIDEN_MAX * self.radius);
+        let radius = if self.jumped { self.path.radius } else { wider };
+        self.path = shortest(from, self.goal, radius, self.words);
+        self.progress = 0.0;
+        self.driven = 0.0;
+        self.jumped = false;
+    }
+}
+
+impl Law<{ GotoPose::WORDS }> for GotoPose {
+    fn begin(mut args: Args<'_>, start: &Start) -> Self {
+        let goal = Pose { point: args.point(), heading: args.heading() };
+        let radius = start.radius(args.number());
+        let words = if args.flag() { Words::Full } else { Words::Csc };
+        GotoPose::new(Pose { point: start.position, heading: start.course }, goal, radius, words, start.lead())
+    }
+
     /// One tick, from the vehicle's position and its course over ground. Arrived at the end of the path, which can be
     /// up to 9 m from the goal after a late jump of the navigation: another path for the last metres would be a whole
     /// loop.
-    pub fn step(&mut self, position: Point, course: Heading) -> Guidance {
+    fn step(&mut self, position: Point, course: Heading) -> Guidance {
         let step = position.distance(self.last);
         self.last = position;
         self.jumped |= step > NAVIGATION_JUMP;
@@ -87,26 +114,7 @@ impl GotoPose {
         Guidance { course: ahead + cross_track(foot.left), arrived: self.progress >= self.path.length() }
     }
 
-    /// Begins anew from a pose, with arcs as wide as they have become.
-    pub(crate) fn restart(&mut self, from: Pose) {
-        // Nothing more was learnt of how the vehicle turns.
-        self.jumped = true;
-        self.retries = 0;
-        self.last = from.point;
-        self.plan_again(from);
-    }
-
-    fn plan_again(&mut self, from: Pose) {
-        let wider = (WIDEN * self.path.radius).min(WIDEN_MAX * self.radius);
-        let radius = if self.jumped { self.path.radius } else { wider };
-        self.path = shortest(from, self.goal, radius, self.words);
-        self.progress = 0.0;
-        self.driven = 0.0;
-        self.jumped = false;
-    }
-
-    /// The state as plain numbers.
-    pub fn to_words(self) -> [f64; Self::WORDS] {
+    fn to_words(self) -> [f64; Self::WORDS] {
         Writer::new()
             .numbers(&self.path.to_words())
             .point(self.goal.point)
@@ -122,8 +130,7 @@ impl GotoPose {
             .finish()
     }
 
-    /// The state back from its numbers.
-    pub fn from_words(words: &[f64; Self::WORDS]) -> Self {
+    fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         GotoPose {
             path: Path::from_words(&reader.numbers()),

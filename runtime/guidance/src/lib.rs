@@ -25,7 +25,7 @@ pub use filter::CommandFilter;
 pub use follow::FollowLine;
 pub use goto::Goto;
 pub use goto_pose::GotoPose;
-pub use law::{Guidance, cross_track};
+pub use law::{Args, Guidance, Law, LawOverWords, Start, cross_track};
 pub use loiter::{Circling, Loiter};
 pub use parameters::{turning_radius, turning_radius_in_flow};
 pub use route::{Route, UnderWay, Waypoints};

@@ -1,6 +1,6 @@
 //! Circles a point.
 
-use crate::law::{Guidance, cross_track};
+use crate::law::{Args, Guidance, Law, Start, cross_track};
 use crate::parameters::{ARRIVAL_RADIUS, CROSS_TRACK_GAIN};
 use crate::words::{Reader, Writer};
 use albacore_geometry::math::{PI, TAU, acos};
@@ -56,8 +56,35 @@ impl Loiter {
         if self.entered { self.swept / TAU } else { 0.0 }
     }
 
+    /// The angle by which to steer inside the tangent at a range from the centre, negative for outside.
+    fn inward(&self, range: f64) -> f64 {
+        let outside = range - self.radius;
+        if outside <= 0.0 {
+            return cross_track(outside);
+        }
+        // The line that touches the circle makes this angle with the tangent here; near the circle it is too steep a
+        // law.
+        (CROSS_TRACK_GAIN * outside).min(acos(self.radius / range))
+    }
+
+    fn side(&self) -> f64 {
+        match self.circling {
+            Circling::Clockwise => 1.0,
+            Circling::Anticlockwise => -1.0,
+        }
+    }
+}
+
+impl Law<{ Loiter::WORDS }> for Loiter {
+    fn begin(mut args: Args<'_>, start: &Start) -> Self {
+        let (center, radius, turns) = (args.point(), args.number(), args.number());
+        let turns = if turns > 0.0 { turns } else { f64::INFINITY };
+        let circling = if args.flag() { Circling::Clockwise } else { Circling::Anticlockwise };
+        Loiter::new(center, radius, circling, turns, start.lead())
+    }
+
     /// One tick, from the vehicle's position and its course over ground. Arrived when the turns are done.
-    pub fn step(&mut self, position: Point, course: Heading) -> Guidance {
+    fn step(&mut self, position: Point, course: Heading) -> Guidance {
         let side = self.side();
         let out = position - self.center;
         let range = out.length();
@@ -79,26 +106,7 @@ impl Loiter {
         Guidance { course: tangent + side * self.inward(range), arrived }
     }
 
-    /// The angle by which to steer inside the tangent at a range from the centre, negative for outside.
-    fn inward(&self, range: f64) -> f64 {
-        let outside = range - self.radius;
-        if outside <= 0.0 {
-            return cross_track(outside);
-        }
-        // The line that touches the circle makes this angle with the tangent here; near the circle it is too steep a
-        // law.
-        (CROSS_TRACK_GAIN * outside).min(acos(self.radius / range))
-    }
-
-    fn side(&self) -> f64 {
-        match self.circling {
-            Circling::Clockwise => 1.0,
-            Circling::Anticlockwise => -1.0,
-        }
-    }
-
-    /// The state as plain numbers.
-    pub fn to_words(self) -> [f64; Self::WORDS] {
+    fn to_words(self) -> [f64; Self::WORDS] {
         Writer::new()
             .point(self.center)
             .number(self.radius)
@@ -112,8 +120,7 @@ impl Loiter {
             .finish()
     }
 
-    /// The state back from its numbers.
-    pub fn from_words(words: &[f64; Self::WORDS]) -> Self {
+    fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         Loiter {
             center: reader.point(),

@@ -1,7 +1,7 @@
 //! The route of a vehicle's own mission: straight legs, each of them followed from its start to its end.
 
 use crate::parameters::{TURN_LEAD_TIME, TURN_RATE_MAX};
-use crate::{FollowLine, Rows, turning_radius};
+use crate::{FollowLine, Law, Rows, turning_radius};
 use albacore_geometry::{Heading, Line, Point};
 use serde::{Deserialize, Serialize};
 

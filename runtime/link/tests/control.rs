@@ -225,7 +225,7 @@ const SPEED: &str = "#C,Speed,1.50 meters/sec,*E3\n";
 const ALTITUDE: &str = "#C,Depth,Altitude,4.00,*33\n";
 
 fn west() -> Command {
-    Command { heading: Heading::from_degrees(270.0), speed: 1.5, vertical: Vertical::Altitude(4.0) }
+    Command::new(Heading::from_degrees(270.0), 1.5, Vertical::Altitude(4.0))
 }
 
 #[test]

@@ -182,7 +182,7 @@ impl Pair {
     }
 }
 
-const EAST: Command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(5.0) };
+const EAST: Command = Command::new(Heading::NORTH, 2.0, Vertical::Depth(5.0));
 
 fn east() -> Command {
     Command { heading: Heading::from_degrees(90.0), ..EAST }

@@ -131,7 +131,7 @@ fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
     (ReconVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())), wire)
 }
 
-const AHEAD: Command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(5.0) };
+const AHEAD: Command = Command::new(Heading::NORTH, 2.0, Vertical::Depth(5.0));
 
 /// A vehicle that is driven.
 fn driven() -> (ReconVehicle, Arc<Wire>, Snapshot) {

@@ -313,7 +313,7 @@ fn both_front_seats_do_what_the_table_says() {
                 seat.act(*act);
                 let ask = match *act {
                     Ask(heading, speed, vertical) => {
-                        Some(Command { heading: Heading::from_degrees(heading), speed, vertical })
+                        Some(Command::new(Heading::from_degrees(heading), speed, vertical))
                     }
                     _ => None,
                 };

@@ -39,9 +39,9 @@ impl Run {
         match inherited {
             Some(from) => self.copy(at + header::SETPOINTS, from, setpoints::WORDS),
             None => {
-                self.set(at + header::SETPOINTS + setpoints::VERTICAL, setpoints::UNSET);
-                self.set(at + header::SETPOINTS + setpoints::METRES, 0.0);
-                self.set(at + header::SETPOINTS + setpoints::SPEED, setpoints::NO_SPEED);
+                for (word, none) in (at + header::SETPOINTS..).zip(setpoints::NONE) {
+                    self.set(word, none);
+                }
             }
         }
         self.events.push(Event::Entered(id));

@@ -1,10 +1,9 @@
 //! From what a statement asks to what the vehicle is told: amendments, limits, command filter, flow compensation.
 
-use crate::guide::Filter;
 use crate::state::{Asked, Limits, Run};
 use crate::{Event, execute::Stop};
 use albacore_geometry::Heading;
-use albacore_guidance::through_water;
+use albacore_guidance::{CommandFilter, through_water};
 use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, TURN_RATE_MIN, header};
 use albacore_vehicle::{Command, TICK_S};
 
@@ -16,10 +15,8 @@ impl Run {
     pub fn give_command(&mut self, p: &Program) -> Command {
         // What an overlay keeps goes on like all that was commanded: through its own `wait`, through a hold, and after it.
         let overridden = self.state.overridden;
-        let asked = &mut self.state.asked;
-        asked.vertical = overridden.vertical.unwrap_or(asked.vertical);
-        asked.speed = overridden.speed.unwrap_or(asked.speed);
-        let mut asked = *asked;
+        overridden.over(&mut self.state.asked);
+        let mut asked = self.state.asked;
         // A place is kept: for this tick only, so that whatever comes after it begins from lying still.
         if let Some((course, speed)) = self.state.way_back {
             asked = Asked { course, speed: overridden.speed.unwrap_or(speed), over_ground: true, ..asked };
@@ -28,7 +25,7 @@ impl Run {
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
         let vertical = self.limit_vertical(p, asked.vertical);
-        let mut filter = Filter::new(self.state.filtered);
+        let mut filter = CommandFilter::new(self.state.filtered);
         let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;
         // Flow compensation may ask for more speed through the water than the mission allows.
@@ -152,16 +149,13 @@ impl Run {
 
     /// Holds a setpoint within its limits, and says when that begins and when it ends.
     pub fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
-        let (index, (low, high)) = match channel {
-            Channel::Depth => (0, self.state.limits.depth),
-            Channel::Altitude => (1, self.state.limits.altitude),
-            Channel::Speed => (2, self.state.limits.speed),
-        };
+        let (low, high) = *self.state.limits.of(channel);
         // Standing still is always allowed: it is what a hold asks for.
-        let given = if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.max(low).min(high.max(low)) };
+        let is_free = channel.row().is_free_at_zero && asked == 0.0;
+        let given = if is_free { 0.0 } else { asked.max(low).min(high.max(low)) };
         let held = given != asked;
-        if held != self.state.limited[index] {
-            self.state.limited[index] = held;
+        if held != self.state.limited[channel as usize] {
+            self.state.limited[channel as usize] = held;
             self.events.push(if held { Event::Limited(channel, asked, given) } else { Event::LimitedEnded(channel) });
         }
         given
@@ -177,7 +171,6 @@ impl Run {
 
     /// The mission's other limits as numbers.
     pub fn compute_limits(&mut self, p: &Program) {
-        let turn_rate = self.state.limits.turn_rate;
         let base = p.mission.base;
         let mut number = |code: &Option<Code>, otherwise: f64| match code {
             Some(code) => {
@@ -186,14 +179,11 @@ impl Run {
             }
             None => otherwise,
         };
-        let limits = &p.mission.limits;
-        let none = Limits::NONE;
-        let computed = Limits {
-            altitude: (number(&limits.altitude_min, none.altitude.0), number(&limits.altitude_max, none.altitude.1)),
-            depth: (number(&limits.depth_min, none.depth.0), number(&limits.depth_max, none.depth.1)),
-            speed: (number(&limits.speed_min, none.speed.0), number(&limits.speed_max, none.speed.1)),
-            turn_rate,
-        };
-        self.state.limits = computed;
+        let mut computed = Limits::NONE;
+        for (channel, bounds) in Channel::ALL.into_iter().zip(&p.mission.limits.setpoints) {
+            let (least, greatest) = computed.of(channel);
+            (*least, *greatest) = (number(&bounds.least, *least), number(&bounds.greatest, *greatest));
+        }
+        self.state.limits = Limits { turn_rate: self.state.limits.turn_rate, ..computed };
     }
 }

@@ -5,12 +5,9 @@
 
 use crate::execute::truth;
 use crate::trig::Trig;
-use albacore_arithmetic::{
-    Abs, Add, AddInt, Ceil, Cos, Div, Dot, Floor, Length, Max, Min, Mul, MulInt, Neg, Operation, Pow, Round, Sin, Sqrt,
-    Sub, SubInt, Ticks, WrapAngle, WrapHeading, bounded,
-};
+use albacore_arithmetic::{Div, Dot, Operation, bounded};
 use albacore_geometry::{Edge, Line, Point, Vector};
-use albacore_program::{ABSOLUTE, AREA_CORNER_WORDS, Op, Slot, header};
+use albacore_program::{ABSOLUTE, AREA_CORNER_WORDS, Compute, Op, Slot, When, header};
 
 /// The words of a run, as code with a frame's base sees them.
 pub(crate) struct Frame<'a> {
@@ -79,8 +76,59 @@ impl Frame<'_> {
         self.set(slot + 1, bounded(v.east));
     }
 
+    #[inline]
     fn age(&self, owner: Slot) -> f64 {
         self.get(owner + header::AGE)
+    }
+
+    /// The edge of an index. An edge is a point, the next point, and the normal.
+    fn edge_at(&mut self, to: Slot, area: Slot, index: Slot) {
+        let (corner, corners) = (self.get(index) as u32, self.get(area) as u32);
+        let next = if corner + 1 < corners { corner + 1 } else { 0 };
+        let (here, there) = (area + 1 + AREA_CORNER_WORDS * corner, area + 1 + AREA_CORNER_WORDS * next);
+        self.copy(to, here, 2);
+        self.copy(to + 2, there, 2);
+        self.copy(to + 4, here + 2, 2);
+    }
+
+    fn edge_gap(&mut self, to: Slot, edge: Slot, point: Slot) {
+        let line = Line { start: self.point(edge), end: self.point(edge + 2) };
+        let gap = Edge { line, normal: self.vector(edge + 4) }.gap(self.point(point));
+        self.set(to, bounded(gap));
+    }
+
+    #[inline]
+    fn held_for(&mut self, to: Slot, x: Slot, since: Slot, age: f64, ticks: f64) {
+        let holds = self.get(x) != 0.0;
+        let began = match (holds, self.get(since)) {
+            (false, _) => -1.0,
+            (true, since) if since < 0.0 => age,
+            (true, since) => since,
+        };
+        self.set(since, began);
+        self.set(to, truth(holds && age - began >= ticks));
+    }
+
+    #[inline]
+    fn becomes(&mut self, to: Slot, x: Slot, before: Slot) {
+        let holds = self.get(x) != 0.0;
+        self.set(to, truth(holds && self.get(before) == 0.0));
+        self.set(before, truth(holds));
+    }
+
+    #[inline]
+    fn jumps(&self, when: When) -> bool {
+        let less = |a, b| self.get(a) < self.get(b);
+        let at_most = |a, b| self.get(a) <= self.get(b);
+        match when {
+            When::Always => true,
+            When::True(word) => self.get(word) != 0.0,
+            When::False(word) => self.get(word) == 0.0,
+            When::Less(a, b) => less(a, b),
+            When::NotLess(a, b) => !less(a, b),
+            When::AtMost(a, b) => at_most(a, b),
+            When::NotAtMost(a, b) => !at_most(a, b),
+        }
     }
 }
 
@@ -92,151 +140,55 @@ fn dot(a: Vector, b: Vector) -> f64 {
 /// Executes instructions up to the first that needs more than words, and gives its address.
 pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -> usize {
     let mut pc = from;
-    while let Some(&op) = ops.get(pc) {
+    while let Some(&Op::Compute(op)) = ops.get(pc) {
+        pc += 1;
         match op {
-            Op::Const { to, value } => f.set(to, value),
-            Op::Copy { to, from } => f.set(to, f.get(from)),
-            Op::CopyMany { to, from, words } => f.copy(to, from, words),
-            Op::Clear { to, words } => f.clear(to, words),
+            Compute::Const { to, value } => f.set(to, value),
+            Compute::Copy { to, from } => f.set(to, f.get(from)),
+            Compute::CopyMany { to, from, words } => f.copy(to, from, words),
+            Compute::Clear { to, words } => f.clear(to, words),
 
-            Op::Add { to, a, b: c } => f.set(to, Add::execute([f.get(a), f.get(c)])),
-            Op::Sub { to, a, b: c } => f.set(to, Sub::execute([f.get(a), f.get(c)])),
-            Op::Mul { to, a, b: c } => f.set(to, Mul::execute([f.get(a), f.get(c)])),
-            Op::Div { to, a, b: c } => f.set(to, Div::execute([f.get(a), f.get(c)])),
-            Op::Quotient { to, a, b: c } => {
-                let operands = [f.get(a), f.get(c)];
+            Compute::One { operator, to, a } => f.set(to, operator.execute(&[f.get(a)])),
+            Compute::Two { operator, to, a, b } => f.set(to, operator.execute(&[f.get(a), f.get(b)])),
+            Compute::Quotient { to, a, b } => {
+                let operands = [f.get(a), f.get(b)];
                 f.set(to, truth(operands[1] != 0.0));
                 f.set(to + 1, Div::execute(operands));
             }
-            Op::AddInt { to, a, b: c } => f.set(to, AddInt::execute([f.get(a), f.get(c)])),
-            Op::SubInt { to, a, b: c } => f.set(to, SubInt::execute([f.get(a), f.get(c)])),
-            Op::MulInt { to, a, b: c } => f.set(to, MulInt::execute([f.get(a), f.get(c)])),
-            Op::Min { to, a, b: c } => f.set(to, Min::execute([f.get(a), f.get(c)])),
-            Op::Max { to, a, b: c } => f.set(to, Max::execute([f.get(a), f.get(c)])),
-            Op::Pow { to, a, b: c } => f.set(to, Pow::execute([f.get(a), f.get(c)])),
-            Op::Neg { to, a } => f.set(to, Neg::execute([f.get(a)])),
-            Op::Abs { to, a } => f.set(to, Abs::execute([f.get(a)])),
-            Op::Sqrt { to, a } => f.set(to, Sqrt::execute([f.get(a)])),
-            Op::Floor { to, a } => f.set(to, Floor::execute([f.get(a)])),
-            Op::Ceil { to, a } => f.set(to, Ceil::execute([f.get(a)])),
-            Op::Round { to, a } => f.set(to, Round::execute([f.get(a)])),
-            Op::Sin { to, a } => f.set(to, Sin::execute([f.get(a)])),
-            Op::Cos { to, a } => f.set(to, Cos::execute([f.get(a)])),
-            Op::WrapHeading { to, a } => f.set(to, WrapHeading::execute([f.get(a)])),
-            Op::WrapAngle { to, a } => f.set(to, WrapAngle::execute([f.get(a)])),
-            Op::Ticks { to, a } => f.set(to, Ticks::execute([f.get(a)])),
 
-            Op::Lt { to, a, b: c } => f.set(to, truth(f.get(a) < f.get(c))),
-            Op::Le { to, a, b: c } => f.set(to, truth(f.get(a) <= f.get(c))),
-            Op::Eq { to, a, b: c, words } => {
-                let equal = f.slice(a, words) == f.slice(c, words);
-                f.set(to, truth(equal));
-            }
-            Op::Not { to, a } => f.set(to, truth(f.get(a) == 0.0)),
-            Op::And { to, a, b: c } => f.set(to, truth(f.get(a) != 0.0 && f.get(c) != 0.0)),
-            Op::Or { to, a, b: c } => f.set(to, truth(f.get(a) != 0.0 || f.get(c) != 0.0)),
+            Compute::Lt { to, a, b } => f.set(to, truth(f.get(a) < f.get(b))),
+            Compute::Le { to, a, b } => f.set(to, truth(f.get(a) <= f.get(b))),
+            Compute::Eq { to, a, b, words } => f.set(to, truth(f.slice(a, words) == f.slice(b, words))),
+            Compute::Not { to, a } => f.set(to, truth(f.get(a) == 0.0)),
+            Compute::And { to, a, b } => f.set(to, truth(f.get(a) != 0.0 && f.get(b) != 0.0)),
+            Compute::Or { to, a, b } => f.set(to, truth(f.get(a) != 0.0 || f.get(b) != 0.0)),
 
-            Op::AddVector { to, a, b: c } => f.set_vector(to, f.vector(a) + f.vector(c)),
-            Op::SubVector { to, a, b: c } => f.set_vector(to, f.vector(a) - f.vector(c)),
-            Op::Scale { to, vector, by } => f.set_vector(to, f.get(by) * f.vector(vector)),
-            Op::Toward { to, length, heading } => {
+            Compute::AddVector { to, a, b } => f.set_vector(to, f.vector(a) + f.vector(b)),
+            Compute::SubVector { to, a, b } => f.set_vector(to, f.vector(a) - f.vector(b)),
+            Compute::Scale { to, vector, by } => f.set_vector(to, f.get(by) * f.vector(vector)),
+            Compute::Toward { to, length, heading } => {
                 let v = f.get(length) * trig.unit(f.get(heading));
                 f.set_vector(to, v);
             }
-            Op::Direction { to, vector } => {
-                let direction = trig.toward(f.vector(vector));
-                f.set(to, direction);
-            }
-            Op::Length { to, vector } => f.set(to, Length::execute([f.get(vector), f.get(vector + 1)])),
-            Op::Dot { to, a, b: c } => f.set(to, dot(f.vector(a), f.vector(c))),
-            Op::Along { to, vector, heading } => {
-                let along = dot(f.vector(vector), trig.unit(f.get(heading)));
-                f.set(to, along);
-            }
+            Compute::Direction { to, vector } => f.set(to, trig.toward(f.vector(vector))),
+            Compute::Dot { to, a, b } => f.set(to, dot(f.vector(a), f.vector(b))),
+            Compute::Along { to, vector, heading } => f.set(to, dot(f.vector(vector), trig.unit(f.get(heading)))),
+            Compute::EdgeAt { to, area, index } => f.edge_at(to, area, index),
+            Compute::EdgeGap { to, edge, point } => f.edge_gap(to, edge, point),
 
-            // An edge is a point, the next point, and the normal.
-            Op::EdgeAt { to, area, index } => {
-                let (corner, corners) = (f.get(index) as u32, f.get(area) as u32);
-                let next = if corner + 1 < corners { corner + 1 } else { 0 };
-                let (here, there) = (area + 1 + AREA_CORNER_WORDS * corner, area + 1 + AREA_CORNER_WORDS * next);
-                f.copy(to, here, 2);
-                f.copy(to + 2, there, 2);
-                f.copy(to + 4, here + 2, 2);
+            Compute::HeldFor { to, x, since, ticks, owner } => f.held_for(to, x, since, f.age(owner), f.get(ticks)),
+            Compute::Becomes { to, x, before } => f.becomes(to, x, before),
+            Compute::Elapsed { to, from, ticks, owner } => {
+                f.set(to, truth(f.age(owner) - f.get(from) >= f.get(ticks)));
             }
-            Op::EdgeGap { to, edge, point } => {
-                let line = Line { start: f.point(edge), end: f.point(edge + 2) };
-                let gap = Edge { line, normal: f.vector(edge + 4) }.gap(f.point(point));
-                f.set(to, bounded(gap));
-            }
+            Compute::Now { to, owner } => f.set(to, f.age(owner)),
 
-            Op::HeldFor { to, x, since, ticks, owner } => {
-                let age = f.age(owner);
-                let holds = f.get(x) != 0.0;
-                let began = match (holds, f.get(since)) {
-                    (false, _) => -1.0,
-                    (true, since) if since < 0.0 => age,
-                    (true, since) => since,
-                };
-                f.set(since, began);
-                f.set(to, truth(holds && age - began >= f.get(ticks)));
-            }
-            Op::Becomes { to, x, before } => {
-                let holds = f.get(x) != 0.0;
-                f.set(to, truth(holds && f.get(before) == 0.0));
-                f.set(before, truth(holds));
-            }
-            Op::Elapsed { to, from, ticks, owner } => {
-                let elapsed = f.age(owner) - f.get(from) >= f.get(ticks);
-                f.set(to, truth(elapsed));
-            }
-            Op::Now { to, owner } => f.set(to, f.age(owner)),
-
-            Op::Jump { to } => {
-                pc = to as usize;
-                continue;
-            }
-            Op::JumpIf { if_, to } => {
-                if f.get(if_) != 0.0 {
+            Compute::Jump { to, when } => {
+                if f.jumps(when) {
                     pc = to as usize;
-                    continue;
                 }
             }
-            Op::JumpUnless { unless, to } => {
-                if f.get(unless) == 0.0 {
-                    pc = to as usize;
-                    continue;
-                }
-            }
-            Op::JumpIfLess { a, b: c, to } => {
-                if f.get(a) < f.get(c) {
-                    pc = to as usize;
-                    continue;
-                }
-            }
-            Op::JumpUnlessLess { a, b: c, to } => {
-                let less = f.get(a) < f.get(c);
-                if !less {
-                    pc = to as usize;
-                    continue;
-                }
-            }
-            Op::JumpIfAtMost { a, b: c, to } => {
-                if f.get(a) <= f.get(c) {
-                    pc = to as usize;
-                    continue;
-                }
-            }
-            Op::JumpUnlessAtMost { a, b: c, to } => {
-                let at_most = f.get(a) <= f.get(c);
-                if !at_most {
-                    pc = to as usize;
-                    continue;
-                }
-            }
-
-            _ => return pc,
         }
-        pc += 1;
     }
     pc
 }

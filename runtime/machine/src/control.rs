@@ -3,7 +3,7 @@
 use crate::state::{Asked, ControlRequest, Run};
 use crate::{Event, Outcome};
 use albacore_program::{Channel, Input, OverrideEnd, Program};
-use albacore_vehicle::{Command, Control, Vertical};
+use albacore_vehicle::{Command, Control};
 
 impl Run {
     /// Takes in who drives now, and lets the input `control` show it.
@@ -33,8 +33,7 @@ impl Run {
     pub fn stand(&mut self) {
         self.state.stands = true;
         self.state.filtered = self.heading();
-        self.state.asked =
-            Asked { course: self.heading(), over_ground: false, speed: 0.0, vertical: Vertical::Depth(self.depth()) };
+        self.state.asked = Asked::still(self.heading(), self.depth());
     }
 
     /// An override asks for control, unless it waits for the vehicle to offer it.
@@ -79,7 +78,7 @@ impl Run {
         self.chain(p, &mut |id, base| chain.push((id, base)));
         self.pause_overlays(p, &chain);
         let limited = std::mem::take(&mut self.state.limited);
-        for (channel, limited) in [Channel::Depth, Channel::Altitude, Channel::Speed].into_iter().zip(limited) {
+        for (channel, limited) in Channel::ALL.into_iter().zip(limited) {
             if limited {
                 self.events.push(Event::LimitedEnded(channel));
             }

@@ -6,8 +6,7 @@ use crate::compute::{Frame, compute, place};
 use crate::lists::Order;
 use crate::state::Run;
 use albacore_geometry::{Area, Heading, Point};
-use albacore_program::{Addr, Channel, Op, OverrideEnd, Program, Slot, Text, TextPart, number};
-use albacore_vehicle::Vertical;
+use albacore_program::{Addr, AreaOp, Channel, ListOp, Op, OverrideEnd, Program, Slot, Text, TextPart, number};
 
 /// Why code stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,65 +68,9 @@ impl Run {
             let op = p.ops[pc];
             pc += 1;
             match op {
-                Op::Rectangle { to, center, along, length, width } => {
-                    let (length, width) = (self.get(b(length)), self.get(b(width)));
-                    let area = Area::rectangle(self.point(b(center)), self.heading_at(b(along)), length, width);
-                    self.set_area(b(to), Some(&area));
-                }
-                Op::Polygon { to, points, ok } => {
-                    let count = self.get(b(points)) as u32;
-                    let corners: Vec<Point> = (0..count).map(|i| self.point(b(points) + 1 + 2 * i)).collect();
-                    let area = Area::polygon(&corners).ok();
-                    self.set_area(b(to), area.as_ref());
-                    self.set(b(ok), truth(area.is_some()));
-                }
-                Op::Center { to, area } => self.set_point(b(to), self.center(b(area))),
-                Op::Gap { to, area, point } => self.set(b(to), self.gap(b(area), self.point(b(point)))),
-                Op::Corner { to, area, heading, near } => {
-                    let corner = self.farthest_corner(b(area), self.heading_at(b(heading)), self.point(b(near)));
-                    self.set_point(b(to), corner);
-                }
-                Op::Rows { to, area, step, near } => {
-                    let rows = self.rows_across(b(area), self.get(b(step)), self.point(b(near)));
-                    self.set_rows(b(to), rows);
-                }
-                Op::RowAt { to, there, rows, area, index } => {
-                    let row = self.row_of(b(rows), b(area), self.get(b(index)) as u32);
-                    self.set(b(there), truth(row.is_some()));
-                    if let Some(row) = row {
-                        self.set_line(b(to), row);
-                    }
-                }
-                Op::NearestEdge { to, area, point } => {
-                    let edge = self.nearest_edge(b(area), self.point(b(point)));
-                    self.set_edge(b(to), edge);
-                }
-                Op::EdgeTangent { to, edge, heading } => {
-                    let tangent = self.edge(b(edge)).tangent(self.heading_at(b(heading)));
-                    self.set(b(to), tangent.radians());
-                }
-                Op::Exit { to, area, point, heading } => {
-                    let exit = self.exit(b(area), self.point(b(point)), self.heading_at(b(heading)));
-                    self.set_point(b(to), exit);
-                }
-
-                Op::Push { list, item, words, capacity } => self.push(b(list), b(item), words, capacity),
-                Op::Sort { list, words, it, key, value, most } => {
-                    let by = Order { it: b(it), key, value: b(value), most };
-                    self.sort(p, base, b(list), words, by);
-                }
-                Op::PushSorted { list, item, words, capacity, sort } => {
-                    self.push_sorted(p, b(list), b(item), words, capacity, (sort, base));
-                }
-                Op::Remove { list, item, words } => self.remove(b(list), b(item), words),
-                Op::At { to, list, index, words } => self.element(b(to), b(list), b(index), words),
-                Op::Top { to, list, count, words } => self.top(b(to), b(list), b(count), words),
-                Op::Spread { to, list, heading } => {
-                    let unit = self.trig.unit(self.get(b(heading)));
-                    let spread = self.spread(b(list), unit);
-                    self.set(b(to), spread);
-                }
-
+                Op::Compute(_) => {}
+                Op::Area(op) => self.on_area(op, base),
+                Op::List(op) => self.on_list(p, op, base),
                 Op::Age { to, input } => self.set(b(to), self.age_s(&p.inputs[input as usize])),
                 Op::Hits { to, input, limit, of } => {
                     let hits = self.hits(&p.inputs[input as usize], self.get(b(limit)), of);
@@ -136,13 +79,19 @@ impl Run {
 
                 Op::Call { code, base: frame } => _ = self.execute(p, code, b(frame)),
                 Op::Return => return Stop::Return,
-
                 Op::Yield => return Stop::Yield(pc as Addr),
+                Op::End | Op::Finish => return Stop::End,
+                Op::Abort { why } => {
+                    self.abort = Some(self.filled(&p.texts[why as usize], base, p));
+                    return Stop::Abort;
+                }
+
                 Op::Begin { guide, args, state, setpoints } => self.begin(guide, b(args), b(state), b(setpoints)),
                 Op::Guide { guide, args, state, setpoints, ended } => {
                     let arrived = self.guide(guide, b(args), b(state), b(setpoints));
                     self.set(b(ended), truth(arrived));
                 }
+                Op::Keep { channel, value } => self.keep(channel, b(value)),
                 Op::Enter { call } => {
                     self.enter_call(p, call, base);
                     if self.abort.is_some() {
@@ -157,6 +106,14 @@ impl Run {
                     self.set(b(ended), truth(over));
                 }
                 Op::Cut { call, cause } => self.cut_call(p, call, base, cause),
+                Op::PutOn { overlay } => {
+                    self.put_on(p, overlay, base);
+                    if self.abort.is_some() {
+                        return Stop::Abort;
+                    }
+                }
+                Op::TakeOff { overlay } => self.take_off(p, overlay, base, albacore_program::Cause::Done),
+
                 Op::Ask { offered } => self.ask_for_control(offered),
                 Op::Answer { ours, refused, offered } => {
                     let (is_ours, is_refused) = self.answer(offered);
@@ -174,58 +131,117 @@ impl Run {
                         return Stop::Abort;
                     }
                 }
-                Op::PutOn { overlay } => {
-                    self.put_on(p, overlay, base);
-                    if self.abort.is_some() {
-                        return Stop::Abort;
-                    }
-                }
-                Op::TakeOff { overlay } => self.take_off(p, overlay, base, albacore_program::Cause::Done),
-                Op::Keep { channel, value } => {
-                    if self.in_overlay {
-                        let value = self.get(b(value));
-                        let overridden = &mut self.state.overridden;
-                        match channel {
-                            Channel::Depth => overridden.vertical = Some(Vertical::Depth(value)),
-                            Channel::Altitude => overridden.vertical = Some(Vertical::Altitude(value)),
-                            Channel::Speed => overridden.speed = Some(value),
-                        }
-                    }
-                }
-                Op::End | Op::Finish => return Stop::End,
-                Op::Abort { why } => {
-                    self.abort = Some(self.filled(&p.texts[why as usize], base, p));
-                    return Stop::Abort;
-                }
 
-                Op::Report { site } => {
-                    if !self.state.allowance.admits_report(site, &mut self.events) {
-                        continue;
-                    }
-                    let mut words = Vec::new();
-                    for (_, valued) in &p.reports[site as usize].fields {
-                        words.extend_from_slice(self.slice(b(valued.slot), valued.shape.words()));
-                    }
-                    self.state.allowance.pay(size_of_val(words.as_slice()));
-                    self.events.push(Event::Reported(site, words));
-                }
-                Op::Log { text } => {
-                    if !self.state.allowance.admits(&mut self.events) {
-                        continue;
-                    }
-                    let text = self.filled(&p.texts[text as usize], base, p);
-                    self.state.allowance.pay(text.len());
-                    self.events.push(Event::Logged(text));
-                }
-                Op::Changed { memory } => {
-                    let value = &p.memories[memory as usize].value;
-                    let words = self.slice(b(value.slot), value.shape.words()).to_vec();
-                    self.events.push(Event::Remembered(memory, words));
-                }
-                // All others need nothing but words: `compute` has executed them.
-                _ => continue,
+                Op::Report { site } => self.report(p, site, base),
+                Op::Log { text } => self.log(p, text, base),
+                Op::Changed { memory } => self.remember(p, memory, base),
             }
         }
+    }
+
+    fn on_area(&mut self, op: AreaOp, base: Slot) {
+        let b = |slot: Slot| place(slot, base);
+        match op {
+            AreaOp::Rectangle { to, center, along, length, width } => {
+                let (length, width) = (self.get(b(length)), self.get(b(width)));
+                let area = Area::rectangle(self.point(b(center)), self.heading_at(b(along)), length, width);
+                self.set_area(b(to), Some(&area));
+            }
+            AreaOp::Polygon { to, points, ok } => {
+                let count = self.get(b(points)) as u32;
+                let corners: Vec<Point> = (0..count).map(|i| self.point(b(points) + 1 + 2 * i)).collect();
+                let area = Area::polygon(&corners).ok();
+                self.set_area(b(to), area.as_ref());
+                self.set(b(ok), truth(area.is_some()));
+            }
+            AreaOp::Center { to, area } => self.set_point(b(to), self.center(b(area))),
+            AreaOp::Gap { to, area, point } => self.set(b(to), self.gap(b(area), self.point(b(point)))),
+            AreaOp::Corner { to, area, heading, near } => {
+                let corner = self.farthest_corner(b(area), self.heading_at(b(heading)), self.point(b(near)));
+                self.set_point(b(to), corner);
+            }
+            AreaOp::Rows { to, area, step, near } => {
+                let rows = self.rows_across(b(area), self.get(b(step)), self.point(b(near)));
+                self.set_rows(b(to), rows);
+            }
+            AreaOp::RowAt { to, there, rows, area, index } => {
+                let row = self.row_of(b(rows), b(area), self.get(b(index)) as u32);
+                self.set(b(there), truth(row.is_some()));
+                if let Some(row) = row {
+                    self.set_line(b(to), row);
+                }
+            }
+            AreaOp::NearestEdge { to, area, point } => {
+                let edge = self.nearest_edge(b(area), self.point(b(point)));
+                self.set_edge(b(to), edge);
+            }
+            AreaOp::EdgeTangent { to, edge, heading } => {
+                let tangent = self.edge(b(edge)).tangent(self.heading_at(b(heading)));
+                self.set(b(to), tangent.radians());
+            }
+            AreaOp::Exit { to, area, point, heading } => {
+                let exit = self.exit(b(area), self.point(b(point)), self.heading_at(b(heading)));
+                self.set_point(b(to), exit);
+            }
+        }
+    }
+
+    fn on_list(&mut self, p: &Program, op: ListOp, base: Slot) {
+        let b = |slot: Slot| place(slot, base);
+        match op {
+            ListOp::Push { list, item, words, capacity } => self.push(b(list), b(item), words, capacity),
+            ListOp::Sort { list, words, it, key, value, most } => {
+                let by = Order { it: b(it), key, value: b(value), most };
+                self.sort(p, base, b(list), words, by);
+            }
+            ListOp::PushSorted { list, item, words, capacity, sort } => {
+                self.push_sorted(p, b(list), b(item), words, capacity, (sort, base));
+            }
+            ListOp::Remove { list, item, words } => self.remove(b(list), b(item), words),
+            ListOp::At { to, list, index, words } => self.element(b(to), b(list), b(index), words),
+            ListOp::Top { to, list, count, words } => self.top(b(to), b(list), b(count), words),
+            ListOp::Spread { to, list, heading } => {
+                let unit = self.trig.unit(self.get(b(heading)));
+                let spread = self.spread(b(list), unit);
+                self.set(b(to), spread);
+            }
+        }
+    }
+
+    /// In an overlay: its channel's setpoint.
+    fn keep(&mut self, channel: Channel, value: Slot) {
+        if !self.in_overlay {
+            return;
+        }
+        let value = self.get(value);
+        self.state.overridden.set(channel, value);
+    }
+
+    fn remember(&mut self, p: &Program, memory: u32, base: Slot) {
+        let value = &p.memories[memory as usize].value;
+        let words = self.slice(place(value.slot, base), value.shape.words()).to_vec();
+        self.events.push(Event::Remembered(memory, words));
+    }
+
+    fn report(&mut self, p: &Program, site: u32, base: Slot) {
+        if !self.state.allowance.admits_report(site, &mut self.events) {
+            return;
+        }
+        let mut words = Vec::new();
+        for (_, valued) in &p.reports[site as usize].fields {
+            words.extend_from_slice(self.slice(place(valued.slot, base), valued.shape.words()));
+        }
+        self.state.allowance.pay(size_of_val(words.as_slice()));
+        self.events.push(Event::Reported(site, words));
+    }
+
+    fn log(&mut self, p: &Program, text: u32, base: Slot) {
+        if !self.state.allowance.admits(&mut self.events) {
+            return;
+        }
+        let text = self.filled(&p.texts[text as usize], base, p);
+        self.state.allowance.pay(text.len());
+        self.events.push(Event::Logged(text));
     }
 
     fn heading_at(&self, slot: Slot) -> Heading {

@@ -3,7 +3,7 @@
 use crate::state::Run;
 use albacore_arithmetic::{Operation, Spread, bounded};
 use albacore_geometry::Vector;
-use albacore_program::{Addr, Program, Slot};
+use albacore_program::{Addr, ListOp, Op, Program, Slot};
 use std::cmp::Ordering;
 
 /// The order of a list: `key` computes the word at `value` from the element at `it`.
@@ -72,7 +72,7 @@ impl Run {
 
     /// The keys of two elements, by the `Sort` instruction that a sorter begins with.
     fn keys(&mut self, program: &Program, sorter: (u32, Slot), elements: &[&[f64]; 2]) -> Option<(f64, f64, bool)> {
-        let albacore_program::Op::Sort { it, key, value, most, .. } = program.ops[sorter.0 as usize] else {
+        let Op::List(ListOp::Sort { it, key, value, most, .. }) = program.ops[sorter.0 as usize] else {
             return None;
         };
         let mut keys = [0.0; 2];

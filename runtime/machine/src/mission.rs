@@ -11,7 +11,7 @@ use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
-use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot, Vertical};
+use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot};
 use std::sync::Arc;
 
 /// Executes one mission.
@@ -35,7 +35,7 @@ impl Run {
             words,
             tick: 0,
             phase: Phase::Waiting,
-            asked: Asked { course: Heading::NORTH, over_ground: false, speed: 0.0, vertical: Vertical::Depth(0.0) },
+            asked: Asked::still(Heading::NORTH, 0.0),
             wish: if p.mission.guest { ControlRequest::Listen } else { ControlRequest::Drive },
             command: None,
             filtered: Heading::NORTH,
@@ -46,7 +46,7 @@ impl Run {
             lift: Lift::default(),
             aground: Aground::default(),
             stands: false,
-            limited: [false; 3],
+            limited: Default::default(),
             requires: Vec::new(),
             link: Requirement::LINK,
             lagged: 0,

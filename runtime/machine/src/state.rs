@@ -8,7 +8,7 @@ use crate::lift::Lift;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_program::{LATENCY_MAX_S, LATENCY_PATIENCE_S, Slot, setpoints};
+use albacore_program::{Channel, LATENCY_MAX_S, LATENCY_PATIENCE_S, Slot, setpoints};
 use albacore_vehicle::{Command, Control, Lag, TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ pub struct State {
     /// Whether the heading and the depth of the very start have been taken.
     pub(crate) stands: bool,
     /// For each channel whether a limit holds it back.
-    pub(crate) limited: [bool; 3],
+    pub(crate) limited: [bool; Channel::ALL.len()],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
     pub(crate) requires: Vec<Requirement>,
     /// The same of the vehicle's link: the longest round trip for freshness.
@@ -105,6 +105,21 @@ pub(crate) struct Asked {
     pub vertical: Vertical,
 }
 
+impl Asked {
+    /// To lie still at a depth.
+    pub fn still(course: Heading, depth: f64) -> Self {
+        Asked { course, over_ground: false, speed: 0.0, vertical: Vertical::Depth(depth) }
+    }
+
+    pub fn set(&mut self, channel: Channel, value: f64) {
+        match channel {
+            Channel::Depth => self.vertical = Vertical::Depth(value),
+            Channel::Altitude => self.vertical = Vertical::Altitude(value),
+            Channel::Speed => self.speed = value,
+        }
+    }
+}
+
 /// Limits as numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Limits {
@@ -118,6 +133,15 @@ pub(crate) struct Limits {
 impl Limits {
     pub const NONE: Limits =
         Limits { altitude: (0.0, f64::MAX), depth: (0.0, f64::MAX), speed: (0.0, f64::MAX), turn_rate: TURN_RATE_MAX };
+
+    /// The least and the greatest value of a setpoint.
+    pub fn of(&mut self, channel: Channel) -> &mut (f64, f64) {
+        match channel {
+            Channel::Depth => &mut self.depth,
+            Channel::Altitude => &mut self.altitude,
+            Channel::Speed => &mut self.speed,
+        }
+    }
 }
 
 /// A required input as numbers.
@@ -153,6 +177,22 @@ pub(crate) struct Declared {
 pub(crate) struct Overridden {
     pub vertical: Option<Vertical>,
     pub speed: Option<f64>,
+}
+
+impl Overridden {
+    pub fn set(&mut self, channel: Channel, value: f64) {
+        match channel {
+            Channel::Depth => self.vertical = Some(Vertical::Depth(value)),
+            Channel::Altitude => self.vertical = Some(Vertical::Altitude(value)),
+            Channel::Speed => self.speed = Some(value),
+        }
+    }
+
+    /// What is asked for, with what is set here in place of it.
+    pub fn over(&self, asked: &mut Asked) {
+        asked.vertical = self.vertical.unwrap_or(asked.vertical);
+        asked.speed = self.speed.unwrap_or(asked.speed);
+    }
 }
 
 /// A run in the middle of a tick: its state, and what has happened so far.

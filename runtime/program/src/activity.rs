@@ -1,6 +1,6 @@
 //! What can be active: missions, strategies, behaviors, overlays, and the table that switches between them.
 
-use crate::{Addr, Code, Shape, Slot};
+use crate::{Addr, Axis, Code, Shape, Slot};
 use serde::{Deserialize, Serialize};
 
 /// Index into [`crate::Program::activities`].
@@ -54,6 +54,9 @@ pub mod setpoints {
     pub const DEPTH: f64 = 1.0;
     /// The metres are an altitude.
     pub const ALTITUDE: f64 = 2.0;
+
+    /// The words where nobody has set anything.
+    pub const NONE: [f64; WORDS as usize] = [UNSET, 0.0, NO_SPEED];
 }
 
 /// What kind of activity, where the machine treats them differently.
@@ -65,10 +68,8 @@ pub enum ActivityKind {
     Strategy,
     /// Amends the course of whatever is active beneath it.
     AmendsCourse,
-    /// Owns the vertical channel.
-    SetsVertical,
-    /// Owns the speed channel.
-    SetsSpeed,
+    /// Owns an axis of the command.
+    Sets(Axis),
     /// The top.
     Mission,
     /// The mission's recovery.

@@ -11,17 +11,24 @@ pub mod number;
 mod op;
 pub mod seen;
 pub mod senses;
+mod setpoint;
 mod shape;
 mod slot;
 mod verify;
 
-pub use activity::*;
-pub use cause::*;
-pub use guide::*;
-pub use op::*;
-pub use shape::*;
-pub use slot::*;
+pub use activity::{
+    Abort, Activity, ActivityId, ActivityKind, Body, CallSite, Entry, Exit, OverlaySite, ReportSite, Rule, Table,
+    Target, Text, TextPart, Valued, Watched, WatchedCode, header, setpoints,
+};
+pub use cause::{Cause, OverrideEnd};
+pub use guide::{Ends, GUIDANCE_WORDS, GuidanceLaw, Guide, Omitted, Param, ParamKind, Steering};
+pub use op::{AreaOp, Compute, ListOp, Op, When};
+pub use setpoint::{Axis, Channel, Mark, Setpoint, SetpointKind};
+pub use shape::{AREA_CORNER_WORDS, AREA_WORDS, Display, ROWS_WORDS, Shape};
+pub use slot::{ABSOLUTE, Addr, Slot};
 pub use verify::{Claim, Claims, Unit, Unsound};
+
+pub(crate) use shape::EDGE_WORDS;
 
 use albacore_arithmetic::Interval;
 use albacore_geometry::Geodetic;
@@ -113,22 +120,21 @@ pub const TURN_RATE_MIN: f64 = 0.1 * (std::f64::consts::PI / 180.0);
 /// What no command may exceed: each is code, run at the mission's start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
-    /// Metres above the bottom, at least.
-    pub altitude_min: Option<Code>,
-    /// Metres above the bottom, at most.
-    pub altitude_max: Option<Code>,
-    /// Metres below the surface, at least.
-    pub depth_min: Option<Code>,
-    /// Metres below the surface, at most.
-    pub depth_max: Option<Code>,
-    /// Metres per second through the water, at least.
-    pub speed_min: Option<Code>,
-    /// Metres per second through the water, at most.
-    pub speed_max: Option<Code>,
+    /// Of the setpoints, each at the place of its channel.
+    pub setpoints: [Bounds; Channel::ALL.len()],
     /// Radians per second of the course that is commanded, at most; else what the command filter has.
     pub turn_rate_max: Option<Code>,
     /// Ticks that the round trip over the vehicle's link may take; else [`LATENCY_MAX_S`].
     pub latency_max: Option<Code>,
+}
+
+/// The bounds of a setpoint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Bounds {
+    /// Its least value.
+    pub least: Option<Code>,
+    /// Its greatest value.
+    pub greatest: Option<Code>,
 }
 
 /// An input that the mission cannot do without.

@@ -75,11 +75,6 @@ pub fn angle(angle_rad: f64) -> String {
     format!("{} deg", fixed(math::degrees(angle_rad), DEGREE_DECIMALS))
 }
 
-/// A quantity in the unit it is shown in: `5.2 %`.
-pub fn quantity(display: &Display, si: f64) -> String {
-    with_unit(fixed(si / display.scale, display.decimals), display)
-}
-
 fn with_unit(number: String, display: &Display) -> String {
     if display.unit.is_empty() { number } else { format!("{number} {}", display.unit) }
 }

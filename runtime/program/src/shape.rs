@@ -57,7 +57,7 @@ pub const AREA_CORNER_WORDS: u32 = 4;
 /// Words of an area.
 pub const AREA_WORDS: u32 = 1 + AREA_CORNER_WORDS * albacore_geometry::AREA_CORNERS_MAX as u32;
 /// Words of an edge.
-pub const EDGE_WORDS: u32 = 6;
+pub(crate) const EDGE_WORDS: u32 = 6;
 /// Words of the rows across an area: what of them does not change from one to the next.
 pub const ROWS_WORDS: u32 = 10;
 

@@ -15,9 +15,10 @@ mod written;
 
 pub use claims::{Claim, Claims, Unit};
 
-use crate::{ABSOLUTE, Addr, Op, Program, Slot};
+use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, Op, Program, Slot, When};
+use albacore_arithmetic::Operator;
 use std::collections::{BTreeMap, BTreeSet};
-use written::{goes_on, jump, written};
+use written::{goes_on, written};
 
 /// Code that must not be run, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,7 +34,7 @@ impl Program {
     pub fn verify(&self) -> Result<(), Unsound> {
         for (at, op) in self.ops.iter().enumerate() {
             let unsound = |why| Unsound { at: at as Addr, why };
-            if jump(op).is_some_and(|to| to as usize >= self.ops.len()) {
+            if op.jump().is_some_and(|to| to as usize >= self.ops.len()) {
                 return Err(unsound("it leads to where there is no code"));
             }
             for (to, words) in written(op) {
@@ -66,7 +67,7 @@ impl Program {
     fn next(&self, at: Addr) -> [Option<Addr>; 2] {
         let op = &self.ops[at as usize];
         let goes_on = goes_on(op) && !matches!(op, Op::Yield);
-        [jump(op), (goes_on && (at as usize + 1) < self.ops.len()).then_some(at + 1)]
+        [op.jump(), (goes_on && (at as usize + 1) < self.ops.len()).then_some(at + 1)]
     }
 
     /// Whether no way among these instructions leads round and round in one tick. What counts a loop's rounds is taken out, and
@@ -89,7 +90,9 @@ impl Program {
     /// Whether an instruction counts the rounds of a ring: it adds one to a word that nothing else in the ring writes, and the
     /// ring is left when that word has come to its end, which nothing in the ring writes either.
     fn counts(&self, at: Addr, ring: &BTreeSet<Addr>) -> bool {
-        let Op::AddInt { to, a, b } = self.ops[at as usize] else { return false };
+        let Op::Compute(Compute::Two { operator: Operator::AddInt, to, a, b }) = self.ops[at as usize] else {
+            return false;
+        };
         let stands = |slot: Slot, except: Option<Addr>| {
             ring.iter()
                 .filter(|&&other| Some(other) != except)
@@ -100,15 +103,16 @@ impl Program {
         }
         let leaves = |at: Addr| !ring.contains(&at);
         let looks = |other: Addr| match self.ops[other as usize] {
-            Op::JumpIfLess { a, b, .. } | Op::JumpIfAtMost { a, b, .. } => {
+            Op::Compute(Compute::Jump { when: When::Less(a, b) | When::AtMost(a, b), .. }) => {
                 a == to && stands(b, None) && leaves(other + 1)
             }
-            Op::JumpUnlessLess { a, b, to: end } | Op::JumpUnlessAtMost { a, b, to: end } => {
+            Op::Compute(Compute::Jump { when: When::NotLess(a, b) | When::NotAtMost(a, b), to: end }) => {
                 a == to && stands(b, None) && leaves(end)
             }
-            Op::At { list: of, index, .. } | Op::RowAt { rows: of, index, .. } => {
+            Op::List(ListOp::At { list: of, index, .. }) | Op::Area(AreaOp::RowAt { rows: of, index, .. }) => {
                 let next = self.ops.get(other as usize + 1);
-                let is_left = matches!(next, Some(Op::JumpUnless { to, .. }) if leaves(*to));
+                let is_left =
+                    matches!(next, Some(Op::Compute(Compute::Jump { when: When::False(_), to })) if leaves(*to));
                 index == to && stands(of, None) && is_left
             }
             _ => false,
@@ -126,7 +130,7 @@ impl Program {
             return index.is_some_and(|index| self.constants.get(index as usize) == Some(&1.0));
         }
         let before = at.checked_sub(1).and_then(|at| self.ops.get(at as usize));
-        matches!(before, Some(Op::Const { to, value }) if *to == slot && *value == 1.0)
+        matches!(before, Some(Op::Compute(Compute::Const { to, value })) if *to == slot && *value == 1.0)
     }
 
     /// The sets of instructions each of which leads to every other of its set (Tarjan's, without calling itself).

@@ -2,8 +2,40 @@
 
 #![allow(missing_docs, reason = "each test says what it shows")]
 
-use albacore_arithmetic::Interval;
-use albacore_program::{ABSOLUTE, Claim, Claims, Guide, Op, Program, Unit};
+use albacore_arithmetic::{Interval, Operator};
+use albacore_program::{ABSOLUTE, Addr, Claim, Claims, Compute, Guide, Op, Program, Slot, Unit, When};
+
+fn one(operator: Operator, to: Slot, a: Slot) -> Op {
+    Compute::One { operator, to, a }.into()
+}
+
+fn two(operator: Operator, to: Slot, a: Slot, b: Slot) -> Op {
+    Compute::two(operator, to, a, b).into()
+}
+
+fn set(to: Slot, value: f64) -> Op {
+    Compute::Const { to, value }.into()
+}
+
+fn copy(to: Slot, from: Slot) -> Op {
+    Compute::Copy { to, from }.into()
+}
+
+fn jump(to: Addr) -> Op {
+    Compute::jump(to).into()
+}
+
+fn jump_if(word: Slot, to: Addr) -> Op {
+    Compute::jump_if(word, to).into()
+}
+
+fn jump_unless(word: Slot, to: Addr) -> Op {
+    Compute::jump_unless(word, to).into()
+}
+
+fn jump_when(when: When, to: Addr) -> Op {
+    Compute::Jump { to, when }.into()
+}
 
 fn of(ops: Vec<Op>) -> Program {
     Program { ops, constants: vec![1.0], words: 8, ..Program::default() }
@@ -19,45 +51,40 @@ const ROUND: Option<&str> = Some("it goes round without taking time");
 /// Counter in 0, end in 1; each round passes what is given.
 fn counted(within: Vec<Op>) -> Vec<Op> {
     let mut ops = within;
-    ops.push(Op::AddInt { to: 0, a: 0, b: ONE });
-    ops.push(Op::JumpIfLess { a: 0, b: 1, to: 0 });
+    ops.push(two(Operator::AddInt, 0, 0, ONE));
+    ops.push(jump_when(When::Less(0, 1), 0));
     ops.push(Op::Return);
     ops
 }
 
 #[test]
 fn a_round_takes_time_or_is_counted() {
-    assert_eq!(why(vec![Op::Jump { to: 0 }]), ROUND);
-    assert_eq!(why(vec![Op::Yield, Op::Jump { to: 0 }]), None);
-    assert_eq!(why(vec![Op::JumpIf { if_: 3, to: 2 }, Op::Yield, Op::Jump { to: 0 }]), ROUND);
-    assert_eq!(why(counted(vec![Op::Copy { to: 2, from: 3 }])), None);
+    assert_eq!(why(vec![jump(0)]), ROUND);
+    assert_eq!(why(vec![Op::Yield, jump(0)]), None);
+    assert_eq!(why(vec![jump_if(3, 2), Op::Yield, jump(0)]), ROUND);
+    assert_eq!(why(counted(vec![copy(2, 3)])), None);
 }
 
 #[test]
 fn a_count_goes_toward_an_end_that_stands() {
-    assert_eq!(why(counted(vec![Op::Copy { to: 0, from: 3 }])), ROUND, "the counter is set back");
-    assert_eq!(why(counted(vec![Op::Copy { to: 1, from: 0 }])), ROUND, "the end moves");
-    assert_eq!(why(counted(vec![Op::Clear { to: 0, words: 4 }])), ROUND, "both are cleared");
-    let no_end = vec![Op::AddInt { to: 0, a: 0, b: ONE }, Op::JumpIfLess { a: 2, b: 1, to: 0 }, Op::Return];
+    assert_eq!(why(counted(vec![copy(0, 3)])), ROUND, "the counter is set back");
+    assert_eq!(why(counted(vec![copy(1, 0)])), ROUND, "the end moves");
+    assert_eq!(why(counted(vec![Op::Compute(Compute::Clear { to: 0, words: 4 })])), ROUND, "both are cleared");
+    let no_end = vec![two(Operator::AddInt, 0, 0, ONE), jump_when(When::Less(2, 1), 0), Op::Return];
     assert_eq!(why(no_end), ROUND, "another word is looked at");
-    let by_two = vec![Op::AddInt { to: 0, a: 0, b: 3 }, Op::JumpIfLess { a: 0, b: 1, to: 0 }, Op::Return];
+    let by_two = vec![two(Operator::AddInt, 0, 0, 3), jump_when(When::Less(0, 1), 0), Op::Return];
     assert_eq!(why(by_two), ROUND, "what is added may be nothing");
-    let unlooked = vec![
-        Op::AddInt { to: 0, a: 0, b: ONE },
-        Op::JumpIf { if_: 3, to: 0 },
-        Op::JumpIfLess { a: 0, b: 1, to: 0 },
-        Op::Return,
-    ];
+    let unlooked = vec![two(Operator::AddInt, 0, 0, ONE), jump_if(3, 0), jump_when(When::Less(0, 1), 0), Op::Return];
     assert_eq!(why(unlooked), ROUND, "a round is counted that nobody looks at");
     // A loop in a counted loop has a counter of its own.
-    assert_eq!(why(counted(vec![Op::JumpIf { if_: 3, to: 0 }])), ROUND);
+    assert_eq!(why(counted(vec![jump_if(3, 0)])), ROUND);
 }
 
 #[test]
 fn places_are_there() {
-    assert_eq!(why(vec![Op::Jump { to: 7 }]), Some("it leads to where there is no code"));
-    assert_eq!(why(vec![Op::Copy { to: ABSOLUTE, from: 0 }]), Some("it writes among inputs and constants"));
-    assert_eq!(why(vec![Op::Clear { to: 5, words: 4 }]), Some("it writes beyond the words of a run"));
+    assert_eq!(why(vec![jump(7)]), Some("it leads to where there is no code"));
+    assert_eq!(why(vec![copy(ABSOLUTE, 0)]), Some("it writes among inputs and constants"));
+    assert_eq!(why(vec![Op::Compute(Compute::Clear { to: 5, words: 4 })]), Some("it writes beyond the words of a run"));
     assert_eq!(why(vec![Op::Log { text: 0 }]), Some("it names what is not there"));
 }
 
@@ -80,47 +107,46 @@ const CLAIMED: Option<&str> = Some("a variable may be outside the range that is 
 
 #[test]
 fn what_has_no_value_is_found() {
-    assert_eq!(why_by_range(vec![Op::Div { to: 4, a: 0, b: 1 }, Op::Return]), BY_ZERO);
-    assert_eq!(why_by_range(vec![Op::Div { to: 4, a: 0, b: 2 }, Op::Return]), None);
-    assert_eq!(why_by_range(vec![Op::Div { to: 4, a: 0, b: 5 }, Op::Return]), BY_ZERO, "of which nothing is known");
-    let difference = |then| vec![Op::Sub { to: 4, a: 0, b: 1 }, then, Op::Return];
+    assert_eq!(why_by_range(vec![two(Operator::Div, 4, 0, 1), Op::Return]), BY_ZERO);
+    assert_eq!(why_by_range(vec![two(Operator::Div, 4, 0, 2), Op::Return]), None);
+    assert_eq!(why_by_range(vec![two(Operator::Div, 4, 0, 5), Op::Return]), BY_ZERO, "of which nothing is known");
+    let difference = |then| vec![two(Operator::Sub, 4, 0, 1), then, Op::Return];
     let root = Some("it may take the root of a negative number");
-    assert_eq!(why_by_range(difference(Op::Sqrt { to: 4, a: 4 })), root);
-    assert_eq!(why_by_range(difference(Op::Sqrt { to: 4, a: 0 })), None);
-    assert_eq!(why_by_range(difference(Op::Ticks { to: 4, a: 4 })), Some("a time may be negative"));
-    assert_eq!(why_by_range(difference(Op::Ticks { to: 4, a: 1 })), None);
+    assert_eq!(why_by_range(difference(one(Operator::Sqrt, 4, 4))), root);
+    assert_eq!(why_by_range(difference(one(Operator::Sqrt, 4, 0))), None);
+    assert_eq!(why_by_range(difference(one(Operator::Ticks, 4, 4))), Some("a time may be negative"));
+    assert_eq!(why_by_range(difference(one(Operator::Ticks, 4, 1))), None);
     let circle = |radius| {
-        let args =
-            [Op::Copy { to: 6, from: radius }, Op::Begin { guide: Guide::Loiter, args: 4, state: 8, setpoints: 7 }];
+        let args = [copy(6, radius), Op::Begin { guide: Guide::Loiter, args: 4, state: 8, setpoints: 7 }];
         [args.as_slice(), &[Op::Return]].concat()
     };
-    assert_eq!(why_by_range(circle(0)), Some("a radius may be too small"));
+    assert_eq!(why_by_range(circle(0)), Some("an argument of guidance may be outside its range"));
     assert_eq!(why_by_range(circle(2)), None);
 }
 
 #[test]
 fn what_a_jump_shows_is_known_behind_it_and_nowhere_else() {
     let guarded = |between: Vec<Op>, at| {
-        let mut ops = vec![Op::JumpUnlessLess { a: ABSOLUTE | 1, b: 0, to: 0 }];
+        let mut ops = vec![jump_when(When::NotLess(ABSOLUTE | 1, 0), 0)];
         ops.extend(between);
-        ops.extend([Op::Div { to: 4, a: 1, b: at }, Op::Return]);
+        ops.extend([two(Operator::Div, 4, 1, at), Op::Return]);
         let end = ops.len() as u32 - 1;
-        ops[0] = Op::JumpUnlessLess { a: ABSOLUTE | 1, b: 0, to: end };
+        ops[0] = jump_when(When::NotLess(ABSOLUTE | 1, 0), end);
         let claims = claims(&ops);
         let program = Program { ops, constants: vec![1.0, 0.0], words: 48, ..Program::default() };
         program.verify_ranges(&claims).err().map(|unsound| unsound.why)
     };
     assert_eq!(guarded(vec![], 0), None);
     assert_eq!(guarded(vec![], 1), BY_ZERO, "another word");
-    assert_eq!(guarded(vec![Op::Copy { to: 0, from: 1 }], 0), BY_ZERO, "it is written behind the jump");
-    assert_eq!(guarded(vec![Op::Copy { to: 5, from: 0 }], 5), None, "a copy of it");
+    assert_eq!(guarded(vec![copy(0, 1)], 0), BY_ZERO, "it is written behind the jump");
+    assert_eq!(guarded(vec![copy(5, 0)], 5), None, "a copy of it");
     // The other side of a test that is kept in a word.
     let kept = |negated: bool| {
         let ops = vec![
-            Op::Lt { to: 5, a: ABSOLUTE | 1, b: 0 },
-            if negated { Op::Not { to: 5, a: 5 } } else { Op::Copy { to: 6, from: 5 } },
-            Op::JumpUnless { unless: if negated { 5 } else { 6 }, to: 4 },
-            Op::Div { to: 4, a: 1, b: 0 },
+            Op::Compute(Compute::Lt { to: 5, a: ABSOLUTE | 1, b: 0 }),
+            if negated { Op::Compute(Compute::Not { to: 5, a: 5 }) } else { copy(6, 5) },
+            jump_unless(if negated { 5 } else { 6 }, 4),
+            two(Operator::Div, 4, 1, 0),
             Op::Return,
         ];
         let claims = claims(&ops);
@@ -133,14 +159,11 @@ fn what_a_jump_shows_is_known_behind_it_and_nowhere_else() {
 
 #[test]
 fn claims_are_kept_wherever_others_could_read() {
-    let times = |end| vec![Op::Add { to: 0, a: 0, b: 1 }, Op::Min { to: 0, a: 0, b: 2 }, end];
+    let times = |end| vec![two(Operator::Add, 0, 0, 1), two(Operator::Min, 0, 0, 2), end];
     assert_eq!(why_by_range(times(Op::Return)), None, "it is mended before anybody reads it");
-    assert_eq!(why_by_range(vec![Op::Add { to: 0, a: 0, b: 1 }, Op::Return]), CLAIMED);
-    assert_eq!(
-        why_by_range(vec![Op::Add { to: 0, a: 0, b: 1 }, Op::Yield, Op::Const { to: 0, value: 1.0 }, Op::Return]),
-        CLAIMED
-    );
-    assert_eq!(why_by_range(vec![Op::Const { to: 2, value: 0.0 }, Op::Return]), CLAIMED);
+    assert_eq!(why_by_range(vec![two(Operator::Add, 0, 0, 1), Op::Return]), CLAIMED);
+    assert_eq!(why_by_range(vec![two(Operator::Add, 0, 0, 1), Op::Yield, set(0, 1.0), Op::Return]), CLAIMED);
+    assert_eq!(why_by_range(vec![set(2, 0.0), Op::Return]), CLAIMED);
 }
 
 #[test]
@@ -148,32 +171,27 @@ fn what_grows_from_round_to_round_is_known_to() {
     // A counter of so many rounds as word 2 says: it stays below its end, and 10 stays above it.
     let rounds = |bound: f64, end: Op| {
         let ops = vec![
-            Op::Const { to: 5, value: 0.0 },
-            Op::Const { to: 6, value: bound },
-            Op::SubInt { to: 7, a: 6, b: 5 },
-            Op::Div { to: 4, a: 1, b: 7 },
-            Op::AddInt { to: 5, a: 5, b: ONE },
+            set(5, 0.0),
+            set(6, bound),
+            two(Operator::SubInt, 7, 6, 5),
+            two(Operator::Div, 4, 1, 7),
+            two(Operator::AddInt, 5, 5, ONE),
             end,
             Op::Return,
         ];
         why_by_range(ops)
     };
-    let counted = Op::JumpIfLess { a: 5, b: 2, to: 2 };
+    let counted = jump_when(When::Less(5, 2), 2);
     assert_eq!(rounds(5.0, counted), None);
     assert_eq!(rounds(4.0, counted), BY_ZERO, "in the fifth round");
-    assert_eq!(rounds(5.0, Op::JumpIf { if_: 3, to: 2 }), BY_ZERO, "of rounds without an end");
+    assert_eq!(rounds(5.0, jump_if(3, 2)), BY_ZERO, "of rounds without an end");
 }
 
 #[test]
 fn who_calls_keeps_to_what_a_parameter_claims() {
     let call = |given: f64| {
-        let ops = vec![
-            Op::Const { to: 4, value: given },
-            Op::Call { code: 3, base: 4 },
-            Op::Return,
-            Op::Div { to: 1, a: 1, b: 0 },
-            Op::Return,
-        ];
+        let ops =
+            vec![set(4, given), Op::Call { code: 3, base: 4 }, Op::Return, two(Operator::Div, 1, 1, 0), Op::Return];
         let range = Interval::new(1.0, 2.0);
         let claim = Claim { slot: 0, range, is_whole: false, present: None, is_param: true };
         let caller = Unit { code: 0..3, words: 8, ..Unit::default() };

@@ -30,7 +30,7 @@ pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
 pub use albacore_lang::doc;
 pub use albacore_lang::fmt::format;
 pub use albacore_lang::source::{FileId, SOURCE_BYTES_MAX, Source, Sources, Span};
-pub use albacore_lang::{Script, nearest};
+pub use albacore_lang::{Script, is_setpoint, nearest};
 pub use albacore_link::recon::{HostClock, Rows};
 pub use albacore_link::{Dialect, Faulty, LinkError, LinkFault, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;

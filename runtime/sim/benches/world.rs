@@ -87,7 +87,7 @@ fn concentration_underway(duck: Duck) -> f64 {
     let heading = scenario.flow.mean.toward();
     let mut begin = Simulator::new(&scenario, 1).unwrap();
     begin.take_over().unwrap();
-    begin.command(&Command { heading, speed: 2.0, vertical: Vertical::Altitude(2.0) }).unwrap();
+    begin.command(&Command::new(heading, 2.0, Vertical::Altitude(2.0))).unwrap();
     let [tick] = cost([&mut || {
         let (mut simulator, mut snapshot) = (begin.clone(), Snapshot::default());
         stretches(80, 50, || simulator.sense(&mut snapshot).unwrap())

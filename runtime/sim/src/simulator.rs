@@ -161,7 +161,7 @@ impl Simulator {
 
     /// What a vehicle does that gives up.
     fn float_up(&self) -> Command {
-        Command { heading: self.truth.heading, speed: 0.0, vertical: Vertical::Depth(0.0) }
+        Command::still(self.truth.heading, 0.0)
     }
 
     /// What the front seat knows.

@@ -44,7 +44,7 @@ impl Trial {
     /// What is so after some seconds of a command at 2 m/s, and how often it grounded and came free in them.
     fn go(&mut self, heading_deg: f64, vertical: Vertical, seconds: u32) -> (Truth, [usize; 2]) {
         let heading = Heading::from_degrees(heading_deg);
-        self.simulator.command(&Command { heading, speed: 2.0, vertical }).unwrap();
+        self.simulator.command(&Command::new(heading, 2.0, vertical)).unwrap();
         let mut snapshot = Snapshot::default();
         self.told.clear();
         for _ in 0..seconds * 10 {

@@ -24,7 +24,7 @@ fn digest(seed: u64) -> Result<u64, Box<dyn Error>> {
     simulator.take_over()?;
     for tick in 0..3000 {
         let heading = Heading::from_degrees(if tick / 200 % 2 == 0 { 100.0 } else { 190.0 });
-        simulator.command(&Command { heading, speed: 2.0, vertical: Vertical::Altitude(2.0) })?;
+        simulator.command(&Command::new(heading, 2.0, Vertical::Altitude(2.0)))?;
         simulator.sense(&mut snapshot)?;
         for sample in &snapshot.samples {
             digest = fold(digest, u64::from(sample.channel));

@@ -35,7 +35,7 @@ fn sensors_read_the_record() {
     assert!((truth.position - (place + carried)).length() < 0.01, "{truth:?} {carried:?}");
 
     simulator.take_over().unwrap();
-    simulator.command(&Command { heading: Heading::NORTH, speed: 1.0, vertical: Vertical::Depth(5.0) }).unwrap();
+    simulator.command(&Command::new(Heading::NORTH, 1.0, Vertical::Depth(5.0))).unwrap();
     let channel = |name: &str| simulator.channels().iter().position(|c| c.name == name).unwrap() as u16;
     let (flow, chemical) = (channel("flow"), channel("chemical"));
     let (mut flows, mut detections, mut saturated) = (Vec::new(), 0, 0);

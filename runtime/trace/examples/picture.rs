@@ -37,6 +37,97 @@ fn square() -> Result<Picture, Box<dyn Error>> {
     chase("harbour <square> & \"quotes\"", &area, Point::new(45.0, -40.0), Point::new(47.0, -37.5), 12.0, 110.0)
 }
 
+/// A plume that meanders down-flow from its source, as far as is looked for it.
+struct Plume {
+    source: Point,
+    swing: f64,
+    reach: f64,
+}
+
+impl Plume {
+    fn down() -> Heading {
+        Heading::from_degrees(FLOW_DEG)
+    }
+
+    fn across() -> Heading {
+        Plume::down() + math::PI / 2.0
+    }
+
+    /// Its middle so many metres down-flow.
+    fn axis(&self, along: f64) -> Point {
+        let meander = self.swing * (1.0 + along / 400.0) * math::sin(along / (3.0 * self.swing));
+        self.source + along * Plume::down().unit() + meander * Plume::across().unit()
+    }
+
+    fn filaments(&self) -> Vec<(Point, f64)> {
+        let scatter = |n: u32| {
+            let mut digest = Digest::new();
+            digest.word(u64::from(n));
+            (digest.value() >> 40) as f64 / f64::from(1 << 24) - 0.5
+        };
+        let filament = |i: u32| {
+            let along = self.reach * 1.3 * f64::from(i) / 9_000.0;
+            let wide = 1.0 + along * 0.07;
+            let aside = (scatter(i) * wide) * Plume::across().unit();
+            let p = self.axis(along) + aside + (scatter(i + 100_000) * wide) * Plume::down().unit();
+            (p, 0.3 + along * 0.004)
+        };
+        (0..9_000).map(filament).collect()
+    }
+}
+
+/// A drive through a plume: where the vehicle is, where it was, and where it detected something.
+struct Drive<'p> {
+    plume: &'p Plume,
+    at: Point,
+    track: Vec<(Point, u16)>,
+    detections: Vec<Point>,
+}
+
+impl Drive<'_> {
+    fn go(&mut self, to: Point, behavior: u16) {
+        let steps = (self.at.distance(to) / 0.2).ceil().max(1.0) as u32;
+        let from = self.at;
+        for i in 0..=steps {
+            let p = from + (f64::from(i) / f64::from(steps)) * (to - from);
+            self.track.push((p, behavior));
+            let along = (p - self.plume.source).along(Plume::down());
+            if along > 0.0 && i % 7 == 0 && p.distance(self.plume.axis(along)) < 0.6 + along * 0.03 {
+                self.detections.push(p);
+            }
+        }
+        self.at = to;
+    }
+
+    /// Finds the plume, follows it up-flow, and crosses its source in bow-ties.
+    fn chase(&mut self) {
+        let Plume { source, swing, reach } = *self.plume;
+        let across = Plume::across().unit();
+        let mut along = reach;
+        for i in 0..3 {
+            let side = if i % 2 == 0 { 2.2 } else { -2.2 };
+            self.go(self.plume.axis(along) + (side * swing) * across, 0);
+            along -= reach * 0.03;
+        }
+        while along > swing * 0.5 {
+            for (i, behavior) in [(0, 1), (1, 1), (2, 2)] {
+                along -= swing * 0.24;
+                let side = if i == 2 { -0.45 } else { 0.3 };
+                self.go(self.plume.axis(along) + (side * (0.4 * swing + along * 0.03)) * across, behavior);
+            }
+        }
+        for n in [2.0, 1.0, 0.0] {
+            let centre = source + (swing * 0.2 * n) * Plume::down().unit();
+            let half = swing * 0.6;
+            for lean in [0.25, -0.25] {
+                let leg = Plume::down().reverse() + lean;
+                self.go(centre + (-half) * leg.unit(), 3);
+                self.go(centre + half * leg.unit(), 3);
+            }
+        }
+    }
+}
+
 fn chase(
     title: &str,
     area: &Area,
@@ -45,63 +136,12 @@ fn chase(
     swing: f64,
     reach: f64,
 ) -> Result<Picture, Box<dyn Error>> {
-    let down = Heading::from_degrees(FLOW_DEG);
-    let across = down + math::PI / 2.0;
-    let axis = |along: f64| {
-        let meander = swing * (1.0 + along / 400.0) * math::sin(along / (3.0 * swing));
-        source + along * down.unit() + meander * across.unit()
-    };
-    let mut plume = Vec::new();
-    for i in 0..9_000_u32 {
-        let along = reach * 1.3 * f64::from(i) / 9_000.0;
-        let scatter = |n: u32| {
-            let mut digest = Digest::new();
-            digest.word(u64::from(n));
-            (digest.value() >> 40) as f64 / f64::from(1 << 24) - 0.5
-        };
-        let wide = 1.0 + along * 0.07;
-        let p = axis(along) + (scatter(i) * wide) * across.unit() + (scatter(i + 100_000) * wide) * down.unit();
-        plume.push((p, 0.3 + along * 0.004));
-    }
-    let start = source + (reach * 1.02) * down.unit() + (-2.5 * swing) * across.unit();
-    let (mut track, mut detections, mut at) = (Vec::new(), Vec::new(), start);
-    let mut go = |to: Point, behavior: u16, track: &mut Vec<(Point, u16)>| {
-        let steps = (at.distance(to) / 0.2).ceil().max(1.0) as u32;
-        let from = at;
-        for i in 0..=steps {
-            let p = from + (f64::from(i) / f64::from(steps)) * (to - from);
-            track.push((p, behavior));
-            let along = (p - source).along(down);
-            if along > 0.0 && i % 7 == 0 && p.distance(axis(along)) < 0.6 + along * 0.03 {
-                detections.push(p);
-            }
-        }
-        at = to;
-    };
-    let mut along = reach;
-    for i in 0..3 {
-        let side = if i % 2 == 0 { 2.2 } else { -2.2 };
-        go(axis(along) + (side * swing) * across.unit(), 0, &mut track);
-        along -= reach * 0.03;
-    }
-    while along > swing * 0.5 {
-        for (i, behavior) in [(0, 1), (1, 1), (2, 2)] {
-            along -= swing * 0.24;
-            let side = if i == 2 { -0.45 } else { 0.3 };
-            go(axis(along) + (side * (0.4 * swing + along * 0.03)) * across.unit(), behavior, &mut track);
-        }
-    }
-    for n in [2.0, 1.0, 0.0] {
-        let centre = source + (swing * 0.2 * n) * down.unit();
-        let half = swing * 0.6;
-        for lean in [0.25, -0.25] {
-            let leg = down.reverse() + lean;
-            go(centre + (-half) * leg.unit(), 3, &mut track);
-            go(centre + half * leg.unit(), 3, &mut track);
-        }
-    }
-    go(declared, 4, &mut track);
-    go(area.center(), 5, &mut track);
+    let plume = Plume { source, swing, reach };
+    let start = source + (reach * 1.02) * Plume::down().unit() + (-2.5 * swing) * Plume::across().unit();
+    let mut drive = Drive { plume: &plume, at: start, track: Vec::new(), detections: Vec::new() };
+    drive.chase();
+    drive.go(declared, 4);
+    drive.go(area.center(), 5);
     let behaviors = ["find", "track_in", "track_out", "reacquire", "confirm", "goto center"];
     Ok(Picture {
         title: title.to_string(),
@@ -110,14 +150,14 @@ fn chase(
             "source declared 13.2 m from the true one".to_string(),
         ],
         area: area.corners().to_vec(),
-        plume,
-        track,
+        plume: plume.filaments(),
+        track: drive.track,
         behaviors: behaviors.map(String::from).to_vec(),
-        detections,
+        detections: drive.detections,
         reports: vec![("declared, 13.2 m off".to_string(), declared)],
         sources: vec![("dye".to_string(), source)],
         start: Some(start),
-        flows: vec![("flow".into(), 0.125 * down.unit())],
+        flows: vec![("flow".into(), 0.125 * Plume::down().unit())],
         ..Picture::default()
     })
 }

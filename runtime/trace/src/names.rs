@@ -98,7 +98,7 @@ impl Names {
 
 /// Whether an activity runs beside the chain rather than in it.
 pub fn is_overlay(program: &Program, id: ActivityId) -> bool {
-    use ActivityKind::{AmendsCourse, SetsSpeed, SetsVertical};
+    use ActivityKind::{AmendsCourse, Sets};
     let kind = program.activities.get(id as usize).map(|activity| activity.kind);
-    matches!(kind, Some(AmendsCourse | SetsVertical | SetsSpeed))
+    matches!(kind, Some(AmendsCourse | Sets(_)))
 }

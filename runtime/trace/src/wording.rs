@@ -2,12 +2,12 @@
 
 use crate::active::Active;
 use crate::names::Names;
-use crate::words::{INDENT, cause_name, channel_name, control_name, indented};
+use crate::words::{INDENT, cause_name, control_name, indented};
 use albacore_geometry::{Point, TangentFrame};
 use albacore_machine::{Event, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::number;
 use albacore_program::seen::one_line;
-use albacore_program::{ActivityId, Cause, Channel, Program, ReportSite, Rule, Shape};
+use albacore_program::{ActivityId, Cause, Program, ReportSite, Rule, Setpoint, Shape};
 use albacore_vehicle::TICK_S;
 
 /// The widest that the column of what happened gets by itself.
@@ -55,14 +55,8 @@ impl Wording {
             }
             Event::Suspended(id) => ("suspend", indented(active.depth(*id), self.names.name(*id))),
             Event::Resumed(id) => {
-                let after = all.iter().find_map(|event| match event {
-                    Event::Left(left, _) if self.names.share_table(*left, *id) => {
-                        Some(format!("{} -> ", self.names.name(*left)))
-                    }
-                    _ => None,
-                });
-                let what = format!("{}{}", after.unwrap_or_default(), self.names.name(*id));
-                ("resume", self.columns(&indented(active.depth(*id), &what), Some(position), "", ""))
+                let what = indented(active.depth(*id), &self.resumed(*id, all));
+                ("resume", self.columns(&what, Some(position), "", ""))
             }
             Event::Switched { rule, from, exit, values } => {
                 let what = indented(active.depth(*from), &self.names.switch_label(*from, *rule));
@@ -85,20 +79,15 @@ impl Wording {
             }
             Event::Logged(text) => ("log", one_line(text)),
             Event::Amending(id, asked, given) => {
-                let line = format!(
-                    "{}  course {} -> {}",
-                    self.names.name(*id),
-                    number::compass(*asked),
-                    number::heading(*given)
-                );
-                ("amend", line)
+                let (asked, given) = (number::compass(*asked), number::heading(*given));
+                ("amend", format!("{}  course {asked} -> {given}", self.names.name(*id)))
             }
             Event::AmendingEnded(id) => ("amend", format!("{}  no more", self.names.name(*id))),
             Event::Limited(channel, asked, given) => {
-                let print = if *channel == Channel::Speed { number::metres_per_second } else { number::metres };
-                ("limit", format!("{}  {} -> {}", channel_name(*channel), print(*asked), print(*given)))
+                let Setpoint { name, print, .. } = channel.row();
+                ("limit", format!("{name}  {} -> {}", print(*asked), print(*given)))
             }
-            Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel_name(*channel))),
+            Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel.row().name)),
             Event::Awaited(input) => ("wait", format!("for the first {}", self.names.input(*input))),
             Event::Stale(input) => ("stale", self.names.input(*input).to_string()),
             Event::Fresh(input) => ("fresh", self.names.input(*input).to_string()),
@@ -128,6 +117,16 @@ impl Wording {
             Event::BottomFound => ("limit", "altitude known again".to_string()),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),
         })
+    }
+
+    /// What goes on, and after what of the same table, if that was left in this tick.
+    fn resumed(&self, id: ActivityId, all: &[Event]) -> String {
+        let after = all.iter().find_map(|event| match event {
+            Event::Left(left, _) if self.names.share_table(*left, id) => Some(self.names.name(*left)),
+            _ => None,
+        });
+        let name = self.names.name(id);
+        after.map_or_else(|| name.to_string(), |after| format!("{after} -> {name}"))
     }
 
     /// What, where, by which rule, and why.

@@ -1,6 +1,6 @@
 //! The fixed words of a trace.
 
-use albacore_program::{Cause, Channel};
+use albacore_program::Cause;
 use albacore_vehicle::Control;
 
 /// Nesting is shown by so many blanks a level.
@@ -23,15 +23,6 @@ pub fn cause_name(cause: Cause) -> &'static str {
         Cause::Refused => "refused",
         Cause::NoAnswer => "no answer",
         Cause::TakenBack => "taken back",
-    }
-}
-
-/// A channel of the command.
-pub fn channel_name(channel: Channel) -> &'static str {
-    match channel {
-        Channel::Depth => "depth",
-        Channel::Altitude => "altitude",
-        Channel::Speed => "speed",
     }
 }
 

@@ -81,7 +81,7 @@ fn the_form_of_values_never_changes() {
         digest.value_of(&(7_u64, command, &events)).unwrap();
         digest.to_string()
     };
-    let told = |vertical| Some(Command { heading: Heading::from_degrees(90.0), speed: 1.5, vertical });
+    let told = |vertical| Some(Command::new(Heading::from_degrees(90.0), 1.5, vertical));
     let given = [None, told(Vertical::Depth(3.0)), told(Vertical::Altitude(3.0)), told(Vertical::Depth(-3.0))].map(of);
     assert_eq!(given, ["c08043fabcd32637", "46142c91067bce1c", "39f3c6169d606a9c", "fec612bfa2a786cd"]);
     assert_eq!(of(told(Vertical::Depth(0.0))), of(told(Vertical::Depth(-0.0))));

@@ -30,7 +30,7 @@ fn records() -> Vec<TickRecord> {
         readings.iter().for_each(|(channel, numbers)| snapshot.push(*channel, numbers));
         snapshot
     };
-    let command = |speed| Command { heading: Heading::from_degrees(270.0), speed, vertical: Vertical::Depth(3.0) };
+    let command = |speed| Command::new(Heading::from_degrees(270.0), speed, Vertical::Depth(3.0));
     vec![
         TickRecord { notices: vec!["heard".into()], ..tick(0) },
         TickRecord {

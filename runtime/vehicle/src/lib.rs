@@ -159,6 +159,18 @@ pub struct Command {
     pub vertical: Vertical,
 }
 
+impl Command {
+    /// To go on a heading at a speed, m/s, at a depth or an altitude.
+    pub const fn new(heading: Heading, speed: f64, vertical: Vertical) -> Self {
+        Command { heading, speed, vertical }
+    }
+
+    /// To lie still at a depth.
+    pub const fn still(heading: Heading, depth: f64) -> Self {
+        Command::new(heading, 0.0, Vertical::Depth(depth))
+    }
+}
+
 /// Why a vehicle can no longer be driven.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]

@@ -158,7 +158,7 @@ mod tests {
     }
 
     fn command(speed: f64, vertical: Vertical) -> Command {
-        Command { heading: Heading::NORTH, speed, vertical }
+        Command::new(Heading::NORTH, speed, vertical)
     }
 
     /// What comes out, and how much was told.

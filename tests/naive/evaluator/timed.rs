@@ -6,13 +6,9 @@ use super::value::Value;
 use super::watch::Watch;
 use super::world::{World, ticks};
 use albacore_geometry::Heading;
-use albacore_guidance::dubins::{Pose, Words};
-use albacore_guidance::parameters::TURN_LEAD_TIME;
-use albacore_guidance::{
-    Circling, FollowLine, Goto, GotoPose, Guidance, Loiter, Station, Whereabouts, turning_radius_in_flow,
-};
+use albacore_guidance::{Guidance, LawOverWords, Start, Station, Whereabouts, turning_radius_in_flow};
 use albacore_lang::hir::{Action, Expr, Timed};
-use albacore_program::{Cause, Channel, Guide};
+use albacore_program::{Cause, Channel, Guide, ParamKind, Steering};
 use albacore_vehicle::Vertical;
 
 /// The vertical and the speed in force; none where nobody has set them.
@@ -51,12 +47,10 @@ pub enum Doing<'p> {
 
 /// A guidance law that has begun.
 pub enum Law {
-    Goto(Goto),
-    Follow(FollowLine),
-    Dubins(GotoPose),
-    Loiter(Loiter),
+    /// With its state in words.
+    Leading(LawOverWords, Vec<f64>),
     Station(Station),
-    /// `steer`, `wait`: nothing to remember.
+    /// Nothing to remember.
     None,
 }
 
@@ -115,8 +109,8 @@ impl<'p> Underway<'p> {
     ) -> Result<Option<End>, Aborted> {
         self.until.update(w, frame, age);
         // Rule 4: `steer` reads its course at every tick.
-        if let (Doing::Guide(Guide::Steer | Guide::SteerHeading, args, _), Action::Guide(_, written)) =
-            (&mut self.doing, &self.timed.action)
+        if let (Doing::Guide(guide, args, _), Action::Guide(_, written)) = (&mut self.doing, &self.timed.action)
+            && guide.law().reads_arguments_anew()
         {
             *args = values(w, Scope::of(frame), written);
         }
@@ -150,10 +144,7 @@ impl<'p> Underway<'p> {
             // What an overlay does not `keep` it leaves as it is.
             Doing::Guide(..) if in_overlay => return Ok(false),
             Doing::Guide(guide, args, law) => match law {
-                Law::Goto(law) => law.step(position, course),
-                Law::Follow(law) => law.step(position, course),
-                Law::Dubins(law) => law.step(position, course),
-                Law::Loiter(law) => law.step(position, course),
+                Law::Leading(law, state) => (law.step)(state, position, course),
                 Law::Station(law) => {
                     ask(w, w.asked.course, w.asked.over_ground, self.setpoints);
                     w.asked.speed = 0.0;
@@ -167,10 +158,8 @@ impl<'p> Underway<'p> {
                     return Ok(false);
                 }
                 Law::None => {
-                    match guide {
-                        Guide::Steer => ask(w, args[0].heading(), true, self.setpoints),
-                        Guide::SteerHeading => ask(w, args[0].heading(), false, self.setpoints),
-                        _ => {}
+                    if let Steering::Along { over_ground } = guide.law().steering {
+                        ask(w, args[0].heading(), over_ground, self.setpoints);
                     }
                     return Ok(false);
                 }
@@ -208,25 +197,26 @@ fn ask(w: &mut World<'_>, course: Heading, over_ground: bool, setpoints: Setpoin
 fn law(w: &World<'_>, guide: Guide, args: &[Value], setpoints: Setpoints) -> Law {
     // Speeds below 0.1 m/s turn in no circle worth planning with.
     let speed = setpoints.speed.unwrap_or(w.asked.speed).max(0.1);
-    let lead = speed * TURN_LEAD_TIME;
-    let allowed = turning_radius_in_flow(speed, w.flow().length(), w.turn_rate);
-    let radius = |asked: f64| if asked > 0.0 { asked } else { allowed };
-    let n = |i: usize| args[i].number();
-    match guide {
-        Guide::Goto => Law::Goto(Goto::new(args[0].point(), n(1), allowed)),
-        Guide::Follow => Law::Follow(FollowLine::new(args[0].line(), radius(n(1)), lead)),
-        Guide::Dubins => {
-            let start = Pose { point: w.position(), heading: w.course() };
-            let goal = Pose { point: args[0].point(), heading: args[1].heading() };
-            let words = if args[3].holds() { Words::Full } else { Words::Csc };
-            Law::Dubins(GotoPose::new(start, goal, radius(n(2)), words, lead))
+    match guide.law().steering {
+        Steering::Law(law) => {
+            let turning_radius = turning_radius_in_flow(speed, w.flow().length(), w.turn_rate);
+            let start = Start { position: w.position(), course: w.course(), speed, turning_radius };
+            let args: Vec<f64> = guide.law().params.iter().zip(args).flat_map(|(p, arg)| words(p.kind, arg)).collect();
+            let mut state = vec![0.0; law.words];
+            (law.begin)(&args, &start, &mut state);
+            Law::Leading(law, state)
         }
-        Guide::Loiter => {
-            let turns = if n(2) > 0.0 { n(2) } else { f64::INFINITY };
-            let circling = if args[3].holds() { Circling::Clockwise } else { Circling::Anticlockwise };
-            Law::Loiter(Loiter::new(args[0].point(), n(1), circling, turns, lead))
-        }
-        Guide::Hold => Law::Station(Station::new(w.known_position())),
-        Guide::Steer | Guide::SteerHeading | Guide::Keep | Guide::Wait => Law::None,
+        Steering::Station => Law::Station(Station::new(w.known_position())),
+        Steering::Along { .. } | Steering::AsBefore | Steering::Nothing => Law::None,
+    }
+}
+
+/// An argument as a law reads it.
+fn words(kind: ParamKind, arg: &Value) -> Vec<f64> {
+    match kind {
+        ParamKind::Point => vec![arg.point().north, arg.point().east],
+        ParamKind::Line => [arg.line().start, arg.line().end].iter().flat_map(|p| [p.north, p.east]).collect(),
+        ParamKind::Bool => vec![f64::from(u8::from(arg.holds()))],
+        ParamKind::Heading | ParamKind::Length | ParamKind::Number => vec![arg.number()],
     }
 }

@@ -8,7 +8,7 @@
 
 use crate::vehicle::{Vehicle, radius, scattered};
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_guidance::Goto;
+use albacore_guidance::{Goto, Law};
 
 /// The slowest of many arrivals from up to 100 m away.
 fn worst(within: f64, current: Vector, compensated: bool) -> f64 {

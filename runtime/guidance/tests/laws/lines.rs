@@ -11,7 +11,7 @@ use crate::vehicle::{SPEED, Vehicle, lead, radius, scattered};
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Heading, Line, Point, Vector};
 use albacore_guidance::dubins::{Words, shortest};
-use albacore_guidance::{FollowLine, GotoPose};
+use albacore_guidance::{FollowLine, GotoPose, Law};
 
 /// A hundred metres to the north.
 const LINE: Line = Line { start: Point::ORIGIN, end: Point::new(100.0, 0.0) };

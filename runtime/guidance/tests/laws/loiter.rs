@@ -9,7 +9,7 @@
 use crate::vehicle::{SPEED, Vehicle, lead, scattered};
 use albacore_geometry::math::TAU;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_guidance::{Circling, Loiter};
+use albacore_guidance::{Circling, Law, Loiter};
 
 const CENTER: Point = Point::new(20.0, -10.0);
 

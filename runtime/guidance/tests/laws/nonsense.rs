@@ -3,7 +3,7 @@
 use albacore_geometry::{Heading, Line, Point, Vector};
 use albacore_guidance::dubins::{Pose, Words};
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_guidance::{Circling, CommandFilter, FollowLine, Goto, GotoPose, Guidance, Loiter, through_water};
+use albacore_guidance::{Circling, CommandFilter, FollowLine, Goto, GotoPose, Guidance, Law, Loiter, through_water};
 
 const NOWHERE: Point = Point::new(f64::NAN, f64::NAN);
 

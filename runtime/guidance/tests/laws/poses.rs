@@ -10,7 +10,7 @@ use crate::vehicle::{DT, SPEED, Vehicle, apart_deg, lead, radius, scattered, spr
 use albacore_geometry::math::{TAU, radians};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::dubins::{Pose, Words};
-use albacore_guidance::{GotoPose, turning_radius_in_flow};
+use albacore_guidance::{GotoPose, Law, turning_radius_in_flow};
 
 const GOAL: Pose = Pose { point: Point::ORIGIN, heading: Heading::NORTH };
 

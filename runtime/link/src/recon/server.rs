@@ -345,7 +345,7 @@ impl<V: Vehicle> Server<V> {
         if self.control == Control::Suspended {
             // It stays where it is.
             let Senses { heading, depth, .. } = self.senses;
-            return Some(Command { heading, speed: 0.0, vertical: Vertical::Depth(depth) });
+            return Some(Command::still(heading, depth));
         }
         if let Some(goals) = &mut self.goals {
             goals.heading = goals.heading + goals.rate * TICK_S;

@@ -25,7 +25,7 @@ fn watched(ticks: u64, mut spoil: impl FnMut(u64, &mut Snapshot)) -> Vec<(u64, S
             snapshot.push(FLOW, &[wobble / 10.0, 0.0]);
         }
         spoil(tick, &mut snapshot);
-        let command = Command { heading, speed: 2.0, vertical: Vertical::Depth(3.0) };
+        let command = Command::new(heading, 2.0, Vertical::Depth(3.0));
         let sightings = health.look(tick, &snapshot, Some(&command));
         told.extend(sightings.iter().map(|s| (tick, s.to_string())));
     }
@@ -255,7 +255,7 @@ fn heads(mut heading: impl FnMut(u64, Heading) -> Heading) -> Vec<String> {
         snapshot.push(SPEED, &[2.0]);
         // No course is commanded to turn faster than 10 deg/s.
         let commanded = Heading::from_degrees((tick.saturating_sub(100) as f64).min(180.0));
-        let command = Command { heading: commanded, speed: 2.0, vertical: Vertical::Depth(3.0) };
+        let command = Command::new(commanded, 2.0, Vertical::Depth(3.0));
         told.extend(health.look(tick, &snapshot, Some(&command)).iter().map(ToString::to_string));
     }
     told

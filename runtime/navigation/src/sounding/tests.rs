@@ -4,7 +4,7 @@ use albacore_geometry::Heading;
 /// What is told of altitudes, one for each depth, while a depth is commanded.
 fn told(goal: Vertical, soundings: impl IntoIterator<Item = (f64, f64)>) -> Vec<(usize, String)> {
     let mut sounding = Sounding::default();
-    let command = Command { heading: Heading::NORTH, speed: 1.0, vertical: goal };
+    let command = Command::new(Heading::NORTH, 1.0, goal);
     let mut told = Vec::new();
     for (i, (depth, altitude)) in soundings.into_iter().enumerate() {
         sounding.dive(depth);
@@ -91,7 +91,7 @@ fn what_is_kept_may_stay_the_same() {
     assert_eq!(told(Vertical::Altitude(2.0), dive(|i, _| 2.1 + wobble(i))), []);
     let mut sounding = Sounding::default();
     for (tick, (depth, altitude)) in (0..).zip(dive(|i, _| 2.0 + wobble(i))) {
-        let command = Command { heading: Heading::NORTH, speed: 1.0, vertical: Vertical::Depth(depth + 0.1) };
+        let command = Command::new(Heading::NORTH, 1.0, Vertical::Depth(depth + 0.1));
         sounding.dive(depth);
         assert!(sounding.believes(tick, altitude, Some(&command), false));
     }

@@ -4,136 +4,209 @@ use super::Unsound;
 use super::known::{Implications, Known, Word, widened};
 use super::ranges::{PATIENCE, Ranges};
 use super::written::written;
-use crate::{ABSOLUTE, Addr, GUIDANCE_WORDS, Guide, Op, RADIUS_MIN_M, Slot};
-use albacore_arithmetic::{Div, Interval, Operation, Operator, Pow, Sqrt, Ticks, counted};
+use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, Op, Param, Slot};
+use albacore_arithmetic::{Div, Interval, Operation, Operator, counted};
 use albacore_geometry::AREA_WIDTH_MIN_M;
 
 impl Ranges<'_> {
     /// One instruction that does not jump.
     pub(super) fn execute(&mut self, entry: Addr, at: Addr, op: &Op, known: &mut Known) -> Result<(), Unsound> {
-        let unsound = |why| Unsound { at, why };
-        let must = |holds: bool, why| if holds || !self.holds_to_it { Ok(()) } else { Err(unsound(why)) };
-        let range = |known: &Known, slot: Slot| known.range(&self.ground, slot);
-        let nothing = Implications::default;
-        match *op {
-            Op::Div { b, .. } => must(Div::is_defined([Interval::ANY, range(known, b)]), "it may divide by zero")?,
-            Op::Sqrt { a, .. } => {
-                must(Sqrt::is_defined([range(known, a)]), "it may take the root of a negative number")?
-            }
-            Op::Pow { a, b, .. } => {
-                must(Pow::is_defined([range(known, a), range(known, b)]), "a power may have no value")?;
-            }
-            Op::Ticks { a, .. } => must(Ticks::is_defined([range(known, a)]), "a time may be negative")?,
-            Op::Rectangle { length, width, .. } => {
-                let has_size = [length, width].iter().all(|side| range(known, *side).low >= AREA_WIDTH_MIN_M);
-                must(has_size, "a rectangle may be too thin")?;
-            }
-            Op::Rows { step, .. } => must(range(known, step).low > 0.0, "rows may lie no distance apart")?,
-            Op::Begin { guide, args, .. } => {
-                if let Some((offset, may_be_zero)) = guide.radius() {
-                    let radius = range(known, args + offset);
-                    let is_right = radius.low >= RADIUS_MIN_M || may_be_zero && radius.constant() == Some(0.0);
-                    must(is_right, "a radius may be too small")?;
-                }
-            }
-            _ => {}
+        if self.holds_to_it {
+            self.holds(op, known).map_err(|why| Unsound { at, why })?;
         }
         match *op {
-            Op::Const { to, value } => known.set(&self.ground, to, Word::exactly(value), nothing()),
-            Op::Copy { to, from } => known.copy(&self.ground, from, to, 1),
-            Op::CopyMany { to, from, words } => known.copy(&self.ground, from, to, words),
-            Op::Clear { to, words } => {
+            Op::Compute(computed) => self.compute(at, op, computed, known),
+            Op::List(list) => self.on_list(at, op, list, known),
+            Op::Area(_) | Op::Keep { .. } | Op::Answer { .. } | Op::Driven { .. } => self.unknown(op, known),
+            Op::Age { to, .. } => self.set(known, to, Word::of(Operator::Age.rule(&[]))),
+            Op::Hits { to, of, .. } => self.set(known, to, Word { range: counted(of), is_whole: true }),
+            Op::Begin { .. } => self.unknown(op, known),
+            Op::Guide { ended, .. } => {
+                self.unknown(op, known);
+                self.set(known, ended, Word::TRUTH);
+            }
+            Op::Call { .. } | Op::Enter { .. } | Op::Step { .. } | Op::Cut { .. } | Op::PutOn { .. } | Op::Yield => {
+                self.others_run(entry, at, op, known)?
+            }
+            Op::Return
+            | Op::TakeOff { .. }
+            | Op::Ask { .. }
+            | Op::Take
+            | Op::Desert { .. }
+            | Op::End
+            | Op::Finish
+            | Op::Abort { .. }
+            | Op::Report { .. }
+            | Op::Log { .. }
+            | Op::Changed { .. } => {}
+        }
+        Ok(())
+    }
+
+    /// What must hold of the operands of an instruction.
+    fn holds(&self, op: &Op, known: &Known) -> Result<(), &'static str> {
+        let range = |slot: Slot| known.range(&self.ground, slot);
+        let must = |holds: bool, why| if holds { Ok(()) } else { Err(why) };
+        match *op {
+            Op::Compute(Compute::One { operator, a, .. }) => {
+                must(operator.is_defined(&[range(a)]), without_result(operator))
+            }
+            Op::Compute(Compute::Two { operator, a, b, .. }) => {
+                must(operator.is_defined(&[range(a), range(b)]), without_result(operator))
+            }
+            Op::Area(AreaOp::Rectangle { length, width, .. }) => {
+                let has_size = [length, width].iter().all(|side| range(*side).low >= AREA_WIDTH_MIN_M);
+                must(has_size, "a rectangle may be too thin")
+            }
+            Op::Area(AreaOp::Rows { step, .. }) => must(range(step).low > 0.0, "rows may lie no distance apart"),
+            Op::Begin { guide, args, .. } => {
+                let is_admitted = |(at, param): (u32, &Param)| param.admits(range(args + at));
+                must(guide.law().placed_params().all(is_admitted), "an argument of guidance may be outside its range")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn set(&self, known: &mut Known, to: Slot, word: Word) {
+        known.set(&self.ground, to, word, Implications::default());
+    }
+
+    /// Of all that an instruction writes nothing is known.
+    fn unknown(&self, op: &Op, known: &mut Known) {
+        for (slot, words) in written(op) {
+            known.forget(&self.ground, slot, words);
+        }
+    }
+
+    /// What needs nothing but words.
+    fn compute(&mut self, at: Addr, op: &Op, computed: Compute, known: &mut Known) {
+        let range = |known: &Known, slot: Slot| known.range(&self.ground, slot);
+        let word = |known: &Known, slot: Slot| known.word(&self.ground, slot);
+        match computed {
+            Compute::Const { to, value } => self.set(known, to, Word::exactly(value)),
+            Compute::Copy { to, from } => known.copy(&self.ground, from, to, 1),
+            Compute::CopyMany { to, from, words } => known.copy(&self.ground, from, to, words),
+            Compute::Clear { to, words } => {
                 known.forget(&self.ground, to, words);
-                known.set(&self.ground, to, Word::exactly(0.0), nothing());
+                self.set(known, to, Word::exactly(0.0));
             }
-            Op::Quotient { to, a, b } => {
-                let (a, b) = (range(known, a), range(known, b));
-                known.forget(&self.ground, to, 2);
-                if Div::is_defined([a, b]) {
-                    known.set(&self.ground, to, Word::exactly(1.0), nothing());
-                    known.set(&self.ground, to + 1, Word::of(Div::rule([a, b])), nothing());
-                } else {
-                    let quotient = Div::rule([a, b.and(Interval::NOT_ZERO)]);
-                    known.set(&self.ground, to + 1, Word::of(quotient.or(Interval::exactly(0.0))), nothing());
-                    let implications = Implications { when: vec![(to + 1, quotient)], unless: Vec::new() };
-                    known.set(&self.ground, to, Word::TRUTH, implications);
-                }
+            Compute::One { operator, to, a } => {
+                let a = word(known, a);
+                let is_whole = is_whole(operator, a.is_whole);
+                self.result(at, to, Word { range: operator.rule(&[a.range]), is_whole }, known);
             }
-            Op::Lt { to, a, b } | Op::Le { to, a, b } => {
-                let strict = matches!(op, Op::Lt { .. });
-                let implied = |holds| self.comparison(known, a, b, strict, holds).to_vec();
-                let implications = Implications { when: implied(true), unless: implied(false) };
-                known.set(&self.ground, to, Word::TRUTH, without(implications, to));
+            Compute::Two { operator, to, a, b } => {
+                let (a, b) = (word(known, a), word(known, b));
+                let is_whole = is_whole(operator, a.is_whole && b.is_whole);
+                self.result(at, to, Word { range: operator.rule(&[a.range, b.range]), is_whole }, known);
             }
-            Op::Eq { to, a, b, words: 1 } => {
-                let (left, right) = (range(known, a), range(known, b));
-                let not_zero =
-                    |of, other: Interval| (other.constant() == Some(0.0)).then_some((of, Interval::NOT_ZERO));
-                let unless = [not_zero(a, right), not_zero(b, left)].into_iter().flatten().collect();
-                let implications = Implications { when: vec![(a, right), (b, left)], unless };
-                known.set(&self.ground, to, Word::TRUTH, without(implications, to));
-            }
-            Op::Not { to, a } => {
-                let Implications { when, unless } = known.implications(&self.ground, a);
-                known.set(&self.ground, to, Word::TRUTH, without(Implications { when: unless, unless: when }, to));
-            }
-            Op::And { to, a, b } | Op::Or { to, a, b } => {
-                let (mut left, right) = (known.implications(&self.ground, a), known.implications(&self.ground, b));
-                left.when.extend(right.when);
-                left.unless.extend(right.unless);
-                match op {
-                    Op::And { .. } => left.unless.clear(),
-                    _ => left.when.clear(),
-                }
-                known.set(&self.ground, to, Word::TRUTH, without(left, to));
-            }
-            Op::Age { to, .. } => {
-                known.set(&self.ground, to, Word::of(Operator::Age.rule(&[])), nothing());
-            }
-            Op::Hits { to, of, .. } => {
-                known.set(&self.ground, to, Word { range: counted(of), is_whole: true }, nothing());
-            }
-            Op::HeldFor { to, x, since, .. } => {
+            Compute::Quotient { to, a, b } => self.quotient(known, to, range(known, a), range(known, b)),
+            Compute::Lt { .. }
+            | Compute::Le { .. }
+            | Compute::Eq { .. }
+            | Compute::Not { .. }
+            | Compute::And { .. }
+            | Compute::Or { .. } => self.test(at, computed, known),
+            Compute::HeldFor { to, x, since, .. } => {
                 self.shown(to, known.implications(&self.ground, x).when);
                 known.forget(&self.ground, since, 1);
                 self.timer(known, to);
             }
-            Op::Becomes { to, x, before } => {
+            Compute::Becomes { to, x, before } => {
                 self.shown(to, known.implications(&self.ground, x).when);
-                known.set(&self.ground, before, Word::TRUTH, nothing());
+                self.set(known, before, Word::TRUTH);
                 self.timer(known, to);
             }
-            Op::Elapsed { to, .. } => known.set(&self.ground, to, Word::TRUTH, nothing()),
-            Op::At { to, list, words, .. } => {
-                let element = self.element(known, list, words);
-                known.forget(&self.ground, to, words.saturating_add(1));
-                known.set(&self.ground, to, Word::TRUTH, nothing());
-                for (slot, word) in (to.saturating_add(1)..).zip(element) {
-                    known.set(&self.ground, slot, word, nothing());
+            Compute::Elapsed { to, .. } => self.set(known, to, Word::TRUTH),
+            Compute::Now { to, .. } => {
+                self.result(at, to, Word { range: Interval::NOT_NEGATIVE, is_whole: true }, known);
+            }
+            Compute::AddVector { .. }
+            | Compute::SubVector { .. }
+            | Compute::Scale { .. }
+            | Compute::Toward { .. }
+            | Compute::Direction { .. }
+            | Compute::Dot { .. }
+            | Compute::Along { .. }
+            | Compute::EdgeAt { .. }
+            | Compute::EdgeGap { .. } => self.unknown(op, known),
+            // Those who follow the ways through code see to it.
+            Compute::Jump { .. } => {}
+        }
+    }
+
+    fn quotient(&self, known: &mut Known, to: Slot, a: Interval, b: Interval) {
+        known.forget(&self.ground, to, 2);
+        if Div::is_defined([a, b]) {
+            self.set(known, to, Word::exactly(1.0));
+            self.set(known, to + 1, Word::of(Div::rule([a, b])));
+        } else {
+            let quotient = Div::rule([a, b.and(Interval::NOT_ZERO)]);
+            self.set(known, to + 1, Word::of(quotient.or(Interval::exactly(0.0))));
+            let implications = Implications { when: vec![(to + 1, quotient)], unless: Vec::new() };
+            known.set(&self.ground, to, Word::TRUTH, implications);
+        }
+    }
+
+    /// A test, and what its outcome tells of what it looks at.
+    fn test(&mut self, at: Addr, test: Compute, known: &mut Known) {
+        let (to, implications) = match test {
+            Compute::Lt { to, a, b } | Compute::Le { to, a, b } => {
+                let strict = matches!(test, Compute::Lt { .. });
+                let implied = |holds| self.comparison(known, a, b, strict, holds).to_vec();
+                (to, Implications { when: implied(true), unless: implied(false) })
+            }
+            Compute::Eq { to, a, b, words: 1 } => {
+                let (left, right) = (known.range(&self.ground, a), known.range(&self.ground, b));
+                let not_zero =
+                    |of, other: Interval| (other.constant() == Some(0.0)).then_some((of, Interval::NOT_ZERO));
+                let unless = [not_zero(a, right), not_zero(b, left)].into_iter().flatten().collect();
+                (to, Implications { when: vec![(a, right), (b, left)], unless })
+            }
+            Compute::Eq { to, .. } => return self.result(at, to, Word::TRUTH, known),
+            Compute::Not { to, a } => {
+                let Implications { when, unless } = known.implications(&self.ground, a);
+                (to, Implications { when: unless, unless: when })
+            }
+            Compute::And { to, a, b } | Compute::Or { to, a, b } => {
+                let (mut left, right) = (known.implications(&self.ground, a), known.implications(&self.ground, b));
+                left.when.extend(right.when);
+                left.unless.extend(right.unless);
+                match test {
+                    Compute::And { .. } => left.unless.clear(),
+                    _ => left.when.clear(),
                 }
+                (to, left)
             }
-            Op::Sort { .. } | Op::PushSorted { .. } | Op::Remove { .. } | Op::Push { .. } | Op::Top { .. } => {
-                self.list_changes(op, known);
-            }
+            _ => return,
+        };
+        known.set(&self.ground, to, Word::TRUTH, without(implications, to));
+    }
+
+    /// The result of an instruction, widened where it keeps growing from round to round.
+    fn result(&mut self, at: Addr, to: Slot, word: Word, known: &mut Known) {
+        let (was, times) = self.results.get(&at).copied().unwrap_or((word.range, 0));
+        let range = if times < PATIENCE { word.range } else { widened(word.range, was) };
+        self.results.insert(at, (range, times + 1));
+        self.set(known, to, Word { range, ..word });
+    }
+
+    /// Where other code runs, or time passes.
+    fn others_run(&mut self, entry: Addr, at: Addr, op: &Op, known: &mut Known) -> Result<(), Unsound> {
+        match *op {
             Op::Call { code, base } => match self.arguments(at, known, code, base)? {
                 Some(_) => self.runs(entry, at, known, code, base)?,
                 None => self.writes(code).into_iter().for_each(|(slot, words)| self.forget(known, slot, words)),
             },
-            Op::Enter { call } => {
+            Op::Enter { call } | Op::Step { call, .. } | Op::Cut { call, .. } => {
                 if let Some((activity, base)) = self.called(call) {
-                    self.arguments(at, known, activity.entry, base)?;
+                    if matches!(op, Op::Enter { .. }) {
+                        self.arguments(at, known, activity.entry, base)?;
+                    }
                     self.runs(entry, at, known, activity.entry, base)?;
                 }
-            }
-            Op::Step { call, ended } => {
-                if let Some((activity, base)) = self.called(call) {
-                    self.runs(entry, at, known, activity.entry, base)?;
-                }
-                known.set(&self.ground, ended, Word::TRUTH, nothing());
-            }
-            Op::Cut { call, .. } => {
-                if let Some((activity, base)) = self.called(call) {
-                    self.runs(entry, at, known, activity.entry, base)?;
+                if let Op::Step { ended, .. } = *op {
+                    self.set(known, ended, Word::TRUTH);
                 }
             }
             Op::PutOn { overlay } => {
@@ -148,13 +221,7 @@ impl Ranges<'_> {
                 self.keeps_claims(at, known)?;
                 self.time_passes(entry, known);
             }
-            Op::Begin { state, .. } => known.forget(&self.ground, state, GUIDANCE_WORDS),
-            Op::Guide { guide, state, ended, .. } => {
-                let words = if guide == Guide::Keep { 1 } else { GUIDANCE_WORDS };
-                known.forget(&self.ground, state, words);
-                known.set(&self.ground, ended, Word::TRUTH, nothing());
-            }
-            _ => self.computed(at, op, known),
+            _ => {}
         }
         Ok(())
     }
@@ -189,78 +256,57 @@ impl Ranges<'_> {
         }
     }
 
-    fn list_changes(&self, op: &Op, known: &mut Known) {
+    fn on_list(&mut self, at: Addr, op: &Op, of: ListOp, known: &mut Known) {
         let count = |known: &Known, list| known.range(&self.ground, list).high.clamp(0.0, f64::from(u32::MAX));
-        let (of, most) = match *op {
-            Op::Push { list, capacity, .. } | Op::PushSorted { list, capacity, .. } => (list, f64::from(capacity)),
-            Op::Sort { list, .. } | Op::Remove { list, .. } => (list, count(known, list)),
-            Op::Top { to, list, .. } => (to, count(known, list)),
-            _ => return,
-        };
-        for (slot, words) in written(op) {
-            known.forget(&self.ground, slot, words);
-        }
-        match *op {
-            Op::Sort { list, key, .. } => {
-                let (list, words) = self.list(list);
-                self.forget(known, list, words);
-                self.writes(key).into_iter().for_each(|(slot, words)| self.forget(known, slot, words));
-            }
-            Op::Remove { list, .. } => {
-                let (list, words) = self.list(list);
-                self.forget(known, list, words);
-            }
-            Op::PushSorted { sort, .. } => {
-                self.writes(sort).into_iter().for_each(|(slot, words)| self.forget(known, slot, words));
-            }
-            _ => {}
-        }
-        known.set(&self.ground, of, Word { range: Interval::new(0.0, most), is_whole: true }, Implications::default());
-    }
-
-    /// An operation of the arithmetic, by its rule; of anything else that writes nothing is known.
-    fn computed(&mut self, at: Addr, op: &Op, known: &mut Known) {
-        let word = |slot: Slot| known.word(&self.ground, slot);
-        let two = |operator: Operator, a, b| operator.rule(&[word(a).range, word(b).range]);
-        let one = |operator: Operator, a| operator.rule(&[word(a).range]);
-        let whole = |a, b| word(a).is_whole && word(b).is_whole;
-        let (to, range, is_whole) = match *op {
-            Op::Add { to, a, b } => (to, two(Operator::Add, a, b), false),
-            Op::Sub { to, a, b } => (to, two(Operator::Sub, a, b), false),
-            Op::Mul { to, a, b } => (to, two(Operator::Mul, a, b), false),
-            Op::Div { to, a, b } => (to, two(Operator::Div, a, b), false),
-            Op::Pow { to, a, b } => (to, two(Operator::Pow, a, b), false),
-            Op::AddInt { to, a, b } => (to, two(Operator::AddInt, a, b), true),
-            Op::SubInt { to, a, b } => (to, two(Operator::SubInt, a, b), true),
-            Op::MulInt { to, a, b } => (to, two(Operator::MulInt, a, b), true),
-            Op::Min { to, a, b } => (to, two(Operator::Min, a, b), whole(a, b)),
-            Op::Max { to, a, b } => (to, two(Operator::Max, a, b), whole(a, b)),
-            Op::Neg { to, a } => (to, one(Operator::Neg, a), whole(a, a)),
-            Op::Abs { to, a } => (to, one(Operator::Abs, a), whole(a, a)),
-            Op::Sqrt { to, a } => (to, one(Operator::Sqrt, a), false),
-            Op::Floor { to, a } => (to, one(Operator::Floor, a), true),
-            Op::Ceil { to, a } => (to, one(Operator::Ceil, a), true),
-            Op::Round { to, a } => (to, one(Operator::Round, a), true),
-            Op::Sin { to, a } => (to, one(Operator::Sin, a), false),
-            Op::Cos { to, a } => (to, one(Operator::Cos, a), false),
-            Op::WrapHeading { to, a } => (to, one(Operator::WrapHeading, a), false),
-            Op::WrapAngle { to, a } => (to, one(Operator::WrapAngle, a), false),
-            Op::Ticks { to, a } => (to, one(Operator::Ticks, a), true),
-            Op::Length { to, vector } => (to, two(Operator::Length, vector, vector + 1), false),
-            Op::Spread { to, .. } => (to, Operator::Spread.rule(&[]), false),
-            Op::Now { to, .. } => (to, Interval::NOT_NEGATIVE, true),
-            Op::Eq { to, .. } => (to, Word::TRUTH.range, true),
-            _ => {
-                for (slot, words) in written(op) {
-                    known.forget(&self.ground, slot, words);
+        let (list, most) = match of {
+            ListOp::At { to, list, words, .. } => {
+                let element = self.element(known, list, words);
+                known.forget(&self.ground, to, words.saturating_add(1));
+                self.set(known, to, Word::TRUTH);
+                for (slot, word) in (to.saturating_add(1)..).zip(element) {
+                    self.set(known, slot, word);
                 }
                 return;
             }
+            ListOp::Spread { to, .. } => {
+                return self.result(at, to, Word::of(Operator::Spread.rule(&[])), known);
+            }
+            ListOp::Push { list, capacity, .. } | ListOp::PushSorted { list, capacity, .. } => {
+                (list, f64::from(capacity))
+            }
+            ListOp::Sort { list, .. } | ListOp::Remove { list, .. } => (list, count(known, list)),
+            ListOp::Top { to, list, .. } => (to, count(known, list)),
         };
-        let (was, times) = self.results.get(&at).copied().unwrap_or((range, 0));
-        let range = if times < PATIENCE { range } else { widened(range, was) };
-        self.results.insert(at, (range, times + 1));
-        known.set(&self.ground, to, Word { range, is_whole }, Implications::default());
+        self.unknown(op, known);
+        if let ListOp::Sort { list, .. } | ListOp::Remove { list, .. } = of {
+            let (list, words) = self.list(list);
+            self.forget(known, list, words);
+        }
+        if let ListOp::Sort { key: code, .. } | ListOp::PushSorted { sort: code, .. } = of {
+            self.writes(code).into_iter().for_each(|(slot, words)| self.forget(known, slot, words));
+        }
+        self.set(known, list, Word { range: Interval::new(0.0, most), is_whole: true });
+    }
+}
+
+/// What is wrong with operands that an operation gives no result for.
+fn without_result(operator: Operator) -> &'static str {
+    match operator {
+        Operator::Div => "it may divide by zero",
+        Operator::Sqrt => "it may take the root of a negative number",
+        Operator::Pow => "a power may have no value",
+        Operator::Ticks => "a time may be negative",
+        _ => "an operation may have no result",
+    }
+}
+
+/// Whether the result of an operation is whole, where its operands are or are not.
+fn is_whole(operator: Operator, are_whole: bool) -> bool {
+    match operator {
+        Operator::AddInt | Operator::SubInt | Operator::MulInt => true,
+        Operator::Floor | Operator::Ceil | Operator::Round | Operator::Ticks => true,
+        Operator::Min | Operator::Max | Operator::Neg | Operator::Abs => are_whole,
+        _ => false,
     }
 }
 

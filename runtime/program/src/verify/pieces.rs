@@ -1,6 +1,6 @@
 //! Where the machine begins to execute.
 
-use crate::{Activity, Addr, Body, Code, Op, Program, Target};
+use crate::{Activity, Addr, Body, Code, ListOp, Op, Program, Target};
 use std::collections::BTreeSet;
 
 impl Program {
@@ -10,16 +10,11 @@ impl Program {
         let limits = &mission.limits;
         let mut codes: Vec<Option<Code>> = vec![
             mission.within,
-            limits.altitude_min,
-            limits.altitude_max,
-            limits.depth_min,
-            limits.depth_max,
-            limits.speed_min,
-            limits.speed_max,
             limits.turn_rate_max,
             limits.latency_max,
             mission.recovery.and_then(|recovery| recovery.within),
         ];
+        codes.extend(limits.setpoints.iter().flat_map(|bounds| [bounds.least, bounds.greatest]));
         for require in &mission.requires {
             codes.extend([Some(require.fresh), require.at_first, require.hold_for]);
         }
@@ -29,8 +24,8 @@ impl Program {
         for op in &self.ops {
             match *op {
                 Op::Call { code, .. } => _ = pieces.insert(code),
-                Op::Sort { key, .. } => _ = pieces.insert(key),
-                Op::PushSorted { sort, .. } => _ = pieces.insert(sort),
+                Op::List(ListOp::Sort { key, .. }) => _ = pieces.insert(key),
+                Op::List(ListOp::PushSorted { sort, .. }) => _ = pieces.insert(sort),
                 _ => {}
             }
         }

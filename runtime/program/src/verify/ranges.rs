@@ -8,8 +8,8 @@
 use super::Unsound;
 use super::claims::{Claims, Unit};
 use super::known::{Ground, Known, Word};
-use super::written::{goes_on, jump, written};
-use crate::{ABSOLUTE, Activity, Addr, Body, Op, Program, Slot};
+use super::written::{goes_on, written};
+use crate::{ABSOLUTE, Activity, Addr, Body, Compute, ListOp, Op, Program, Slot, When};
 use albacore_arithmetic::Interval;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -84,7 +84,7 @@ enum Writer {
 impl<'p> Ranges<'p> {
     fn new(program: &'p Program, claims: &'p Claims, unit: &'p Unit, own: &[Addr]) -> Self {
         let code = unit.code.start as usize..(unit.code.end as usize).min(program.ops.len());
-        let meets = program.ops[code].iter().filter_map(jump).collect();
+        let meets = program.ops[code].iter().filter_map(Op::jump).collect();
         let mut typed: BTreeMap<Addr, Vec<(Slot, Word)>> = BTreeMap::new();
         for (at, claim) in &claims.typed {
             let word = Word { range: claim.range, is_whole: claim.is_whole };
@@ -127,20 +127,20 @@ impl<'p> Ranges<'p> {
             let Some(op) = self.program.ops.get(at as usize).filter(|_| seen.insert(at)) else { continue };
             match *op {
                 // As many elements as before, in another order.
-                Op::Sort { list, words, it, key, .. } => {
+                Op::List(ListOp::Sort { list, words, it, key, .. }) => {
                     open.push(key);
                     let (list, length) = self.list(list);
                     writes.extend([(it, words), (list.saturating_add(1), length.saturating_sub(1))]);
                 }
-                Op::Remove { list, .. } => writes.push(self.list(list)),
+                Op::List(ListOp::Remove { list, .. }) => writes.push(self.list(list)),
                 _ => writes.extend(written(op)),
             }
             match *op {
-                Op::PushSorted { sort, .. } => open.push(sort),
+                Op::List(ListOp::PushSorted { sort, .. }) => open.push(sort),
                 Op::Call { code, base: 0 } if self.unit.code.contains(&code) => open.push(code),
                 _ => {}
             }
-            open.extend(jump(op));
+            open.extend(op.jump());
             if goes_on(op) {
                 open.push(at + 1);
             }
@@ -224,16 +224,16 @@ impl<'p> Ranges<'p> {
                     known = joined;
                 }
                 let Some(op) = self.program.ops.get(at as usize) else { break };
-                if let Some(to) = jump(op) {
+                if let Op::Compute(Compute::Jump { to, when }) = *op {
                     let mut jumped = known.clone();
-                    if self.jumps(op, &mut jumped, true) {
+                    if self.jumps(when, &mut jumped, true) {
                         let jumped = match open.get(&to) {
                             Some(other) => other.join(&jumped, &self.ground),
                             None => jumped,
                         };
                         open.insert(to, jumped);
                     }
-                    if matches!(op, Op::Jump { .. }) || !self.jumps(op, &mut known, false) {
+                    if !self.jumps(when, &mut known, false) {
                         break;
                     }
                 } else {
@@ -261,15 +261,15 @@ impl<'p> Ranges<'p> {
     }
 
     /// What a jump implies when it is taken, or not; false where it cannot be.
-    fn jumps(&self, op: &Op, known: &mut Known, taken: bool) -> bool {
-        match *op {
-            Op::JumpIf { if_, .. } => known.assume(&self.ground, if_, taken),
-            Op::JumpUnless { unless, .. } => known.assume(&self.ground, unless, !taken),
-            Op::JumpIfLess { a, b, .. } => self.compared(known, a, b, true, taken),
-            Op::JumpUnlessLess { a, b, .. } => self.compared(known, a, b, true, !taken),
-            Op::JumpIfAtMost { a, b, .. } => self.compared(known, a, b, false, taken),
-            Op::JumpUnlessAtMost { a, b, .. } => self.compared(known, a, b, false, !taken),
-            _ => taken,
+    fn jumps(&self, when: When, known: &mut Known, taken: bool) -> bool {
+        match when {
+            When::Always => taken,
+            When::True(word) => known.assume(&self.ground, word, taken),
+            When::False(word) => known.assume(&self.ground, word, !taken),
+            When::Less(a, b) => self.compared(known, a, b, true, taken),
+            When::NotLess(a, b) => self.compared(known, a, b, true, !taken),
+            When::AtMost(a, b) => self.compared(known, a, b, false, taken),
+            When::NotAtMost(a, b) => self.compared(known, a, b, false, !taken),
         }
     }
 

@@ -1,109 +1,31 @@
 //! Where code leads and what it writes.
 
-use crate::{AREA_WORDS, Addr, EDGE_WORDS, GUIDANCE_WORDS, Op, ROWS_WORDS, Slot};
-
-/// Where an instruction may jump to.
-pub(super) fn jump(op: &Op) -> Option<Addr> {
-    match *op {
-        Op::Jump { to }
-        | Op::JumpIf { to, .. }
-        | Op::JumpUnless { to, .. }
-        | Op::JumpIfLess { to, .. }
-        | Op::JumpUnlessLess { to, .. }
-        | Op::JumpIfAtMost { to, .. }
-        | Op::JumpUnlessAtMost { to, .. } => Some(to),
-        _ => None,
-    }
-}
+use crate::{AREA_WORDS, AreaOp, Compute, EDGE_WORDS, GUIDANCE_WORDS, Guide, ListOp, Op, ROWS_WORDS, Slot, When};
 
 /// Whether the next instruction may be executed after this one, in the same tick or a later one.
 pub(super) fn goes_on(op: &Op) -> bool {
-    !matches!(op, Op::Jump { .. } | Op::Return | Op::End | Op::Finish | Op::Abort { .. })
+    let ends = matches!(op, Op::Return | Op::End | Op::Finish | Op::Abort { .. });
+    !ends && !matches!(op, Op::Compute(Compute::Jump { when: When::Always, .. }))
 }
+
+/// Rows of words: from a slot on, so many.
+type Rows = [Option<(Slot, u32)>; 2];
 
 /// The words that an instruction itself writes. Functions and activities that it calls have frames of their own.
 pub(super) fn written(op: &Op) -> impl Iterator<Item = (Slot, u32)> {
-    let one = |to| [Some((to, 1)), None];
-    let both = |a, b| [Some(a), Some(b)];
     let written = match *op {
-        Op::CopyMany { to, words, .. } | Op::Clear { to, words } => [Some((to, words)), None],
-        Op::Quotient { to, .. }
-        | Op::AddVector { to, .. }
-        | Op::SubVector { to, .. }
-        | Op::Scale { to, .. }
-        | Op::Toward { to, .. }
-        | Op::Center { to, .. }
-        | Op::Corner { to, .. }
-        | Op::Exit { to, .. } => [Some((to, 2)), None],
-        Op::Rectangle { to, .. } => [Some((to, AREA_WORDS)), None],
-        Op::Polygon { to, ok, .. } => both((to, AREA_WORDS), (ok, 1)),
-        Op::EdgeAt { to, .. } | Op::NearestEdge { to, .. } => [Some((to, EDGE_WORDS)), None],
-        Op::Rows { to, .. } => [Some((to, ROWS_WORDS)), None],
-        Op::RowAt { to, there, .. } => both((to, 4), (there, 1)),
-        Op::Push { list, words, capacity, .. } | Op::PushSorted { list, words, capacity, .. } => {
-            [Some((list, words.saturating_mul(capacity).saturating_add(1))), None]
-        }
-        Op::Remove { list, words, .. } => [Some((list, words.saturating_add(1))), None],
-        Op::Sort { list, words, it, .. } => both((list, words.saturating_add(1)), (it, words)),
-        Op::At { to, words, .. } | Op::Top { to, words, .. } => [Some((to, words.saturating_add(1))), None],
-        Op::Begin { state, .. } => [Some((state, GUIDANCE_WORDS)), None],
+        Op::Compute(op) => computed(op),
+        Op::Area(op) => of_area(op),
+        Op::List(op) => of_list(op),
+        Op::Age { to, .. } | Op::Hits { to, .. } => one((to, 1)),
+        Op::Begin { state, .. } => one((state, GUIDANCE_WORDS)),
         // What keeps its course has one word of its own: whether it does.
-        Op::Guide { guide: crate::Guide::Keep, state, ended, .. } => both((state, 1), (ended, 1)),
+        Op::Guide { guide: Guide::Keep, state, ended, .. } => both((state, 1), (ended, 1)),
         Op::Guide { state, ended, .. } => both((state, GUIDANCE_WORDS), (ended, 1)),
-        Op::Step { ended, .. } => one(ended),
+        Op::Step { ended, .. } => one((ended, 1)),
         Op::Answer { ours, refused, .. } => both((ours, 1), (refused, 1)),
         Op::Driven { suspended, lost } => both((suspended, 1), (lost, 1)),
-        Op::HeldFor { to, since, .. } => both((to, 1), (since, 1)),
-        Op::Becomes { to, before, .. } => both((to, 1), (before, 1)),
-        Op::Const { to, .. }
-        | Op::Copy { to, .. }
-        | Op::Add { to, .. }
-        | Op::Sub { to, .. }
-        | Op::Mul { to, .. }
-        | Op::Div { to, .. }
-        | Op::AddInt { to, .. }
-        | Op::SubInt { to, .. }
-        | Op::MulInt { to, .. }
-        | Op::Min { to, .. }
-        | Op::Max { to, .. }
-        | Op::Pow { to, .. }
-        | Op::Neg { to, .. }
-        | Op::Abs { to, .. }
-        | Op::Sqrt { to, .. }
-        | Op::Floor { to, .. }
-        | Op::Ceil { to, .. }
-        | Op::Round { to, .. }
-        | Op::Sin { to, .. }
-        | Op::Cos { to, .. }
-        | Op::WrapHeading { to, .. }
-        | Op::WrapAngle { to, .. }
-        | Op::Ticks { to, .. }
-        | Op::Lt { to, .. }
-        | Op::Le { to, .. }
-        | Op::Eq { to, .. }
-        | Op::Not { to, .. }
-        | Op::And { to, .. }
-        | Op::Or { to, .. }
-        | Op::Direction { to, .. }
-        | Op::Length { to, .. }
-        | Op::Dot { to, .. }
-        | Op::Along { to, .. }
-        | Op::Gap { to, .. }
-        | Op::EdgeGap { to, .. }
-        | Op::EdgeTangent { to, .. }
-        | Op::Spread { to, .. }
-        | Op::Age { to, .. }
-        | Op::Hits { to, .. }
-        | Op::Elapsed { to, .. }
-        | Op::Now { to, .. } => one(to),
-        Op::Jump { .. }
-        | Op::JumpIf { .. }
-        | Op::JumpUnless { .. }
-        | Op::JumpIfLess { .. }
-        | Op::JumpUnlessLess { .. }
-        | Op::JumpIfAtMost { .. }
-        | Op::JumpUnlessAtMost { .. }
-        | Op::Call { .. }
+        Op::Call { .. }
         | Op::Return
         | Op::Yield
         | Op::Enter { .. }
@@ -122,4 +44,67 @@ pub(super) fn written(op: &Op) -> impl Iterator<Item = (Slot, u32)> {
         | Op::Changed { .. } => [None, None],
     };
     written.into_iter().flatten()
+}
+
+fn one(row: (Slot, u32)) -> Rows {
+    [Some(row), None]
+}
+
+fn both(a: (Slot, u32), b: (Slot, u32)) -> Rows {
+    [Some(a), Some(b)]
+}
+
+fn computed(op: Compute) -> Rows {
+    match op {
+        Compute::CopyMany { to, words, .. } | Compute::Clear { to, words } => one((to, words)),
+        Compute::Quotient { to, .. }
+        | Compute::AddVector { to, .. }
+        | Compute::SubVector { to, .. }
+        | Compute::Scale { to, .. }
+        | Compute::Toward { to, .. } => one((to, 2)),
+        Compute::EdgeAt { to, .. } => one((to, EDGE_WORDS)),
+        Compute::HeldFor { to, since, .. } => both((to, 1), (since, 1)),
+        Compute::Becomes { to, before, .. } => both((to, 1), (before, 1)),
+        Compute::Const { to, .. }
+        | Compute::Copy { to, .. }
+        | Compute::One { to, .. }
+        | Compute::Two { to, .. }
+        | Compute::Lt { to, .. }
+        | Compute::Le { to, .. }
+        | Compute::Eq { to, .. }
+        | Compute::Not { to, .. }
+        | Compute::And { to, .. }
+        | Compute::Or { to, .. }
+        | Compute::Direction { to, .. }
+        | Compute::Dot { to, .. }
+        | Compute::Along { to, .. }
+        | Compute::EdgeGap { to, .. }
+        | Compute::Elapsed { to, .. }
+        | Compute::Now { to, .. } => one((to, 1)),
+        Compute::Jump { .. } => [None, None],
+    }
+}
+
+fn of_area(op: AreaOp) -> Rows {
+    match op {
+        AreaOp::Rectangle { to, .. } => one((to, AREA_WORDS)),
+        AreaOp::Polygon { to, ok, .. } => both((to, AREA_WORDS), (ok, 1)),
+        AreaOp::Center { to, .. } | AreaOp::Corner { to, .. } | AreaOp::Exit { to, .. } => one((to, 2)),
+        AreaOp::NearestEdge { to, .. } => one((to, EDGE_WORDS)),
+        AreaOp::Rows { to, .. } => one((to, ROWS_WORDS)),
+        AreaOp::RowAt { to, there, .. } => both((to, 4), (there, 1)),
+        AreaOp::Gap { to, .. } | AreaOp::EdgeTangent { to, .. } => one((to, 1)),
+    }
+}
+
+fn of_list(op: ListOp) -> Rows {
+    match op {
+        ListOp::Push { list, words, capacity, .. } | ListOp::PushSorted { list, words, capacity, .. } => {
+            one((list, words.saturating_mul(capacity).saturating_add(1)))
+        }
+        ListOp::Remove { list, words, .. } => one((list, words.saturating_add(1))),
+        ListOp::Sort { list, words, it, .. } => both((list, words.saturating_add(1)), (it, words)),
+        ListOp::At { to, words, .. } | ListOp::Top { to, words, .. } => one((to, words.saturating_add(1))),
+        ListOp::Spread { to, .. } => one((to, 1)),
+    }
 }

@@ -6,7 +6,7 @@ use albacore_navigation::Trust;
 use albacore_program::{number, senses};
 use albacore_sim::Simulator;
 use albacore_trace::{BehaviorTrace, Header};
-use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, Vehicle, VehicleError};
 use std::collections::VecDeque;
 
 /// What was sensed in so many ticks is kept for what begins later: 20 s, longer than any sensor is silent.
@@ -217,7 +217,7 @@ impl Moment {
     /// Nothing to do: neither ahead nor up nor down.
     fn still(&self) -> Command {
         let truth = self.vehicle.truth();
-        Command { heading: truth.heading, speed: 0.0, vertical: Vertical::Depth(truth.depth) }
+        Command::still(truth.heading, truth.depth)
     }
 
     /// Where the vehicle believes to be, and when: a line as in a trace.

@@ -161,6 +161,38 @@ impl Fossen {
         let torque = scale * PROPELLER * (TORQUE_AT_REST * square + TORQUE_SLOPE * advance);
         (THRUST_LEFT * thrust, TORQUE_LEFT * torque)
     }
+
+    /// Coriolis and centripetal forces of the rigid body: (w x a, v x a + w x b) of its momenta a and b.
+    #[inline]
+    fn rigid_coriolis(&self, [u, v, w]: [f64; 3], [p, q, r]: [f64; 3]) -> Six {
+        let (m, g) = (self.mass, self.moment);
+        let a = [m * u + g * q, m * v - g * p, m * w];
+        let b = [self.inertia[0] * p - g * v, self.inertia[1] * q + g * u, self.inertia[2] * r];
+        [
+            q * a[2] - r * a[1],
+            r * a[0] - p * a[2],
+            p * a[1] - q * a[0],
+            v * a[2] - w * a[1] + q * b[2] - r * b[1],
+            w * a[0] - u * a[2] + r * b[0] - p * b[2],
+            u * a[1] - v * a[0] + p * b[1] - q * b[0],
+        ]
+    }
+
+    /// Those of the added mass. The published model leaves out eight elements of the matrix, by which an ellipsoid in a
+    /// potential flow would be unstable in yaw and pitch.
+    #[inline]
+    fn added_coriolis(&self, [v, w]: [f64; 2], [p, q, r]: [f64; 3]) -> Six {
+        let m_a = &self.added;
+        let b = [m_a[3] * p, m_a[4] * q, m_a[5] * r];
+        [
+            0.0,
+            -m_a[2] * w * p,
+            m_a[1] * v * p,
+            (m_a[2] - m_a[1]) * v * w + q * b[2] - r * b[1],
+            r * b[0] - p * b[2],
+            p * b[1] - q * b[0],
+        ]
+    }
 }
 
 impl Plant for Fossen {
@@ -182,31 +214,8 @@ impl Plant for Fossen {
         let speed2 = across2 + v * v;
         let speed = speed2.sqrt();
 
-        // Coriolis and centripetal forces of the rigid body: (w x a, v x a + w x b) of its momenta a and b.
-        let (m, g) = (self.mass, self.moment);
-        let a = [m * u + g * q, m * v - g * p, m * w];
-        let b = [self.inertia[0] * p - g * v, self.inertia[1] * q + g * u, self.inertia[2] * r];
-        let rigid = [
-            q * a[2] - r * a[1],
-            r * a[0] - p * a[2],
-            p * a[1] - q * a[0],
-            v * a[2] - w * a[1] + q * b[2] - r * b[1],
-            w * a[0] - u * a[2] + r * b[0] - p * b[2],
-            u * a[1] - v * a[0] + p * b[1] - q * b[0],
-        ];
-        // Those of the added mass. The published model leaves out eight elements of the matrix, by which an ellipsoid in a
-        // potential flow would be unstable in yaw and pitch.
-        let m_a = &self.added;
-        let b = [m_a[3] * p, m_a[4] * q, m_a[5] * r];
-        let added = [
-            0.0,
-            -m_a[2] * w * p,
-            m_a[1] * v * p,
-            (m_a[2] - m_a[1]) * v * w + q * b[2] - r * b[1],
-            r * b[0] - p * b[2],
-            p * b[1] - q * b[0],
-        ];
-
+        let rigid = self.rigid_coriolis([u, v, w], [p, q, r]);
+        let added = self.added_coriolis([v, w], [p, q, r]);
         let fade = exp(-DAMPING_FADE * speed);
         let d = &self.damping;
         let damping = [d[0] * fade * u, d[1] * fade * v, d[2] * w, d[3] * p, d[4] * q, d[5] * r];

@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     fn command(heading_deg: f64, speed: f64, vertical: Vertical) -> Command {
-        Command { heading: Heading::from_degrees(heading_deg), speed, vertical }
+        Command::new(Heading::from_degrees(heading_deg), speed, vertical)
     }
 
     fn at_rest(settings: &KinematicHull, depth: f64, flow: Vector) -> Kinematics {

@@ -194,84 +194,26 @@ fn unread(error: &serde_json::Error) -> String {
     shortened(text.strip_suffix(&place).unwrap_or(&text)) + &place
 }
 
+/// What is found wrong with a header.
+#[derive(Default)]
+struct Faults(Vec<String>);
+
+impl Faults {
+    fn unless(&mut self, holds: bool, fault: String) {
+        if !holds {
+            self.0.push(fault);
+        }
+    }
+}
+
 impl Raw {
     fn checked(self) -> Result<RecordingHeader, RecordingError> {
-        let mut faults = Vec::new();
-        let mut unless = |holds: bool, fault: String| {
-            if !holds {
-                faults.push(fault);
-            }
-        };
-        let letters = self.case.chars().count();
-        unless(
-            (1..=NAME_MAX).contains(&letters),
-            format!("`case` has {letters} letters: it must have 1 to {NAME_MAX}"),
-        );
-        let plain = !self.binary.is_empty() && !self.binary.starts_with('.') && !self.binary.contains(['/', '\\']);
-        unless(
-            plain,
-            format!("`binary` is `{}`: it must be the name of a file beside the header", shortened(&self.binary)),
-        );
-        let order = shortened(&self.byte_order);
-        unless(self.byte_order == "little", format!("`byte_order` is `{order}`: it must be `little`"));
-        let hexadecimal = self.sha256.len() == 64 && self.sha256.bytes().all(|b| b.is_ascii_hexdigit());
-        let digits = shortened(&self.sha256);
-        unless(hexadecimal, format!("`sha256` is `{digits}`: it must be 64 hexadecimal digits"));
-        let r = &self.record;
-        // What is beyond these is no plume in water: it would come to numbers that are none, or to a plume of nothing.
-        for (name, value, most) in [
-            ("record.frame_interval_s", r.frame_interval_s, 86_400.0),
-            ("record.quantum_m", r.quantum_m, 1.0),
-            ("concentration.r2_far", self.concentration.r2_far, 1e8),
-            ("concentration.q", self.concentration.q, 1e9),
-            ("parameters.r0_m", self.parameters.r0_m, 1e3),
-            ("parameters.release_per_s", self.parameters.release_per_s, 1e6),
-        ] {
-            unless(
-                value > 0.0 && value <= most,
-                format!("`{name}` is {value:?}: it must be above 0, and {most} at most"),
-            );
-        }
-        let growth = self.parameters.growth_m2_s;
-        unless((0.0..=1e4).contains(&growth), format!("`parameters.growth_m2_s` is {growth:?}: it must be 0 to 10000"));
-        unless(
-            growth == 0.0 || self.concentration.r2_far <= growth * AGE_MAX,
-            format!(
-                "`parameters.growth_m2_s` is {growth:?}: with it no filament grows to `concentration.r2_far` in a year"
-            ),
-        );
-        unless(
-            (2..=FRAMES_MAX).contains(&r.n_frames),
-            format!("`record.n_frames` is {}: it must be 2 to {FRAMES_MAX}", r.n_frames),
-        );
-        unless(r.filaments > 0, String::from("`record.filaments` is 0: there is no plume"));
-        unless(
-            r.filament_frames >= r.filaments,
-            format!(
-                "`record.filament_frames` is {}: each of {} filaments has a frame at least",
-                r.filament_frames, r.filaments
-            ),
-        );
-        unless(
-            self.flow_grid.north_m.len() >= 2 && self.flow_grid.north_m.windows(2).all(|w| w[0] > w[1]),
-            String::from("`flow_grid.north_m` must be two or more numbers that fall"),
-        );
-        unless(
-            self.flow_grid.east_m.len() >= 2 && self.flow_grid.east_m.windows(2).all(|w| w[0] < w[1]),
-            String::from("`flow_grid.east_m` must be two or more numbers that rise"),
-        );
-        let area = self.frame.operation_area_m.area();
-        unless(area.is_some(), String::from("`frame.operation_area_m` is no area: each pair must rise"));
-        let Extent { north, east } = self.frame.operation_area_m;
-        let grid = self.flow_grid.north_m.iter().chain(&self.flow_grid.east_m);
-        unless(
-            grid.chain(&north).chain(&east).all(|m| m.abs() <= FARTHEST_M),
-            format!("`flow_grid` or `frame.operation_area_m` reaches farther than {FARTHEST_M} m"),
-        );
-        unless(
-            area.as_ref().is_none_or(|area| area.gap(self.source.place()) >= 0.0),
-            String::from("`source` lies outside of `frame.operation_area_m`"),
-        );
+        let mut faults = Faults::default();
+        self.check_names(&mut faults);
+        self.check_amounts(&mut faults);
+        self.check_counts(&mut faults);
+        let area = self.checked_area(&mut faults);
+        let Faults(mut faults) = faults;
         let layout = if faults.is_empty() { self.layout(&mut faults) } else { Layout::default() };
         let Some(area) = area.filter(|_| faults.is_empty()) else { return Err(RecordingError { faults, help: MEND }) };
         Ok(RecordingHeader {
@@ -282,7 +224,7 @@ impl Raw {
                 peak: self.concentration.q,
                 far: self.concentration.r2_far,
                 initial: self.parameters.r0_m * self.parameters.r0_m,
-                growth,
+                growth: self.parameters.growth_m2_s,
             },
             release_rate: self.parameters.release_per_s,
             record: self.record,
@@ -291,6 +233,93 @@ impl Raw {
             area,
             layout,
         })
+    }
+
+    fn check_names(&self, faults: &mut Faults) {
+        let letters = self.case.chars().count();
+        faults.unless(
+            (1..=NAME_MAX).contains(&letters),
+            format!("`case` has {letters} letters: it must have 1 to {NAME_MAX}"),
+        );
+        let plain = !self.binary.is_empty() && !self.binary.starts_with('.') && !self.binary.contains(['/', '\\']);
+        faults.unless(
+            plain,
+            format!("`binary` is `{}`: it must be the name of a file beside the header", shortened(&self.binary)),
+        );
+        let order = shortened(&self.byte_order);
+        faults.unless(self.byte_order == "little", format!("`byte_order` is `{order}`: it must be `little`"));
+        let hexadecimal = self.sha256.len() == 64 && self.sha256.bytes().all(|b| b.is_ascii_hexdigit());
+        let digits = shortened(&self.sha256);
+        faults.unless(hexadecimal, format!("`sha256` is `{digits}`: it must be 64 hexadecimal digits"));
+    }
+
+    /// What is beyond these is no plume in water: it would come to numbers that are none, or to a plume of nothing.
+    fn check_amounts(&self, faults: &mut Faults) {
+        for (name, value, most) in [
+            ("record.frame_interval_s", self.record.frame_interval_s, 86_400.0),
+            ("record.quantum_m", self.record.quantum_m, 1.0),
+            ("concentration.r2_far", self.concentration.r2_far, 1e8),
+            ("concentration.q", self.concentration.q, 1e9),
+            ("parameters.r0_m", self.parameters.r0_m, 1e3),
+            ("parameters.release_per_s", self.parameters.release_per_s, 1e6),
+        ] {
+            faults.unless(
+                value > 0.0 && value <= most,
+                format!("`{name}` is {value:?}: it must be above 0, and {most} at most"),
+            );
+        }
+        let growth = self.parameters.growth_m2_s;
+        faults.unless(
+            (0.0..=1e4).contains(&growth),
+            format!("`parameters.growth_m2_s` is {growth:?}: it must be 0 to 10000"),
+        );
+        faults.unless(
+            growth == 0.0 || self.concentration.r2_far <= growth * AGE_MAX,
+            format!(
+                "`parameters.growth_m2_s` is {growth:?}: with it no filament grows to `concentration.r2_far` in a year"
+            ),
+        );
+    }
+
+    fn check_counts(&self, faults: &mut Faults) {
+        let r = &self.record;
+        faults.unless(
+            (2..=FRAMES_MAX).contains(&r.n_frames),
+            format!("`record.n_frames` is {}: it must be 2 to {FRAMES_MAX}", r.n_frames),
+        );
+        faults.unless(r.filaments > 0, String::from("`record.filaments` is 0: there is no plume"));
+        faults.unless(
+            r.filament_frames >= r.filaments,
+            format!(
+                "`record.filament_frames` is {}: each of {} filaments has a frame at least",
+                r.filament_frames, r.filaments
+            ),
+        );
+    }
+
+    /// The area of operation, with what is wrong with it, with the grid of the flow and with the place of the source.
+    fn checked_area(&self, faults: &mut Faults) -> Option<Area> {
+        let grid = &self.flow_grid;
+        faults.unless(
+            grid.north_m.len() >= 2 && grid.north_m.windows(2).all(|w| w[0] > w[1]),
+            String::from("`flow_grid.north_m` must be two or more numbers that fall"),
+        );
+        faults.unless(
+            grid.east_m.len() >= 2 && grid.east_m.windows(2).all(|w| w[0] < w[1]),
+            String::from("`flow_grid.east_m` must be two or more numbers that rise"),
+        );
+        let area = self.frame.operation_area_m.area();
+        faults.unless(area.is_some(), String::from("`frame.operation_area_m` is no area: each pair must rise"));
+        let Extent { north, east } = self.frame.operation_area_m;
+        faults.unless(
+            grid.north_m.iter().chain(&grid.east_m).chain(&north).chain(&east).all(|m| m.abs() <= FARTHEST_M),
+            format!("`flow_grid` or `frame.operation_area_m` reaches farther than {FARTHEST_M} m"),
+        );
+        faults.unless(
+            area.as_ref().is_none_or(|area| area.gap(self.source.place()) >= 0.0),
+            String::from("`source` lies outside of `frame.operation_area_m`"),
+        );
+        area
     }
 
     /// Where each section lies, if each is there once, of the type and shape that the counts ask for.

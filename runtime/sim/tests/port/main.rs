@@ -27,7 +27,7 @@ fn driven(scenario: &Scenario, seconds: u32, channel: &str) -> Result<Vec<[f64; 
     let mut snapshot = Snapshot::default();
     let mut readings = Vec::new();
     simulator.take_over()?;
-    simulator.command(&Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Altitude(2.0) })?;
+    simulator.command(&Command::new(Heading::NORTH, 2.0, Vertical::Altitude(2.0)))?;
     for _ in 0..seconds * 10 {
         simulator.sense(&mut snapshot)?;
         let wanted = snapshot.samples.iter().filter(|s| simulator.channels()[usize::from(s.channel)].name == channel);
@@ -44,7 +44,7 @@ fn names(simulator: &Simulator, snapshot: &Snapshot) -> Vec<String> {
 fn drifts_until_taken_over_and_after_release() {
     let mut simulator = Simulator::new(&scenario(), 1).unwrap();
     let mut snapshot = Snapshot::default();
-    let command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Altitude(2.0) };
+    let command = Command::new(Heading::NORTH, 2.0, Vertical::Altitude(2.0));
 
     simulator.sense(&mut snapshot).unwrap();
     assert_eq!((simulator.time_s(), snapshot.control), (0.0, Control::Monitoring));
@@ -82,7 +82,7 @@ fn whatever_moves_it_a_vehicle_that_leaks_floats_up_and_refuses_who_asks() {
         let mut simulator = Simulator::new(&Scenario { faults: vec![leak(10.0)], ..world.clone() }, 1).unwrap();
         simulator.sense(&mut snapshot).unwrap();
         simulator.take_over().unwrap();
-        simulator.command(&Command { heading: Heading::NORTH, speed: 1.5, vertical: Vertical::Depth(6.0) }).unwrap();
+        simulator.command(&Command::new(Heading::NORTH, 1.5, Vertical::Depth(6.0))).unwrap();
         (0..3000).for_each(|_| simulator.sense(&mut snapshot).unwrap());
         assert_eq!(snapshot.control, Control::Released);
         assert!(simulator.truth().depth < 0.5, "{} m deep", simulator.truth().depth);
@@ -130,7 +130,7 @@ fn its_own_limits_hold_whatever_it_is_told_and_the_refusals_are_told_once() {
     simulator.take_over().unwrap();
     let mut told = Vec::new();
     for (speed, vertical) in [(2.0, Vertical::Depth(9.0)), (1.0, Vertical::Altitude(1.0))] {
-        simulator.command(&Command { heading: Heading::NORTH, speed, vertical }).unwrap();
+        simulator.command(&Command::new(Heading::NORTH, speed, vertical)).unwrap();
         for _ in 0..600 {
             simulator.sense(&mut snapshot).unwrap();
             let truth = simulator.truth();
@@ -161,7 +161,7 @@ fn the_least_altitude_lifts_it_over_a_rise() {
         let mut simulator = Simulator::new(&rising, 1).unwrap();
         let mut snapshot = Snapshot::default();
         simulator.take_over().unwrap();
-        simulator.command(&Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(8.0) }).unwrap();
+        simulator.command(&Command::new(Heading::NORTH, 2.0, Vertical::Depth(8.0))).unwrap();
         let mut lowest = f64::INFINITY;
         for _ in 0..2500 {
             simulator.sense(&mut snapshot).unwrap();
@@ -191,7 +191,7 @@ fn over_a_surveyed_shoal_it_grounds_and_says_so_once() {
     simulator.take_over().unwrap();
     let mut told = Vec::new();
     for (heading, vertical) in [(0.0, Vertical::Depth(2.0)), (180.0, Vertical::Depth(0.5))] {
-        let command = Command { heading: Heading::from_degrees(heading), speed: 2.0, vertical };
+        let command = Command::new(Heading::from_degrees(heading), 2.0, vertical);
         simulator.command(&command).unwrap();
         for _ in 0..600 {
             simulator.sense(&mut snapshot).unwrap();

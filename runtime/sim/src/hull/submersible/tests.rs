@@ -48,7 +48,7 @@ impl Trial {
     }
 
     fn go(&mut self, heading_deg: f64, speed: f64, vertical: Vertical, seconds: f64) -> Vec<Motion> {
-        self.obey(Some(Command { heading: Heading::from_degrees(heading_deg), speed, vertical }), seconds)
+        self.obey(Some(Command::new(Heading::from_degrees(heading_deg), speed, vertical)), seconds)
     }
 
     /// Running north at 2 m/s and 5 m depth.
@@ -243,8 +243,7 @@ fn equations_that_run_away_are_an_error_and_no_number() {
         HullSetup::Prestero(wild(SubmersibleHull::prestero()), Crossflow::Corrected),
     ] {
         let mut trial = Trial::new(hull);
-        let command =
-            |heading| Command { heading: Heading::from_degrees(heading), speed: 80.0, vertical: Vertical::Depth(9.0) };
+        let command = |heading| Command::new(Heading::from_degrees(heading), 80.0, Vertical::Depth(9.0));
         let ran_away = (0..600_u32).find_map(|tick| {
             let told = command(f64::from(tick) * 7.0);
             trial.hull.step(u64::from(tick), Some(&told), Vector::ZERO, trial.bottom).err()
