@@ -116,12 +116,14 @@ fn what_has_no_value_is_found() {
     assert_eq!(why_by_range(difference(one(Operator::Sqrt, 4, 0))), None);
     assert_eq!(why_by_range(difference(one(Operator::Ticks, 4, 4))), Some("a time may be negative"));
     assert_eq!(why_by_range(difference(one(Operator::Ticks, 4, 1))), None);
-    let circle = |radius| {
-        let args = [copy(6, radius), Op::Begin { guide: Guide::Loiter, args: 4, state: 8, setpoints: 7 }];
-        [args.as_slice(), &[Op::Return]].concat()
+    let circle = |radius, turns| {
+        let begin = Op::Begin { guide: Guide::Loiter, args: 4, state: 8, setpoints: 0 };
+        vec![copy(6, radius), copy(7, turns), begin, Op::Return]
     };
-    assert_eq!(why_by_range(circle(0)), Some("an argument of guidance may be outside its range"));
-    assert_eq!(why_by_range(circle(2)), None);
+    let argument = Some("an argument of guidance may be outside its range");
+    assert_eq!(why_by_range(circle(0, 1)), argument, "a radius of 0");
+    assert_eq!(why_by_range(circle(2, 3)), argument, "turns of which nothing is known");
+    assert_eq!(why_by_range(circle(2, 1)), None);
 }
 
 #[test]
