@@ -136,15 +136,27 @@ fn headings(text: &str) -> Vec<String> {
     text.lines().filter_map(|line| line.strip_prefix("## ")).map(anchor).collect()
 }
 
-/// What a scenario can say is declared in the standard library: each clause is linked.
+/// What a scenario can say is declared in the standard library: each clause is linked, but for the protocols of `dialect`, which are
+/// the table of dialects'.
 #[test]
 fn every_clause_is_linked() {
     let text = std::fs::read_to_string(REFERENCE).unwrap();
     for module in ["world", "craft", "instruments", "faults"] {
         let declared = std::fs::read_to_string(format!("stdlib/{module}.alb")).unwrap();
-        for head in declared.lines().filter_map(|line| line.strip_prefix("clause ")) {
+        let heads = declared.lines().filter_map(|line| line.strip_prefix("clause "));
+        for head in heads.filter(|head| !head.ends_with(PROTOCOL)) {
             let name = head.split(['(', ' ']).next().unwrap();
             assert!(text.contains(&format!("[`{name}`](stdlib/{module}.md#clause-{name})")), "`{name}` of {module}");
         }
     }
+}
+
+/// How the declaration of a dialect ends.
+const PROTOCOL: &str = " -> protocol";
+
+#[test]
+fn the_protocols_of_the_standard_library_are_the_table_of_dialects() {
+    let declared = std::fs::read_to_string("stdlib/craft.alb").unwrap();
+    let names = declared.lines().filter_map(|line| line.strip_prefix("clause ")?.strip_suffix(PROTOCOL));
+    assert_eq!(names.collect::<Vec<_>>(), albacore_link::Dialect::names());
 }

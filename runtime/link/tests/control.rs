@@ -4,7 +4,8 @@
 
 use albacore_geometry::math::degrees;
 use albacore_geometry::{Geodetic, Heading, TangentFrame};
-use albacore_link::recon::{Adcp, Controller, FromVehicle, Mode, State, seal};
+use albacore_link::Controller;
+use albacore_link::recon::{self, Adcp, FromVehicle, Mode, State, seal};
 use albacore_vehicle::channels::COURSE;
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 use std::time::Duration;
@@ -23,7 +24,7 @@ impl Vehicle {
     fn new() -> Self {
         let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
         Vehicle {
-            controller: Controller::new(frame),
+            controller: Controller::new(recon::controller(), frame),
             snapshot: Snapshot::default(),
             time_ms: 0,
             heading_goal: Heading::NORTH,

@@ -4,8 +4,7 @@
 
 use albacore_front_seat::Handover;
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{ReconVehicle, Route, Server};
-use albacore_link::{LinkError, Transport, Url};
+use albacore_link::{LinkError, LinkVehicle, Route, Server, Transport, Url, recon};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::collections::VecDeque;
@@ -107,16 +106,17 @@ impl Transport for Desk {
     }
 }
 
-fn vehicle() -> (ReconVehicle, Arc<Wire>) {
+fn vehicle() -> (LinkVehicle, Arc<Wire>) {
     answering(Handover::default())
 }
 
-fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
+fn answering(handover: Handover) -> (LinkVehicle, Arc<Wire>) {
     let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
     let hull = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
-    let far_end = Server::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0)).answering(handover);
+    let far_end = Server::new(recon::server(), simulator, frame, &Route::default(), start, Vertical::Depth(3.0))
+        .answering(handover);
     let wire = Arc::new(Wire::default());
     let desk = Desk {
         wire: Arc::clone(&wire),
@@ -128,18 +128,18 @@ fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
     };
     let clock = Arc::clone(&wire);
     let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
-    (ReconVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())), wire)
+    (LinkVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())).unwrap(), wire)
 }
 
 const AHEAD: Command = Command { heading: Heading::NORTH, speed: 2.0, vertical: Vertical::Depth(5.0) };
 
 /// A vehicle that is driven.
-fn driven() -> (ReconVehicle, Arc<Wire>, Snapshot) {
+fn driven() -> (LinkVehicle, Arc<Wire>, Snapshot) {
     driven_with_delay(0)
 }
 
 /// A vehicle that is driven, and is heard so many ticks late.
-fn driven_with_delay(delay: u32) -> (ReconVehicle, Arc<Wire>, Snapshot) {
+fn driven_with_delay(delay: u32) -> (LinkVehicle, Arc<Wire>, Snapshot) {
     let (mut vehicle, wire) = vehicle();
     wire.delay.set(TICK * delay);
     let mut snapshot = Snapshot::default();
