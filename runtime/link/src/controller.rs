@@ -24,6 +24,7 @@ use crate::grounding::Grounding;
 use crate::set_point::SetPoint;
 use crate::status::{Phase, Status};
 use albacore_geometry::TangentFrame;
+use albacore_navigation::Navigator;
 use albacore_vehicle::channels::{self, VEHICLE_MODE};
 use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot};
 use allowance::Allowance;
@@ -168,6 +169,12 @@ impl Controller {
     /// The same, of a vehicle that runs so many times faster than real time.
     pub fn at_rate(self, rate: f64) -> Self {
         Controller { round_trip: RoundTrip::new(rate), tick: TICK.div_f64(rate.max(0.01)), ..self }
+    }
+
+    /// The same, with positions that a navigator of ours makes of those that the vehicle tells; else they are as they are told.
+    pub fn navigated(mut self, navigator: Box<dyn Navigator>) -> Self {
+        self.hearing.navigator = navigator;
+        self
     }
 
     /// The host's time now, since any moment.

@@ -4,8 +4,9 @@ use super::vehicle_time::{Stamp, VehicleTime};
 use crate::set_point::SetPoint;
 use crate::status::Status;
 use albacore_geometry::{Geodetic, Heading, TangentFrame};
-use albacore_vehicle::channels::POSITION;
-use albacore_vehicle::{Reading, Sample};
+use albacore_navigation::{AsTold, Estimate, Fix, Navigator, Sensed};
+use albacore_vehicle::channels::{COURSE, HEADING, POSITION, SPEED};
+use albacore_vehicle::{Reading, Sample, TICK_S};
 
 /// How much came, and how much of it made sense.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,13 +44,32 @@ pub(super) enum Fact {
 pub struct Hearing {
     frame: TangentFrame,
     time: VehicleTime,
+    /// Makes the position that a mission reads of those that the vehicle tells.
+    pub(super) navigator: Box<dyn Navigator>,
+    motion: Motion,
     facts: Vec<Fact>,
     pub(super) count: Count,
 }
 
+/// What the vehicle has told last of its motion.
+#[derive(Clone, Copy, Debug, Default)]
+struct Motion {
+    heading: Heading,
+    course: Heading,
+    /// Over ground, m/s.
+    speed: f64,
+}
+
 impl Hearing {
     pub(super) fn new(frame: TangentFrame) -> Self {
-        Hearing { frame, time: VehicleTime::default(), facts: Vec::new(), count: Count::default() }
+        Hearing {
+            frame,
+            time: VehicleTime::default(),
+            navigator: Box::new(AsTold::default()),
+            motion: Motion::default(),
+            facts: Vec::new(),
+            count: Count::default(),
+        }
     }
 
     pub(super) fn take_facts(&mut self) -> Vec<Fact> {
@@ -75,11 +95,15 @@ impl Hearing {
     /// it is late, repeated, or not to be believed yet: it says nothing then.
     #[must_use]
     pub fn begin_state(&mut self, stamp_ms: u32) -> Option<u64> {
+        let before = self.time.tick();
         let stamp = self.time.hear(stamp_ms);
         let tick = match stamp {
             Stamp::Doubtful => return None,
             Stamp::Tick(tick) | Stamp::ClockSet(tick) => tick,
         };
+        let Motion { heading, course, speed } = self.motion;
+        let sensed = Sensed { ground_velocity: speed * course.unit(), heading };
+        self.navigator.predict(&sensed, tick.saturating_sub(before) as f64 * TICK_S);
         self.facts.push(Fact::Time(stamp));
         Some(tick)
     }
@@ -95,13 +119,20 @@ impl Hearing {
         for (slot, number) in reading.iter_mut().zip(numbers) {
             *slot = *number;
         }
+        match channel {
+            HEADING => self.motion.heading = Heading::from_radians(reading[0]),
+            COURSE => self.motion.course = Heading::from_radians(reading[0]),
+            SPEED => self.motion.speed = reading[0],
+            _ => {}
+        }
         self.facts.push(Fact::Sample(Sample { channel, reading }));
     }
 
     /// Where the vehicle believes to be, and the standard deviation of that, m an axis.
     pub fn position(&mut self, position: Geodetic, sigma: f64) {
-        let point = self.frame.to_point(position);
-        self.sample(POSITION, &[point.north, point.east, sigma]);
+        self.navigator.update(&Fix { position: self.frame.to_point(position), sigma, gate: 0.0 });
+        let Estimate { position, sigma } = self.navigator.estimate();
+        self.sample(POSITION, &[position.north, position.east, sigma]);
     }
 
     /// The vehicle says that it has taken up a set-point. Only for those that its states do not tell.
