@@ -62,6 +62,11 @@ impl Dialect {
         named.ok_or_else(|| LinkError::unknown("dialect", name, &Dialect::names()))
     }
 
+    /// The one that stands in examples.
+    pub fn example() -> &'static Dialect {
+        ALL[0]
+    }
+
     /// The names of all.
     pub fn names() -> Vec<&'static str> {
         ALL.iter().map(|dialect| dialect.name).collect()

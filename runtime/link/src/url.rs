@@ -67,7 +67,7 @@ impl WrittenUrl {
         only_for("baud", "serial")?;
         only_for("local", "udp")?;
         let dialect = get("dialect").map(Dialect::named).transpose();
-        let like = dialect.as_ref().ok().copied().flatten().unwrap_or(ALL[0]);
+        let like = dialect.as_ref().ok().copied().flatten().unwrap_or(Dialect::example());
         let place = match scheme {
             "serial" if rest.is_empty() => {
                 let help = format!("write `serial:/dev/ttyUSB0?dialect={like}`");
@@ -110,7 +110,7 @@ impl WrittenUrl {
         let WrittenUrl { text, mut place, dialect, settings } = self;
         let Some(dialect) = dialect.or(speaks) else {
             let sign = if text.contains('?') { '&' } else { '?' };
-            let like = ALL[0];
+            let like = Dialect::example();
             let help =
                 format!("write `{text}{sign}dialect={like}`, or `dialect({like})` in the `vehicle` of the scenario");
             return Err(LinkError::new(format!("`{text}` does not say what the vehicle speaks"), help));
@@ -140,7 +140,8 @@ impl Url {
 
 /// What a URL looks like, for those who write something else.
 fn examples() -> String {
-    let (like, port) = (ALL[0], ALL[0].udp_port);
+    let like = Dialect::example();
+    let port = like.udp_port;
     format!(
         "`serial:/dev/ttyUSB0?dialect={like}`, `udp:192.168.1.20:{port}?dialect={like}` or, to serve, `pty:?dialect={like}`"
     )
@@ -266,7 +267,7 @@ mod tests {
             ("serial:/dev/x", "does not say what the vehicle speaks", "`serial:/dev/x?dialect=recon`"),
             ("serial:/dev/x?baud=9600", "does not say", "`serial:/dev/x?baud=9600&dialect=recon`"),
             ("serial:/dev/x?dialect=recn", "no dialect `recn`", "did you mean `recon`?"),
-            ("serial:/dev/x?dialect=mavlink", "no dialect `mavlink`", "there is `recon`"),
+            ("serial:/dev/x?dialect=semaphore", "no dialect `semaphore`", "there is `recon`"),
             ("serial:/dev/x?dialect=recon&baud=fast", "`fast` is no baud", "57600"),
             ("serial:/dev/x?dialect=recon&bauds=9600", "no setting of a link `bauds`", "did you mean `baud`?"),
             ("serial:/dev/x?dialect", "sets nothing", "dialect=VALUE"),

@@ -70,9 +70,9 @@ struct Speaks {
 }
 
 fn dialect(clause: Speaks) -> Result<&'static Dialect, Wrong> {
-    let known = Dialect::names().join(")` or `dialect(");
+    let like = Dialect::example();
     let speaks =
-        clause.speaks.ok_or_else(|| Wrong::with("`dialect` needs a protocol", format!("write `dialect({known})`")))?;
+        clause.speaks.ok_or_else(|| Wrong::with("`dialect` needs a protocol", format!("write `dialect({like})`")))?;
     Dialect::named(&speaks).map_err(|error| cannot_be(&error.message))
 }
 
