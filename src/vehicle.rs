@@ -6,7 +6,7 @@ use crate::exit::Exit;
 use crate::plan::{Faults, refused, scenario_script, sound};
 use crate::speaker::{Speaker, no_thread};
 use crate::{interruption, message};
-use albacore_session::{Dialect, FarEnd, Faulty, LinkError, LinkFault, Rows, ServedVehicle, Transport, WrittenUrl};
+use albacore_session::{FarEnd, Faulty, LinkError, LinkFault, Rows, ServedVehicle, Transport, WrittenUrl};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -57,13 +57,17 @@ impl Vehicle {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),
         };
-        let (mut far_end, speaks) = match self.far_end() {
-            Ok(far_end) => far_end,
+        let vehicle = match self.vehicle() {
+            Ok(vehicle) => vehicle,
             Err(exit) => return exit,
         };
-        let url = match url.of_vehicle(speaks) {
+        let url = match url.of_vehicle(vehicle.dialect) {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),
+        };
+        let mut far_end = match vehicle.far_end(&url, self.seed, self.rows) {
+            Ok(far_end) => far_end,
+            Err(error) => return refused(&error),
         };
         let faults = match self.link_faults() {
             Ok(faults) => faults,
@@ -73,7 +77,7 @@ impl Vehicle {
             Ok(open) => open,
             Err(error) => return told(&error, Exit::Failed),
         };
-        let mut transport = Faulty::new(transport, faults, self.seed);
+        let mut transport = Faulty::new(transport, &url.dialect.framing, faults, self.seed);
         say(&far_end, &format!("link open at {at}"));
         let interrupted = interruption::flag();
         let served = self.serve(&mut far_end, &mut transport, &interrupted);
@@ -87,13 +91,12 @@ impl Vehicle {
         if served.is_ok() && all_said { Exit::Well } else { Exit::Failed }
     }
 
-    /// The vehicle, and what it says that it speaks.
-    fn far_end(&self) -> Result<(FarEnd, Option<Dialect>), Exit> {
+    /// The vehicle that is served.
+    fn vehicle(&self) -> Result<ServedVehicle, Exit> {
         let (script, file, name) = scenario_script(&self.scenario, &self.set)?;
         let refused = |error| refused(&error);
         let vehicle = ServedVehicle::new(&script, file, name).map_err(refused)?;
-        let vehicle = vehicle.with_faults(&self.faults.read()?).map_err(refused)?;
-        Ok((vehicle.far_end(self.seed, self.rows).map_err(refused)?, vehicle.dialect))
+        vehicle.with_faults(&self.faults.read()?).map_err(refused)
     }
 
     /// What goes wrong on the link.

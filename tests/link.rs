@@ -259,8 +259,14 @@ fn the_dialect_of_a_vehicle_is_taken_where_the_url_is_silent() {
     ends_with(&["run", EXCURSION, "--no-out", "--link", "serial:/dev/x"], 2, "or `dialect(recon)` in the `vehicle`");
     ends_with(&["vehicle", "duck_2003", "--link", "pty:"], 2, "does not say what the vehicle speaks");
     let wrong = folder.join("wrong.alb");
-    std::fs::write(&wrong, "vehicle v {\n    kinematic\n    dialect(mavlink)\n}\nscenario s {\n    vehicle(v, start: point(0 m, 0 m))\n}\n").unwrap();
-    ends_with(&["check", wrong.to_str().unwrap()], 3, "there is no protocol named `mavlink`");
+    for (speaks, said) in [
+        ("semaphore", "there is no protocol named `semaphore`"),
+        ("\"recon\"", "`dialect` takes no such thing: it takes a protocol"),
+    ] {
+        let vehicle = format!("vehicle v {{\n    kinematic\n    dialect({speaks})\n}}\n");
+        std::fs::write(&wrong, vehicle + "scenario s {\n    vehicle(v, start: point(0 m, 0 m))\n}\n").unwrap();
+        ends_with(&["check", wrong.to_str().unwrap()], 3, said);
+    }
 }
 
 #[test]

@@ -166,15 +166,37 @@ fn headings(text: &str) -> Vec<String> {
     text.lines().filter_map(|line| line.strip_prefix("## ")).map(anchor).collect()
 }
 
+/// Kinds of values that have a page for how to add one: the reference links the clause that takes them.
+const OPEN_KINDS: [&str; 2] = ["protocol", "navigator"];
+
+/// The clauses of a module of the standard library by name, and of what kind of value they are, if they are one.
+fn clauses(module: &str) -> Vec<(String, Option<String>)> {
+    let declared = std::fs::read_to_string(format!("stdlib/{module}.alb")).unwrap();
+    let ends = |line: &&str| line.starts_with(')') || line.starts_with("clause ") && !line.ends_with('(');
+    let mut lines = declared.lines();
+    let mut found = Vec::new();
+    while let Some(head) = lines.find(|line| line.starts_with("clause ")) {
+        let name = head["clause ".len()..].split(['(', ' ']).next().unwrap();
+        let end = if ends(&head) { head } else { lines.find(ends).unwrap() };
+        found.push((name.to_string(), end.split_once("-> ").map(|(_, kind)| kind.to_string())));
+    }
+    found
+}
+
 /// What a scenario can say is declared in the standard library: each clause is linked.
 #[test]
 fn every_clause_is_linked() {
     let text = std::fs::read_to_string(REFERENCE).unwrap();
     for module in ["world", "craft", "instruments", "faults"] {
-        let declared = std::fs::read_to_string(format!("stdlib/{module}.alb")).unwrap();
-        for head in declared.lines().filter_map(|line| line.strip_prefix("clause ")) {
-            let name = head.split(['(', ' ']).next().unwrap();
+        let is_closed = |kind: &Option<String>| !kind.as_deref().is_some_and(|kind| OPEN_KINDS.contains(&kind));
+        for (name, _) in clauses(module).into_iter().filter(|(_, kind)| is_closed(kind)) {
             assert!(text.contains(&format!("[`{name}`](stdlib/{module}.md#clause-{name})")), "`{name}` of {module}");
         }
     }
+}
+
+#[test]
+fn the_protocols_of_the_standard_library_are_the_table_of_dialects() {
+    let protocols = clauses("craft").into_iter().filter(|(_, kind)| kind.as_deref() == Some("protocol"));
+    assert_eq!(protocols.map(|(name, _)| name).collect::<Vec<_>>(), albacore_link::Dialect::names());
 }

@@ -82,8 +82,9 @@ fn told(what: &str, answers: &[Option<Duration>]) {
 /// The far end, and where the other finds it.
 fn far_end() -> (FarEnd, Box<dyn Transport + Send>, String) {
     let script = load(Path::new(SCRIPT), None, &[]).unwrap();
-    let far_end = ServedVehicle::new(&script, SCRIPT, None).unwrap().far_end(1, None).unwrap();
-    let (transport, at) = serve(&Url::parse("pty:?dialect=recon").unwrap()).unwrap();
+    let url = Url::parse("pty:?dialect=recon").unwrap();
+    let far_end = ServedVehicle::new(&script, SCRIPT, None).unwrap().far_end(&url, 1, None).unwrap();
+    let (transport, at) = serve(&url).unwrap();
     (far_end, transport, at)
 }
 

@@ -1,7 +1,7 @@
 //! Both ends of a link in one process: a vehicle that lives a tick whenever its controller waits for bytes.
 
-use albacore_link::recon::{Deframer, FromVehicle, Happening, State, ToVehicle};
-use albacore_link::{Faulty, LinkError, LinkFault, Transport};
+use albacore_link::recon::{self, Deframer, FromVehicle, State, ToVehicle};
+use albacore_link::{Faulty, Happening, LinkError, LinkFault, Transport};
 use albacore_session::FarEnd;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -102,7 +102,7 @@ pub struct Line {
 
 impl Line {
     pub fn new(desk: &Arc<Mutex<Desk>>, faults: Vec<LinkFault>, seed: u64) -> Self {
-        let link = Faulty::new(End(Arc::clone(desk)), faults, seed);
+        let link = Faulty::new(End(Arc::clone(desk)), &recon::DIALECT.framing, faults, seed);
         Line { desk: Arc::clone(desk), link: Arc::new(Mutex::new(link)) }
     }
 

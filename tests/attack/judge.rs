@@ -2,7 +2,8 @@
 
 use crate::desk::{Desk, Sent};
 use crate::weather::Fate;
-use albacore_link::recon::{Happening, SpeedGoal, ToVehicle};
+use albacore_link::Happening;
+use albacore_link::recon::{SpeedGoal, ToVehicle};
 use albacore_session::Outcome;
 use albacore_trace::TickRecord;
 use albacore_trace::journal::{Ending, Journal};
@@ -38,7 +39,7 @@ pub fn broken(desk: &Desk, journal: &[u8], outcome: Option<Outcome>, fate: Fate)
     for happening in &desk.happenings {
         match happening {
             Happening::Taken(..) => driven = true,
-            Happening::Released | Happening::TimedOut | Happening::TakenBack | Happening::GivenUp => driven = false,
+            Happening::Released | Happening::TimedOut(_) | Happening::TakenBack | Happening::GivenUp => driven = false,
             _ => {}
         }
     }

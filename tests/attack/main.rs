@@ -25,8 +25,7 @@ mod desk;
 mod judge;
 mod weather;
 
-use albacore_link::Url;
-use albacore_link::recon::ReconVehicle;
+use albacore_link::{LinkVehicle, Url};
 use albacore_session::{Outcome, Plan, Run, Running, ServedVehicle, load};
 use desk::{Desk, Line};
 use std::collections::BTreeMap;
@@ -67,11 +66,11 @@ fn attack(seed: u64) -> Attacked {
     let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
     let plan = Plan::on_link(&script, ATTACK, mission, &url.to_string()).unwrap();
     let vehicle = ServedVehicle::new(&script, ATTACK, Some("bay")).unwrap();
-    let desk = Arc::new(Mutex::new(Desk::new(vehicle.far_end(seed, None).unwrap())));
+    let desk = Arc::new(Mutex::new(Desk::new(vehicle.far_end(&url, seed, None).unwrap())));
     let line = Line::new(&desk, weather.faults.clone(), seed);
     let clock = Arc::clone(&desk);
     let clock = Box::new(move || clock.lock().unwrap().now());
-    let vehicle = ReconVehicle::new(url, Box::new(line.clone()), plan.frame().unwrap(), 1.0, clock);
+    let vehicle = LinkVehicle::new(url, Box::new(line.clone()), plan.frame().unwrap(), 1.0, clock).unwrap();
     let mut run = Run::on_link(&plan, seed, Box::new(vehicle)).unwrap();
     let kept = Kept::default();
     run.with_journal(Box::new(kept.clone()), &[]);

@@ -17,6 +17,16 @@ impl LinkError {
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         LinkError { message: message.into(), help: help.into() }
     }
+
+    /// A name that is none of those that there are.
+    pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Self {
+        let near = known.iter().find(|k| strsim::osa_distance(&name.to_lowercase(), k) <= 2);
+        let help = match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there is `{}`", known.join("`, `")),
+        };
+        LinkError::new(format!("there is no {what} `{name}`"), help)
+    }
 }
 
 /// The vehicle port knows one sentence.

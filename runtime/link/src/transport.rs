@@ -20,8 +20,8 @@ pub trait Transport {
     /// Adds the bytes that have come to `into`; when there are none, waits for some, at most for `wait`.
     fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError>;
 
-    /// Sends whole lines.
-    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError>;
+    /// Sends whole messages.
+    fn send(&mut self, messages: &[u8]) -> Result<(), LinkError>;
 
     /// From here on, and until it is let go, nobody is heard but who was heard last. A line has one other end anyway.
     fn hold(&mut self, _held: bool) {}
@@ -32,8 +32,8 @@ impl<T: Transport + ?Sized> Transport for Box<T> {
         (**self).receive(into, wait)
     }
 
-    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
-        (**self).send(lines)
+    fn send(&mut self, messages: &[u8]) -> Result<(), LinkError> {
+        (**self).send(messages)
     }
 
     fn hold(&mut self, held: bool) {
@@ -43,31 +43,36 @@ impl<T: Transport + ?Sized> Transport for Box<T> {
 
 /// Opens a link to a vehicle.
 pub fn call(url: &Url) -> Result<Box<dyn Transport + Send>, LinkError> {
+    let dialect = url.dialect;
     match &url.place {
-        Place::Serial(path, baud) => Ok(Box::new(tty::Tty::open(path, *baud)?)),
+        Place::Serial(path, baud) => Ok(Box::new(tty::Tty::open(path, *baud, &dialect.framing)?)),
         Place::Udp { host, port: 0, .. } => Err(LinkError::new(
             format!("no vehicle can be called at port 0 of `{host}`"),
-            "write the port at which it listens: `albacore vehicle` prints its own, real ones mostly use 23456",
+            format!(
+                "write the port at which it listens: `albacore vehicle` prints its own, real ones mostly use {}",
+                dialect.udp_port
+            ),
         )),
-        Place::Udp { host, port, local } => Ok(Box::new(udp::Udp::call(host, *port, *local)?)),
+        Place::Udp { host, port, local } => Ok(Box::new(udp::Udp::call(host, *port, *local, &dialect.framing)?)),
         Place::Pty => Err(LinkError::new(
             "`pty:` makes a new terminal, at which no vehicle waits",
-            "open the one that `albacore vehicle` has made: `serial:/dev/pts/N?dialect=recon`",
+            format!("open the one that `albacore vehicle` has made: `serial:/dev/pts/N?dialect={dialect}`"),
         )),
     }
 }
 
 /// Opens the vehicle's end of a link, and says where the other end finds it.
 pub fn serve(url: &Url) -> Result<(Box<dyn Transport + Send>, String), LinkError> {
+    let dialect = url.dialect;
     match &url.place {
-        Place::Serial(path, baud) => Ok((Box::new(tty::Tty::open(path, *baud)?), url.to_string())),
+        Place::Serial(path, baud) => Ok((Box::new(tty::Tty::open(path, *baud, &dialect.framing)?), url.to_string())),
         Place::Udp { host, port, .. } => {
-            let (udp, at) = udp::Udp::serve(host, *port)?;
-            Ok((Box::new(udp), format!("udp:{at}?dialect={}", url.dialect)))
+            let (udp, at) = udp::Udp::serve(host, *port, &dialect.framing)?;
+            Ok((Box::new(udp), format!("udp:{at}?dialect={dialect}")))
         }
         Place::Pty => {
-            let (tty, path) = tty::Tty::pair()?;
-            Ok((Box::new(tty), format!("serial:{path}?dialect={}", url.dialect)))
+            let (tty, path) = tty::Tty::pair(&dialect.framing)?;
+            Ok((Box::new(tty), format!("serial:{path}?dialect={dialect}")))
         }
     }
 }

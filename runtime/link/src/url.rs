@@ -1,13 +1,12 @@
 //! Where a link goes and what is spoken on it: `serial:/dev/ttyUSB0?dialect=recon&baud=57600`.
 
+use crate::dialect::{Dialect, Settings};
+use crate::dialects::ALL;
 use crate::error::LinkError;
 use std::fmt;
 
-/// Bits a second of a serial line unless the URL says otherwise: what public controllers of the recon dialect set.
-const BAUD: u32 = 57_600;
-
 const SCHEMES: [&str; 3] = ["serial", "udp", "pty"];
-const DIALECTS: [&str; 1] = ["recon"];
+/// What a URL may set whatever is spoken; dialects have settings besides.
 const SETTINGS: [&str; 3] = ["dialect", "baud", "local"];
 
 /// Where a link goes, and what is spoken on it.
@@ -16,7 +15,9 @@ pub struct Url {
     /// Where it goes.
     pub place: Place,
     /// What is spoken.
-    pub dialect: Dialect,
+    pub dialect: &'static Dialect,
+    /// What it sets for the dialect.
+    pub settings: Settings,
 }
 
 /// Where a link goes.
@@ -37,19 +38,14 @@ pub enum Place {
     Pty,
 }
 
-/// What is spoken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dialect {
-    /// The dialect of [`crate::recon`].
-    Recon,
-}
-
 /// A URL as it is written: what is spoken may be left to who knows the vehicle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenUrl {
     text: String,
+    /// Its bits a second are 0 where only the dialect says them.
     place: Place,
-    dialect: Option<Dialect>,
+    dialect: Option<&'static Dialect>,
+    settings: Settings,
 }
 
 impl WrittenUrl {
@@ -57,7 +53,7 @@ impl WrittenUrl {
     pub fn parse(text: &str) -> Result<Self, LinkError> {
         let (place, query) = text.split_once('?').unwrap_or((text, ""));
         let Some((scheme, rest)) = place.split_once(':') else {
-            return Err(LinkError::new(format!("`{text}` is no link"), format!("write {EXAMPLES}")));
+            return Err(LinkError::new(format!("`{text}` is no link"), format!("write {}", examples())));
         };
         let settings = settings(query)?;
         let get = |name: &str| settings.iter().find(|(n, _)| *n == name).map(|(_, value)| *value);
@@ -70,30 +66,38 @@ impl WrittenUrl {
         };
         only_for("baud", "serial")?;
         only_for("local", "udp")?;
+        let dialect = get("dialect").map(Dialect::named).transpose();
+        let like = dialect.as_ref().ok().copied().flatten().unwrap_or(Dialect::example());
         let place = match scheme {
             "serial" if rest.is_empty() => {
-                return Err(LinkError::new("`serial:` names no device", "write `serial:/dev/ttyUSB0?dialect=recon`"));
+                let help = format!("write `serial:/dev/ttyUSB0?dialect={like}`");
+                return Err(LinkError::new("`serial:` names no device", help));
             }
-            "serial" => match whole("baud", get("baud"), BAUD)? {
-                0 => return Err(LinkError::new("a line of 0 baud carries nothing", "write a number such as 57600")),
-                baud => Place::Serial(rest.to_string(), baud),
+            "serial" => match get("baud").map(|baud| whole("baud", baud)).transpose()? {
+                Some(0) => {
+                    return Err(LinkError::new("a line of 0 baud carries nothing", "write a number such as 57600"));
+                }
+                baud => Place::Serial(rest.to_string(), baud.unwrap_or(0)),
             },
-            "udp" => udp(rest, whole("local", get("local"), 0)?)?,
+            "udp" => udp(rest, get("local").map_or(Ok(0), |local| whole("local", local))?, like)?,
             "pty" if rest.is_empty() => Place::Pty,
             "pty" => {
                 let help =
-                    format!("write `pty:?dialect=recon` to make one, or `serial:{rest}` to open one that is there");
+                    format!("write `pty:?dialect={like}` to make one, or `serial:{rest}` to open one that is there");
                 return Err(LinkError::new(format!("`pty:` makes a new terminal and takes no `{rest}`"), help));
             }
             "tcp" => {
-                let help = "there is `udp:HOST:PORT?dialect=recon`; or join the connection to a pseudo terminal, and open that: \
-                            `serial:/dev/pts/N?dialect=recon`";
+                let help = format!(
+                    "there is `udp:HOST:PORT?dialect={like}`; or join the connection to a pseudo terminal, and open that: \
+                     `serial:/dev/pts/N?dialect={like}`"
+                );
                 return Err(LinkError::new("links over `tcp:` are not built yet", help));
             }
-            _ => return Err(unknown("kind of link", scheme, &SCHEMES)),
+            _ => return Err(LinkError::unknown("kind of link", scheme, &SCHEMES)),
         };
-        let dialect = get("dialect").map(Dialect::named).transpose()?;
-        Ok(WrittenUrl { text: text.to_string(), place, dialect })
+        let of_dialect = settings.iter().filter(|(name, _)| !SETTINGS.contains(name));
+        let of_dialect = of_dialect.map(|(name, value)| ((*name).to_string(), (*value).to_string())).collect();
+        Ok(WrittenUrl { text: text.to_string(), place, dialect: dialect?, settings: Settings::new(of_dialect) })
     }
 
     /// Whether it leaves open what is spoken.
@@ -102,15 +106,28 @@ impl WrittenUrl {
     }
 
     /// The URL, with what the vehicle is known to speak where it does not say it itself.
-    pub fn of_vehicle(self, speaks: Option<Dialect>) -> Result<Url, LinkError> {
-        let text = &self.text;
-        let Some(dialect) = self.dialect.or(speaks) else {
+    pub fn of_vehicle(self, speaks: Option<&'static Dialect>) -> Result<Url, LinkError> {
+        let WrittenUrl { text, mut place, dialect, settings } = self;
+        let Some(dialect) = dialect.or(speaks) else {
             let sign = if text.contains('?') { '&' } else { '?' };
+            let like = Dialect::example();
             let help =
-                format!("write `{text}{sign}dialect=recon`, or `dialect(recon)` in the `vehicle` of the scenario");
+                format!("write `{text}{sign}dialect={like}`, or `dialect({like})` in the `vehicle` of the scenario");
             return Err(LinkError::new(format!("`{text}` does not say what the vehicle speaks"), help));
         };
-        Ok(Url { place: self.place, dialect })
+        if !dialect.schemes.contains(&place.scheme()) {
+            let help = format!("it is spoken over `{}:`", dialect.schemes.join(":`, `"));
+            return Err(LinkError::new(format!("`{dialect}` is not spoken over `{}:`", place.scheme()), help));
+        }
+        if let Some(name) = settings.names().find(|name| !dialect.settings.contains(name)) {
+            return Err(LinkError::new(format!("`{name}` says nothing of `{dialect}`"), "leave it out"));
+        }
+        // What of its settings cannot be is the dialect's to say, and is said before anything is opened.
+        (dialect.controller)(&settings)?;
+        if let Place::Serial(_, baud @ 0) = &mut place {
+            *baud = dialect.baud;
+        }
+        Ok(Url { place, dialect, settings })
     }
 }
 
@@ -121,19 +138,14 @@ impl Url {
     }
 }
 
-impl Dialect {
-    /// The dialect of a name.
-    pub fn named(name: &str) -> Result<Self, LinkError> {
-        match name {
-            "recon" => Ok(Dialect::Recon),
-            other => Err(unknown("dialect", other, &DIALECTS)),
-        }
-    }
-}
-
 /// What a URL looks like, for those who write something else.
-const EXAMPLES: &str = "`serial:/dev/ttyUSB0?dialect=recon`, `udp:192.168.1.20:23456?dialect=recon` or, to serve, \
-                        `pty:?dialect=recon`";
+fn examples() -> String {
+    let like = Dialect::example();
+    let port = like.udp_port;
+    format!(
+        "`serial:/dev/ttyUSB0?dialect={like}`, `udp:192.168.1.20:{port}?dialect={like}` or, to serve, `pty:?dialect={like}`"
+    )
+}
 
 fn settings(query: &str) -> Result<Vec<(&str, &str)>, LinkError> {
     let mut settings: Vec<(&str, &str)> = Vec::new();
@@ -141,8 +153,10 @@ fn settings(query: &str) -> Result<Vec<(&str, &str)>, LinkError> {
         let Some((name, value)) = part.split_once('=') else {
             return Err(LinkError::new(format!("`{part}` sets nothing"), format!("write `{part}=VALUE`")));
         };
-        if !SETTINGS.contains(&name) {
-            return Err(unknown("setting of a link", name, &SETTINGS));
+        let of_dialects = ALL.iter().flat_map(|dialect| dialect.settings.iter().copied());
+        let known: Vec<&str> = SETTINGS.into_iter().chain(of_dialects).collect();
+        if !known.contains(&name) {
+            return Err(LinkError::unknown("setting of a link", name, &known));
         }
         if settings.iter().any(|(n, _)| *n == name) {
             return Err(LinkError::new(format!("`{name}` is set twice"), "leave one of them out"));
@@ -152,9 +166,10 @@ fn settings(query: &str) -> Result<Vec<(&str, &str)>, LinkError> {
     Ok(settings)
 }
 
-fn udp(rest: &str, local: u16) -> Result<Place, LinkError> {
+fn udp(rest: &str, local: u16, like: &Dialect) -> Result<Place, LinkError> {
     let missing = || {
-        LinkError::new(format!("`udp:{rest}` has no port"), "write `udp:HOST:PORT`; vehicles of this kind use 23456")
+        let help = format!("write `udp:HOST:PORT`; vehicles of this kind use {}", like.udp_port);
+        LinkError::new(format!("`udp:{rest}` has no port"), help)
     };
     let (host, port) = rest.rsplit_once(':').ok_or_else(missing)?;
     if port.is_empty() {
@@ -166,31 +181,32 @@ fn udp(rest: &str, local: u16) -> Result<Place, LinkError> {
             format!("write `udp:HOST:{port}`; who serves listens at `udp:0.0.0.0:{port}`"),
         ));
     }
-    let port = whole("port", Some(port), 0)?;
+    let port = whole("port", port)?;
     Ok(Place::Udp { host: host.to_string(), port, local })
 }
 
 /// A whole number that fits its place.
-fn whole<N: std::str::FromStr>(name: &str, text: Option<&str>, otherwise: N) -> Result<N, LinkError> {
-    let Some(text) = text else { return Ok(otherwise) };
+fn whole<N: std::str::FromStr>(name: &str, text: &str) -> Result<N, LinkError> {
     text.parse().map_err(|_| {
         let largest = if name == "baud" { "a number such as 57600" } else { "a number from 0 to 65535" };
         LinkError::new(format!("`{text}` is no {name}"), format!("write {largest}"))
     })
 }
 
-fn unknown(what: &str, name: &str, known: &[&str]) -> LinkError {
-    let near = known.iter().find(|k| strsim::osa_distance(&name.to_lowercase(), k) <= 2);
-    let help = match near {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there is `{}`", known.join("`, `")),
-    };
-    LinkError::new(format!("there is no {what} `{name}`"), help)
-}
-
 impl fmt::Display for Url {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}?dialect={}", self.place, self.dialect)
+    }
+}
+
+impl Place {
+    /// The kind of link.
+    fn scheme(&self) -> &'static str {
+        match self {
+            Place::Serial(..) => "serial",
+            Place::Udp { .. } => "udp",
+            Place::Pty => "pty",
+        }
     }
 }
 
@@ -204,17 +220,10 @@ impl fmt::Display for Place {
     }
 }
 
-impl fmt::Display for Dialect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Dialect::Recon => f.write_str("recon"),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dialects::recon::DIALECT as RECON;
 
     #[test]
     fn what_is_meant_is_read() {
@@ -231,15 +240,15 @@ mod tests {
     #[test]
     fn a_url_that_is_silent_takes_what_the_vehicle_speaks() {
         let url = |text: &str, speaks| WrittenUrl::parse(text).and_then(|url| url.of_vehicle(speaks));
-        let text = url("serial:/dev/x?baud=9600", Some(Dialect::Recon)).unwrap();
+        let text = url("serial:/dev/x?baud=9600", Some(&RECON)).unwrap();
         assert_eq!(text, Url::parse("serial:/dev/x?baud=9600&dialect=recon").unwrap());
-        assert_eq!(url("pty:", Some(Dialect::Recon)), Url::parse("pty:?dialect=recon"));
+        assert_eq!(url("pty:", Some(&RECON)), Url::parse("pty:?dialect=recon"));
         assert!(
             WrittenUrl::parse("pty:").unwrap().is_silent()
                 && !WrittenUrl::parse("pty:?dialect=recon").unwrap().is_silent()
         );
         assert!(url("pty:", None).unwrap_err().help.contains("`dialect(recon)` in the `vehicle`"));
-        assert!(url("pty:?dialect=rekon", Some(Dialect::Recon)).unwrap_err().help.contains("did you mean `recon`?"));
+        assert!(url("pty:?dialect=rekon", Some(&RECON)).unwrap_err().help.contains("did you mean `recon`?"));
     }
 
     #[test]
@@ -258,7 +267,7 @@ mod tests {
             ("serial:/dev/x", "does not say what the vehicle speaks", "`serial:/dev/x?dialect=recon`"),
             ("serial:/dev/x?baud=9600", "does not say", "`serial:/dev/x?baud=9600&dialect=recon`"),
             ("serial:/dev/x?dialect=recn", "no dialect `recn`", "did you mean `recon`?"),
-            ("serial:/dev/x?dialect=mavlink", "no dialect `mavlink`", "there is `recon`"),
+            ("serial:/dev/x?dialect=semaphore", "no dialect `semaphore`", "there is `recon`"),
             ("serial:/dev/x?dialect=recon&baud=fast", "`fast` is no baud", "57600"),
             ("serial:/dev/x?dialect=recon&bauds=9600", "no setting of a link `bauds`", "did you mean `baud`?"),
             ("serial:/dev/x?dialect", "sets nothing", "dialect=VALUE"),

@@ -3,9 +3,11 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::math::degrees;
-use albacore_geometry::{Geodetic, Heading, TangentFrame};
-use albacore_link::recon::{Adcp, Controller, FromVehicle, Mode, State, seal};
-use albacore_vehicle::channels::COURSE;
+use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
+use albacore_link::Controller;
+use albacore_link::recon::{self, Adcp, FromVehicle, Mode, State, seal};
+use albacore_navigation::{DeadReckoning, Estimate, Fix, Navigator, Sensed};
+use albacore_vehicle::channels::{COURSE, POSITION};
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 use std::time::Duration;
 
@@ -23,7 +25,7 @@ impl Vehicle {
     fn new() -> Self {
         let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
         Vehicle {
-            controller: Controller::new(frame),
+            controller: Controller::new(recon::controller(), frame),
             snapshot: Snapshot::default(),
             time_ms: 0,
             heading_goal: Heading::NORTH,
@@ -413,4 +415,41 @@ fn a_vehicle_at_rest_has_a_course_and_one_whose_profiler_fails_has_none() {
     never.profiles(0.0, 0.0);
     never.says(0x0D);
     assert_eq!(never.course(), Some(0.0), "the heading, where none has come before");
+}
+
+/// A navigator is used on a link as in simulation: a gate on what the vehicle tells of its position lets no leap through.
+#[test]
+fn a_navigator_of_ours_makes_the_position_of_what_the_vehicle_tells() {
+    #[derive(Clone, Debug)]
+    struct Gated(DeadReckoning);
+    impl Navigator for Gated {
+        fn predict(&mut self, sensed: &Sensed, time: f64) {
+            self.0.predict(sensed, time);
+        }
+        fn update(&mut self, fix: &Fix) -> bool {
+            self.0.update(&Fix { gate: 100.0, ..*fix })
+        }
+        fn estimate(&self) -> Estimate {
+            self.0.estimate()
+        }
+        fn boxed(&self) -> Box<dyn Navigator> {
+            Box::new(self.clone())
+        }
+    }
+    let north = |navigator: Option<Gated>| {
+        let mut vehicle = Vehicle::new();
+        if let Some(navigator) = navigator {
+            vehicle.controller = vehicle.controller.navigated(Box::new(navigator));
+        }
+        vehicle.speed = 2.0;
+        for _ in 0..50 {
+            vehicle.profiles(2.0, 0.0);
+            vehicle.says(0x01);
+        }
+        vehicle.snapshot.samples.iter().find(|sample| sample.channel == POSITION).unwrap().reading[0]
+    };
+    assert_eq!(north(None), 0.0, "the vehicle says that it stands at the origin");
+    let reckoned = north(Some(Gated(DeadReckoning::new(Point::ORIGIN, 0.05))));
+    // 49 ticks after the first state; that had no speed before it.
+    assert!((reckoned - 9.8).abs() < 1e-6, "{reckoned}");
 }

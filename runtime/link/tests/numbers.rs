@@ -3,7 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{Controller, Rows, Server, seal};
+use albacore_link::recon::{self, seal};
+use albacore_link::{Controller, Rows, Server};
 use albacore_sim::{Fault, FaultKind, Scenario, Sensor, SensorFault, Simulator, VehicleSetup};
 use albacore_vehicle::{Limits, Snapshot, Vertical};
 
@@ -110,7 +111,14 @@ fn vehicle() -> Server<Simulator> {
     let setup = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: setup, limits, ..Scenario::default() }, 1).unwrap();
     let rows: Rows = "100x20x2".parse().unwrap();
-    Server::new(simulator, frame(), &rows.into(), (Point::ORIGIN, Heading::NORTH), Vertical::Depth(3.0))
+    Server::new(
+        recon::server(),
+        simulator,
+        frame(),
+        &rows.into(),
+        (Point::ORIGIN, Heading::NORTH),
+        Vertical::Depth(3.0),
+    )
 }
 
 /// All that came from the vehicle is finite, and of a size that its sums and products stay so.
@@ -118,7 +126,7 @@ fn vehicle() -> Server<Simulator> {
 fn no_number_from_a_vehicle_reaches_a_mission_that_is_none() {
     let mut readings = 0;
     for body in FROM_VEHICLE.iter().flat_map(|body| variants(body)) {
-        let mut controller = Controller::new(frame());
+        let mut controller = Controller::new(recon::controller(), frame());
         // A profiler's drift becomes a course with the state that follows.
         for body in [&body, FROM_VEHICLE[0]] {
             controller.hear(seal(body).as_bytes());
@@ -209,7 +217,7 @@ fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
         let water = simulator.water_depth(Point::ORIGIN);
         let rows: Rows = "100x20x2".parse().unwrap();
         let start = (Point::ORIGIN, Heading::NORTH);
-        let mut vehicle = Server::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
+        let mut vehicle = Server::new(recon::server(), simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
         vehicle.tick(seal("E,1").as_bytes()).unwrap();
         for (above, accepted) in [(1.0, false), (3.0, true)] {
             vehicle.take_output();
@@ -235,7 +243,7 @@ fn a_goal_above_the_bottom_is_told_no_deeper_than_the_limit() {
     let altitude = simulator.water_depth(Point::ORIGIN) - 2.0;
     let rows: Rows = "100x20x2".parse().unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
-    let mut vehicle = Server::new(simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
+    let mut vehicle = Server::new(recon::server(), simulator, frame(), &rows.into(), start, Vertical::Depth(1.0));
     vehicle.tick((seal("E,1") + &seal(&format!("C,Depth,Altitude,{altitude:.2}"))).as_bytes()).unwrap();
     for _ in 0..200 {
         vehicle.tick(seal("V,still here").as_bytes()).unwrap();

@@ -3,11 +3,14 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{Controller, Happening, Milestone, Rows, Server};
+use albacore_link::{Controller, Happening, Milestone, Rows, Server, recon};
 use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
 use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
 use std::collections::VecDeque;
+
+/// The vehicle leaves a guest who is silent for so long.
+const TIMED_OUT: Happening = Happening::TimedOut(recon::DIALECT.timeout_ticks);
 
 /// A generator for tests (SplitMix64): what goes wrong is the same in every run.
 struct Chance(u64);
@@ -114,8 +117,8 @@ impl Pair {
         let simulator = Simulator::new(scenario, seed).unwrap();
         let start = (Point::ORIGIN, Heading::NORTH);
         Pair {
-            vehicle: Server::new(simulator, frame(), &rows.into(), start, Vertical::Depth(3.0)),
-            controller: Controller::new(frame()),
+            vehicle: Server::new(recon::server(), simulator, frame(), &rows.into(), start, Vertical::Depth(3.0)),
+            controller: Controller::new(recon::controller(), frame()),
             wire: Wire { chance: Chance(seed), share },
             there: Delay::default(),
             back: Delay::default(),
@@ -212,7 +215,7 @@ fn takes_control_drives_releases_and_the_vehicle_resumes_its_rows() {
     pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(at, 1)) if *at == break_off));
     assert!(pair.vehicle.position().distance(break_off) < 12.0);
     pair.until(3000, |h| *h == Happening::Plan(Milestone::Over));
-    assert!(!pair.happenings.contains(&Happening::TimedOut));
+    assert!(!pair.happenings.contains(&TIMED_OUT));
 }
 
 #[test]
@@ -267,12 +270,12 @@ fn who_falls_silent_loses_control_after_five_seconds_exactly() {
     pair.vehicle.tick(b"#v,*EF\n").unwrap();
     assert!(!pair.vehicle.waits_for_guest());
     for tick in 1..=50 {
-        assert!(!pair.happenings.contains(&Happening::TimedOut), "tick {tick}");
+        assert!(!pair.happenings.contains(&TIMED_OUT), "tick {tick}");
         assert_eq!(pair.vehicle.waits_for_guest(), tick > 10);
         pair.vehicle.tick(b"").unwrap();
         pair.happenings.extend(pair.vehicle.take_happenings());
     }
-    assert!(pair.happenings.contains(&Happening::TimedOut));
+    assert!(pair.happenings.contains(&TIMED_OUT));
     pair.ticks(3, None);
     assert_eq!(pair.snapshot.control, Control::Released, "and the controller, back again, is told");
     pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(_, 1))));
@@ -282,7 +285,7 @@ fn who_falls_silent_loses_control_after_five_seconds_exactly() {
 fn who_commands_nothing_stays_in_control() {
     let mut pair = excursion(1, 0.0);
     pair.ticks(300, None);
-    assert!(!pair.happenings.contains(&Happening::TimedOut));
+    assert!(!pair.happenings.contains(&TIMED_OUT));
     assert_eq!(pair.controls.last(), Some(&Control::InControl));
 }
 
@@ -292,7 +295,7 @@ fn a_keep_alive_every_five_seconds_is_enough() {
     for tick in 0..500 {
         pair.vehicle.tick(if tick % 50 == 0 { b"#V,0.000000,*79\n" } else { b"" }).unwrap();
     }
-    assert!(!pair.vehicle.take_happenings().contains(&Happening::TimedOut));
+    assert!(!pair.vehicle.take_happenings().contains(&TIMED_OUT));
 }
 
 #[test]
@@ -347,7 +350,7 @@ fn a_guest_that_comes_back_on_the_way_does_not_move_the_break_off_point() {
     let Some(Happening::Taken(first, _)) = pair.happenings.last().cloned() else { panic!("{:?}", pair.happenings) };
     assert!(pair.release(10));
     pair.ticks(20, None);
-    pair.controller = Controller::new(frame());
+    pair.controller = Controller::new(recon::controller(), frame());
     pair.tick(None);
     pair.controller.take_over();
     pair.send();
@@ -452,7 +455,7 @@ fn how_bytes_are_cut_and_when_they_are_read_changes_nothing() {
         bytes.extend(simulator.vehicle.take_output());
     }
     let run = |cuts: &[usize]| {
-        let mut controller = Controller::new(frame());
+        let mut controller = Controller::new(recon::controller(), frame());
         let (mut snapshot, mut seen, mut from) = (Snapshot::default(), Vec::new(), 0);
         for &to in cuts.iter().chain([&bytes.len()]) {
             controller.hear(&bytes[from..to]);
@@ -497,7 +500,7 @@ fn the_late_answer_to_a_question_of_our_own_is_no_offer() {
         let pair = impatient(patience, times);
         let Pair { controls, happenings, .. } = &pair;
         assert!(happenings.iter().any(|h| matches!(h, Happening::Taken(..))), "{happenings:?}");
-        assert!(!happenings.contains(&Happening::TimedOut), "{happenings:?}");
+        assert!(!happenings.contains(&TIMED_OUT), "{happenings:?}");
         for wrong in [Control::Offered, Control::Released, Control::Refused] {
             assert!(!controls.contains(&wrong), "{patience} ticks, {times} times: {controls:?}");
         }
@@ -534,5 +537,5 @@ fn a_question_that_is_still_under_way_is_released_until_it_is_heard() {
     assert!(is_released);
     pair.to_vehicle.clear();
     pair.until(80, |h| *h == Happening::Released);
-    assert!(!pair.happenings.contains(&Happening::TimedOut), "{:?}", pair.happenings);
+    assert!(!pair.happenings.contains(&TIMED_OUT), "{:?}", pair.happenings);
 }

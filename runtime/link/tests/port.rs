@@ -4,8 +4,7 @@
 
 use albacore_front_seat::Handover;
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::recon::{ReconVehicle, Route, Server};
-use albacore_link::{LinkError, Transport, Url};
+use albacore_link::{LinkError, LinkVehicle, Route, Server, Transport, Url, recon};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
 use std::collections::VecDeque;
@@ -107,16 +106,17 @@ impl Transport for Desk {
     }
 }
 
-fn vehicle() -> (ReconVehicle, Arc<Wire>) {
+fn vehicle() -> (LinkVehicle, Arc<Wire>) {
     answering(Handover::default())
 }
 
-fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
+fn answering(handover: Handover) -> (LinkVehicle, Arc<Wire>) {
     let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
     let hull = VehicleSetup { depth: 3.0, ..VehicleSetup::default() };
     let simulator = Simulator::new(&Scenario { vehicle: hull, ..Scenario::default() }, 1).unwrap();
     let start = (Point::ORIGIN, Heading::NORTH);
-    let far_end = Server::new(simulator, frame, &Route::default(), start, Vertical::Depth(3.0)).answering(handover);
+    let far_end = Server::new(recon::server(), simulator, frame, &Route::default(), start, Vertical::Depth(3.0))
+        .answering(handover);
     let wire = Arc::new(Wire::default());
     let desk = Desk {
         wire: Arc::clone(&wire),
@@ -128,18 +128,18 @@ fn answering(handover: Handover) -> (ReconVehicle, Arc<Wire>) {
     };
     let clock = Arc::clone(&wire);
     let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
-    (ReconVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())), wire)
+    (LinkVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())).unwrap(), wire)
 }
 
 const AHEAD: Command = Command::new(Heading::NORTH, 2.0, Vertical::Depth(5.0));
 
 /// A vehicle that is driven.
-fn driven() -> (ReconVehicle, Arc<Wire>, Snapshot) {
+fn driven() -> (LinkVehicle, Arc<Wire>, Snapshot) {
     driven_with_delay(0)
 }
 
 /// A vehicle that is driven, and is heard so many ticks late.
-fn driven_with_delay(delay: u32) -> (ReconVehicle, Arc<Wire>, Snapshot) {
+fn driven_with_delay(delay: u32) -> (LinkVehicle, Arc<Wire>, Snapshot) {
     let (mut vehicle, wire) = vehicle();
     wire.delay.set(TICK * delay);
     let mut snapshot = Snapshot::default();
@@ -341,11 +341,16 @@ fn a_vehicle_that_offers_takes_control_back_before_it_offers_again() {
 
 /// The commands of the ticks that came while nobody looked, and of the next: each asks for a heading of its own. The vehicle is heard
 /// so many ticks late from the first on, or from when it is driven.
-fn after_a_pause(ticks: u32, room: usize, (delay, later): (u32, u32)) -> Vec<(Control, String)> {
+fn after_a_pause(ticks: u32, room: usize, delays: (u32, u32)) -> Vec<(Control, String)> {
+    // The vehicle has taken up what it was asked for: nothing has to be said again.
+    driven_before_a_pause(60, ticks, room, delays)
+}
+
+/// The same of a vehicle that has been driven for so many ticks before.
+fn driven_before_a_pause(driven: u32, ticks: u32, room: usize, (delay, later): (u32, u32)) -> Vec<(Control, String)> {
     let (mut vehicle, wire, mut snapshot) = driven_with_delay(delay);
     wire.delay.set(TICK * (delay + later));
-    // The vehicle has taken up what it was asked for: nothing has to be said again.
-    (0..60).for_each(|_| {
+    (0..driven).for_each(|_| {
         vehicle.sense(&mut snapshot).unwrap();
         vehicle.command(&AHEAD).unwrap();
     });
@@ -399,6 +404,18 @@ fn after_a_pause_nothing_is_sent_to_a_vehicle_that_has_left_override() {
         assert_eq!(said.last().unwrap().0, Control::Released, "{ticks}, {room}, {delay:?}");
         assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{ticks}, {room}, {delay:?}: {said:?}");
     }
+}
+
+/// The attack: before any heading has come back nobody knows how old what comes is.
+#[test]
+fn after_a_pause_before_the_first_command_nothing_is_sent_by_what_was_said_before_it() {
+    for (ticks, delay) in [53, 60, 66].into_iter().flat_map(|ticks| [(ticks, 3), (ticks, 9), (ticks, 18)]) {
+        let said = driven_before_a_pause(0, ticks, 0, (delay, 0));
+        assert_eq!(said.last().unwrap().0, Control::Released, "{ticks}, {delay}");
+        assert!(said.iter().all(|(_, sent)| sent.is_empty()), "{ticks}, {delay}: {said:?}");
+    }
+    let said = driven_before_a_pause(0, 20, 0, (9, 0));
+    assert!(said.iter().any(|(_, sent)| sent.contains("#C,Heading")), "a short one is got over: {said:?}");
 }
 
 #[test]

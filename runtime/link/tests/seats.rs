@@ -8,7 +8,8 @@ use albacore_front_seat::Handover;
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_guidance::Route;
-use albacore_link::recon::{Controller, FromVehicle, Happening, Rows, Server, State};
+use albacore_link::recon::{self, FromVehicle, State};
+use albacore_link::{Controller, Happening, Rows, Server};
 use albacore_sim::{Bottom, OwnMission, Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::Control::{InControl, Monitoring, Refused, Released, Requesting, Suspended};
 use albacore_vehicle::Vertical::{Altitude, Depth};
@@ -286,10 +287,11 @@ fn seats(case: &Case) -> [(&'static str, Box<dyn Seat>); 2] {
     let simulated = Simulated { vehicle: Simulator::new(&with_handover, 1).unwrap(), snapshot: Snapshot::default() };
     let frame = TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) };
     let start = (Point::ORIGIN, Heading::NORTH);
-    let vehicle = Server::new(Simulator::new(&scenario, 1).unwrap(), frame, &route, start, Depth(OWN.2));
+    let vehicle =
+        Server::new(recon::server(), Simulator::new(&scenario, 1).unwrap(), frame, &route, start, Depth(OWN.2));
     let served = Served {
         vehicle: vehicle.answering(case.handover.clone()),
-        controller: Controller::new(frame),
+        controller: Controller::new(recon::controller(), frame),
         snapshot: Snapshot::default(),
         to_vehicle: Vec::new(),
         state: None,

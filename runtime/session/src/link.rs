@@ -1,8 +1,7 @@
 //! A vehicle at the end of a link, for a mission that lies on the globe.
 
 use crate::plan::Plan;
-use albacore_link::recon::{HostClock, ReconVehicle};
-use albacore_link::{Dialect, LinkError, Url, call as open};
+use albacore_link::{HostClock, LinkError, LinkVehicle, Url, call as open};
 use albacore_vehicle::Vehicle;
 
 /// An open link to a vehicle, not yet heard.
@@ -15,7 +14,5 @@ pub fn call(url: &Url, plan: &Plan, rate: f64, clock: HostClock) -> Result<Calle
         LinkError::new("the mission has no place on the globe", "give its area as latitude and longitude")
     })?;
     let transport = open(url)?;
-    match url.dialect {
-        Dialect::Recon => Ok(Box::new(ReconVehicle::new(url.clone(), transport, frame, rate, clock))),
-    }
+    Ok(Box::new(LinkVehicle::new(url.clone(), transport, frame, rate, clock)?))
 }

@@ -159,7 +159,7 @@ impl Plan {
     }
 
     /// What the vehicle speaks that the mission's own scenario says it is for, if it says so.
-    pub fn dialect(script: &Script, file: &str, mission: Option<&str>) -> Result<Option<Dialect>, PlanError> {
+    pub fn dialect(script: &Script, file: &str, mission: Option<&str>) -> Result<Option<&'static Dialect>, PlanError> {
         let (name, program) = chosen(script, file, mission)?;
         let Some(own) = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone()) else {
             return Ok(None);

@@ -27,7 +27,7 @@ pub(crate) struct Understood {
     /// The simulator's own.
     pub world: Scenario,
     /// What its vehicle speaks at the end of a link, if that is said.
-    pub dialect: Option<Dialect>,
+    pub dialect: Option<&'static Dialect>,
     /// The files of numbers that it was read from.
     pub files: Vec<SourceDigest>,
 }
@@ -69,8 +69,10 @@ struct Speaks {
     speaks: Option<String>,
 }
 
-fn dialect(clause: Speaks) -> Result<Dialect, Wrong> {
-    let speaks = clause.speaks.ok_or_else(|| Wrong::with("`dialect` needs a protocol", "write `dialect(recon)`"))?;
+fn dialect(clause: Speaks) -> Result<&'static Dialect, Wrong> {
+    let like = Dialect::example();
+    let speaks =
+        clause.speaks.ok_or_else(|| Wrong::with("`dialect` needs a protocol", format!("write `dialect({like})`")))?;
     Dialect::named(&speaks).map_err(|error| cannot_be(&error.message))
 }
 

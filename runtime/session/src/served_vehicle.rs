@@ -5,8 +5,7 @@ use crate::plan::PlanError;
 use crate::scenario;
 use albacore_geometry::TangentFrame;
 use albacore_lang::Script;
-use albacore_link::Dialect;
-use albacore_link::recon::{Route, Rows, Server};
+use albacore_link::{Dialect, LinkError, Route, Rows, Server, Url};
 use albacore_sim::{Scenario, Simulator};
 use albacore_vehicle::Vertical;
 use std::sync::Arc;
@@ -20,7 +19,7 @@ pub struct ServedVehicle {
     /// Its name.
     pub name: String,
     /// What its vehicle speaks, if that is said.
-    pub dialect: Option<Dialect>,
+    pub dialect: Option<&'static Dialect>,
     scenario: Arc<Scenario>,
     frame: TangentFrame,
 }
@@ -56,9 +55,11 @@ impl ServedVehicle {
         Ok(ServedVehicle { scenario: faults.in_scenario(self.scenario)?, ..self })
     }
 
-    /// The vehicle in it, with rows to swim, else the mission of the scenario, else rows all the same: the first from where it
+    /// The vehicle in it at the end of a link, with rows to swim, else the mission of the scenario, else rows all the same: the first from where it
     /// starts and along its heading, at the depth at which it starts, or near the bottom if that is the surface.
-    pub fn far_end(&self, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
+    pub fn far_end(&self, url: &Url, seed: u64, rows: Option<Rows>) -> Result<FarEnd, PlanError> {
+        let side = (url.dialect.server)(&url.settings)
+            .map_err(|LinkError { message, help }| PlanError::Asked(message, Some(help)))?;
         // Its computer is the front seat's: the simulated one gives way to that at once.
         let handover = self.scenario.handover.clone().unwrap_or_default();
         let scenario = Scenario { handover: None, ..(*self.scenario).clone() };
@@ -72,7 +73,7 @@ impl ServedVehicle {
         };
         let route = rows.map(Route::Rows).or(own.map(|own| own.route.clone())).unwrap_or_default();
         let start = simulator.truth().position;
-        let far_end = Server::new(simulator, self.frame, &route, (start, vehicle.heading), vertical);
+        let far_end = Server::new(side, simulator, self.frame, &route, (start, vehicle.heading), vertical);
         Ok(far_end.answering(handover))
     }
 }

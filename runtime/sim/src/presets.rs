@@ -27,7 +27,7 @@ pub fn duck_2003_flat() -> Scenario {
         sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
         vehicle: VehicleSetup { start: place(527.0, -163.5), ..VehicleSetup::default() },
         instruments: InstrumentSetup {
-            navigation: Some(Navigation { walk: 0.05, lbl: Some(Lbl::default()) }),
+            navigation: Some(Navigation { lbl: Some(Lbl::default()), ..Navigation::default() }),
             ..InstrumentSetup::default()
         },
         ..Scenario::default()

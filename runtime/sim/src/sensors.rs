@@ -131,7 +131,7 @@ impl Instruments {
 
     /// Where the vehicle believes to be when it is at a place.
     pub fn position(&self, truth: Point) -> Point {
-        self.navigation.belief(truth).0
+        self.navigation.belief(truth).position
     }
 
     /// The flow that the vehicle knows of, m/s toward.

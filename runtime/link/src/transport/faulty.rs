@@ -2,8 +2,8 @@
 //! of the times that are given. It reads no clock.
 
 use super::Transport;
+use crate::dialect::Framing;
 use crate::error::LinkError;
-use crate::recon::LINE_MAX;
 use serde::{Deserialize, Deserializer, de};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -67,9 +67,9 @@ pub struct Faulty<T> {
 }
 
 impl<T> Faulty<T> {
-    /// What goes wrong with a transport, at time 0.
-    pub fn new(inner: T, faults: Vec<LinkFault>, seed: u64) -> Self {
-        let wire = |way: u64| Wire::new(seed.wrapping_mul(2).wrapping_add(way));
+    /// What goes wrong with a transport on which messages are told apart so, at time 0.
+    pub fn new(inner: T, framing: &'static Framing, faults: Vec<LinkFault>, seed: u64) -> Self {
+        let wire = |way: u64| Wire::new(framing, seed.wrapping_mul(2).wrapping_add(way));
         Faulty { inner, faults, now: Duration::ZERO, coming: wire(0), going: wire(1) }
     }
 
@@ -93,8 +93,8 @@ impl<T: Transport> Transport for Faulty<T> {
         received.and_then(|()| self.send(&[]))
     }
 
-    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
-        self.going.put(lines, self.now, &self.faults);
+    fn send(&mut self, messages: &[u8]) -> Result<(), LinkError> {
+        self.going.put(messages, self.now, &self.faults);
         let mut gone = Vec::new();
         self.going.take(self.now, &mut gone);
         if gone.is_empty() { Ok(()) } else { self.inner.send(&gone) }
@@ -107,6 +107,7 @@ impl<T: Transport> Transport for Faulty<T> {
 
 /// One way of a link.
 struct Wire {
+    framing: &'static Framing,
     random: Random,
     /// The beginning of a message whose end has not been sent.
     begun: Vec<u8>,
@@ -118,8 +119,9 @@ struct Wire {
 }
 
 impl Wire {
-    fn new(seed: u64) -> Self {
+    fn new(framing: &'static Framing, seed: u64) -> Self {
         Wire {
+            framing,
             random: Random(seed),
             begun: Vec::new(),
             under_way: BTreeMap::new(),
@@ -128,13 +130,16 @@ impl Wire {
         }
     }
 
-    /// Sends bytes, however they are cut; a message is a line.
+    /// Sends bytes, however they are cut.
     fn put(&mut self, bytes: &[u8], now: Duration, faults: &[LinkFault]) {
-        for piece in bytes.split_inclusive(|b| *b == b'\n') {
-            self.begun.extend_from_slice(piece);
-            if piece.ends_with(b"\n") || self.begun.len() >= LINE_MAX {
-                let message = std::mem::take(&mut self.begun);
-                self.send(message, now, faults);
+        self.begun.extend_from_slice(bytes);
+        let begun = std::mem::take(&mut self.begun);
+        for message in self.framing.messages(&begun) {
+            let is_whole = (self.framing.first)(message).is_some();
+            if is_whole || message.len() >= self.framing.longest {
+                self.send(message.to_vec(), now, faults);
+            } else {
+                self.begun = message.to_vec();
             }
         }
     }
@@ -231,7 +236,7 @@ mod tests {
 
     /// A hundred messages, one every tenth of a second, and when each line arrives, tenths of a second.
     fn sent(fault: LinkFault, seed: u64) -> Vec<(u64, String)> {
-        let mut wire = Wire::new(seed);
+        let mut wire = Wire::new(&crate::recon::DIALECT.framing, seed);
         let mut arrived = Vec::new();
         for tick in 0..400 {
             let now = Duration::from_millis(100 * tick);

@@ -1,6 +1,7 @@
 //! Serial lines and pseudo terminals.
 
 use super::{LOOK_BYTES, Transport, is_for_later, wait_for};
+use crate::dialect::Framing;
 use crate::error::LinkError;
 use nix::errno::Errno;
 use nix::fcntl::{FcntlArg, OFlag, fcntl};
@@ -18,33 +19,34 @@ pub struct Tty {
     name: String,
     /// The other end of a pair, held open so that a peer that goes does not end the line; a real one has no ends either.
     _slave: Option<TTYPort>,
-    /// The rest of a line that was sent in part: without it the next line would be lost too.
+    framing: &'static Framing,
+    /// The rest of a message that was sent in part: without it the next one would be lost too.
     rest: Vec<u8>,
 }
 
 impl Tty {
     /// Opens a device for us alone. What came before is thrown away.
-    pub fn open(path: &str, baud: u32) -> Result<Self, LinkError> {
+    pub fn open(path: &str, baud: u32, framing: &'static Framing) -> Result<Self, LinkError> {
         let port = TTYPort::open(&serialport::new(path, baud)).map_err(|error| refused(path, baud, &error))?;
-        let tty = Tty::with(port, path.to_string(), None)?;
+        let tty = Tty::with(port, path.to_string(), None, framing)?;
         tty.port.clear(ClearBuffer::All).map_err(|error| refused(path, baud, &error))?;
         Ok(tty)
     }
 
     /// A new pseudo terminal, and the path at which the other end opens it.
-    pub fn pair() -> Result<(Self, String), LinkError> {
+    pub fn pair(framing: &'static Framing) -> Result<(Self, String), LinkError> {
         let failed = |what: String| {
             LinkError::new(format!("no pseudo terminal can be made: {what}"), "look at the system's limit of them")
         };
         let (master, slave) = TTYPort::pair().map_err(|error| failed(error.to_string()))?;
         let path = slave.name().ok_or_else(|| failed("it has no name".to_string()))?;
-        Ok((Tty::with(master, path.clone(), Some(slave))?, path))
+        Ok((Tty::with(master, path.clone(), Some(slave), framing)?, path))
     }
 
-    fn with(port: TTYPort, name: String, slave: Option<TTYPort>) -> Result<Self, LinkError> {
+    fn with(port: TTYPort, name: String, slave: Option<TTYPort>, framing: &'static Framing) -> Result<Self, LinkError> {
         // Otherwise a write waits for a peer that does not read.
         fcntl(port.as_raw_fd(), FcntlArg::F_SETFL(OFlag::O_NONBLOCK)).map_err(|error| gone(&name, error))?;
-        Ok(Tty { port, name, _slave: slave, rest: Vec::new() })
+        Ok(Tty { port, name, _slave: slave, framing, rest: Vec::new() })
     }
 
     /// Writes what the line takes now; gives how much.
@@ -73,17 +75,21 @@ impl Transport for Tty {
         Ok(())
     }
 
-    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
+    fn send(&mut self, messages: &[u8]) -> Result<(), LinkError> {
         let rest = std::mem::take(&mut self.rest);
         let sent = self.write_some(&rest)?;
         if sent < rest.len() {
             self.rest = rest[sent..].to_vec();
             return Ok(());
         }
-        let sent = self.write_some(lines)?;
-        if sent > 0 && sent < lines.len() {
-            let line_end = lines[sent..].iter().position(|b| *b == b'\n').map_or(lines.len(), |at| sent + at + 1);
-            self.rest = if lines[sent - 1] == b'\n' { Vec::new() } else { lines[sent..line_end].to_vec() };
+        let sent = self.write_some(messages)?;
+        let ends = self.framing.messages(messages).scan(0, |end, message| {
+            *end += message.len();
+            Some(*end)
+        });
+        // Of a message that has begun the rest goes first next time; those that have not begun are lost.
+        if let Some(end) = { ends }.find(|end| sent <= *end).filter(|_| sent > 0) {
+            self.rest = messages[sent..end].to_vec();
         }
         Ok(())
     }
@@ -131,38 +137,40 @@ fn refused(path: &str, baud: u32, error: &serialport::Error) -> LinkError {
 mod tests {
     use super::*;
 
+    const FRAMING: &Framing = &crate::recon::DIALECT.framing;
+
     #[test]
     fn bytes_go_both_ways_and_only_one_may_hold_the_port() {
-        let (mut master, path) = Tty::pair().unwrap();
-        let mut slave = Tty::open(&path, 57_600).unwrap();
+        let (mut master, path) = Tty::pair(FRAMING).unwrap();
+        let mut slave = Tty::open(&path, 57_600, FRAMING).unwrap();
         master.send(b"\x00\xff\x11\x13#E\r\n").unwrap();
         let mut came = Vec::new();
         while came.len() < 8 {
             slave.receive(&mut came, Duration::from_millis(100)).unwrap();
         }
         assert_eq!(came, b"\x00\xff\x11\x13#E\r\n");
-        let busy = Tty::open(&path, 57_600).err().unwrap();
+        let busy = Tty::open(&path, 57_600, FRAMING).err().unwrap();
         assert!(busy.message.contains("in use by another program"), "{busy}");
     }
 
     #[test]
     fn what_cannot_be_opened_says_why() {
-        let absent = Tty::open("/dev/there-is-no-such-port", 57_600).err().unwrap();
+        let absent = Tty::open("/dev/there-is-no-such-port", 57_600, FRAMING).err().unwrap();
         assert!(absent.message.contains("there is no port"), "{absent}");
-        let file = Tty::open("/dev/null", 57_600).err().unwrap();
+        let file = Tty::open("/dev/null", 57_600, FRAMING).err().unwrap();
         assert!(file.message.contains("cannot be opened"), "{file}");
     }
 
     #[test]
     fn a_peer_that_does_not_read_holds_nobody() {
-        let (mut master, path) = Tty::pair().unwrap();
+        let (mut master, path) = Tty::pair(FRAMING).unwrap();
         let line = [b'x'; 200].map(|b| b).iter().copied().chain(*b"\n").collect::<Vec<u8>>();
         for _ in 0..1000 {
             master.send(&line).unwrap();
         }
         assert!(master.rest.len() <= line.len());
         // What lay in the line is thrown away by who opens it, and whole lines follow half a one.
-        let mut slave = Tty::open(&path, 57_600).unwrap();
+        let mut slave = Tty::open(&path, 57_600, FRAMING).unwrap();
         let mut came = Vec::new();
         while came.iter().filter(|b| **b == b'\n').count() < 3 {
             master.send(&line).unwrap();
@@ -174,8 +182,8 @@ mod tests {
 
     #[test]
     fn a_line_that_is_gone_is_an_error() {
-        let (master, path) = Tty::pair().unwrap();
-        let mut slave = Tty::open(&path, 57_600).unwrap();
+        let (master, path) = Tty::pair(FRAMING).unwrap();
+        let mut slave = Tty::open(&path, 57_600, FRAMING).unwrap();
         drop(master);
         let error = slave.receive(&mut Vec::new(), Duration::from_millis(100)).unwrap_err();
         assert!(error.message.contains("is gone"), "{error}");

@@ -1,17 +1,16 @@
 //! UDP, one message a datagram.
 
 use super::{LOOK_BYTES, Transport, wait_for};
+use crate::dialect::Framing;
 use crate::error::LinkError;
-use crate::recon::{Deframer, LINE_MAX};
 use std::io::ErrorKind;
 use std::net::{SocketAddr, ToSocketAddrs, UdpSocket};
 use std::os::fd::AsRawFd;
 use std::time::Duration;
 
-/// The most that one look takes in.
-const LOOK_DATAGRAMS: usize = LOOK_BYTES / LINE_MAX;
-/// ... and throws away, because they come from someone else: who babbles cannot crowd out the peer.
-const LOOK_STRAY: usize = 64 * LOOK_DATAGRAMS;
+/// So many times as many datagrams as one look takes in it throws away, because they come from someone else: who babbles cannot crowd
+/// out the peer.
+const STRAY: usize = 64;
 
 /// A socket, and who is at the other end.
 pub struct Udp {
@@ -21,21 +20,22 @@ pub struct Udp {
     serves: bool,
     /// The peer drives: nobody else is heard.
     held: bool,
+    framing: &'static Framing,
 }
 
 impl Udp {
     /// To a vehicle at a host's port, from a port of ours; 0 is any.
-    pub fn call(host: &str, port: u16, local: u16) -> Result<Self, LinkError> {
+    pub fn call(host: &str, port: u16, local: u16, framing: &'static Framing) -> Result<Self, LinkError> {
         let peer = resolved(host, port)?;
         let any: SocketAddr = if peer.is_ipv4() { ([0, 0, 0, 0], local).into() } else { ([0_u16; 8], local).into() };
-        Ok(Udp { socket: bound(any)?, peer: Some(peer), serves: false, held: false })
+        Ok(Udp { socket: bound(any)?, peer: Some(peer), serves: false, held: false, framing })
     }
 
     /// For controllers, at an address and port of ours; gives where they find us.
-    pub fn serve(host: &str, port: u16) -> Result<(Self, SocketAddr), LinkError> {
+    pub fn serve(host: &str, port: u16, framing: &'static Framing) -> Result<(Self, SocketAddr), LinkError> {
         let socket = bound(resolved(host, port)?)?;
         let at = socket.local_addr().map_err(|error| unusable(&error.to_string()))?;
-        Ok((Udp { socket, peer: None, serves: true, held: false }, at))
+        Ok((Udp { socket, peer: None, serves: true, held: false, framing }, at))
     }
 }
 
@@ -46,7 +46,7 @@ impl Udp {
             return self.peer.is_none_or(|peer| peer.ip() == from.ip());
         }
         let known = self.peer == Some(from);
-        let heard = known || !self.held && first && is_message(datagram);
+        let heard = known || !self.held && first && (self.framing.is_message)(datagram);
         if heard {
             self.peer = Some(from);
         }
@@ -54,29 +54,21 @@ impl Udp {
     }
 }
 
-/// Whether a datagram has a frame in it.
-fn is_message(datagram: &[u8]) -> bool {
-    let mut found = false;
-    let mut deframer = Deframer::default();
-    deframer.push(datagram, |frame| found |= frame.is_ok());
-    deframer.push(b"\n", |frame| found |= frame.is_ok());
-    found
-}
-
 impl Transport for Udp {
     fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError> {
         wait_for(self.socket.as_raw_fd(), wait);
-        let mut buffer = [0; LINE_MAX];
+        let mut buffer = vec![0; self.framing.longest];
+        let most = LOOK_BYTES / buffer.len();
         let (mut taken, mut stray) = (0, 0);
-        while taken < LOOK_DATAGRAMS && stray < LOOK_STRAY {
+        while taken < most && stray < STRAY * most {
             match self.socket.recv_from(&mut buffer) {
                 Ok((count, from)) if !self.is_heard(&buffer[..count], from, into.is_empty()) => stray += 1,
                 Ok((count, _)) => {
                     taken += 1;
                     into.extend_from_slice(&buffer[..count]);
                     // A datagram is a message: what it lacks the next one does not bring.
-                    if !buffer[..count].ends_with(b"\n") {
-                        into.push(b'\n');
+                    if !buffer[..count].ends_with(self.framing.end) {
+                        into.extend_from_slice(self.framing.end);
                     }
                 }
                 // Nobody listens yet at the other end: that is no more than silence.
@@ -88,10 +80,10 @@ impl Transport for Udp {
         Ok(())
     }
 
-    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
+    fn send(&mut self, messages: &[u8]) -> Result<(), LinkError> {
         let Some(peer) = self.peer else { return Ok(()) };
-        for line in lines.split_inclusive(|b| *b == b'\n') {
-            match self.socket.send_to(line, peer) {
+        for message in self.framing.messages(messages) {
+            match self.socket.send_to(message, peer) {
                 // A datagram that does not get out is lost, like one that gets lost on its way.
                 Err(error) if matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::AddrNotAvailable) => {
                     return Err(unusable(&error.to_string()));
@@ -145,6 +137,8 @@ fn unusable(what: &str) -> LinkError {
 mod tests {
     use super::*;
 
+    const FRAMING: &Framing = &crate::recon::DIALECT.framing;
+
     fn heard(vehicle: &mut Udp) -> Vec<u8> {
         let mut came = Vec::new();
         vehicle.receive(&mut came, Duration::from_millis(100)).unwrap();
@@ -154,8 +148,8 @@ mod tests {
     #[test]
     fn who_drives_is_the_only_one_that_is_heard_whoever_speaks() {
         let hello = crate::recon::seal("V,one");
-        let (mut vehicle, at) = Udp::serve("127.0.0.1", 0).unwrap();
-        let controller = || Udp::call("127.0.0.1", at.port(), 0).unwrap();
+        let (mut vehicle, at) = Udp::serve("127.0.0.1", 0, FRAMING).unwrap();
+        let controller = || Udp::call("127.0.0.1", at.port(), 0, FRAMING).unwrap();
         let (mut first, mut second) = (controller(), controller());
         second.send(b"garbage\n").unwrap();
         assert!(heard(&mut vehicle).is_empty(), "who makes no sense is no peer");
@@ -180,9 +174,9 @@ mod tests {
 
     #[test]
     fn a_datagram_is_a_line() {
-        let (mut vehicle, at) = Udp::serve("127.0.0.1", 0).unwrap();
+        let (mut vehicle, at) = Udp::serve("127.0.0.1", 0, FRAMING).unwrap();
         vehicle.send(b"to nobody\n").unwrap();
-        let mut controller = Udp::call("127.0.0.1", at.port(), 0).unwrap();
+        let mut controller = Udp::call("127.0.0.1", at.port(), 0, FRAMING).unwrap();
         let hello = crate::recon::seal("V,one");
         controller.send(format!("{hello}two").as_bytes()).unwrap();
         let mut came = Vec::new();
@@ -200,10 +194,10 @@ mod tests {
 
     #[test]
     fn a_port_in_use_and_an_unknown_host_are_told() {
-        let (_held, at) = Udp::serve("127.0.0.1", 0).unwrap();
-        let error = Udp::serve("127.0.0.1", at.port()).err().unwrap();
+        let (_held, at) = Udp::serve("127.0.0.1", 0, FRAMING).unwrap();
+        let error = Udp::serve("127.0.0.1", at.port(), FRAMING).err().unwrap();
         assert!(error.message.contains("in use by another program"), "{error}");
-        let error = Udp::serve("203.0.113.1", 23456).err().unwrap();
+        let error = Udp::serve("203.0.113.1", 23456, FRAMING).err().unwrap();
         assert!(error.help.contains("udp:0.0.0.0:23456"), "{error}");
     }
 }

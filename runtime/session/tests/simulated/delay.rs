@@ -4,8 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Heading, Point};
-use albacore_link::recon::{ReconVehicle, Route, Server};
-use albacore_link::{LinkError, Transport, Url};
+use albacore_link::{LinkError, LinkVehicle, Route, Server, Transport, Url, recon};
 use albacore_session::{Outcome, Plan, Rows, Run, Source, load_text};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::Vertical;
@@ -82,7 +81,7 @@ fn run(script: &str, delay: usize, slowness: f64) -> (Outcome, String, f64, Dura
     let seen = Arc::new(Mutex::new(Seen::default()));
     // Rows of its own that keep it near the middle, for as long as nobody drives it.
     let rows: Route = "10x10x40".parse::<Rows>().unwrap().into();
-    let mut vehicle = Server::new(simulator, frame, &rows, start, Vertical::Depth(4.0));
+    let mut vehicle = Server::new(recon::server(), simulator, frame, &rows, start, Vertical::Depth(4.0));
     let mut said = |_| {
         vehicle.tick(b"").unwrap();
         vehicle.take_output()
@@ -100,7 +99,7 @@ fn run(script: &str, delay: usize, slowness: f64) -> (Outcome, String, f64, Dura
     let clock = Arc::clone(&seen);
     let now = Box::new(move || clock.lock().unwrap().now);
     let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
-    let vehicle = ReconVehicle::new(url, Box::new(desk), frame, 1.0, now);
+    let vehicle = LinkVehicle::new(url, Box::new(desk), frame, 1.0, now).unwrap();
     let mut run = Run::on_link(&plan, 1, Box::new(vehicle)).unwrap();
     let outcome = run.to_end();
     assert!(!run.release_failed(), "the answer is waited for as long as the link takes");

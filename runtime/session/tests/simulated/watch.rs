@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_geometry::{Geodetic, TangentFrame};
-use albacore_link::recon::{Controller, Rows, Server};
+use albacore_link::{Controller, Rows, Server, recon};
 use albacore_session::{Outcome, Plan, Run, load};
 use albacore_sim::Simulator;
 use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError, Vertical};
@@ -98,8 +98,10 @@ impl Pair {
         let (frame, start) = (plan.frame().unwrap_or(somewhere), simulator.truth());
         let vertical = Vertical::Depth(start.depth.max(1.0));
         let rows: Rows = "200x30x6".parse().unwrap();
-        let vehicle = Server::new(simulator, frame, &rows.into(), (start.position, start.heading), vertical);
-        let mut pair = Pair { vehicle, controller: Controller::new(frame), to_vehicle: Vec::new() };
+        let vehicle =
+            Server::new(recon::server(), simulator, frame, &rows.into(), (start.position, start.heading), vertical);
+        let mut pair =
+            Pair { vehicle, controller: Controller::new(recon::controller(), frame), to_vehicle: Vec::new() };
         // Under way in its own mission: one that stands still has no course.
         for _ in 0..UNDER_WAY_TICKS {
             pair.sense(&mut Snapshot::default()).unwrap();

@@ -6,6 +6,7 @@ use super::positioning::Positioning;
 use super::{Instrument, InstrumentSetup, Surroundings};
 use crate::hull::Motion;
 use albacore_geometry::{Heading, Point, Vector};
+use albacore_navigation::Estimate;
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::channels::{COURSE, HEADING, POSITION, SPEED};
 
@@ -31,11 +32,12 @@ impl OnboardNavigation {
     pub fn step(&mut self, tick: u64, motion: &Motion, altitude: f64) {
         let velocity = || self.velocity(tick, motion.ground_velocity, motion.heading);
         let measured = self.dvl.has_lock(altitude).then(velocity);
-        self.positioning.step(tick, measured, motion.position, motion.depth);
+        let heading = self.compass(tick, motion.heading);
+        self.positioning.step(tick, measured, heading, motion.position, motion.depth);
     }
 
-    /// Where it believes that a vehicle is which is at a place, and the standard deviation that it expects of that, m an axis.
-    pub fn belief(&self, truth: Point) -> (Point, f64) {
+    /// Where it believes that a vehicle is which is at a place.
+    pub fn belief(&self, truth: Point) -> Estimate {
         self.positioning.belief(truth)
     }
 
@@ -57,7 +59,7 @@ impl OnboardNavigation {
 impl Instrument for OnboardNavigation {
     fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
         let (tick, truth) = (around.tick, around.truth);
-        let (position, sigma) = self.belief(truth.position);
+        let Estimate { position, sigma } = self.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
         let velocity = self.velocity(tick, around.ground_velocity, truth.heading);
         let velocity = self.dvl.sample(tick, truth.altitude, velocity);

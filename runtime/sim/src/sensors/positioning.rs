@@ -1,4 +1,4 @@
-//! What the vehicle believes of its position: dead reckoning with noisy velocity, and noisy acoustic fixes.
+//! What the vehicle believes of its position: a navigator that is given a noisy velocity, and noisy fixes.
 
 use super::InstrumentSetup;
 use super::delay::Delay;
@@ -6,40 +6,23 @@ use crate::noise::{Noise, Stream};
 use crate::scenario::ScenarioIssues;
 use albacore_geometry::math::TAU;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_navigation::DeadReckoning;
+use albacore_navigation::{Estimate, Fix, Navigator, NavigatorSetup, Sensed};
 use albacore_vehicle::TICK_S;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
-/// How the vehicle knows its position: dead reckoning from a known start, and acoustic fixes.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+/// How the vehicle knows its position: a navigator that begins at a known start, and acoustic fixes.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Navigation {
-    /// Growth of the position error, m/s^0.5: its standard deviation an axis after t seconds is this times the root of t.
-    /// Default 0.05. 0 is perfect.
-    #[serde(default, rename = "dead_reckoning", deserialize_with = "walk")]
-    pub walk: f64,
+    /// What makes a position of what is sensed. Default dead reckoning whose error grows by 0.05 m/s^0.5.
+    #[serde(default, rename = "filter")]
+    pub navigator: NavigatorSetup,
     /// Long-baseline fixes. Default none.
     #[serde(rename = "fixes")]
     pub lbl: Option<Lbl>,
 }
 
-/// Dead reckoning as a script says it.
-#[derive(Deserialize)]
-struct Growth {
-    walk: f64,
-}
-
-fn walk<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    Growth::deserialize(from).map(|growth| growth.walk)
-}
-
-impl Default for Navigation {
-    fn default() -> Self {
-        Navigation { walk: 0.05, lbl: None }
-    }
-}
-
-/// Long-baseline acoustic fixes, applied as jumps.
+/// Long-baseline acoustic fixes.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lbl {
@@ -47,7 +30,7 @@ pub struct Lbl {
     pub every: f64,
     /// Standard deviation of a fix, m an axis. Default 2.
     pub sigma: f64,
-    /// A fix is taken only if it disagrees with dead reckoning by more than this, m. Default 0: always.
+    /// A fix is taken only if it disagrees with the estimate by more than this, m. Default 0: always.
     pub gate: f64,
     /// The share of fixes that are outliers: reflections, heard for the direct way. Default 0.
     pub outliers: f64,
@@ -65,7 +48,7 @@ impl Default for Lbl {
     }
 }
 
-/// Satellite fixes at the surface, taken by dead reckoning.
+/// Satellite fixes at the surface.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gps {
@@ -89,11 +72,11 @@ impl Default for Gps {
 
 /// The vehicle's own navigation, or the truth where a scenario has none.
 #[derive(Clone, Debug)]
-pub struct Positioning(Option<Reckoned>);
+pub struct Positioning(Option<Navigated>);
 
 #[derive(Clone, Debug)]
-struct Reckoned {
-    reckoning: DeadReckoning,
+struct Navigated {
+    navigator: Box<dyn Navigator>,
     /// Standard deviation of the measured velocity, m/s an axis.
     deviation: f64,
     velocity_noise: Noise,
@@ -112,10 +95,10 @@ struct Reckoned {
 impl Positioning {
     /// Begins at the true start: the last thing a vehicle had before it dived was a satellite fix.
     pub fn new(navigation: Option<&Navigation>, gps: Option<&Gps>, start: Point, seed: u64) -> Self {
-        Positioning(navigation.map(|navigation| Reckoned {
-            reckoning: DeadReckoning::new(start, navigation.walk),
-            // White noise of this deviation, held over a tick, integrates to a random walk of `walk`.
-            deviation: navigation.walk / TICK_S.sqrt(),
+        Positioning(navigation.map(|navigation| Navigated {
+            navigator: navigation.navigator.begin(start),
+            // White noise of this deviation, held over a tick, integrates to the random walk.
+            deviation: navigation.navigator.velocity_walk() / TICK_S.sqrt(),
             velocity_noise: Noise::new(seed, Stream::GroundVelocity),
             lbl: navigation.lbl.clone(),
             fix_noise: Noise::new(seed, Stream::Lbl),
@@ -128,38 +111,36 @@ impl Positioning {
         }))
     }
 
-    /// Lets one tick go by, in which the vehicle measured a velocity over ground (m/s), if it could, and came to a point and a
-    /// depth (m).
-    pub fn step(&mut self, tick: u64, measured: Option<Vector>, position: Point, depth: f64) {
+    /// Lets one tick go by, in which the vehicle measured a velocity over ground (m/s), if it could, and its heading, and came to a
+    /// point and a depth (m).
+    pub fn step(&mut self, tick: u64, measured: Option<Vector>, heading: Heading, position: Point, depth: f64) {
         let Some(own) = &mut self.0 else { return };
         let velocity = measured.unwrap_or(own.velocity);
         own.velocity = velocity;
         let pair = |noise: Noise| Vector::new(noise.gaussian(2 * tick), noise.gaussian(2 * tick + 1));
-        if own.deviation > 0.0 {
-            own.reckoning.advance(velocity + own.deviation * pair(own.velocity_noise), TICK_S);
-        } else {
-            own.reckoning.advance(velocity, TICK_S);
-        }
+        let ground_velocity =
+            if own.deviation > 0.0 { velocity + own.deviation * pair(own.velocity_noise) } else { velocity };
+        own.navigator.predict(&Sensed { ground_velocity, heading }, TICK_S);
         if let Some(lbl) = &own.lbl {
             let ticks = ((lbl.every / TICK_S).round() as u64).max(1);
             let fix = || position + lbl.sigma * pair(own.fix_noise) + lbl_error(lbl, tick, own.outliers);
-            if let Some(fix) = own.lbl_fixes.pass(tick, tick.is_multiple_of(ticks).then(fix)) {
-                own.reckoning.fix(fix, lbl.sigma, lbl.gate);
+            if let Some(position) = own.lbl_fixes.pass(tick, tick.is_multiple_of(ticks).then(fix)) {
+                own.navigator.update(&Fix { position, sigma: lbl.sigma, gate: lbl.gate });
             }
         }
         if let Some(gps) = &own.gps {
             let ticks = ((gps.every / TICK_S).round() as u64).max(1);
             let fix = || position + gps.sigma * pair(own.gps_noise) + gps.bias;
             let hears = depth < gps.above && tick.is_multiple_of(ticks);
-            if let Some(fix) = own.gps_fixes.pass(tick, hears.then(fix)) {
-                own.reckoning.fix(fix, gps.sigma, 0.0);
+            if let Some(position) = own.gps_fixes.pass(tick, hears.then(fix)) {
+                own.navigator.update(&Fix { position, sigma: gps.sigma, gate: 0.0 });
             }
         }
     }
 
-    /// Where the vehicle believes it is, and the standard deviation it expects of that, m an axis.
-    pub fn belief(&self, truth: Point) -> (Point, f64) {
-        self.0.as_ref().map_or((truth, 0.0), |own| (own.reckoning.position(), own.reckoning.sigma()))
+    /// Where the vehicle believes it is.
+    pub fn belief(&self, truth: Point) -> Estimate {
+        self.0.as_ref().map_or(Estimate { position: truth, sigma: 0.0 }, |own| own.navigator.estimate())
     }
 }
 
@@ -199,10 +180,13 @@ const GPS_BIAS_MAX: f64 = 1000.0;
 mod tests {
     use super::*;
 
+    /// Dead reckoning with a perfect velocity.
+    const PERFECT: NavigatorSetup = NavigatorSetup::DeadReckoning { walk: 0.0 };
+
     /// Over many runs: the error before the first fix is the walk's, after it the fix's, and sigma tells both.
     #[test]
     fn sigma_is_the_error_to_expect() {
-        let navigation = Navigation { walk: 0.05, lbl: Some(Lbl::default()) };
+        let navigation = Navigation { lbl: Some(Lbl::default()), ..Navigation::default() };
         let mut errors = [0.0; 2];
         let mut sigmas = [0.0; 2];
         for seed in 0..400 {
@@ -210,9 +194,9 @@ mod tests {
             let velocity = Vector::new(2.0, 0.0);
             for tick in 1..=1200 {
                 let truth = Point::new(0.2 * tick as f64, 0.0);
-                own.step(tick, Some(velocity), truth, 3.0);
+                own.step(tick, Some(velocity), Heading::NORTH, truth, 3.0);
                 if tick >= 1199 {
-                    let (position, sigma) = own.belief(truth);
+                    let Estimate { position, sigma } = own.belief(truth);
                     let error = position - truth;
                     errors[tick as usize - 1199] += error.dot(error) / 800.0;
                     sigmas[tick as usize - 1199] = sigma;
@@ -227,10 +211,10 @@ mod tests {
 
     /// Where a vehicle at rest believes to be after each fix.
     fn believed(lbl: Option<Lbl>, gps: Option<&Gps>, depth: f64) -> Vec<Vector> {
-        let mut own = Positioning::new(Some(&Navigation { walk: 0.0, lbl }), gps, Point::ORIGIN, 5);
+        let mut own = Positioning::new(Some(&Navigation { navigator: PERFECT, lbl }), gps, Point::ORIGIN, 5);
         let fixes = (1..=60_000).filter_map(|tick| {
-            own.step(tick, Some(Vector::ZERO), Point::ORIGIN, depth);
-            (tick % 10 == 0).then(|| own.belief(Point::ORIGIN).0 - Point::ORIGIN)
+            own.step(tick, Some(Vector::ZERO), Heading::NORTH, Point::ORIGIN, depth);
+            (tick % 10 == 0).then(|| own.belief(Point::ORIGIN).position - Point::ORIGIN)
         });
         fixes.collect()
     }
@@ -250,12 +234,13 @@ mod tests {
     #[test]
     fn a_late_fix_is_of_where_the_vehicle_was() {
         let lbl = Lbl { every: 10.0, sigma: 0.0, delay: 2.0, ..Lbl::default() };
-        let mut own = Positioning::new(Some(&Navigation { walk: 0.0, lbl: Some(lbl) }), None, Point::ORIGIN, 1);
+        let mut own =
+            Positioning::new(Some(&Navigation { navigator: PERFECT, lbl: Some(lbl) }), None, Point::ORIGIN, 1);
         let at = |tick: u64| Point::new(0.2 * tick as f64, 0.0);
         let errors: Vec<f64> = (1..=130)
             .map(|tick| {
-                own.step(tick, Some(Vector::new(2.0, 0.0)), at(tick), 3.0);
-                (own.belief(at(tick)).0 - at(tick)).north
+                own.step(tick, Some(Vector::new(2.0, 0.0)), Heading::NORTH, at(tick), 3.0);
+                (own.belief(at(tick)).position - at(tick)).north
             })
             .collect();
         assert!(errors[118].abs() < 1e-9 && (errors[119] + 4.0).abs() < 1e-9, "{:?}", &errors[115..]);
@@ -274,9 +259,9 @@ mod tests {
 
     #[test]
     fn without_a_velocity_the_last_one_holds() {
-        let mut own = Positioning::new(Some(&Navigation { walk: 0.0, lbl: None }), None, Point::ORIGIN, 1);
-        (1..=10).for_each(|tick| own.step(tick, Some(Vector::new(2.0, 0.0)), Point::ORIGIN, 3.0));
-        (11..=20).for_each(|tick| own.step(tick, None, Point::ORIGIN, 3.0));
-        assert!(own.belief(Point::ORIGIN).0.distance(Point::new(4.0, 0.0)) < 1e-9);
+        let mut own = Positioning::new(Some(&Navigation { navigator: PERFECT, lbl: None }), None, Point::ORIGIN, 1);
+        (1..=10).for_each(|tick| own.step(tick, Some(Vector::new(2.0, 0.0)), Heading::NORTH, Point::ORIGIN, 3.0));
+        (11..=20).for_each(|tick| own.step(tick, None, Heading::NORTH, Point::ORIGIN, 3.0));
+        assert!(own.belief(Point::ORIGIN).position.distance(Point::new(4.0, 0.0)) < 1e-9);
     }
 }

@@ -105,7 +105,7 @@ fn a_profiler_looks_as_often_as_told_and_a_log_errs_ahead() {
 fn a_fix_makes_the_position_jump() {
     let lbl = Lbl { every: 60.0, ..Lbl::default() };
     let mut navigated = scenario();
-    navigated.instruments.navigation = Some(Navigation { walk: 0.05, lbl: Some(lbl) });
+    navigated.instruments.navigation = Some(Navigation { lbl: Some(lbl), ..Navigation::default() });
     let positions = driven(&navigated, 100, "position").unwrap();
     assert_eq!(positions[0][2], 0.0);
     assert!((positions[599][2] - 0.05 * 59.9_f64.sqrt()).abs() < 1e-9);

@@ -1,8 +1,8 @@
 //! How long it takes until what was said is known to have been heard: the round trip over the link. What the vehicle says is
 //! no older than that beyond its stamp, and what it is told comes no later.
 //!
-//! The dialect's answers have no numbers: a version (`#V`) may be the answer to any question, or to none. What comes back as it
-//! was said is the heading goal, in `#S` and in the echo. So its last decimal is a mark: about once a second, when the last mark
+//! What comes back as it was said, on any link on which a vehicle tells what it holds, is the heading goal: in its states, and in
+//! the echo of a command where there is one. So its last decimal is a mark: about once a second, when the last mark
 //! has come back, another is sent, no more than 0.1 degrees beside the course. A mark that comes back proves that what was sent
 //! until then was heard; one that has not come back counts for as long as it has waited.
 //!
@@ -36,7 +36,7 @@ pub struct Moment {
 /// Where the vehicle tells a heading goal.
 #[derive(Clone, Copy, Debug)]
 pub enum GoalSource {
-    /// In `#S`: it holds it.
+    /// In a state: it holds it.
     State,
     /// In the echo of a command: it has heard it, whether it holds it or protects itself.
     Echo,
@@ -211,10 +211,11 @@ impl RoundTrip {
     }
 
     /// Whether a state with this stamp was made after a time of the host's clock, as far as the two clocks are known. What comes through
-    /// a buffer after a pause is older than it looks, and all by a link's delay, which is no more than the quickest round trip.
+    /// a buffer after a pause is older than it looks, and all by a link's delay, which is no more than the quickest round trip: until one
+    /// is known, none was.
     pub fn made_after(&self, tick: u64, host: Duration) -> bool {
-        let made = self.ahead.map(|ahead| tick as i64 + ahead - self.quickest.unwrap_or(0) as i64);
-        made.is_none_or(|made| made >= host_ticks(host, self.rate) as i64)
+        let (Some(ahead), Some(quickest)) = (self.ahead, self.quickest) else { return false };
+        tick as i64 + ahead - quickest as i64 >= host_ticks(host, self.rate) as i64
     }
 
     /// By how much the host's clock is ahead of the stamps, ticks.

@@ -1,10 +1,11 @@
 //! The vehicle's time stamps, as a count of ticks.
 
-use super::fields::DAY_MS;
+/// A day, in the milliseconds that stamps are counted in.
+pub(crate) const DAY_MS: u32 = 86_400_000;
 
 /// Milliseconds in a tick.
 const TICK_MS: u64 = 100;
-/// A stamp that is further from the last one is doubted: `#S` comes about nine times a second.
+/// A stamp that is further from the last one is doubted: states come some times a second.
 const FOLLOWS_MS: u32 = 2_000;
 /// A stamp that is further still is a clock that was set, and not time that has passed: in this time, 5 s, whoever is not
 /// heard has been left.
@@ -37,6 +38,11 @@ pub enum Stamp {
 }
 
 impl VehicleTime {
+    /// The tick of the last stamp that was believed.
+    pub fn tick(&self) -> u64 {
+        (self.passed_ms + TICK_MS / 2) / TICK_MS
+    }
+
     /// Takes in a stamp, in milliseconds of the day.
     pub fn hear(&mut self, ms: u32) -> Stamp {
         let Some(last) = self.last_ms else {
@@ -51,7 +57,7 @@ impl VehicleTime {
         let ahead = since(last, ms);
         let set = ahead > PASSED_MS;
         self.passed_ms += if set { TICK_MS } else { u64::from(ahead) };
-        let tick = (self.passed_ms + TICK_MS / 2) / TICK_MS;
+        let tick = self.tick();
         if set { Stamp::ClockSet(tick) } else { Stamp::Tick(tick) }
     }
 

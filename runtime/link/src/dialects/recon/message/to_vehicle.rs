@@ -1,7 +1,7 @@
 //! What a controller says.
 
+use super::super::fields::{fixed, fixed_down, fixed_up, number, ranges, within};
 use super::{Malformed, compass, compass_text, lettered};
-use crate::recon::fields::{fixed, fixed_down, fixed_up, number, ranges, within};
 use albacore_geometry::Heading;
 use albacore_geometry::math::{degrees, radians};
 use std::fmt;

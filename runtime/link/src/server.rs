@@ -1,47 +1,28 @@
-//! The vehicle's side: its own computer in the front seat, which follows a route of its own until a guest asks to drive.
+//! The vehicle's end of a link: its own computer in the front seat, which follows a route of its own until a guest asks to drive.
 //!
-//! It serves any [`Vehicle`], one tick at a time, and is a function of the bytes that come in these ticks. On release, and when
-//! the guest is silent for 5 s, it returns to the point where the guest took over and goes on with its leg (the 2003 paper).
+//! It serves any [`Vehicle`], one tick at a time, and is a function of what is said to it in these ticks. On release, and when
+//! the guest is silent for too long, it returns to the point where the guest took over and goes on with its leg (the 2003 paper).
 
-use super::controller::FULL_SCALE_VOLTS;
-use super::fields::DAY_MS;
-use super::frame::{Deframer, seal};
-use super::grounding;
-use super::happening::{Happening, shortened};
-use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
-use super::mode::{Mode, Phase};
-use super::seawater;
+mod happening;
+mod side;
+
+pub use happening::Happening;
+pub use side::{Goal, Refusal, Report, Request, Senses, ServerSide, StateReport};
+
+use crate::grounding;
+use crate::set_point::SetPoint;
+use crate::status::{Phase, Status};
 use albacore_front_seat::{FrontSeat, Handover, Known, Milestone, OwnPlan};
-use albacore_geometry::math::{cos, sin};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::Route;
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_vehicle::channels::{
-    ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
-};
+use albacore_vehicle::channels::{ALTITUDE, BATTERY, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED};
 use albacore_vehicle::{Beyond, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
-/// Ticks without a message after which a guest has left: 5 s (public controllers keep it alive at 0.2 Hz at least).
-pub(super) const TIMEOUT_TICKS: u64 = 50;
 /// Ticks without a message after which who serves faster than real time should wait for the guest.
 const PATIENCE_TICKS: u64 = 10;
 /// Bytes that are taken in of a tick: what a line of 819,200 baud brings in one.
 const TAKEN_MAX: usize = 8192;
-/// Ticks between messages of the profiler.
-const ADCP_TICKS: u64 = 10;
-/// The day's time at tick 0: noon.
-const BEGIN_MS: u64 = 12 * 3_600_000;
-/// Turns of the propeller a minute for 1 m/s. Ours: 1500 turns for the 2.6 m/s of a REMUS 100.
-const RPM_AT_1_MPS: f64 = 1500.0 / 2.6;
-/// The battery of a REMUS 100, Wh.
-const CAPACITY_WH: f64 = 1000.0;
-
-/// Numbers of `#E`. Ours: the sources print one sample, of another error.
-const NOT_IN_OVERRIDE: u32 = 1;
-const OUT_OF_BOUNDS: u32 = 2;
-const NOT_SERVED: u32 = 3;
-// 4 and 5 tell of the bottom: `grounding`.
-const NOT_UNDERSTOOD: u32 = 6;
 
 /// What a guest has asked for; it holds until something else is asked for.
 #[derive(Clone, Copy)]
@@ -54,27 +35,24 @@ struct Goals {
 }
 
 impl Goals {
+    /// The same with one of them changed.
+    fn holding(self, set_point: SetPoint) -> Self {
+        match set_point {
+            SetPoint::Heading(heading) => Goals { heading, rate: 0.0, ..self },
+            SetPoint::Speed(speed) => Goals { speed, ..self },
+            SetPoint::Depth(depth) => Goals { vertical: Vertical::Depth(depth), ..self },
+            SetPoint::Altitude(altitude) => Goals { vertical: Vertical::Altitude(altitude), ..self },
+        }
+    }
+
     fn command(&self) -> Command {
         Command { heading: self.heading, speed: self.speed, vertical: self.vertical }
     }
 }
 
-/// What is known of the vehicle.
-#[derive(Clone, Copy, Default)]
-struct Senses {
-    position: Point,
-    course: Heading,
-    heading: Heading,
-    turn_rate: f64,
-    speed: f64,
-    depth: f64,
-    altitude: Option<f64>,
-    flow: Option<Vector>,
-    battery: f64,
-}
-
 /// A vehicle and its own computer, served to a guest.
 pub struct Server<V> {
+    side: Box<dyn ServerSide>,
     vehicle: V,
     frame: TangentFrame,
     /// Its own plan, and how it answers who asks to drive.
@@ -84,8 +62,6 @@ pub struct Server<V> {
     left: Option<u64>,
     /// What the guest wants who drives; none while the vehicle follows its own plan.
     goals: Option<Goals>,
-    deframer: Deframer,
-    heard: Vec<ToVehicle>,
     silent: u64,
     tick: u64,
     snapshot: Snapshot,
@@ -98,27 +74,31 @@ pub struct Server<V> {
     aground: bool,
     /// Why something was refused last, and when.
     refused: Option<(&'static str, u64)>,
-    /// Whether somebody asks for its version.
-    asked_version: bool,
     out: Vec<u8>,
     happenings: Vec<Happening>,
 }
 
 impl<V: Vehicle> Server<V> {
-    /// The computer of a vehicle that starts at a place and heading of a frame, and holds a depth or an altitude on its route.
-    pub fn new(vehicle: V, frame: TangentFrame, route: &Route, start: (Point, Heading), vertical: Vertical) -> Self {
+    /// The computer of a vehicle that speaks so, starts at a place and heading of a frame, and holds a depth or an altitude on its route.
+    pub fn new(
+        side: Box<dyn ServerSide>,
+        vehicle: V,
+        frame: TangentFrame,
+        route: &Route,
+        start: (Point, Heading),
+        vertical: Vertical,
+    ) -> Self {
         let speed_max = vehicle.limits().speed.unwrap_or(f64::INFINITY);
         let seat = FrontSeat::new(Some((route, vertical)), Handover::default(), start, speed_max);
         let happenings = seat.plan().map(|plan| Happening::Plan(Milestone::Leg(1, plan.legs()))).into_iter().collect();
         Server {
+            side,
             vehicle,
             frame,
             seat,
             control: Control::Monitoring,
             left: None,
             goals: None,
-            deframer: Deframer::default(),
-            heard: Vec::new(),
             silent: 0,
             tick: 0,
             snapshot: Snapshot::default(),
@@ -128,7 +108,6 @@ impl<V: Vehicle> Server<V> {
             given_up: false,
             aground: false,
             refused: None,
-            asked_version: false,
             out: Vec::new(),
             happenings,
         }
@@ -149,7 +128,7 @@ impl<V: Vehicle> Server<V> {
         std::mem::take(&mut self.happenings)
     }
 
-    /// Lines that could not be read.
+    /// Messages that could not be read.
     pub fn unreadable(&self) -> u64 {
         self.unreadable
     }
@@ -187,7 +166,7 @@ impl<V: Vehicle> Server<V> {
             (self.given_up, self.goals, self.command) = (true, None, None);
             self.happenings.push(Happening::GivenUp);
         }
-        self.tell_samples();
+        self.tell_senses();
         self.tell_grounding();
         self.hear(bytes);
         self.answer();
@@ -203,49 +182,49 @@ impl<V: Vehicle> Server<V> {
     }
 
     fn hear(&mut self, bytes: &[u8]) {
-        let (heard, unreadable) = (&mut self.heard, &mut self.unreadable);
-        let mut absurd = Vec::new();
-        self.deframer.push(bytes, |frame| match frame.map(|body| ToVehicle::parse(body).map_err(|_| body)) {
-            Ok(Ok(message)) => heard.push(message),
-            unread => {
-                *unreadable += 1;
-                absurd.extend(unread.ok().and_then(Result::err).filter(|body| body.starts_with("C,")).map(shortened));
+        let mut heard = Vec::new();
+        self.side.hear(bytes, &mut heard);
+        let is_unreadable = |request: &Request| matches!(request, Request::Unreadable(_));
+        let (unreadable, heard): (Vec<_>, Vec<_>) = heard.into_iter().partition(is_unreadable);
+        self.unreadable += unreadable.len() as u64;
+        self.silent = if heard.is_empty() { self.silent + 1 } else { 0 };
+        for request in unreadable {
+            if let Request::Unreadable(Some(command)) = request {
+                self.refuse(&command, Refusal::NotUnderstood, "is no command of this dialect");
             }
-        });
-        self.silent = if self.heard.is_empty() { self.silent + 1 } else { 0 };
-        for command in absurd {
-            self.refuse(&command, NOT_UNDERSTOOD, "is no command of this dialect");
         }
-        for message in std::mem::take(&mut self.heard) {
-            self.obey(&message);
+        for request in heard {
+            self.obey(request);
         }
-        if std::mem::take(&mut self.asked_version) {
-            self.say(&FromVehicle::Version("albacore front seat".into()));
-        }
-        if self.is_driven() && self.silent >= TIMEOUT_TICKS {
-            self.happenings.push(Happening::TimedOut);
+        self.say(&Report::Answered);
+        let timeout = self.timeout_ticks();
+        if self.is_driven() && self.silent >= timeout {
+            self.happenings.push(Happening::TimedOut(timeout));
             self.leave();
         }
     }
 
-    fn obey(&mut self, message: &ToVehicle) {
-        match message {
-            ToVehicle::Override(true) if self.given_up => {}
-            ToVehicle::Override(true) => {
+    /// Ticks without a message after which a guest has left.
+    fn timeout_ticks(&self) -> u64 {
+        self.side.dialect().timeout_ticks
+    }
+
+    fn obey(&mut self, request: Request) {
+        match request {
+            Request::TakeOver if self.given_up => {}
+            Request::TakeOver => {
                 self.seat.ask(self.seconds(), self.senses.position);
                 self.answer();
             }
-            ToVehicle::Override(false) => {
+            Request::GiveBack => {
                 if self.is_driven() {
                     self.happenings.push(Happening::Released);
                 }
                 self.leave();
             }
-            ToVehicle::ClosestPoint(closest) => self.seat.return_to_closest_point(*closest),
-            // However often it was asked in a tick.
-            ToVehicle::VersionRequest => self.asked_version = true,
-            ToVehicle::Query(_) | ToVehicle::KeepAlive(_) | ToVehicle::Other(_) => {}
-            command => self.set_goal(command),
+            Request::ClosestPoint(closest) => self.seat.return_to_closest_point(closest),
+            Request::Goal(goal, text) => self.set_goal(goal, &text),
+            Request::Other | Request::Unreadable(_) => {}
         }
     }
 
@@ -276,54 +255,49 @@ impl<V: Vehicle> Server<V> {
         self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.seat.vertical() });
     }
 
-    fn set_goal(&mut self, command: &ToVehicle) {
-        let Some(goals) = &mut self.goals else {
-            return self.refuse(&command.to_string(), NOT_IN_OVERRIDE, "override is not active");
+    fn set_goal(&mut self, goal: Goal, text: &str) {
+        let Some(goals) = self.goals else {
+            return self.refuse(text, Refusal::NotDriving, "override is not active");
         };
         if self.control == Control::Suspended {
-            return self.refuse(&command.to_string(), NOT_IN_OVERRIDE, "the mission is suspended");
+            return self.refuse(text, Refusal::NotDriving, "the mission is suspended");
         }
-        let wanted = match command {
-            ToVehicle::Heading(heading) => Goals { heading: *heading, rate: 0.0, ..*goals },
-            ToVehicle::HeadingRate(rate) if rate.abs() <= TURN_RATE_MAX => Goals { rate: *rate, ..*goals },
-            ToVehicle::HeadingRate(_) => {
-                return self.refuse(&command.to_string(), OUT_OF_BOUNDS, "faster than this vehicle turns");
-            }
-            ToVehicle::Depth(depth) => Goals { vertical: Vertical::Depth(*depth), ..*goals },
-            ToVehicle::Altitude(altitude) => Goals { vertical: Vertical::Altitude(*altitude), ..*goals },
-            ToVehicle::Speed(speed) => Goals { speed: metres_per_second(*speed), ..*goals },
-            _ => return self.refuse(&command.to_string(), NOT_SERVED, "this vehicle does not do that"),
+        let wanted = match goal {
+            Goal::Hold(set_point) => goals.holding(set_point),
+            Goal::Turn(rate) if rate.abs() <= TURN_RATE_MAX => Goals { rate, ..goals },
+            Goal::Turn(_) => return self.refuse(text, Refusal::Beyond, "faster than this vehicle turns"),
+            Goal::Unknown => return self.refuse(text, Refusal::NotServed, "this vehicle does not do that"),
         };
-        *goals = wanted;
-        self.answer_goal(command, wanted);
+        self.goals = Some(wanted);
+        self.answer_goal(goal, wanted, text);
     }
 
-    /// An echo, where the vehicle follows the goal as it is; else an error that says as far as it does. The vehicle gives
+    /// The goal is accepted, where the vehicle follows it as it is; else it is said how far it does. The vehicle gives
     /// notice of that itself.
-    fn answer_goal(&mut self, goal: &ToVehicle, wanted: Goals) {
+    fn answer_goal(&mut self, goal: Goal, wanted: Goals, text: &str) {
         let (mut of_speed, mut of_vertical) = (None, None);
         self.vehicle.clamp_command(&wanted.command(), &mut |beyond| match beyond {
             Beyond::Fast(_) | Beyond::Astern => of_speed = Some(beyond),
             Beyond::Deep(_) | Beyond::Low(_) | Beyond::High => of_vertical = Some(beyond),
         });
         let beyond = match goal {
-            ToVehicle::Speed(_) => of_speed,
-            ToVehicle::Depth(_) | ToVehicle::Altitude(_) => of_vertical,
+            Goal::Hold(SetPoint::Speed(_)) => of_speed,
+            Goal::Hold(SetPoint::Depth(_) | SetPoint::Altitude(_)) => of_vertical,
             _ => None,
         };
-        let echo = goal.to_string();
-        self.say(&match beyond {
-            Some(beyond) => FromVehicle::Error(OUT_OF_BOUNDS, beyond.to_string()),
-            None => FromVehicle::Accepted(echo.strip_prefix("C,").unwrap_or(&echo).to_string()),
-        });
+        match beyond {
+            Some(beyond) => self.say(&Report::Refused(Refusal::Beyond, &beyond.to_string())),
+            None => self.say(&Report::Accepted(text)),
+        }
     }
 
-    fn refuse(&mut self, what: &str, code: u32, why: &'static str) {
-        self.say(&FromVehicle::Error(code, why.to_string()));
+    fn refuse(&mut self, what: &str, refusal: Refusal, why: &'static str) {
+        self.say(&Report::Refused(refusal, why));
         // Who does not listen says it again and again; who watches need not hear it as often.
-        let again = self.refused.is_some_and(|(last, tick)| last == why && self.tick - tick < TIMEOUT_TICKS);
+        let timeout = self.timeout_ticks();
+        let again = self.refused.is_some_and(|(last, tick)| last == why && self.tick - tick < timeout);
         if !again {
-            self.happenings.push(Happening::Refused(format!("#{what}"), why));
+            self.happenings.push(Happening::Refused(what.to_string(), why));
         }
         self.refused = Some((why, self.tick));
     }
@@ -357,13 +331,11 @@ impl<V: Vehicle> Server<V> {
         self.seat.steer(known, &mut |milestone| happenings.push(Happening::Plan(milestone)))
     }
 
-    /// Takes in what was sensed, and passes on what has messages of its own.
-    fn tell_samples(&mut self) {
-        let snapshot = std::mem::take(&mut self.snapshot);
+    /// Takes in what was sensed, and passes it on.
+    fn tell_senses(&mut self) {
         let heading = self.senses.heading;
-        let (mut temperature, mut salinity) = (None, None);
-        // On the wire there is no number for what is none.
-        for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
+        // A number that is none is as if it had not come.
+        for sample in self.snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
             let [a, b, ..] = sample.reading;
             match sample.channel {
                 POSITION => self.senses.position = Point::new(a, b),
@@ -373,71 +345,45 @@ impl<V: Vehicle> Server<V> {
                 DEPTH => self.senses.depth = a,
                 ALTITUDE => self.senses.altitude = Some(a),
                 FLOW => self.senses.flow = Some(Vector::new(a, b)),
-                CHEMICAL => self.say(&FromVehicle::Fluorometer { gain: 1.0, value: a * FULL_SCALE_VOLTS }),
-                BATTERY => {
-                    self.senses.battery = a;
-                    let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);
-                    self.say(&FromVehicle::Battery { capacity, available, percent });
-                }
-                TEMPERATURE => temperature = Some(a),
-                SALINITY => salinity = Some(a),
+                BATTERY => self.senses.battery = a,
                 _ => {}
             }
         }
-        if let (Some(temperature), Some(salinity)) = (temperature, salinity) {
-            self.say(&FromVehicle::Ctd(seawater::ctd(temperature, salinity, self.senses.depth)));
-        }
         self.senses.turn_rate = (self.senses.heading - heading) / TICK_S;
-        self.snapshot = snapshot;
-        if self.tick.is_multiple_of(ADCP_TICKS) {
-            self.tell_adcp();
-        }
+        self.side.say(&Report::Sensed(&self.snapshot, &self.senses, self.tick), &mut self.out);
     }
 
-    /// Says that the vehicle lies on the bottom, as long as it does, and once that it has come free: its state has no flag for
-    /// it.
+    /// Says that the vehicle lies on the bottom, as long as it does, and once that it has come free.
     fn tell_grounding(&mut self) {
         let aground = self.snapshot.aground;
         let again = aground && self.tick.is_multiple_of(grounding::AGAIN_TICKS);
         if aground != self.aground || again {
-            self.say(&grounding::told(aground));
+            self.say(&Report::Aground(aground));
             self.aground = aground;
         }
     }
 
-    fn tell_adcp(&mut self) {
-        let Senses { heading, course, speed, altitude, flow, .. } = self.senses;
-        let drift = course - heading;
-        self.say(&FromVehicle::Adcp(Adcp {
-            ahead: speed * cos(drift),
-            starboard: speed * sin(drift),
-            vertical: 0.0,
-            altitude,
-            heading,
-            current: flow.map(|flow| (flow.along(heading), flow.right_of(heading))),
-            look: 'U',
-        }));
-    }
-
-    fn mode(&self) -> Mode {
-        let closest =
-            if self.seat.plan().is_some_and(OwnPlan::returns_to_closest_point) { Mode::CLOSEST_POINT } else { 0 };
+    fn status(&self) -> Status {
+        let driven = Status { phase: Phase::InMission, is_enabled: true, is_active: true, is_forbidden: false };
+        let idle = Status { is_enabled: false, is_active: false, ..driven };
         if self.given_up {
-            Mode::new(Phase::Over, Mode::NOT_ALLOWED)
+            Status { phase: Phase::Over, is_forbidden: true, ..idle }
         } else if self.control == Control::Suspended {
-            Mode::new(Phase::Suspended, closest | Mode::ENABLED | Mode::ACTIVE)
+            Status { phase: Phase::Suspended, ..driven }
         } else if self.is_driven() {
-            Mode::new(Phase::InMission, closest | Mode::ENABLED | Mode::ACTIVE)
+            driven
         } else if self.seat.is_over() {
-            Mode::new(Phase::Over, 0)
+            Status { phase: Phase::Over, ..idle }
         } else {
-            let answer = match self.control {
+            let timeout = self.timeout_ticks();
+            match self.control {
                 // Who has given control back is to see that it was taken.
-                Control::Offered if self.left.is_none_or(|left| self.tick - left >= TIMEOUT_TICKS) => Mode::ACTIVE,
-                Control::Refused => Mode::NOT_ALLOWED,
-                _ => 0,
-            };
-            Mode::new(Phase::InMission, closest | answer)
+                Control::Offered if self.left.is_none_or(|left| self.tick - left >= timeout) => {
+                    Status { is_active: true, ..idle }
+                }
+                Control::Refused => Status { is_forbidden: true, ..idle },
+                _ => idle,
+            }
         }
     }
 
@@ -459,34 +405,23 @@ impl<V: Vehicle> Server<V> {
             }
             None => s.depth,
         };
-        let speed_goal = goal.map_or(0.0, |c| c.speed);
-        self.say(&FromVehicle::State(State {
-            time_ms: ((BEGIN_MS + 100 * self.tick) % u64::from(DAY_MS)) as u32,
+        let status = self.status();
+        let report = StateReport {
+            tick: self.tick,
+            senses: s,
             position: self.frame.to_geodetic(s.position),
-            depth: s.depth,
-            depth_goal,
-            altitude: s.altitude,
-            pitch: 0.0,
-            roll: 0.0,
-            rpm: s.speed * RPM_AT_1_MPS,
-            rpm_goal: speed_goal * RPM_AT_1_MPS,
-            speed: s.speed,
-            heading: s.heading,
-            heading_rate: s.turn_rate,
             heading_goal: goal.map_or(s.heading, |c| c.heading),
-            mode: self.mode(),
-            leg: Some(self.leg()),
-        }));
+            speed_goal: goal.map_or(0.0, |c| c.speed),
+            depth_goal,
+            status,
+            returns_to_closest_point: status.phase != Phase::Over
+                && self.seat.plan().is_some_and(OwnPlan::returns_to_closest_point),
+            leg: self.leg(),
+        };
+        self.say(&Report::State(&report));
     }
 
-    fn say(&mut self, message: &FromVehicle) {
-        self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
-    }
-}
-
-fn metres_per_second(speed: SpeedGoal) -> f64 {
-    match speed {
-        SpeedGoal::Rpm(rpm) => rpm / RPM_AT_1_MPS,
-        SpeedGoal::MetresPerSecond(speed) | SpeedGoal::Knots(speed) => speed,
+    fn say(&mut self, what: &Report) {
+        self.side.say(what, &mut self.out);
     }
 }

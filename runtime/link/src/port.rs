@@ -1,12 +1,14 @@
 //! A vehicle at the end of a link: the controller's state machine, a transport, and the host's clock.
 
-use super::clocks::Clocks;
-use super::controller::Controller;
-use super::round_trip::host_ticks;
+mod clocks;
+
+use crate::controller::{Controller, host_ticks};
+use crate::error::LinkError;
 use crate::transport::Transport;
 use crate::url::{Place, Url};
 use albacore_geometry::TangentFrame;
 use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use clocks::Clocks;
 use std::time::Duration;
 
 /// The host's time since any moment. Only the command line may read a clock; a test gives what it likes.
@@ -31,8 +33,8 @@ const RELEASE_TICKS_MAX: u64 = 300;
 /// ... and is told again this often.
 const RELEASE_AGAIN: Duration = Duration::from_millis(100);
 
-/// A vehicle that speaks `recon`.
-pub struct ReconVehicle {
+/// A vehicle at the end of a link, whatever it speaks.
+pub struct LinkVehicle {
     controller: Controller,
     transport: Box<dyn Transport + Send>,
     clock: HostClock,
@@ -58,20 +60,21 @@ pub struct ReconVehicle {
     broken: bool,
 }
 
-impl ReconVehicle {
+impl LinkVehicle {
     /// A vehicle behind a transport, in the frame of a mission. `rate` is how many times faster than real time it runs: one
-    /// that runs slower may be silent for longer.
+    /// that runs slower may be silent for longer. An error says which setting of its dialect cannot be.
     pub fn new(
         url: Url,
         transport: Box<dyn Transport + Send>,
         frame: TangentFrame,
         rate: f64,
         mut clock: HostClock,
-    ) -> Self {
+    ) -> Result<Self, LinkError> {
+        let side = (url.dialect.controller)(&url.settings)?;
         let ticked = clock();
         let silence = SILENCE.div_f64(rate.clamp(0.01, 1.0));
-        ReconVehicle {
-            controller: Controller::new(frame).at_rate(rate),
+        Ok(LinkVehicle {
+            controller: Controller::new(side, frame).at_rate(rate),
             transport,
             clock,
             url,
@@ -87,7 +90,7 @@ impl ReconVehicle {
             clocks: Clocks::new(rate),
             notices: Vec::new(),
             broken: false,
-        }
+        })
     }
 
     /// Looks once for bytes; whether any came. Only time in which we listened counts as silence.
@@ -128,7 +131,7 @@ impl ReconVehicle {
         if out.is_empty() { Ok(()) } else { self.transport.send(&out).or_else(|error| self.fail(error)) }
     }
 
-    fn fail(&mut self, error: crate::LinkError) -> Result<(), VehicleError> {
+    fn fail(&mut self, error: LinkError) -> Result<(), VehicleError> {
         self.broken = true;
         Err(error.into())
     }
@@ -156,15 +159,15 @@ impl ReconVehicle {
             )
         } else {
             format!(
-                "{} messages came from `{url}`, but no state (`#S`) with a running clock in the last {seconds} s: check that \
+                "{} messages came from `{url}`, but no state (`{}`) with a running clock in the last {seconds} s: check that \
                  the vehicle sends it",
-                count.messages
+                count.messages, dialect.state
             )
         })
     }
 }
 
-impl Vehicle for ReconVehicle {
+impl Vehicle for LinkVehicle {
     fn channels(&self) -> &[Channel] {
         self.controller.channels()
     }
@@ -202,8 +205,9 @@ impl Vehicle for ReconVehicle {
             return Err(self.diagnosis());
         }
         self.controller.lose(format!(
-            "no state (`#S`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us leaves override \
+            "no state (`{}`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us leaves override \
              by itself",
+            self.url.dialect.state,
             self.url,
             self.silence.as_secs_f64()
         ));
@@ -248,7 +252,7 @@ impl Vehicle for ReconVehicle {
         self.send()
     }
 
-    /// Waits until the vehicle's mode says that it has control, a few seconds at most. It leaves override by itself when
+    /// Waits until the vehicle's status says that it has control, a few seconds at most. It leaves override by itself when
     /// nothing is heard of us, so that a failure here is told, and no more can be done.
     fn release(&mut self) -> Result<(), VehicleError> {
         if self.broken {
@@ -267,11 +271,11 @@ impl Vehicle for ReconVehicle {
                 }
             }
             if now.saturating_sub(begun) >= patience {
-                return Err(VehicleError(
+                let timeout = self.url.dialect.timeout_ticks as f64 * TICK_S;
+                return Err(VehicleError(format!(
                     "the vehicle did not say that it has taken control back: it leaves override by itself when nothing is \
-                     heard for 5 s"
-                        .into(),
-                ));
+                     heard for {timeout} s"
+                )));
             }
             self.send()?;
             self.look(LOOK)?;

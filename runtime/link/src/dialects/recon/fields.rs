@@ -1,11 +1,9 @@
 //! Fields: numbers, positions and times as they stand in a message.
 
+use crate::controller::DAY_MS;
 use albacore_geometry::Geodetic;
 use albacore_geometry::math::{degrees, radians};
 use std::ops::RangeInclusive;
-
-/// A day, in the milliseconds that times are counted in.
-pub const DAY_MS: u32 = 86_400_000;
 
 /// Ten-thousandths of a minute of arc in a degree: the grain of a position, about 0.2 m.
 const GRAINS: f64 = 600_000.0;

@@ -108,6 +108,15 @@ impl Deframer {
     }
 }
 
+/// Whether a datagram has a frame in it.
+pub fn is_message(datagram: &[u8]) -> bool {
+    let mut found = false;
+    let mut deframer = Deframer::default();
+    deframer.push(datagram, |frame| found |= frame.is_ok());
+    deframer.push(b"\n", |frame| found |= frame.is_ok());
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

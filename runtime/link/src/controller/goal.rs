@@ -1,6 +1,7 @@
-//! One of the three goals of an override: what is asked, whether the vehicle has taken it up, and when it is said again.
+//! One of the three set-points of a command: what is asked, whether the vehicle has taken it up, and when it is said again.
 
-use super::message::{SpeedGoal, ToVehicle};
+use super::ControllerSide;
+use crate::set_point::SetPoint;
 use albacore_geometry::math::radians;
 use std::mem::discriminant;
 
@@ -22,27 +23,42 @@ const SPEED_SLACK: f64 = 0.2;
 /// A goal: what is asked, and what the vehicle says that it holds.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Goal {
-    pub asked: Option<ToVehicle>,
+    pub asked: Option<SetPoint>,
     /// The tick in which it was asked last.
     last: u64,
-    /// What was sent last, and in which tick.
+    /// What was sent last as it stands on the wire, and in which tick.
     pub sent: Option<(String, u64)>,
     /// What the vehicle reported last.
-    pub held: Option<ToVehicle>,
+    pub held: Option<Held>,
     /// The last tick in which the two agreed.
     agreed: u64,
     told: bool,
 }
 
+/// What a vehicle says that it holds.
+#[derive(Clone, Debug)]
+pub(super) enum Held {
+    /// A set-point as we ask for them.
+    SetPoint(SetPoint),
+    /// One of another kind or unit, in the vehicle's words: never what was asked.
+    Other(String),
+}
+
 impl Goal {
     /// Takes in what is asked in a tick; gives what to tell when the vehicle has not taken it up for too long.
-    pub fn ask(&mut self, message: ToVehicle, now: u64) -> Option<String> {
+    pub fn ask(&mut self, set_point: SetPoint, now: u64, side: &dyn ControllerSide) -> Option<String> {
         let begins = self.asked.is_none() || self.last + BREAK_TICKS < now;
         self.last = now;
-        // A depth says nothing of an altitude.
-        self.held = self.held.take().filter(|held| discriminant(held) == discriminant(&message));
-        let agree = self.held.as_ref().is_some_and(|held| agree(held, &message));
-        let asked = self.asked.insert(message);
+        let agree = match self.held {
+            Some(Held::SetPoint(held)) if discriminant(&held) == discriminant(&set_point) => agree(held, set_point),
+            // A depth says nothing of an altitude.
+            Some(Held::SetPoint(_)) => {
+                self.held = None;
+                false
+            }
+            Some(Held::Other(_)) | None => false,
+        };
+        self.asked = Some(set_point);
         if agree || begins {
             self.agreed = now;
             self.told = false;
@@ -51,13 +67,17 @@ impl Goal {
             return None;
         }
         self.told = true;
-        let holds = self.held.as_ref().map(|held| format!(" and says `#{held}`")).unwrap_or_default();
-        Some(format!("the vehicle does not follow `#{asked}`{holds}; it may be protecting itself"))
+        let holds = match &self.held {
+            Some(Held::SetPoint(held)) => format!(" and says `{}`", side.text(*held)),
+            Some(Held::Other(held)) => format!(" and says `{held}`"),
+            None => String::new(),
+        };
+        Some(format!("the vehicle does not follow `{}`{holds}; it may be protecting itself", side.text(set_point)))
     }
 
     /// The text to send, if it is time: it has changed, was not taken up, or was sent half a second ago.
-    pub fn due(&self, now: u64) -> Option<String> {
-        let asked = self.asked.as_ref().filter(|_| self.last == now)?.to_string();
+    pub fn due(&self, now: u64, side: &dyn ControllerSide) -> Option<String> {
+        let asked = side.text(self.asked.filter(|_| self.last == now)?);
         let Some((sent, tick)) = &self.sent else { return Some(asked) };
         let again = if self.agreed == now { AGAIN_TICKS } else { UNCONFIRMED_TICKS };
         (*sent != asked || now - tick >= again).then_some(asked)
@@ -65,15 +85,13 @@ impl Goal {
 }
 
 /// Whether what the vehicle holds is what was asked.
-fn agree(held: &ToVehicle, asked: &ToVehicle) -> bool {
+fn agree(held: SetPoint, asked: SetPoint) -> bool {
     match (held, asked) {
-        (ToVehicle::Heading(a), ToVehicle::Heading(b)) => (*a - *b).abs() <= radians(HEADING_SLACK_DEG),
-        (ToVehicle::Depth(a), ToVehicle::Depth(b)) | (ToVehicle::Altitude(a), ToVehicle::Altitude(b)) => {
+        (SetPoint::Heading(a), SetPoint::Heading(b)) => (a - b).abs() <= radians(HEADING_SLACK_DEG),
+        (SetPoint::Depth(a), SetPoint::Depth(b)) | (SetPoint::Altitude(a), SetPoint::Altitude(b)) => {
             (a - b).abs() <= HEIGHT_SLACK
         }
-        (ToVehicle::Speed(SpeedGoal::MetresPerSecond(a)), ToVehicle::Speed(SpeedGoal::MetresPerSecond(b))) => {
-            (a - b).abs() <= SPEED_SLACK
-        }
+        (SetPoint::Speed(a), SetPoint::Speed(b)) => (a - b).abs() <= SPEED_SLACK,
         _ => false,
     }
 }

@@ -1,13 +1,9 @@
 //! What happens at the vehicle's side, and how it is told.
 
-use super::server::TIMEOUT_TICKS;
 use albacore_front_seat::Milestone;
 use albacore_geometry::Point;
 use albacore_vehicle::TICK_S;
 use std::fmt;
-
-/// So much of a message that cannot be understood is shown, bytes.
-const SHOWN: usize = 40;
 
 /// What happened, for who watches.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,8 +14,8 @@ pub enum Happening {
     Taken(Point, u32),
     /// The guest has given control back.
     Released,
-    /// The guest is silent.
-    TimedOut,
+    /// The guest has been silent for so many ticks.
+    TimedOut(u64),
     /// The vehicle has taken control back.
     TakenBack,
     /// Its mission stands still, and it listens to nobody.
@@ -36,14 +32,14 @@ pub enum Happening {
 
 impl fmt::Display for Happening {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seconds = TIMEOUT_TICKS as f64 * TICK_S;
         match self {
             Happening::Plan(Milestone::Leg(leg, of)) => write!(f, "leg {leg} of {of}"),
             Happening::Taken(at, leg) => {
                 write!(f, "override taken at ({:.1}, {:.1}) m, on leg {leg}", at.north, at.east)
             }
             Happening::Released => f.write_str("override released; returns to the break-off point"),
-            Happening::TimedOut => {
+            Happening::TimedOut(ticks) => {
+                let seconds = *ticks as f64 * TICK_S;
                 write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
             }
             Happening::TakenBack => f.write_str("override taken back; returns to the break-off point"),
@@ -57,13 +53,5 @@ impl fmt::Display for Happening {
             Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
             Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
         }
-    }
-}
-
-/// As much of a message as a person needs to know it again.
-pub(super) fn shortened(body: &str) -> String {
-    match body.get(..SHOWN) {
-        Some(head) if body.len() > SHOWN => format!("{head}…"),
-        _ => body.to_string(),
     }
 }

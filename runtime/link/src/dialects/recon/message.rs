@@ -82,7 +82,8 @@ fn lettered(body: &str) -> Option<(char, &str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recon::mode::Mode;
+    use crate::recon::Mode;
+    use crate::status::Phase;
 
     const CAPTURED: &str = "S,T15:08:37.672,LAT39N30.5553,LON74W19.4386,D-0.10,DG0.00,A0.00,P-0.3,R3.0,TR0,TRG0,V0.00,\
                             H0.4,HR0.0,HG0.0,M10,l0";
@@ -135,7 +136,6 @@ mod tests {
 
     #[test]
     fn the_low_bits_of_the_mode_are_a_number() {
-        use crate::recon::mode::Phase;
         let mode = |hex: &str| state(&CAPTURED.replace("M10", &format!("M{hex}"))).mode;
         for (hex, phase, active) in [
             ("00", Phase::PreLaunch, false),

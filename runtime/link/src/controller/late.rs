@@ -42,10 +42,11 @@ impl Late {
     }
 
     /// What there is to tell while they go on: they are late because they take longer to compute than they last.
-    pub fn told_slow(self, tick: Duration) -> Option<String> {
+    pub fn told_slow(self, tick: Duration, timeout_ticks: u64) -> Option<String> {
+        let timeout = timeout_ticks as f64 * TICK_S;
         (self.computed >= COMPUTED_TOLD && self.is_slow(tick)).then(|| {
             format!(
-                "{}: commands come too late to be sent, and a vehicle that hears nothing for 5 s takes control back; use a \
+                "{}: commands come too late to be sent, and a vehicle that hears nothing for {timeout} s takes control back; use a \
                  faster computer, or do less in a tick (`albacore check --cost` shows what it does)",
                 self.slow(tick)
             )

@@ -1,44 +1,43 @@
-//! The controller's side: a state machine of the bytes that come from the vehicle and the ticks that are taken from it.
+//! The controller's end of a link: a state machine of what the vehicle says and of the ticks that are taken from it. What is said, and
+//! what that means, is its dialect's to know.
 //!
 //! It has no clock: the host's time is told to it, and measures nothing but the round trip. The vehicle's time stamps make the
 //! ticks, so that the same bytes give the same samples however late they are read. What is sent is sent in the newest of them
 //! alone: a tick that is late asks for what the vehicle is past.
 
+mod allowance;
+mod goal;
+mod hearing;
 mod judge;
 mod late;
+mod round_trip;
+mod side;
 mod speak;
+mod vehicle_time;
 
-use super::allowance::Allowance;
-use super::frame::Deframer;
-use super::goal::Goal;
-use super::grounding::Grounding;
-use super::message::{Adcp, FromVehicle, State, ToVehicle};
-use super::mode::{Mode, Phase};
-use super::round_trip::{GoalSource, Moment, RoundTrip};
-use super::vehicle_time::{Stamp, VehicleTime};
-use albacore_geometry::math::atan2;
-use albacore_geometry::{Heading, TangentFrame, Vector};
-use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SALINITY, SPEED, TEMPERATURE,
-    VEHICLE_MODE, WATER_DEPTH,
-};
+pub use hearing::{Count, Hearing};
+pub(crate) use round_trip::host_ticks;
+pub use side::{ControllerSide, Say};
+pub(crate) use vehicle_time::DAY_MS;
+
+use crate::grounding::Grounding;
+use crate::set_point::SetPoint;
+use crate::status::{Phase, Status};
+use albacore_geometry::TangentFrame;
+use albacore_navigation::Navigator;
+use albacore_vehicle::channels::{self, VEHICLE_MODE};
 use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot};
-use judge::is_left;
+use allowance::Allowance;
+use goal::{Goal, Held};
+use hearing::Fact;
 use late::Late;
+use round_trip::{GoalSource, Moment, RoundTrip};
 use std::collections::VecDeque;
+use std::mem::discriminant;
 use std::time::Duration;
+use vehicle_time::Stamp;
 
-/// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
-/// 2 m comes to, m an axis.
-const POSITION_SIGMA: f64 = 3.0;
-/// The fluorometer's full scale: 5 V, as the 2003 trials' Seapoint gives. The sources give no unit.
-pub(super) const FULL_SCALE_VOLTS: f64 = 5.0;
-/// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
-const DRIFT_TICKS: u64 = 50;
-/// A vehicle that goes no faster than this by its own word is at rest, m/s: a profiler that tells 0 then is in order, and one
-/// that tells 0 of a vehicle under way is not.
-const AT_REST: f64 = 0.05;
-/// Frames that wait for their tick; the oldest are given up.
+/// States that wait for their tick, and samples for their state; of states the oldest are given up.
 const WAITING_MAX: usize = 4096;
 /// A tick of the vehicle's time.
 const TICK: Duration = Duration::from_millis(100);
@@ -46,11 +45,6 @@ const TICK: Duration = Duration::from_millis(100);
 const NOTICES_MAX: usize = 128;
 /// After a pause states from before it may come for as long as it was, and for so long more.
 const AWAY_MORE: Duration = Duration::from_secs(5);
-
-/// The places of the goals.
-const HEADING_GOAL: usize = 0;
-const SPEED_GOAL: usize = 1;
-const VERTICAL_GOAL: usize = 2;
 
 /// What the host wants of the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,47 +72,30 @@ struct Given {
 /// What the vehicle said up to a tick.
 struct Heard {
     tick: u64,
-    mode: Mode,
-    heading_goal: Heading,
-    depth_goal: f64,
+    status: Status,
+    holds: Vec<SetPoint>,
     samples: Vec<Sample>,
 }
 
-/// How much came, and how much of it made sense.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Count {
-    /// Bytes.
-    pub bytes: u64,
-    /// Lines that were messages.
-    pub messages: u64,
-    /// Lines that were none.
-    pub unreadable: u64,
-}
-
-/// The controller's side of the dialect.
+/// The controller's end of a link.
 pub struct Controller {
+    side: Box<dyn ControllerSide>,
     channels: Vec<Channel>,
-    frame: TangentFrame,
-    deframer: Deframer,
-    time: VehicleTime,
+    hearing: Hearing,
     heard: VecDeque<Heard>,
-    /// Samples of messages that belong to the next `#S`.
+    /// Samples that belong to the next state.
     gathered: Vec<Sample>,
-    /// How far the course is clockwise of the heading, rad, and the tick that it is of.
-    drift: Option<(f64, u64)>,
-    /// By the last state, m/s.
-    speed: f64,
     latest_tick: Option<u64>,
     next_tick: u64,
-    mode: Mode,
+    status: Status,
     control: Control,
     want: Want,
     lost: bool,
-    /// Lines in which the vehicle has said that nobody drives it, one after the other.
+    /// States in which the vehicle has said that nobody drives it, one after the other.
     left: u64,
     /// ... and that its mission is over.
     over: u64,
-    /// Lines in which it has said that we drive it, since we asked or ask again.
+    /// States in which it has said that we drive it, since we asked or ask again.
     ours: u64,
     goals: [Goal; 3],
     /// Ticks whose commands came too late to be sent, since the last that was.
@@ -140,7 +117,6 @@ pub struct Controller {
     /// The tick in which something was said last.
     spoke: u64,
     out: Vec<u8>,
-    count: Count,
     notices: Vec<String>,
     /// What the vehicle may still bring about of them.
     allowance: Allowance,
@@ -155,20 +131,17 @@ struct Away {
 }
 
 impl Controller {
-    /// Hears a vehicle, in the mission's frame; nothing is sent before [`Controller::take_over`].
-    pub fn new(frame: TangentFrame) -> Self {
+    /// Hears a vehicle that speaks so, in the mission's frame; nothing is sent before [`Controller::take_over`].
+    pub fn new(side: Box<dyn ControllerSide>, frame: TangentFrame) -> Self {
         Controller {
+            side,
             channels: channels::all(),
-            frame,
-            deframer: Deframer::default(),
-            time: VehicleTime::default(),
+            hearing: Hearing::new(frame),
             heard: VecDeque::new(),
             gathered: Vec::new(),
-            drift: None,
-            speed: 0.0,
             latest_tick: None,
             next_tick: 0,
-            mode: Mode::default(),
+            status: Status::default(),
             control: Control::Disconnected,
             want: Want::Listen,
             lost: false,
@@ -187,7 +160,6 @@ impl Controller {
             grounding: Grounding::default(),
             spoke: 0,
             out: Vec::new(),
-            count: Count::default(),
             notices: Vec::new(),
             allowance: Allowance::default(),
             told: String::new(),
@@ -197,6 +169,12 @@ impl Controller {
     /// The same, of a vehicle that runs so many times faster than real time.
     pub fn at_rate(self, rate: f64) -> Self {
         Controller { round_trip: RoundTrip::new(rate), tick: TICK.div_f64(rate.max(0.01)), ..self }
+    }
+
+    /// The same, with positions that a navigator of ours makes of those that the vehicle tells; else they are as they are told.
+    pub fn navigated(mut self, navigator: Box<dyn Navigator>) -> Self {
+        self.hearing.navigator = navigator;
+        self
     }
 
     /// The host's time now, since any moment.
@@ -226,7 +204,7 @@ impl Controller {
 
     /// How much came.
     pub fn count(&self) -> Count {
-        self.count
+        self.hearing.count
     }
 
     /// What is to be sent; taken once.
@@ -262,51 +240,34 @@ impl Controller {
 
     /// Whether it is the vehicle's last word, of this tick or a later one, that we drive it.
     fn is_ours(&self) -> bool {
-        let mode = self.heard.back().map_or(self.mode, |heard| heard.mode);
-        self.control == Control::InControl
-            && mode.phase() == Phase::InMission
-            && mode.has(Mode::ACTIVE)
-            && !mode.has(Mode::NOT_ALLOWED)
+        let status = self.heard.back().map_or(self.status, |heard| heard.status);
+        self.control == Control::InControl && status.is_driven()
     }
 
     /// Takes in bytes, however they are cut.
     pub fn hear(&mut self, bytes: &[u8]) {
-        self.count.bytes += bytes.len() as u64;
-        let mut deframer = std::mem::take(&mut self.deframer);
-        deframer.push(bytes, |frame| {
-            // A line that is no frame and a frame that is no message come to the same: noise.
-            if let Some(message) = frame.ok().and_then(|body| FromVehicle::parse(body).ok()) {
-                self.count.messages += 1;
-                self.take_in(message);
-            } else {
-                self.count.unreadable += 1;
-            }
-        });
-        self.deframer = deframer;
-    }
-
-    fn take_in(&mut self, message: FromVehicle) {
-        match message {
-            FromVehicle::State(state) => self.take_in_state(&state),
-            FromVehicle::Adcp(adcp) => self.take_in_adcp(&adcp),
-            FromVehicle::Fluorometer { value, .. } => self.gather(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
-            FromVehicle::Battery { percent, .. } => self.gather(BATTERY, &[percent / 100.0]),
-            FromVehicle::Accepted(text) => self.take_in_echo(&text),
-            FromVehicle::Error(code, text) if self.grounding.hear(code, &text, self.next_tick) => {}
-            FromVehicle::Error(code, text) => {
-                let comma = if text.is_empty() { "" } else { ", " };
-                self.notice_of_vehicle(format!("the vehicle says: error {code}{comma}{text}"));
-            }
-            FromVehicle::Ctd(ctd) => {
-                self.gather(TEMPERATURE, &[ctd.temperature]);
-                self.gather(SALINITY, &[ctd.salinity]);
-            }
-            FromVehicle::Version(_) | FromVehicle::Other(_) => {}
+        self.hearing.count.bytes += bytes.len() as u64;
+        self.side.hear(bytes, &mut self.hearing);
+        for fact in self.hearing.take_facts() {
+            self.take_in(fact);
         }
     }
 
-    fn take_in_state(&mut self, state: &State) {
-        let tick = match self.time.hear(state.time_ms) {
+    fn take_in(&mut self, fact: Fact) {
+        match fact {
+            Fact::Time(stamp) => self.take_in_time(stamp),
+            Fact::Sample(sample) => self.gather(sample),
+            Fact::State(status, holds) => self.take_in_state(status, holds),
+            Fact::Accepted(set_point) => self.goals[set_point.place()].held = Some(Held::SetPoint(set_point)),
+            Fact::OtherSpeed(text) => self.goals[SetPoint::Speed(0.0).place()].held = Some(Held::Other(text)),
+            Fact::HeadingHeard(heading) => self.round_trip.told(heading, GoalSource::Echo, self.moment()),
+            Fact::Aground(aground, _) if self.grounding.hear(aground, self.next_tick) => {}
+            Fact::Aground(_, text) | Fact::Notice(text) => self.notice_of_vehicle(text),
+        }
+    }
+
+    fn take_in_time(&mut self, stamp: Stamp) {
+        let tick = match stamp {
             Stamp::Doubtful => return,
             Stamp::Tick(tick) => tick,
             Stamp::ClockSet(tick) => {
@@ -322,70 +283,36 @@ impl Controller {
         self.latest_tick = Some(tick);
         let is_of_now = |away: &Away| self.round_trip.made_after(tick, away.until) || self.host > away.longest;
         self.away = self.away.filter(|away| !is_of_now(away));
-        self.round_trip.told(state.heading_goal, GoalSource::State, self.moment());
-        self.speed = state.speed;
-        let position = self.frame.to_point(state.position);
-        self.gather(POSITION, &[position.north, position.east, POSITION_SIGMA]);
-        if let Some((angle, _)) = self.drift.filter(|(_, of)| tick.saturating_sub(*of) <= DRIFT_TICKS) {
-            self.gather(COURSE, &[(state.heading + angle).radians()]);
+    }
+
+    fn take_in_state(&mut self, status: Status, holds: Vec<SetPoint>) {
+        for set_point in &holds {
+            if let SetPoint::Heading(heading) = set_point {
+                self.round_trip.told(*heading, GoalSource::State, self.moment());
+            }
         }
-        self.gather(HEADING, &[state.heading.radians()]);
-        self.gather(SPEED, &[state.speed]);
-        self.gather(DEPTH, &[state.depth]);
-        if let Some(altitude) = state.altitude {
-            self.gather(ALTITUDE, &[altitude]);
-            self.gather(WATER_DEPTH, &[state.depth + altitude]);
-        }
-        self.gather(VEHICLE_MODE, &[f64::from(state.mode.0 & 0x03)]);
+        self.gather(Sample { channel: VEHICLE_MODE, reading: [f64::from(status.phase.number()), 0.0, 0.0, 0.0] });
         let samples = std::mem::take(&mut self.gathered);
         if self.heard.len() == WAITING_MAX {
             self.heard.pop_front();
         }
-        let State { mode, heading_goal, depth_goal, .. } = *state;
-        self.heard.push_back(Heard { tick, mode, heading_goal, depth_goal, samples });
-    }
-
-    /// An echo is no acceptance, but it was heard: what `#S` tells of the goals, it tells better. Of speed and altitude it tells
-    /// nothing.
-    fn take_in_echo(&mut self, text: &str) {
-        match ToVehicle::parse(&format!("C,{text}")) {
-            Ok(speed @ ToVehicle::Speed(_)) => self.goals[SPEED_GOAL].held = Some(speed),
-            Ok(altitude @ ToVehicle::Altitude(_)) => self.goals[VERTICAL_GOAL].held = Some(altitude),
-            Ok(ToVehicle::Heading(heading)) => self.round_trip.told(heading, GoalSource::Echo, self.moment()),
-            _ => {}
-        }
+        let tick = self.latest_tick.unwrap_or(0);
+        self.heard.push_back(Heard { tick, status, holds, samples });
     }
 
     /// What the vehicle says that it holds. Its depth goal is the vehicle's own affair while it is asked for an altitude.
-    fn take_in_goals(&mut self, heading: Heading, depth: f64) {
-        self.goals[HEADING_GOAL].held = Some(ToVehicle::Heading(heading));
-        let vertical = &mut self.goals[VERTICAL_GOAL];
-        if matches!(vertical.asked, Some(ToVehicle::Depth(_))) {
-            vertical.held = Some(ToVehicle::Depth(depth));
+    fn take_in_goals(&mut self, holds: &[SetPoint]) {
+        for held in holds {
+            let goal = &mut self.goals[held.place()];
+            if goal.asked.is_some_and(|asked| discriminant(&asked) == discriminant(held)) {
+                goal.held = Some(Held::SetPoint(*held));
+            }
         }
     }
 
-    fn take_in_adcp(&mut self, adcp: &Adcp) {
-        let tick = self.latest_tick.unwrap_or(0);
-        if adcp.ahead != 0.0 || adcp.starboard != 0.0 {
-            self.drift = Some((atan2(adcp.starboard, adcp.ahead), tick));
-        } else if self.speed < AT_REST {
-            // At rest any direction is that of the course: no instrument is missing. The last one goes on.
-            self.drift = Some((self.drift.map_or(0.0, |(angle, _)| angle), tick));
-        }
-        if let Some((ahead, starboard)) = adcp.current {
-            let unit = adcp.heading.unit();
-            let flow =
-                Vector::new(ahead * unit.north - starboard * unit.east, ahead * unit.east + starboard * unit.north);
-            self.gather(FLOW, &[flow.north, flow.east]);
-        }
-    }
-
-    fn gather(&mut self, channel: u16, numbers: &[f64]) {
-        let mut reading = [0.0; 4];
-        reading[..numbers.len()].copy_from_slice(numbers);
+    fn gather(&mut self, sample: Sample) {
         if self.gathered.len() < WAITING_MAX {
-            self.gathered.push(Sample { channel, reading });
+            self.gathered.push(sample);
         }
     }
 
@@ -398,17 +325,17 @@ impl Controller {
         let until = self.heard.iter().take_while(|heard| heard.tick <= tick).count();
         let heard: Vec<Heard> = self.heard.drain(..until).collect();
         for heard in heard {
-            self.mode = heard.mode;
-            (self.left, self.ours) = if is_left(heard.mode) { (self.left + 1, self.ours) } else { (0, self.ours + 1) };
-            self.over = if heard.mode.phase() == Phase::Over { self.over + 1 } else { 0 };
-            self.take_in_goals(heard.heading_goal, heard.depth_goal);
+            let status = heard.status;
+            self.status = status;
+            (self.left, self.ours) = if status.is_left() { (self.left + 1, self.ours) } else { (0, self.ours + 1) };
+            self.over = if status.phase == Phase::Over { self.over + 1 } else { 0 };
+            self.take_in_goals(&heard.holds);
             snapshot.samples.extend(heard.samples);
         }
         let before = self.control;
         self.control = self.judge(tick);
         if self.control == Control::InControl && before != Control::InControl {
-            // The first commands of the first override are accepted after a question only.
-            self.say(&ToVehicle::Query("Depth".into()));
+            self.say(&Say::Begin);
             self.goals = Default::default();
         } else if self.control != Control::InControl {
             self.round_trip.pause();
@@ -425,8 +352,8 @@ impl Controller {
         match (self.want, self.control) {
             _ if self.waits_for_answer(tick) => {}
             // Who asks again when it was given back has just asked.
-            (Want::Drive { .. }, Control::Requesting) if self.spoke < tick => self.say(&ToVehicle::Override(true)),
-            (Want::GiveBack { .. }, _) => self.say(&ToVehicle::Override(false)),
+            (Want::Drive { .. }, Control::Requesting) if self.spoke < tick => self.say(&Say::TakeOver),
+            (Want::GiveBack { .. }, _) => self.say(&Say::GiveBack),
             // After late ticks a command comes first.
             (Want::Drive { .. }, Control::InControl | Control::Suspended)
                 if self.spoke < tick && !was_late && self.left == 0 =>

@@ -1,21 +1,10 @@
 //! The mode byte of `#S`: what the vehicle is doing, and whether a guest drives.
 
+use crate::status::{Phase, Status};
+
 /// The mode byte. Its two low bits are a number, the [`Phase`]; the others are flags.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mode(pub u8);
-
-/// The life of the vehicle's own mission.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// Before the launch.
-    PreLaunch,
-    /// In its mission; override can be had.
-    InMission,
-    /// Its mission is suspended (a fix at the surface, a fault): override commands are ignored.
-    Suspended,
-    /// Its mission is over.
-    Over,
-}
 
 impl Mode {
     /// Override is enabled: the controller's wish was heard.
@@ -29,13 +18,7 @@ impl Mode {
 
     /// Bits for a phase, and flags.
     pub fn new(phase: Phase, flags: u8) -> Self {
-        let number = match phase {
-            Phase::PreLaunch => 0,
-            Phase::InMission => 1,
-            Phase::Suspended => 2,
-            Phase::Over => 3,
-        };
-        Mode((flags & !0x03) | number)
+        Mode((flags & !0x03) | phase.number())
     }
 
     /// The two low bits, read as a number and not as two flags.
@@ -51,5 +34,26 @@ impl Mode {
     /// Whether a flag is set.
     pub fn has(self, flag: u8) -> bool {
         self.0 & flag != 0
+    }
+}
+
+impl From<Mode> for Status {
+    fn from(mode: Mode) -> Self {
+        Status {
+            phase: mode.phase(),
+            is_enabled: mode.has(Mode::ENABLED),
+            is_active: mode.has(Mode::ACTIVE),
+            is_forbidden: mode.has(Mode::NOT_ALLOWED),
+        }
+    }
+}
+
+impl From<Status> for Mode {
+    fn from(status: Status) -> Self {
+        let flag = |is_set: bool, flag: u8| if is_set { flag } else { 0 };
+        let flags = flag(status.is_enabled, Mode::ENABLED)
+            | flag(status.is_active, Mode::ACTIVE)
+            | flag(status.is_forbidden, Mode::NOT_ALLOWED);
+        Mode::new(status.phase, flags)
     }
 }

@@ -1,11 +1,10 @@
 //! What the controller says: who is to drive, its goals, and that it is there.
 
 use super::late::Late;
-use super::{Controller, Given, Want};
-use crate::recon::frame::seal;
-use crate::recon::message::{SpeedGoal, ToVehicle};
-use crate::recon::round_trip::Moment;
-use albacore_vehicle::{Command, Control, Vertical};
+use super::round_trip::Moment;
+use super::{Controller, Given, Say, Want};
+use crate::set_point::SetPoint;
+use albacore_vehicle::{Command, Control};
 
 /// Who commands nothing says this often that it is there.
 const KEEP_ALIVE_TICKS: u64 = 10;
@@ -44,7 +43,7 @@ impl Controller {
                 self.round_trip.begin();
                 self.ours = 0;
                 self.late = Late::default();
-                self.say(&ToVehicle::Override(true));
+                self.say(&Say::TakeOver);
             }
             // What the vehicle says of the question before would be taken for the answer to this one.
             Want::GiveBack { again, .. } => *again = true,
@@ -60,7 +59,7 @@ impl Controller {
                 let given = Given { since: self.moment(), driven };
                 self.want = Want::GiveBack { given, again: false };
                 self.control = Control::Monitoring;
-                self.say(&ToVehicle::Override(false));
+                self.say(&Say::GiveBack);
             }
             Want::GiveBack { again, .. } => {
                 *again = false;
@@ -77,7 +76,8 @@ impl Controller {
         let computed = std::mem::take(&mut self.computed);
         if self.is_late() {
             self.late.add(computed);
-            let told = if self.told_slow { None } else { self.late.told_slow(self.tick) };
+            let told =
+                if self.told_slow { None } else { self.late.told_slow(self.tick, self.side.dialect().timeout_ticks) };
             if let Some(told) = told {
                 self.told_slow = true;
                 self.notice(told);
@@ -90,15 +90,10 @@ impl Controller {
         if let Some(told) = std::mem::take(&mut self.late).told() {
             self.notice(told);
         }
-        let vertical = match command.vertical {
-            Vertical::Depth(depth) => ToVehicle::Depth(depth),
-            Vertical::Altitude(altitude) => ToVehicle::Altitude(altitude),
-        };
-        let speed = ToVehicle::Speed(SpeedGoal::MetresPerSecond(command.speed));
         let (now, moment) = (self.next_tick, self.moment());
-        let heading = self.round_trip.marked(command.heading, moment);
-        for (i, message) in [ToVehicle::Heading(heading), speed, vertical].into_iter().enumerate() {
-            if let Some(ignored) = self.goals[i].ask(message, now) {
+        let command = Command { heading: self.round_trip.marked(command.heading, moment), ..*command };
+        for set_point in SetPoint::of(&command) {
+            if let Some(ignored) = self.goals[set_point.place()].ask(set_point, now, &*self.side) {
                 self.notice_of_vehicle(ignored);
             }
         }
@@ -106,24 +101,27 @@ impl Controller {
         if self.spoke + 1 == now || self.waits_for_answer(now - 1) {
             return;
         }
-        let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now)?, goal)));
-        let Some((text, goal)) = due.min_by_key(|(_, goal)| goal.sent.as_ref().map(|(_, tick)| *tick)) else { return };
-        goal.sent = Some((text.clone(), now));
-        if let Some(ToVehicle::Heading(heading)) = goal.asked {
+        let side = &*self.side;
+        let due = self.goals.iter_mut().filter_map(|goal| Some((goal.due(now, side)?, goal.asked?, goal)));
+        let Some((text, asked, goal)) = due.min_by_key(|(_, _, goal)| goal.sent.as_ref().map(|(_, tick)| *tick)) else {
+            return;
+        };
+        goal.sent = Some((text, now));
+        if let SetPoint::Heading(heading) = asked {
             self.round_trip.sent(heading, moment);
         }
-        self.say(&text);
+        self.say(&Say::SetPoint(asked, command));
     }
 
     /// Says that we are here, without asking for anything.
     pub fn hello(&mut self) {
-        self.say(&ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into()));
+        self.say(&Say::KeepAlive);
     }
 
-    /// Gives control back: call it now and then until it is true, which it is when the vehicle's mode says so. Who never asked
+    /// Gives control back: call it now and then until it is true, which it is when the vehicle's status says so. Who never asked
     /// for control has none to give.
     pub fn release(&mut self) -> bool {
-        let heard = self.heard.drain(..).next_back().map(|heard| heard.mode);
+        let heard = self.heard.drain(..).next_back().map(|heard| heard.status);
         self.notices.extend(self.allowance.end());
         match self.want {
             Want::Listen => return true,
@@ -131,9 +129,9 @@ impl Controller {
             Want::Drive { .. } => self.want = Want::Leave(Given { since: self.moment(), driven: self.drives() }),
             Want::GiveBack { given, .. } => self.want = Want::Leave(given),
             Want::Leave(given) => {
-                if let Some(mode) = heard {
-                    let given = given.hear(mode);
-                    if self.is_taken(given, mode) {
+                if let Some(status) = heard {
+                    let given = given.hear(status);
+                    if self.is_taken(given, status) {
                         self.control = Control::Released;
                         return true;
                     }
@@ -141,12 +139,12 @@ impl Controller {
                 }
             }
         }
-        self.say(&ToVehicle::Override(false));
+        self.say(&Say::GiveBack);
         false
     }
 
-    pub(super) fn say(&mut self, message: &impl ToString) {
+    pub(super) fn say(&mut self, what: &Say) {
         self.spoke = self.next_tick.saturating_sub(1);
-        self.out.extend_from_slice(seal(&message.to_string()).as_bytes());
+        self.side.say(what, &mut self.out);
     }
 }

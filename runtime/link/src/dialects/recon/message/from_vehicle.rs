@@ -1,8 +1,8 @@
 //! What a vehicle says.
 
+use super::super::fields::{fixed, position, position_texts, ranges, time, time_text, within};
+use super::super::mode::Mode;
 use super::{Fields, Malformed, compass_text, lettered};
-use crate::recon::fields::{fixed, position, position_texts, ranges, time, time_text, within};
-use crate::recon::mode::Mode;
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Geodetic, Heading};
 use std::fmt;

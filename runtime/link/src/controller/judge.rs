@@ -1,34 +1,34 @@
-//! Who drives, by the mode that the vehicle reports.
+//! Who drives, by the status that the vehicle reports.
 
+use super::round_trip::Moment;
 use super::{Controller, Given, Want};
-use crate::recon::mode::{Mode, Phase};
-use crate::recon::round_trip::Moment;
+use crate::status::{Phase, Status};
 use albacore_vehicle::{Control, TICK_S};
 
 /// A vehicle that answers, but does not let us drive for this many ticks, by its own clock or the host's, refuses.
 const REQUEST_TICKS: u64 = 300;
 /// What was asked of a vehicle and not answered for so many ticks will not be: no link is driven over that is slower.
 const ANSWER_TICKS: u64 = 25;
-/// A vehicle that says in so many lines, one after the other, that we do not drive has left: one wrong line in 256 passes a sum of
-/// 8 bits.
+/// A vehicle that says in so many states, one after the other, that we do not drive has left: where a message has a sum of 8 bits,
+/// one wrong message in 256 passes it.
 const LEFT_LINES: u64 = 3;
 
 impl Controller {
-    /// Who drives, by the mode that the vehicle reports.
+    /// Who drives, by the status that the vehicle reports.
     pub(super) fn judge(&mut self, tick: u64) -> Control {
         if self.lost {
             return Control::TimedOut;
         }
-        let mode = self.mode;
-        let active = mode.has(Mode::ACTIVE);
+        let status = self.status;
+        let active = status.is_active;
         let driven = matches!(self.control, Control::InControl | Control::Suspended);
         let since = match self.want {
             Want::Drive { since } => since,
             // In override although we have not asked: it hands over of its own accord, or to another.
-            Want::Listen if active && mode.phase() == Phase::InMission => return Control::Offered,
+            Want::Listen if active && status.phase == Phase::InMission => return Control::Offered,
             Want::GiveBack { given, again } => {
-                let given = given.hear(mode);
-                if !self.is_taken(given, mode) {
+                let given = given.hear(status);
+                if !self.is_taken(given, status) {
                     self.want = Want::GiveBack { given, again };
                     return if again { Control::Requesting } else { Control::Monitoring };
                 }
@@ -41,11 +41,11 @@ impl Controller {
             }
             Want::Listen | Want::Leave(_) => return Control::Monitoring,
         };
-        let suspended = is_suspended(mode);
+        let suspended = status.is_suspended();
         if driven && (1..LEFT_LINES).contains(&self.left) {
             return self.control;
         }
-        match (mode.phase(), self.control) {
+        match (status.phase, self.control) {
             (_, ended @ (Control::Released | Control::Refused)) => ended,
             (Phase::Over, _) if driven => self.end(Control::Released, "the vehicle's own mission is over"),
             (Phase::Over, _) if self.over >= LEFT_LINES => {
@@ -61,7 +61,7 @@ impl Controller {
                 let why = match phase {
                     Phase::PreLaunch => "it is not launched yet",
                     Phase::Suspended => "its mission is suspended",
-                    _ if mode.has(Mode::NOT_ALLOWED) => "it says that override is not allowed",
+                    _ if status.is_forbidden => "it says that override is not allowed",
                     _ => "it says that its mission goes on",
                 };
                 let seconds = REQUEST_TICKS as f64 * TICK_S;
@@ -75,9 +75,9 @@ impl Controller {
     }
 
     /// Whether the vehicle has taken back what was given, by its latest word.
-    pub(super) fn is_taken(&self, given: Given, mode: Mode) -> bool {
+    pub(super) fn is_taken(&self, given: Given, status: Status) -> bool {
         let is_old = !given.driven && self.round_trip.between(given.since, self.moment()) <= ANSWER_TICKS;
-        !is_old && !mode.has(Mode::ACTIVE) && !mode.has(Mode::ENABLED)
+        !is_old && status.is_free()
     }
 
     fn end(&mut self, control: Control, why: &str) -> Control {
@@ -88,17 +88,7 @@ impl Controller {
 
 impl Given {
     /// The same after another word of the vehicle.
-    pub(super) fn hear(self, mode: Mode) -> Self {
-        Given { driven: self.driven || mode.has(Mode::ACTIVE), ..self }
+    pub(super) fn hear(self, status: Status) -> Self {
+        Given { driven: self.driven || status.is_active, ..self }
     }
-}
-
-/// Whether a vehicle that says this has suspended its mission, and whoever drives it.
-fn is_suspended(mode: Mode) -> bool {
-    mode.phase() == Phase::Suspended || mode.has(Mode::NOT_ALLOWED) && mode.phase() != Phase::Over
-}
-
-/// Whether a vehicle that says this is driven by nobody.
-pub(super) fn is_left(mode: Mode) -> bool {
-    !(is_suspended(mode) || mode.has(Mode::ACTIVE) && mode.phase() == Phase::InMission)
 }

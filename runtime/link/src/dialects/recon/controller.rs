@@ -1,0 +1,156 @@
+//! The controller's side: what a vehicle's lines say, and the lines that say something to it.
+
+use super::frame::{Deframer, seal};
+use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
+use super::{DIALECT, FULL_SCALE_VOLTS, grounding};
+use crate::controller::{ControllerSide, Hearing, Say};
+use crate::dialect::Dialect;
+use crate::set_point::SetPoint;
+use albacore_geometry::Vector;
+use albacore_geometry::math::atan2;
+use albacore_vehicle::channels::{
+    ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, SALINITY, SPEED, TEMPERATURE, WATER_DEPTH,
+};
+
+/// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
+/// 2 m comes to, m an axis.
+const POSITION_SIGMA: f64 = 3.0;
+/// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
+const DRIFT_TICKS: u64 = 50;
+/// A vehicle that goes no faster than this by its own word is at rest, m/s: a profiler that tells 0 then is in order, and one
+/// that tells 0 of a vehicle under way is not.
+const AT_REST: f64 = 0.05;
+
+/// What is remembered of earlier lines.
+#[derive(Default)]
+pub struct Controller {
+    deframer: Deframer,
+    memory: Memory,
+}
+
+#[derive(Default)]
+struct Memory {
+    /// How far the course is clockwise of the heading, rad, and the tick that it is of.
+    drift: Option<(f64, u64)>,
+    /// By the last state, m/s.
+    speed: f64,
+}
+
+impl ControllerSide for Controller {
+    fn dialect(&self) -> &'static Dialect {
+        &DIALECT
+    }
+
+    fn hear(&mut self, bytes: &[u8], hearing: &mut Hearing) {
+        let memory = &mut self.memory;
+        self.deframer.push(bytes, |frame| {
+            // A line that is no frame and a frame that is no message come to the same: noise.
+            if let Some(message) = frame.ok().and_then(|body| FromVehicle::parse(body).ok()) {
+                hearing.message();
+                memory.take_in(message, hearing);
+            } else {
+                hearing.unreadable();
+            }
+        });
+    }
+
+    fn say(&mut self, what: &Say, out: &mut Vec<u8>) {
+        let message = match what {
+            Say::TakeOver => ToVehicle::Override(true),
+            Say::GiveBack => ToVehicle::Override(false),
+            Say::KeepAlive => ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into()),
+            // The first commands of the first override are accepted after a question only.
+            Say::Begin => ToVehicle::Query("Depth".into()),
+            // Goals latch, and each has a line of its own.
+            Say::SetPoint(set_point, _) => (*set_point).into(),
+        };
+        out.extend_from_slice(seal(&message.to_string()).as_bytes());
+    }
+
+    fn text(&self, set_point: SetPoint) -> String {
+        format!("#{}", ToVehicle::from(set_point))
+    }
+}
+
+impl From<SetPoint> for ToVehicle {
+    fn from(set_point: SetPoint) -> Self {
+        match set_point {
+            SetPoint::Heading(heading) => ToVehicle::Heading(heading),
+            SetPoint::Speed(speed) => ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed)),
+            SetPoint::Depth(depth) => ToVehicle::Depth(depth),
+            SetPoint::Altitude(altitude) => ToVehicle::Altitude(altitude),
+        }
+    }
+}
+
+impl Memory {
+    fn take_in(&mut self, message: FromVehicle, hearing: &mut Hearing) {
+        match message {
+            FromVehicle::State(state) => self.take_in_state(&state, hearing),
+            FromVehicle::Adcp(adcp) => self.take_in_adcp(&adcp, hearing),
+            FromVehicle::Fluorometer { value, .. } => hearing.sample(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
+            FromVehicle::Battery { percent, .. } => hearing.sample(BATTERY, &[percent / 100.0]),
+            FromVehicle::Accepted(text) => take_in_echo(&text, hearing),
+            FromVehicle::Error(code, text) => {
+                let comma = if text.is_empty() { "" } else { ", " };
+                let said = format!("the vehicle says: error {code}{comma}{text}");
+                match grounding::heard(code, &text) {
+                    Some(aground) => hearing.aground(aground, said),
+                    None => hearing.notice(said),
+                }
+            }
+            FromVehicle::Ctd(ctd) => {
+                hearing.sample(TEMPERATURE, &[ctd.temperature]);
+                hearing.sample(SALINITY, &[ctd.salinity]);
+            }
+            FromVehicle::Version(_) | FromVehicle::Other(_) => {}
+        }
+    }
+
+    fn take_in_state(&mut self, state: &State, hearing: &mut Hearing) {
+        let Some(tick) = hearing.begin_state(state.time_ms) else { return };
+        self.speed = state.speed;
+        hearing.position(state.position, POSITION_SIGMA);
+        if let Some((angle, _)) = self.drift.filter(|(_, of)| tick.saturating_sub(*of) <= DRIFT_TICKS) {
+            hearing.sample(COURSE, &[(state.heading + angle).radians()]);
+        }
+        hearing.sample(HEADING, &[state.heading.radians()]);
+        hearing.sample(SPEED, &[state.speed]);
+        hearing.sample(DEPTH, &[state.depth]);
+        if let Some(altitude) = state.altitude {
+            hearing.sample(ALTITUDE, &[altitude]);
+            hearing.sample(WATER_DEPTH, &[state.depth + altitude]);
+        }
+        hearing
+            .end_state(state.mode.into(), &[SetPoint::Heading(state.heading_goal), SetPoint::Depth(state.depth_goal)]);
+    }
+
+    fn take_in_adcp(&mut self, adcp: &Adcp, hearing: &mut Hearing) {
+        let tick = hearing.tick();
+        if adcp.ahead != 0.0 || adcp.starboard != 0.0 {
+            self.drift = Some((atan2(adcp.starboard, adcp.ahead), tick));
+        } else if self.speed < AT_REST {
+            // At rest any direction is that of the course: no instrument is missing. The last one goes on.
+            self.drift = Some((self.drift.map_or(0.0, |(angle, _)| angle), tick));
+        }
+        if let Some((ahead, starboard)) = adcp.current {
+            let unit = adcp.heading.unit();
+            let flow =
+                Vector::new(ahead * unit.north - starboard * unit.east, ahead * unit.east + starboard * unit.north);
+            hearing.sample(FLOW, &[flow.north, flow.east]);
+        }
+    }
+}
+
+/// An echo is no acceptance, but it was heard: what `#S` tells of the goals, it tells better. Of speed and altitude it tells
+/// nothing.
+fn take_in_echo(text: &str, hearing: &mut Hearing) {
+    match ToVehicle::parse(&format!("C,{text}")) {
+        // Ours are in metres a second: an echo in another unit is of someone else's.
+        Ok(ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed))) => hearing.accepted(SetPoint::Speed(speed)),
+        Ok(other @ ToVehicle::Speed(_)) => hearing.other_speed(format!("#{other}")),
+        Ok(ToVehicle::Altitude(altitude)) => hearing.accepted(SetPoint::Altitude(altitude)),
+        Ok(ToVehicle::Heading(heading)) => hearing.heading_heard(heading),
+        _ => {}
+    }
+}

@@ -1,0 +1,44 @@
+//! The table of navigators: a module for each, and how scenarios name them.
+
+mod as_told;
+mod dead_reckoning;
+
+pub use as_told::AsTold;
+pub use dead_reckoning::DeadReckoning;
+
+use crate::navigator::Navigator;
+use albacore_geometry::Point;
+use serde::Deserialize;
+
+/// Those that a scenario can name: each is a clause of the standard library that gives a `navigator`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NavigatorSetup {
+    /// [`DeadReckoning`].
+    DeadReckoning {
+        /// Growth of the position error, m/s^0.5: its standard deviation an axis after t seconds is this times the root of t.
+        walk: f64,
+    },
+}
+
+impl Default for NavigatorSetup {
+    fn default() -> Self {
+        NavigatorSetup::DeadReckoning { walk: 0.05 }
+    }
+}
+
+impl NavigatorSetup {
+    /// One that begins at a known point.
+    pub fn begin(&self, start: Point) -> Box<dyn Navigator> {
+        match self {
+            NavigatorSetup::DeadReckoning { walk } => Box::new(DeadReckoning::new(start, *walk)),
+        }
+    }
+
+    /// The white noise that the velocity which it is given has in simulation, as the random walk that it integrates to, m/s^0.5.
+    pub fn velocity_walk(&self) -> f64 {
+        match self {
+            NavigatorSetup::DeadReckoning { walk } => *walk,
+        }
+    }
+}
