@@ -21,6 +21,8 @@ use std::time::Duration;
 const MARK_TICKS: u64 = 10;
 /// Marks that are remembered; more than wait on any link that can be driven over.
 const MARKS_MAX: usize = 256;
+/// What comes may be so old while no round trip is known, ticks: 2 s. Over a longer one no mission drives, unless it says so.
+const UNDER_WAY_TICKS: u64 = 20;
 /// Tenths of a degree in a turn.
 const TURN: u16 = 3600;
 
@@ -211,11 +213,11 @@ impl RoundTrip {
     }
 
     /// Whether a state with this stamp was made after a time of the host's clock, as far as the two clocks are known. What comes through
-    /// a buffer after a pause is older than it looks, and all by a link's delay, which is no more than the quickest round trip: until one
-    /// is known, none was.
+    /// a buffer after a pause is older than it looks, and all by a link's delay, which is no more than the quickest round trip.
     pub fn made_after(&self, tick: u64, host: Duration) -> bool {
-        let (Some(ahead), Some(quickest)) = (self.ahead, self.quickest) else { return false };
-        tick as i64 + ahead - quickest as i64 >= host_ticks(host, self.rate) as i64
+        let Some(ahead) = self.ahead else { return false };
+        let under_way = self.quickest.unwrap_or(UNDER_WAY_TICKS) as i64;
+        tick as i64 + ahead - under_way >= host_ticks(host, self.rate) as i64
     }
 
     /// By how much the host's clock is ahead of the stamps, ticks.
