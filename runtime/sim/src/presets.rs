@@ -1,9 +1,11 @@
 //! Two worlds for tests and benchmarks: the June 2003 trial at Duck, with and without its vertical part.
 
-use crate::scenario::{
-    Bottom, Flow, Ground, HullSetup, KinematicHull, Meander, Plane, Plume, Scenario, Source, VehicleSetup,
-};
-use crate::sensors::{InstrumentSetup, Lbl, Navigation};
+use crate::craft::sensors::{InstrumentSetup, Lbl, Navigation};
+use crate::craft::setup::{HullSetup, KinematicHull, VehicleSetup};
+use crate::scenario::Scenario;
+use crate::world::bottom::{Bottom, Ground, Plane};
+use crate::world::plume::{Plume, Source};
+use crate::world::water::{Flow, Meander};
 use albacore_geometry::{Area, Heading, Point};
 
 /// Where the mean flow of the trial goes, degrees.

@@ -1,28 +1,20 @@
 //! A world in plain numbers: what a scenario file can say, with the values it has when it says nothing.
 
-mod bottom;
-mod flow;
 mod issues;
-mod plume;
 mod setting;
-mod source;
-mod stratification;
-mod vehicle;
 
-pub use bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
-pub use flow::{Flow, Meander, Tide, UpperFlow, Waves};
 pub(crate) use issues::{FLOW_MAX, OfClause, ScenarioIssues, rounded_down, told};
 pub use issues::{ScenarioError, ScenarioIssue, Why};
-pub use plume::Plume;
 pub use setting::Setting;
-pub(crate) use source::SPIN_UP_MAX_S;
-pub use source::{Patch, Source, Times};
-pub use stratification::Stratification;
-pub use vehicle::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 
-use crate::fault::{self, Fault};
-use crate::recorded::{self, RecordedPlume};
-use crate::sensors::InstrumentSetup;
+use crate::craft::fault::{self, Fault};
+use crate::craft::sensors::InstrumentSetup;
+use crate::craft::setup::{self, OwnMission, VehicleSetup};
+use crate::world::bottom::{self, Bottom, NoGo};
+use crate::world::plume::{self, Patch, Plume, Source};
+use crate::world::recorded::{self, RecordedPlume};
+use crate::world::stratification::{self, Stratification};
+use crate::world::water::{self, Flow};
 use albacore_front_seat::Handover;
 use albacore_geometry::Area;
 use albacore_vehicle::{Channel, Limits};
@@ -114,7 +106,7 @@ impl Scenario {
         if !objections.0.is_empty() {
             return Err(ScenarioError { faults: objections.0 });
         }
-        flow::check(self, &mut objections);
+        water::check(self, &mut objections);
         stratification::check(self, &mut objections);
         bottom::check(self, &mut objections);
         // An area that was read from a file has not met its constructor.
@@ -130,12 +122,12 @@ impl Scenario {
         }
         // What follows looks at the region and the flow's direction.
         if objections.0.is_empty() {
-            flow::check_meander(self, &mut objections);
+            water::check_meander(self, &mut objections);
             plume::check(self, &mut objections);
-            source::check(self, &mut objections);
+            plume::check_sources(self, &mut objections);
             recorded::check(self, &mut objections);
         }
-        vehicle::check(self, &mut objections);
+        setup::check(self, &mut objections);
         self.instruments.check(&mut objections);
         fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }

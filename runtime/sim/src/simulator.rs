@@ -1,12 +1,12 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
-use crate::fault::Faults;
-use crate::hull::Hull;
-use crate::incidents::Incidents;
+use crate::craft::fault::Faults;
+use crate::craft::hull::Hull;
+use crate::craft::incidents::Incidents;
+use crate::craft::sensors::{Instruments, Surroundings};
 use crate::scenario::{Scenario, ScenarioError};
-use crate::sensors::{Instruments, Surroundings};
-use crate::survey::Survey;
 use crate::world::World;
+use crate::world::survey::Survey;
 use albacore_front_seat::{FrontSeat, Known};
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::channels::VEHICLE_MODE;

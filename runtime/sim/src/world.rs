@@ -1,10 +1,23 @@
-//! All that is there without the vehicle: water, plume and bottom, in time.
+//! The world: all that is there without the vehicle, in time. Water that flows, what is dissolved in it, a chemical plume, a bottom.
+//! For each of them what a scenario says of it, what of that cannot be, and its physics.
 
-use crate::recorded::Playback;
-use crate::scenario::{Bottom, Scenario, Stratification, UpperFlow};
-use crate::simulated::Simulated;
-use crate::survey::Survey;
-use crate::water::Sea;
+pub(crate) mod bottom;
+pub(crate) mod deepest;
+pub(crate) mod plume;
+pub(crate) mod recorded;
+pub(crate) mod simulated;
+pub(crate) mod stratification;
+pub(crate) mod survey;
+pub(crate) mod water;
+
+use crate::scenario::Scenario;
+use crate::world::bottom::Bottom;
+use crate::world::recorded::Playback;
+use crate::world::simulated::Simulated;
+use crate::world::stratification::Stratification;
+use crate::world::survey::Survey;
+use crate::world::water::Sea;
+use crate::world::water::UpperFlow;
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::TICK_S;
 

@@ -1,11 +1,16 @@
 //! The clauses of a scenario by their names in a script, and what each sets in the world.
 
-use super::flow::MeanFlow;
-use super::source::{Leak, Patch};
-use super::vehicle::{OwnRows, OwnWaypoints};
-use super::{Ground, NoGo, Pit, Plane, Plume, Scenario, Source, Stratification, Tide, UpperFlow, VehicleSetup, Waves};
-use crate::fault::Fault;
-use crate::sensors::{Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Navigation, Pressure, Sounder};
+use super::Scenario;
+use crate::craft::fault::Fault;
+use crate::craft::sensors::{Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Navigation, Pressure, Sounder};
+use crate::craft::setup::VehicleSetup;
+use crate::craft::setup::{OwnRows, OwnWaypoints};
+use crate::world::bottom::{Ground, NoGo, Pit, Plane};
+use crate::world::plume::{Leak, Patch};
+use crate::world::plume::{Plume, Source};
+use crate::world::stratification::Stratification;
+use crate::world::water::MeanFlow;
+use crate::world::water::{Tide, UpperFlow, Waves};
 use albacore_front_seat::Handover;
 use albacore_geometry::Area;
 use albacore_vehicle::Limits;

@@ -1,0 +1,206 @@
+//! The faults of a run: which are in force in a tick, what is said of it, and what they do.
+
+use super::filter::Filter;
+use super::{Fault, FaultKind, Sensor, to_tick};
+use albacore_geometry::Vector;
+use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
+use albacore_vehicle::{Sample, TICK_S};
+
+/// What the vehicle itself suffers from in a tick: all that a hull and a computer need to know of faults.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Ailing {
+    /// It hears no commands.
+    pub deaf: bool,
+    /// Water has got in. It stays in when the fault is over.
+    pub leaks: bool,
+    /// So much water is in the hull, kg. It stays in, too.
+    pub water: f64,
+    /// Where the rudder is stuck: a share of its greatest deflection, positive to starboard.
+    pub rudder: Option<f64>,
+    /// Current beside that of the water, m/s toward.
+    pub current: Vector,
+}
+
+/// All faults of a run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Faults {
+    all: Vec<Known>,
+    ailing: Ailing,
+    notices: Vec<String>,
+}
+
+/// A fault, and how it stands with it.
+#[derive(Clone, Debug)]
+struct Known {
+    fault: Fault,
+    in_force: bool,
+    filter: Option<Filter>,
+}
+
+impl Faults {
+    /// Those of a scenario, in its order.
+    pub fn new(faults: &[Fault], seed: u64) -> Self {
+        let known = faults.iter().zip(0..).map(|(&fault, number)| {
+            let filter = match fault.trouble {
+                FaultKind::Sensor(sensor, disorder) => Some(Filter::new(sensor, disorder, seed, number)),
+                _ => None,
+            };
+            Known { fault, in_force: false, filter }
+        });
+        Faults { all: known.collect(), ..Faults::default() }
+    }
+
+    /// Begins and ends what begins and ends with a tick.
+    pub fn advance_to(&mut self, tick: u64) {
+        let mut ailing = Ailing { leaks: self.ailing.leaks, ..Ailing::default() };
+        for known in &mut self.all {
+            let (from, to) = (to_tick(known.fault.from), known.fault.to.map_or(f64::INFINITY, to_tick));
+            let in_force = (from..to).contains(&(tick as f64));
+            if in_force != known.in_force {
+                let what = if in_force { "fault" } else { "fault over" };
+                self.notices.push(format!("{what}: {}", known.fault));
+            }
+            known.in_force = in_force;
+            match known.fault.trouble {
+                FaultKind::Flooding { water, within } => {
+                    ailing.water += water * filled((tick as f64).min(to) - from, within / TICK_S);
+                }
+                _ if !in_force => {}
+                FaultKind::Sensor(..) => {}
+                FaultKind::IgnoredCommands => ailing.deaf = true,
+                FaultKind::Leak => ailing.leaks = true,
+                FaultKind::StuckRudder(share) => ailing.rudder = Some(share),
+                FaultKind::StrongCurrent(current) => ailing.current = ailing.current + current,
+            }
+        }
+        self.ailing = ailing;
+    }
+
+    /// What the vehicle suffers from in this tick.
+    pub fn ailing(&self) -> &Ailing {
+        &self.ailing
+    }
+
+    /// Makes of a tick's samples what who drives is told.
+    pub fn filter(&mut self, tick: u64, samples: &mut Vec<Sample>) {
+        let mut water_depth_fails = false;
+        for known in &mut self.all {
+            let Some(filter) = &mut known.filter else { continue };
+            if known.in_force {
+                filter.apply(tick, samples);
+                water_depth_fails |=
+                    matches!(known.fault.trouble, FaultKind::Sensor(Sensor::Depth | Sensor::Altitude, _));
+            } else {
+                filter.watch(tick, samples);
+            }
+        }
+        if water_depth_fails {
+            add_up(samples);
+        }
+    }
+
+    /// What has begun and ended since this was last asked.
+    pub fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+}
+
+/// The share of the water that is in after so many ticks, when all of it is in `within` so many.
+fn filled(after: f64, within: f64) -> f64 {
+    if after < within { (after / within).max(0.0) } else { f64::from(u8::from(after >= 0.0)) }
+}
+
+/// The depth of the water is the sum of what is told of depth and altitude in the same tick, and not told without both.
+fn add_up(samples: &mut Vec<Sample>) {
+    let latest = |channel| samples.iter().rev().find(|s| s.channel == channel).map(|s| s.reading[0]);
+    let sum = latest(DEPTH).zip(latest(ALTITUDE)).map(|(depth, altitude)| depth + altitude);
+    samples.retain_mut(|sample| match (sample.channel, sum) {
+        (WATER_DEPTH, Some(sum)) => {
+            sample.reading[0] = sum;
+            true
+        }
+        (WATER_DEPTH, None) => false,
+        _ => true,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::craft::fault::SensorFault;
+    use albacore_vehicle::Snapshot;
+
+    fn fault(trouble: FaultKind, from: f64, to: Option<f64>) -> Fault {
+        Fault { trouble, from, to }
+    }
+
+    #[test]
+    fn begin_and_end_are_told_to_the_tick() {
+        let trouble = FaultKind::Sensor(Sensor::Flow, SensorFault::NotANumber);
+        let mut faults =
+            Faults::new(&[fault(trouble, 0.3, Some(0.5)), fault(FaultKind::IgnoredCommands, 0.4, None)], 1);
+        let told: Vec<(u64, String)> = (0..10)
+            .flat_map(|tick| {
+                faults.advance_to(tick);
+                faults.take_notices().into_iter().map(move |notice| (tick, notice))
+            })
+            .collect();
+        let expected = [
+            (3, "fault: flow not a number".to_string()),
+            (4, "fault: ignored commands".to_string()),
+            (5, "fault over: flow not a number".to_string()),
+        ];
+        assert_eq!(told, expected);
+        assert!(faults.ailing().deaf && !faults.ailing().leaks);
+    }
+
+    #[test]
+    fn a_leak_stays_and_currents_add_up() {
+        let current = |north| FaultKind::StrongCurrent(Vector::new(north, 0.0));
+        let list =
+            [fault(FaultKind::Leak, 0.0, Some(0.1)), fault(current(1.0), 0.0, None), fault(current(0.5), 0.0, None)];
+        let mut faults = Faults::new(&list, 1);
+        (0..5).for_each(|tick| faults.advance_to(tick));
+        assert!(faults.ailing().leaks);
+        assert_eq!(faults.ailing().current, Vector::new(1.5, 0.0));
+    }
+
+    #[test]
+    fn a_hull_fills_evenly_and_what_is_in_stays_in() {
+        let flooding = |water, within| FaultKind::Flooding { water, within };
+        let list = [
+            fault(flooding(2.0, 1.0), 0.5, None),
+            fault(flooding(4.0, 1.0), 0.5, Some(1.0)),
+            fault(flooding(8.0, 0.0), 2.0, Some(2.1)),
+        ];
+        let mut faults = Faults::new(&list, 1);
+        let water: Vec<f64> = (0..30)
+            .map(|tick| {
+                faults.advance_to(tick);
+                faults.ailing().water
+            })
+            .collect();
+        for (tick, kilograms) in [(0, 0.0), (5, 0.0), (8, 1.8), (10, 3.0), (15, 4.0), (19, 4.0), (20, 12.0), (29, 12.0)]
+        {
+            assert!((water[tick] - kilograms).abs() < 1e-12, "{tick}: {}", water[tick]);
+        }
+    }
+
+    #[test]
+    fn the_waters_depth_fails_with_either_part() {
+        let told = |sensor, disorder| {
+            let mut faults = Faults::new(&[fault(FaultKind::Sensor(sensor, disorder), 0.0, None)], 1);
+            faults.advance_to(0);
+            let mut snapshot = Snapshot::default();
+            for (channel, metres) in [(DEPTH, 3.0), (ALTITUDE, 5.0), (WATER_DEPTH, 8.0)] {
+                snapshot.push(channel, &[metres]);
+            }
+            faults.filter(0, &mut snapshot.samples);
+            snapshot.samples.iter().find(|s| s.channel == WATER_DEPTH).map(|s| s.reading[0])
+        };
+        assert_eq!(told(Sensor::Depth, SensorFault::Off), None);
+        assert_eq!(told(Sensor::Altitude, SensorFault::Wrong(1.0)), Some(10.0));
+        assert_eq!(told(Sensor::Speed, SensorFault::Off), Some(8.0));
+        assert!(told(Sensor::Depth, SensorFault::NotANumber).is_some_and(|sum| !sum.is_finite()));
+    }
+}

@@ -1,0 +1,183 @@
+//! The vehicle's instruments: what a scenario says of each, what of that cannot be, and what it makes of the truth. A file for each, and
+//! this is their register.
+
+mod adcp;
+mod battery;
+mod compass;
+mod ctd;
+mod delay;
+mod dvl;
+mod fluorometer;
+mod onboard;
+mod positioning;
+mod pressure;
+mod rate;
+mod sounder;
+
+pub use adcp::{Adcp, Looks};
+pub use battery::Battery;
+pub use compass::Compass;
+pub use ctd::Ctd;
+pub use dvl::Dvl;
+pub use fluorometer::Fluorometer;
+pub use positioning::{Gps, Lbl, Navigation};
+pub use pressure::Pressure;
+pub use sounder::Sounder;
+
+use crate::craft::hull::Motion;
+use crate::scenario::ScenarioIssues;
+use crate::world::World;
+use adcp::Profiler;
+use albacore_geometry::{Heading, Point, Vector};
+use albacore_vehicle::{Channel, Snapshot, TICK_S, Truth, channels};
+use battery::BatteryGauge;
+use ctd::CtdProbe;
+use fluorometer::ChemicalSensor;
+use onboard::OnboardNavigation;
+use pressure::PressureGauge;
+use sounder::EchoSounder;
+
+/// Samples a second of what is read at every tick.
+const EVERY_TICK: f64 = 1.0 / TICK_S;
+
+/// What a scenario says of its vehicle's instruments. They are perfect where it says nothing, but for the chemical sensor and the profiler.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InstrumentSetup {
+    /// How the vehicle knows its position; none: perfectly.
+    pub navigation: Option<Navigation>,
+    /// The receiver of satellite fixes; none: it has none. It needs a [`Navigation`].
+    pub gps: Option<Gps>,
+    /// The compass.
+    pub compass: Compass,
+    /// The Doppler log.
+    pub dvl: Dvl,
+    /// The pressure gauge.
+    pub pressure: Pressure,
+    /// The echo sounder.
+    pub sounder: Sounder,
+    /// The flow sensor.
+    pub adcp: Adcp,
+    /// The chemical sensor.
+    pub fluorometer: Fluorometer,
+    /// The sensor of temperature and salinity; none: the vehicle has none.
+    pub ctd: Option<Ctd>,
+    /// The battery and its gauge.
+    pub battery: Battery,
+}
+
+impl InstrumentSetup {
+    /// What a vehicle tells that has them.
+    pub fn channels(&self) -> Vec<Channel> {
+        if self.ctd.is_some() { channels::all() } else { channels::without_ctd() }
+    }
+
+    /// What of them cannot be.
+    pub(crate) fn check(&self, issues: &mut ScenarioIssues) {
+        positioning::check(self, issues);
+        fluorometer::check(self, issues);
+        sounder::check(self, issues);
+    }
+}
+
+/// The instruments of a vehicle in a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Instruments {
+    navigation: OnboardNavigation,
+    pressure: PressureGauge,
+    sounder: EchoSounder,
+    adcp: Profiler,
+    fluorometer: ChemicalSensor,
+    ctd: Option<CtdProbe>,
+    battery: BatteryGauge,
+}
+
+impl Instruments {
+    /// Those of a run that begins at a place.
+    pub fn new(setup: &InstrumentSetup, start: Point, seed: u64) -> Self {
+        Instruments {
+            navigation: OnboardNavigation::new(setup, start, seed),
+            pressure: PressureGauge::new(&setup.pressure, seed),
+            sounder: EchoSounder::new(&setup.sounder, seed),
+            adcp: Profiler::new(&setup.adcp, seed),
+            fluorometer: ChemicalSensor::new(&setup.fluorometer, seed),
+            ctd: setup.ctd.as_ref().map(|ctd| CtdProbe::new(ctd, seed)),
+            battery: BatteryGauge::new(&setup.battery, seed),
+        }
+    }
+
+    /// All of them, in the order in which a snapshot holds what they tell: a part of every recorded run.
+    fn in_order(&mut self) -> [&mut dyn Instrument; 7] {
+        [
+            &mut self.navigation,
+            &mut self.pressure,
+            &mut self.sounder,
+            &mut self.adcp,
+            &mut self.fluorometer,
+            &mut self.ctd,
+            &mut self.battery,
+        ]
+    }
+
+    /// Lets one tick go by, in which the vehicle moved and came to an altitude (m).
+    pub fn step(&mut self, tick: u64, motion: &Motion, altitude: f64) {
+        self.navigation.step(tick, motion, altitude);
+    }
+
+    /// Adds what they tell at a tick.
+    pub fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
+        around.compass = self.navigation.compass(around.tick, around.truth.heading);
+        self.in_order().into_iter().for_each(|instrument| instrument.measure(around, snapshot));
+    }
+
+    /// Where the vehicle believes to be when it is at a place.
+    pub fn position(&self, truth: Point) -> Point {
+        self.navigation.belief(truth).position
+    }
+
+    /// The flow that the vehicle knows of, m/s toward.
+    pub fn flow(&self) -> Vector {
+        self.adcp.told()
+    }
+
+    /// Where the chemical sensor's intake is on a vehicle that moves so, and its height above the bottom (m).
+    pub fn intake(&self, motion: &Motion, world: &World) -> (Point, f64) {
+        self.fluorometer.intake(motion.position, motion.heading, motion.depth, world)
+    }
+}
+
+/// What tells something of its surroundings.
+trait Instrument {
+    /// Adds to a snapshot what it tells at a tick.
+    fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot);
+}
+
+/// One that a vehicle may not have.
+impl<T: Instrument> Instrument for Option<T> {
+    fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
+        if let Some(instrument) = self {
+            instrument.measure(around, snapshot);
+        }
+    }
+}
+
+/// What there is to be measured at a tick.
+pub(crate) struct Surroundings<'a> {
+    pub tick: u64,
+    pub world: &'a mut World,
+    pub truth: &'a Truth,
+    /// The vehicle's velocity over ground, m/s.
+    pub ground_velocity: Vector,
+    /// What a fault adds to the flow, m/s toward.
+    pub current: Vector,
+    /// The battery's charge, share of a full one.
+    pub charge: f64,
+    /// Where the compass says that the nose points: others turn by it.
+    pub compass: Heading,
+}
+
+impl Surroundings<'_> {
+    /// Seconds since tick 0.
+    fn time_s(&self) -> f64 {
+        self.tick as f64 * TICK_S
+    }
+}
