@@ -16,7 +16,8 @@ mod world;
 pub use craft::fault::{Fault, FaultKind, Sensor, SensorFault};
 pub use craft::hull;
 pub use craft::sensors::{
-    Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, InstrumentSetup, Lbl, Looks, Navigation, Pressure, Sounder,
+    Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, InstrumentSetting, InstrumentSetup, Lbl, Looks, Navigation,
+    Pressure, Sounder,
 };
 pub use craft::setup::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 pub use noise::{Noise, Stream};

@@ -35,6 +35,7 @@ use ctd::CtdProbe;
 use fluorometer::ChemicalSensor;
 use onboard::OnboardNavigation;
 use pressure::PressureGauge;
+use serde::Deserialize;
 use sounder::EchoSounder;
 
 /// Samples a second of what is read at every tick.
@@ -63,6 +64,44 @@ pub struct InstrumentSetup {
     pub ctd: Option<Ctd>,
     /// The battery and its gauge.
     pub battery: Battery,
+}
+
+/// The clauses of instruments, by their names in a script, and where each goes.
+macro_rules! clauses {
+    ($($name:literal $clause:ident => $field:ident $(in $wrap:ident)?;)*) => {
+        /// A clause of a scenario that says how an instrument is.
+        #[derive(Clone, Debug, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        #[allow(missing_docs, reason = "the standard library says what each clause is")]
+        pub enum InstrumentSetting { $($clause($clause)),* }
+
+        impl InstrumentSetting {
+            /// The names of the clauses.
+            pub const NAMES: [&str; [$($name),*].len()] = [$($name),*];
+        }
+
+        impl InstrumentSetup {
+            /// Takes in a clause.
+            pub(crate) fn set(&mut self, setting: InstrumentSetting) {
+                match setting {
+                    $(InstrumentSetting::$clause(setting) => self.$field = $($wrap)?(setting),)*
+                }
+            }
+        }
+    };
+}
+
+clauses! {
+    "navigation" Navigation => navigation in Some;
+    "fluorometer" Fluorometer => fluorometer;
+    "adcp" Adcp => adcp;
+    "sounder" Sounder => sounder;
+    "compass" Compass => compass;
+    "pressure" Pressure => pressure;
+    "dvl" Dvl => dvl;
+    "gps" Gps => gps in Some;
+    "ctd" Ctd => ctd in Some;
+    "battery" Battery => battery;
 }
 
 impl InstrumentSetup {

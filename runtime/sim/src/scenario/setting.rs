@@ -2,7 +2,7 @@
 
 use super::Scenario;
 use crate::craft::fault::Fault;
-use crate::craft::sensors::{Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Navigation, Pressure, Sounder};
+use crate::craft::sensors::InstrumentSetting;
 use crate::craft::setup::VehicleSetup;
 use crate::craft::setup::{OwnRows, OwnWaypoints};
 use crate::world::bottom::{Ground, NoGo, Pit, Plane};
@@ -22,12 +22,16 @@ use serde::Deserialize;
 #[allow(missing_docs, reason = "the standard library says what each clause is")]
 pub enum Setting {
     Flow(MeanFlow),
-    Turning { rate: f64 },
+    Turning {
+        rate: f64,
+    },
     Tide(Tide),
     Waves(Waves),
     UpperLayer(UpperFlow),
     Stratification(Stratification),
-    Region { area: Area },
+    Region {
+        area: Area,
+    },
     Bottom(Plane),
     Pit(Pit),
     NoGo(NoGo),
@@ -40,17 +44,10 @@ pub enum Setting {
     Rows(OwnRows),
     Waypoints(OwnWaypoints),
     Handover(Handover),
-    Navigation(Navigation),
-    Fluorometer(Fluorometer),
-    Adcp(Adcp),
-    Sounder(Sounder),
-    Compass(Compass),
-    Pressure(Pressure),
-    Dvl(Dvl),
-    Gps(Gps),
-    Ctd(Ctd),
-    Battery(Battery),
     Fault(Fault),
+    /// A clause of an instrument, which the register of instruments names.
+    #[serde(skip)]
+    Instrument(InstrumentSetting),
 }
 
 impl Scenario {
@@ -76,17 +73,8 @@ impl Scenario {
             Setting::Rows(rows) => self.own_mission = Some(rows.into()),
             Setting::Waypoints(waypoints) => self.own_mission = Some(waypoints.into()),
             Setting::Handover(handover) => self.handover = Some(handover),
-            Setting::Navigation(navigation) => self.instruments.navigation = Some(navigation),
-            Setting::Fluorometer(fluorometer) => self.instruments.fluorometer = fluorometer,
-            Setting::Adcp(adcp) => self.instruments.adcp = adcp,
-            Setting::Sounder(sounder) => self.instruments.sounder = sounder,
-            Setting::Compass(compass) => self.instruments.compass = compass,
-            Setting::Pressure(pressure) => self.instruments.pressure = pressure,
-            Setting::Dvl(dvl) => self.instruments.dvl = dvl,
-            Setting::Gps(gps) => self.instruments.gps = Some(gps),
-            Setting::Ctd(ctd) => self.instruments.ctd = Some(ctd),
-            Setting::Battery(battery) => self.instruments.battery = battery,
             Setting::Fault(fault) => self.faults.push(fault),
+            Setting::Instrument(instrument) => self.instruments.set(instrument),
         }
     }
 }
