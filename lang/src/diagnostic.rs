@@ -77,16 +77,6 @@ impl Diagnostic {
     }
 }
 
-/// A distance, m, in words. Beyond 1000 km no local plane gives it.
-pub fn distance(metres: f64) -> String {
-    match metres {
-        m if m < 1.0 => format!("{m:.2} m"),
-        m if m < 10_000.0 => format!("{m:.0} m"),
-        m if m < 1_000_000.0 => format!("{:.0} km", m / 1000.0),
-        _ => "more than 1000 km".to_string(),
-    }
-}
-
 /// Whether any of these is a mistake.
 pub(crate) fn has_error(findings: &[Diagnostic]) -> bool {
     findings.iter().any(|finding| finding.severity == Severity::Error)

@@ -3,7 +3,6 @@
 //! [`load`] reads a file and all it imports (`syntax`), checks them (`check`: names, types, dimensions, rules), and gives a
 //! [`Script`], from which missions and scenarios are lowered (`lower`) to what the machine executes.
 
-mod area_file;
 mod broken;
 mod cascade;
 mod check;
@@ -22,19 +21,20 @@ mod other_languages;
 pub mod prompt;
 mod rules;
 pub mod source;
-mod suggest;
 pub mod syntax;
 pub mod types;
 
+pub use albacore_formats::FileFault;
+pub use albacore_wording::{help as suggestion, nearest};
 pub use lower::{
     ExpectProgram, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots,
 };
 pub use rules::{FAR_M, hemisphere};
-pub use suggest::{help as suggestion, nearest};
 
 use crate::code::Code;
 use albacore_geometry::Geodetic;
 use albacore_program::{Channel, Program};
+use albacore_wording as suggest;
 use broken::Broken;
 use cascade::Cascades;
 use check::{Checked, Override};
@@ -55,15 +55,6 @@ pub trait Library {
     /// The bytes of a file of the project that holds data, `bytes_max` of them at most. Its path counts from the project's
     /// folder, and does not lead out of it.
     fn data_file(&self, path: &str, bytes_max: u64) -> Result<Vec<u8>, FileFault>;
-}
-
-/// What is wrong with a file of data.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FileFault {
-    /// What is wrong, with the path.
-    pub message: String,
-    /// How to mend it.
-    pub help: Option<String>,
 }
 
 /// A mission of a script.

@@ -2,13 +2,13 @@
 
 use super::{Checker, ParamInfo};
 use crate::FileFault;
-use crate::area_file::{self, BYTES_MAX, Ring};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Builtin, Expr, ExprKind, TextPart};
 use crate::source::{Source, Span};
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_formats::area::{self as area_file, BYTES_MAX, Ring};
 use std::collections::BTreeSet;
 
 /// The polygons with holes that were read.

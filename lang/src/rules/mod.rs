@@ -19,7 +19,7 @@ pub use livelock::check as livelocks;
 pub use overlaps::check as overlaps;
 pub use places::{FAR_M, operating_area};
 pub use reports::check as tests_reports;
-pub use swapped::{HELP as SWAPPED, hemisphere, of_mission as swapped};
+pub use swapped::{hemisphere, of_mission as swapped};
 pub use unreached::{RunIn, check as unreached};
 
 pub use inputs::read as inputs_read;

@@ -5,13 +5,15 @@ use super::fixed::Fixed;
 use super::swapped;
 use super::swapped::hemisphere;
 use crate::code::Code;
-use crate::diagnostic::{Diagnostic, distance};
+use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
 use crate::source::Span;
 use crate::types::TypeTable;
+use albacore_formats::area::SWAPPED;
 use albacore_geometry::{
     AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Geodetic, Heading, Point, TangentFrame, goes_round_a_pole,
 };
+use albacore_wording::distance;
 use std::collections::BTreeSet;
 
 /// What is farther from the area than this, m, is nothing to the mission: a no-go zone may well lie beside it, and a vehicle start
@@ -41,7 +43,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         let out = area.distance(&self::area(e, frame)?);
         let mut far = (out > FAR_M).then(|| finding(&activity.name, written, e.span, what, out))?;
         if frame.is_some_and(|frame| swapped::would_be_near(e, &[frame.origin])) {
-            far.help = Some(swapped::HELP.into());
+            far.help = Some(SWAPPED.into());
         }
         Some(far)
     };

@@ -5,13 +5,11 @@ use super::places::written_area;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Builtin, Expr, ExprKind, Hir};
+use albacore_formats::area::SWAPPED;
 use albacore_geometry::Geodetic;
 
 /// What is within this, m, of the places of a script is meant to lie there.
 const NEAR_M: f64 = 100_000.0;
-
-/// What is said of such a file.
-pub const HELP: &str = "latitude and longitude seem to be swapped: GeoJSON and KML want the longitude first";
 
 /// The finding for a mission whose area would lie near the places that its statements name if its file had the longitude first. Those
 /// of files are not counted.
@@ -29,7 +27,7 @@ pub fn of_mission(hir: &Hir, mission: usize, places: &[Geodetic]) -> Option<Diag
     let area = written_area(hir, mission)?;
     would_be_near(area, places).then(|| {
         let message = format!("no place of the mission `{}` is near its area", hir.activities[mission].name);
-        Diagnostic::error(Code::AreasSwapped, area.span, message).help(HELP)
+        Diagnostic::error(Code::AreasSwapped, area.span, message).help(SWAPPED)
     })
 }
 

@@ -20,11 +20,7 @@ impl LinkError {
 
     /// A name that is none of those that there are.
     pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Self {
-        let near = known.iter().find(|k| strsim::osa_distance(&name.to_lowercase(), k) <= 2);
-        let help = match near {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there is `{}`", known.join("`, `")),
-        };
+        let help = albacore_wording::help(name, known.iter().copied()).unwrap_or_default();
         LinkError::new(format!("there is no {what} `{name}`"), help)
     }
 }

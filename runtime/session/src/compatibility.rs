@@ -3,12 +3,13 @@
 
 use albacore_geometry::{Area, Geodetic, Point, TangentFrame};
 use albacore_lang::code::Code;
-use albacore_lang::diagnostic::{Diagnostic, distance};
+use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::source::Span;
 use albacore_lang::{FAR_M, SAME_PLANE_M, Script};
 use albacore_program::senses;
 use albacore_sim::{Ground, NoGo, Scenario};
 use albacore_vehicle::channels;
+use albacore_wording::distance;
 
 /// A world in which a mission is to run.
 pub(crate) struct Held<'a> {

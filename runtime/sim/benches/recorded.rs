@@ -2,8 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a benchmark without its record has nothing to measure")]
 
+use albacore_formats::recording::RecordingHeader;
 use albacore_geometry::Point;
-use albacore_sim::{Playback, RecordedPlume, RecordingHeader};
+use albacore_sim::{Playback, RecordedPlume};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use std::fs;

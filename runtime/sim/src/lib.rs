@@ -25,7 +25,7 @@ pub use scenario::{Scenario, ScenarioError, ScenarioIssue, Setting, Why};
 pub use simulator::Simulator;
 pub use world::bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use world::plume::{Patch, Plume, Source, Times};
-pub use world::recorded::{Playback, RecordedKernel, RecordedPlume, Recording, RecordingError, RecordingHeader, Still};
+pub use world::recorded::{Playback, RecordedPlume, Still};
 pub use world::stratification::Stratification;
 pub use world::survey::Survey;
 pub use world::water::{Flow, Meander, Tide, UpperFlow, Waves};

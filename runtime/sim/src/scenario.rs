@@ -27,7 +27,7 @@ const CLAUSES_MAX: usize = 1024;
 /// The default is still water, 20 m deep, without a plume, and a vehicle with perfect sensors of position.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenario {
-    /// Where the flow meanders and filaments live, widened by [`Meander::margin`]. A meander or a plume needs it.
+    /// Where the flow meanders and filaments live, widened by [`crate::Meander::margin`]. A meander or a plume needs it.
     pub region: Option<Area>,
     /// The water's motion.
     pub flow: Flow,

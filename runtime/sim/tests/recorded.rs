@@ -1,7 +1,8 @@
 //! A vehicle in a recorded plume, through the port alone.
 
+use albacore_formats::recording::{Recording, RecordingHeader};
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_sim::{RecordedPlume, Recording, RecordingHeader, Scenario, Simulator, Tide, presets};
+use albacore_sim::{RecordedPlume, Scenario, Simulator, Tide, presets};
 use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use super::clause::Clause;
 use super::{Fault, Understood, Wrong};
 use crate::files::Files;
-use albacore_bathymetry::{FILE_BYTES_MAX, Placing};
+use albacore_formats::survey::{FILE_BYTES_MAX, Placing};
 use albacore_geometry::{Point, TangentFrame};
 use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
@@ -35,11 +35,11 @@ pub fn grid(
     let BottomGrid { file: path, at, northward, eastward, scale, depth_scale } = clause;
     let placing = Placing { at, share: (northward, eastward), scale };
     let bytes = files.data(&path, FILE_BYTES_MAX)?;
-    let in_file = |fault: albacore_bathymetry::Fault| Fault {
+    let in_file = |fault: albacore_formats::survey::Fault| Fault {
         message: format!("`{path}`: {}", fault.message),
         help: Some(fault.help),
     };
-    let survey = albacore_bathymetry::read(&bytes)
+    let survey = albacore_formats::survey::read(&bytes)
         .map_err(|unreadable| Wrong(unreadable.faults.into_iter().map(in_file).collect()))?;
     let extent = survey.extent(&placing, frame).map_err(|fault| Wrong(vec![in_file(fault)]))?;
     understood.world.bottom.ground = Ground::Grid(Arc::new(Grid {

@@ -2,7 +2,8 @@
 
 use super::{Fault, Understood, Wrong};
 use crate::files::Files;
-use albacore_sim::{RecordedKernel, RecordedPlume, RecordingError, RecordingHeader};
+use albacore_formats::recording::{RecordedKernel, RecordingError, RecordingHeader};
+use albacore_sim::RecordedPlume;
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
 use serde::Deserialize;

@@ -6,9 +6,10 @@ mod measure;
 mod page;
 mod pictures;
 
+use albacore_formats::recording::{RecordedKernel, Recording, RecordingHeader};
 use albacore_geometry::{Area, Heading, Point};
 use albacore_sim::probe::Band;
-use albacore_sim::{Flow, Meander, Plume, RecordedKernel, Recording, RecordingHeader, Scenario, Source, presets};
+use albacore_sim::{Flow, Meander, Plume, Scenario, Source, presets};
 use page::{Page, table};
 use std::error::Error;
 use std::path::{Path, PathBuf};

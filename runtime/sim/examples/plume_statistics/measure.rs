@@ -1,11 +1,10 @@
 //! What is measured of the plumes: by probes, by the filaments' own scatter, by integrals, and of the flow.
 
+use albacore_formats::recording::{RecordedKernel, Recording};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_sim::probe::{Band, Probe};
-use albacore_sim::{
-    Flow, Plume, RecordedKernel, RecordedPlume, Recording, Scenario, ScenarioError, Simulator, Source, Still,
-};
+use albacore_sim::{Flow, Plume, RecordedPlume, Scenario, ScenarioError, Simulator, Source, Still};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, VehicleError};
 use std::error::Error;
 use std::sync::Arc;

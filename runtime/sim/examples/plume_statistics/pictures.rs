@@ -2,10 +2,11 @@
 
 use crate::chart::{Axis, COLOURS, Chart};
 use crate::measure::{self, Aged, THRESHOLD};
+use albacore_formats::recording::Recording;
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::probe::{Band, SAMPLE_M};
-use albacore_sim::{RecordedPlume, Recording, Scenario, Simulator, Still};
+use albacore_sim::{RecordedPlume, Scenario, Simulator, Still};
 use albacore_svg::Svg;
 use std::error::Error;
 use std::sync::Arc;

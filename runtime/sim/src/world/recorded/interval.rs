@@ -1,7 +1,6 @@
 //! The filaments between two frames, sorted by north, so that a query looks at those near it only.
 
-use super::header::Kernel;
-use super::{RecordedKernel, Recording};
+use albacore_formats::recording::{Kernel, Passage, RecordedKernel, Recording};
 use albacore_geometry::Point;
 
 /// A filament ends at this many radii. The checks of a record are good to a millionth of the smallest reading that counts,
@@ -11,18 +10,6 @@ const CUT_RADII: f64 = 8.0;
 const STRIP_M: f64 = 4.0;
 /// No more strips than this, however far the filaments lie apart.
 const STRIPS_MAX: f64 = 4096.0;
-
-/// A filament on its straight way through the interval.
-#[derive(Clone, Copy, Debug)]
-struct Passage {
-    /// Where it is at `since`, m.
-    place: Point,
-    /// How it moves, m/s north and east.
-    velocity: [f64; 2],
-    since: f64,
-    until: f64,
-    birth: f64,
-}
 
 /// All filaments alive at some time of an interval.
 #[derive(Clone, Debug, Default)]
@@ -42,7 +29,7 @@ pub(super) struct Interval {
 impl Interval {
     /// Makes it the interval that holds a time of the record, s.
     pub fn turn_to(&mut self, recording: &Recording, time: f64) {
-        let frame = (time / recording.header.record.frame_interval_s).floor().max(0.0) as usize;
+        let frame = (time / recording.frame_interval()).floor().max(0.0) as usize;
         if self.frame != Some(frame) {
             self.fill(recording, frame);
         }
@@ -51,12 +38,12 @@ impl Interval {
     /// The concentration at a point and a time (s) of the interval, in thresholds of detection.
     pub fn concentration(&self, recording: &Recording, kernel: RecordedKernel, p: Point, time: f64) -> f64 {
         let law = recording.kernel();
-        self.near(p).iter().map(|passage| passage.reading(law, kernel, p, time)).sum()
+        self.near(p).iter().map(|passage| reading(passage, law, kernel, p, time)).sum()
     }
 
     /// How many filaments are alive at a time (s) of the interval.
     pub fn alive(&self, time: f64) -> usize {
-        self.passages.iter().filter(|passage| passage.lives(time)).count()
+        self.passages.iter().filter(|passage| lives(passage, time)).count()
     }
 
     /// The passages of the strips that a query can reach.
@@ -75,37 +62,13 @@ impl Interval {
     /// Makes it the interval that begins with a frame.
     fn fill(&mut self, recording: &Recording, frame: usize) {
         self.frame = Some(frame);
-        let r = &recording.header.record;
-        let (begin, end) = (frame as f64 * r.frame_interval_s, (frame + 1) as f64 * r.frame_interval_s);
-        let passages: Vec<Passage> = recording
-            .tracks
-            .iter()
-            // Released in order: none after the first that is born too late.
-            .take_while(|track| track.first <= frame + 1)
-            .filter(|track| track.last >= frame)
-            .map(|track| {
-                let (since, from) = if track.first > frame {
-                    (track.birth, recording.source())
-                } else {
-                    (begin, recording.in_frame(track, frame))
-                };
-                let place = from;
-                // In its last frame it still counts, and is gone after.
-                let (until, velocity) = if track.last > frame && end > since {
-                    let way = recording.in_frame(track, frame + 1) - from;
-                    (end, [way.north / (end - since), way.east / (end - since)])
-                } else {
-                    (begin, [0.0; 2])
-                };
-                Passage { place, velocity, since, until, birth: track.birth }
-            })
-            .collect();
-        self.sort(passages, end, recording.kernel());
+        let end = (frame + 1) as f64 * recording.frame_interval();
+        self.sort(recording.passages(frame).collect(), end, recording.kernel());
     }
 
     /// Sorts passages into strips by the middles of their ways: a counting sort, which keeps the order of release.
     fn sort(&mut self, passages: Vec<Passage>, end: f64, law: &Kernel) {
-        let middles: Vec<f64> = passages.iter().map(Passage::middle).collect();
+        let middles: Vec<f64> = passages.iter().map(middle).collect();
         let (south, north) = middles.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(s, n), &m| (s.min(m), n.max(m)));
         let span = (north - south).max(0.0);
         self.southmost = south;
@@ -133,27 +96,25 @@ impl Interval {
     }
 }
 
-impl Passage {
-    /// North of the middle of its way, m.
-    fn middle(&self) -> f64 {
-        self.place.north + 0.5 * self.velocity[0] * (self.until - self.since)
-    }
+/// North of the middle of its way, m.
+fn middle(passage: &Passage) -> f64 {
+    passage.place.north + 0.5 * passage.velocity[0] * (passage.until - passage.since)
+}
 
-    fn lives(&self, time: f64) -> bool {
-        self.since <= time && time <= self.until
-    }
+fn lives(passage: &Passage, time: f64) -> bool {
+    passage.since <= time && time <= passage.until
+}
 
-    fn reading(&self, law: &Kernel, kernel: RecordedKernel, p: Point, time: f64) -> f64 {
-        if !self.lives(time) {
-            return 0.0;
-        }
-        let gone = time - self.since;
-        let north = self.place.north + gone * self.velocity[0] - p.north;
-        let east = self.place.east + gone * self.velocity[1] - p.east;
-        let (d2, r2) = (north * north + east * east, law.squared_radius(time - self.birth));
-        if d2 > CUT_RADII * CUT_RADII * r2 {
-            return 0.0;
-        }
-        law.reading(kernel, d2, r2)
+fn reading(passage: &Passage, law: &Kernel, kernel: RecordedKernel, p: Point, time: f64) -> f64 {
+    if !lives(passage, time) {
+        return 0.0;
     }
+    let gone = time - passage.since;
+    let north = passage.place.north + gone * passage.velocity[0] - p.north;
+    let east = passage.place.east + gone * passage.velocity[1] - p.east;
+    let (d2, r2) = (north * north + east * east, law.squared_radius(time - passage.birth));
+    if d2 > CUT_RADII * CUT_RADII * r2 {
+        return 0.0;
+    }
+    law.reading(kernel, d2, r2)
 }

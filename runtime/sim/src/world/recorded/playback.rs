@@ -1,8 +1,9 @@
 //! A record played back in a run.
 
+use super::RecordedPlume;
 use super::interval::Interval;
-use super::{RecordedPlume, Recording};
 use crate::noise::{Noise, Stream};
+use albacore_formats::recording::Recording;
 use albacore_geometry::{Point, Vector};
 use std::sync::Arc;
 

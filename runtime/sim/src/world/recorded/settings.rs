@@ -1,24 +1,12 @@
 //! A record as the world of a scenario.
 
-use super::Recording;
 use crate::scenario::{Scenario, ScenarioIssues, told};
 use crate::world::plume::Source;
-use serde::Deserialize;
+use albacore_formats::recording::{RecordedKernel, Recording};
 use std::sync::Arc;
 
 /// The papers' threshold of detection, ratio of full scale: with it a record saturates the sensor at 25 thresholds.
 const THRESHOLD: f64 = 0.04;
-
-/// How a filament thins as it grows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RecordedKernel {
-    /// With its radius cubed: a Gaussian in three dimensions, the kernel of the model that made the record.
-    #[default]
-    Pompy,
-    /// With its radius squared: a Gaussian in two, as in a flat plume of the simulator's own.
-    Flat,
-}
 
 /// A record, and how a run meets it.
 #[derive(Clone, Debug)]

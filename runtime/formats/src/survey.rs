@@ -11,12 +11,12 @@ mod classic;
 mod conventions;
 mod csv;
 mod fault;
+mod grid;
 mod marks;
-mod survey;
 
 pub use axis::Axis;
 pub use fault::{Fault, Unreadable};
-pub use survey::{Extent, Kind, Placing, Survey};
+pub use grid::{Extent, Kind, Placing, Survey};
 
 use fault::Faults;
 

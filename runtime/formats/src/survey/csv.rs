@@ -11,10 +11,10 @@
 //! `nodata=VALUE` cells of that value are known to hold nothing, and with `nodata=none` all cells to hold depths. Other words of
 //! the head are remarks, as are further lines that begin with `#`; blank lines count for nothing.
 
-use crate::axis::Axis;
-use crate::fault::{Fault, Faults, counted, shortened};
-use crate::marks;
-use crate::survey::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::axis::Axis;
+use crate::survey::fault::{Fault, Faults, counted, shortened};
+use crate::survey::grid::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::marks;
 
 /// What a head line looks like, for who has none.
 const HEAD: &str = "begin it with a line such as `# lon 140.0..144.9 n=60 lat 10.0..14.0 n=49 metres`, or with \

@@ -1,8 +1,8 @@
 //! A survey that was read: depths on a grid, and where that comes to lie in a mission's plane.
 
-use crate::axis::Axis;
-use crate::fault::{Fault, Faults, compact};
-use crate::{CELLS_MAX, fault};
+use crate::survey::axis::Axis;
+use crate::survey::fault::{Fault, Faults, compact};
+use crate::survey::{CELLS_MAX, fault};
 use albacore_geometry::math::{PI, TAU, radians};
 use albacore_geometry::{Point, TangentFrame, metres_per_radian};
 

@@ -6,11 +6,11 @@
 
 mod packing;
 
-use crate::axis::Axis;
-use crate::classic::{Classic, Variable};
-use crate::fault::{Fault, Faults, compact, listed, shortened};
-use crate::marks;
-use crate::survey::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::axis::Axis;
+use crate::survey::classic::{Classic, Variable};
+use crate::survey::fault::{Fault, Faults, compact, listed, shortened};
+use crate::survey::grid::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
+use crate::survey::marks;
 use packing::Packing;
 
 /// Names of variables that hold the bottom, where a file has several over two dimensions.

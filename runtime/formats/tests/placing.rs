@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose survey cannot be placed has failed")]
 
-use albacore_bathymetry::{Placing, Survey, read};
+use albacore_formats::survey::{Placing, Survey, read};
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Geodetic, Point, TangentFrame, metres_per_radian};
 

@@ -1,6 +1,6 @@
 //! What a record says of itself, and whether its parts fit together.
 
-use super::{RecordedKernel, RecordingError, shortened};
+use super::{RecordingError, shortened};
 use albacore_geometry::math::exp;
 use albacore_geometry::{AREA_WIDTH_MIN_M, Area, Heading, Point};
 use serde::Deserialize;
@@ -53,13 +53,24 @@ pub(super) struct Layout {
     pub bytes: usize,
 }
 
+/// How a filament thins as it grows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RecordedKernel {
+    /// With its radius cubed: a Gaussian in three dimensions, the kernel of the model that made the record.
+    #[default]
+    Pompy,
+    /// With its radius squared: a Gaussian in two, as in a flat plume of the simulator's own.
+    Flat,
+}
+
 /// How a filament reads: c = q (r2_far / r2)^p exp(-d2 / 2 r2), where r2 = r0^2 + growth age.
 #[derive(Clone, Debug)]
-pub(super) struct Kernel {
+pub struct Kernel {
     peak: f64,
     far: f64,
     initial: f64,
-    pub growth: f64,
+    pub(super) growth: f64,
 }
 
 #[derive(Clone, Debug, Deserialize)]

@@ -6,8 +6,8 @@
 
 mod bytes;
 
-use crate::CELLS_MAX;
-use crate::fault::{self, Fault, counted, shortened};
+use crate::survey::CELLS_MAX;
+use crate::survey::fault::{self, Fault, counted, shortened};
 use bytes::Bytes;
 
 /// The marks that begin a list.

@@ -4,7 +4,7 @@
 
 mod writer;
 
-use albacore_bathymetry::{CELLS_MAX, Fault, Kind, Survey, Unreadable, read};
+use albacore_formats::survey::{CELLS_MAX, Fault, Kind, Survey, Unreadable, read};
 use writer::File;
 use writer::Values::{Doubles, Floats, Shorts, Text};
 

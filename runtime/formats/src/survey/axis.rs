@@ -1,7 +1,7 @@
 //! One side of a grid: evenly spaced places, ascending.
 
-use crate::CELLS_MAX;
-use crate::fault::{self, Fault, compact, counted, shortened};
+use crate::survey::CELLS_MAX;
+use crate::survey::fault::{self, Fault, compact, counted, shortened};
 
 /// A place is off its even spacing by at most this share of a step. Degrees in single precision are: steps of 15 seconds
 /// of arc about 290 degrees by 0.4 %.

@@ -5,13 +5,16 @@ mod geojson;
 mod kml;
 
 use crate::FileFault;
-use crate::suggest::{listed, nearest};
+use albacore_wording::{listed, nearest};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::rc::Rc;
 
 /// A file larger than this, in bytes, is refused: an area has few corners.
 pub const BYTES_MAX: u64 = 4_000_000;
+
+/// What is said where latitude and longitude seem to have changed places.
+pub const SWAPPED: &str = "latitude and longitude seem to be swapped: GeoJSON and KML want the longitude first";
 
 /// The mend of polygons of one name, or of several in one feature.
 const APART: &str = "give each polygon a feature and a name of its own";
@@ -29,7 +32,9 @@ const QUOTED_MAX: usize = 60;
 /// A position on the globe (WGS 84), in degrees; north and east are positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position {
+    /// Its latitude.
     pub latitude_deg: f64,
+    /// Its longitude.
     pub longitude_deg: f64,
 }
 

@@ -2,11 +2,11 @@
 
 use super::{Position, fault};
 use crate::FileFault;
-use crate::diagnostic::distance;
 use albacore_geometry::{
     AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Geodetic, Point, TangentFrame, Vector,
     goes_round_a_pole, longitude_beside,
 };
+use albacore_wording::distance;
 
 /// What is thinner than this, in metres, is no area but a point or a line.
 const THICKNESS_M: f64 = 1e-3;
@@ -40,7 +40,7 @@ fn beyond(corners: &[Position], what: &str) -> Option<FileFault> {
         let Position { latitude_deg, longitude_deg } = corners[i];
         let exchanged = Position { latitude_deg: longitude_deg, longitude_deg: latitude_deg };
         let help = if on_globe(&exchanged) {
-            crate::rules::SWAPPED
+            super::SWAPPED
         } else {
             "positions are degrees on WGS 84, the longitude first: export the area in these"
         };

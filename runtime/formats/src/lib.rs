@@ -1,0 +1,17 @@
+//! Files of data: from their bytes to what they say, whole, or to all that is wrong with them.
+//!
+//! [`survey`] reads the depths of a survey of the bottom, [`area`] the polygons that charting programs save, [`recording`] a plume that was computed
+//! elsewhere. Whatever the bytes are, reading them ends, and takes no more room than a small multiple of theirs.
+
+pub mod area;
+pub mod recording;
+pub mod survey;
+
+/// What is wrong with a file of data.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileFault {
+    /// What is wrong, with the path.
+    pub message: String,
+    /// How to mend it.
+    pub help: Option<String>,
+}
