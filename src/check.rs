@@ -21,11 +21,11 @@ pub struct Check {
     /// Change a parameter first: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Tell also what is worth knowing and nothing wrong: rules of one behavior that can hold in the same tick, an area that
+    /// Print notes too, which are no mistakes: rules of one behavior that can hold in the same tick, an area that
     /// reaches beyond a recorded plume.
     #[arg(long)]
     notes: bool,
-    /// Tell what each mission costs: the most work of one tick and the memory, and where they come from.
+    /// Print what each mission costs: the most work of one tick and the memory, and where they come from.
     #[arg(long)]
     cost: bool,
 }

@@ -14,13 +14,13 @@ const COMPARED_MAX: usize = 200;
 /// So many characters of a line are shown.
 const CHARS_MAX: usize = 400;
 
-/// Lay out scripts in the one style.
+/// Format scripts.
 #[derive(clap::Args)]
 pub struct Fmt {
-    /// Scripts, or folders with scripts at any depth; `-` is standard input, laid out to standard output.
+    /// Scripts, or folders with scripts at any depth; `-` formats standard input to standard output.
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    /// Write nothing: list what would change, and end with 1 if anything would.
+    /// Write nothing: list what would change, and exit with 1 if anything would.
     #[arg(long)]
     check: bool,
 }

@@ -42,22 +42,22 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
-    /// Start a project: a folder with a mission that runs, and its test.
+    /// Create a project: a folder with a mission that runs, and its test.
     New(new::New),
     /// Check a mission script and run it.
     Run(run::Run),
-    /// Check scripts: every error and warning of all files.
+    /// Check scripts and print every error and warning.
     Check(check::Check),
-    /// Lay out scripts in the one style.
+    /// Format scripts.
     Fmt(fmt::Fmt),
     /// Run the tests of scripts.
     Test(test::Test),
     /// Drive a simulated vehicle line by line.
     Repl(repl::Repl),
-    /// Run a mission with many seeds, on all cores, into a table.
+    /// Run a mission with many seeds, on all cores, and write a table.
     ///
-    /// A row for each seed, in their order: the same bytes on any number of cores and after any interruption. Ends with 0
-    /// when every seed was run, whatever came of it; with 1 when interrupted.
+    /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
+    /// code is 0 when every seed was run, whatever the outcomes, and 1 when interrupted.
     Campaign(campaign::Campaign),
     /// Draw the switching diagram of a strategy.
     Graph(graph::Graph),
@@ -65,9 +65,9 @@ enum Verb {
     Doc(doc::Doc),
     /// Explain the code of an error or a warning.
     Explain(explain::Explain),
-    /// Look at a scenario: every number in force, and a picture.
+    /// Show a scenario: the value of every parameter, and a map.
     Scenario(scenario::Scenario),
-    /// Serve a simulated vehicle at the far end of a link.
+    /// Serve a simulated vehicle over a link.
     Vehicle(vehicle::Vehicle),
     /// Print a script with which a shell completes verbs and options.
     ///

@@ -99,7 +99,7 @@ impl Choice {
 /// What goes wrong in a simulated world, beside what its scenario says.
 #[derive(clap::Args)]
 pub struct Faults {
-    /// Let something go wrong, as a clause of the scenario does: `fault(position, off, from: 120 s, to: 180 s)`.
+    /// Inject a fault, written as a scenario clause: `fault(position, off, from: 120 s, to: 180 s)`.
     #[arg(long = "fault", value_name = "CLAUSE")]
     pub texts: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! `albacore scenario show`: a scenario laid open.
+//! `albacore scenario show`: the values of a scenario, and its map.
 
 use crate::campaign::seeds;
 use crate::exit::Exit;
@@ -9,7 +9,7 @@ use crate::{disk, message};
 use albacore_session::{Shown, ValueSource};
 use std::path::{Path, PathBuf};
 
-/// Look at a scenario.
+/// Show a scenario.
 #[derive(clap::Args)]
 pub struct Scenario {
     #[command(subcommand)]
@@ -18,7 +18,7 @@ pub struct Scenario {
 
 #[derive(clap::Subcommand)]
 enum Action {
-    /// Draw it as it is when a run begins, and list every number in force, those of the defaults too.
+    /// Draw the scenario as it is when a run begins, and list the value of every parameter, defaults included.
     Show(Show),
 }
 

@@ -25,7 +25,7 @@ pub struct Test {
     /// Only the tests whose names contain this.
     #[arg(long, value_name = "TEXT")]
     filter: Option<String>,
-    /// Take what was found as right: write new snapshots over the old. They are of runs without `--fault`, and are left out with
+    /// Accept the new snapshots: write them over the old. They are of runs without `--fault`, and are left out with
     /// it.
     #[arg(long, conflicts_with = "texts")]
     accept: bool,

@@ -35,7 +35,7 @@ pub struct Vehicle {
     seed: u64,
     #[command(flatten)]
     faults: Faults,
-    /// Let something go wrong on the link, with each message and both ways: `loss: 5 %, corrupt: 1 %, split: 5 %, repeat: 1 %,
+    /// Inject faults into the link, on each message and both ways: `loss: 5 %, corrupt: 1 %, split: 5 %, repeat: 1 %,
     /// reorder: 1 %, delay: 200 ms`, `loss: 100 %, from: 60 s, to: 65 s`, by the vehicle's time and the seed.
     #[arg(long, value_name = "CLAUSE")]
     link_faults: Vec<String>,

@@ -256,7 +256,7 @@ mod tests {
         for (text, message, help) in [
             ("/dev/ttyUSB0", "is no link", "serial:/dev/ttyUSB0"),
             ("seriel:/dev/x?dialect=recon", "no kind of link `seriel`", "did you mean `serial`?"),
-            ("carrier-pigeon:x?dialect=recon", "no kind of link", "`serial`, `udp`, `pty`"),
+            ("carrier-pigeon:x?dialect=recon", "no kind of link", "`pty`, `serial` and `udp`"),
             ("tcp:10.0.0.1:23456?dialect=recon", "`tcp:` are not built yet", "udp:HOST:PORT"),
             ("serial:/dev/x?dialect=recon&baud=0", "0 baud", "57600"),
             ("udp:10.0.0.1?dialect=recon", "has no port", "23456"),
