@@ -113,138 +113,144 @@ impl<'t> Checker<'t> {
     }
 
     fn declaration(&mut self, clause: &'t Clause, kind: Kind, parts: &mut Parts) {
-        let span = clause.span;
-        let mission_only = matches!(
-            clause.kind,
-            ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. }
-        );
-        if mission_only && kind != Kind::Mission {
-            self.misplaced(
-                span,
-                "this stands in a mission only",
-                "move it to the mission; behaviors take what they need as parameters",
-            );
-            return;
-        }
         match &clause.kind {
+            ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. } => {
+                self.mission_part(clause, kind, parts);
+            }
             ClauseKind::With(items) => {
                 let with = self.with_setting(Setting::Instant, |c| c.with_items(items));
                 parts.decls.push(Decl::With(with));
             }
-            ClauseKind::Signal { name, ty, value } => {
-                let value = self.instant(Temporal::Yes, |c| match ty {
-                    Some(ty) => {
-                        let ty = c.written_type(c.scope.module, ty);
-                        c.expr_as(value, &ty, &format!("`{}`", name.node))
-                    }
-                    None => c.expr(value, None),
-                });
-                if value.ty == Type::None {
-                    self.report(Diagnostic::error(Code::TypesNone, value.span, "this signal is always absent"));
-                }
-                let id = self.declare(name, VarKind::Signal, value.ty.clone());
-                parts.decls.push(Decl::Signal(id, value));
-            }
-            ClauseKind::Memory { name, ty, init } => {
-                let written = self.written_type(self.scope.module, ty);
-                let init = init.as_ref().map(|e| {
-                    let what = format!("`{}`", name.node);
-                    self.instant(Temporal::No, |c| c.expr_as(e, &written, &what))
-                });
-                let empty_is_plain = matches!(written, Type::List(..) | Type::Optional(_) | Type::Unknown);
-                if init.is_none() && !empty_is_plain {
-                    self.report(
-                        Diagnostic::error(
-                            Code::TypesMemory,
-                            name.span,
-                            format!("with what does `{}` begin?", name.node),
-                        )
-                        .help("write `= VALUE`; only lists begin empty and optionals absent"),
-                    );
-                }
-                let id = self.declare(name, VarKind::Memory, written);
-                if let Some(range) = Self::implied_range(&self.scope.vars[id].ty) {
-                    self.scope.vars[id].range = range;
-                }
-                if let Some(init) = &init {
-                    self.assigned_in_range(id, init);
-                }
-                self.list_order(id, ty);
-                parts.decls.push(Decl::Memory(id, init));
-            }
-            ClauseKind::Area { name, value } => {
-                let value = self.instant(Temporal::No, |c| c.expr_as(value, &Type::Area, "the operating area"));
-                if let Some(earlier) = parts.mission.area {
-                    let place = self.scope.vars[earlier].span;
-                    self.report(
-                        Diagnostic::error(Code::MissionsTwice, span, "a mission has one operating area")
-                            .label(place, "the first")
-                            .help("keep one of them"),
-                    );
-                }
-                let id = self.declare(name, VarKind::Area, Type::Area);
-                parts.mission.area = Some(id);
-                parts.decls.push(Decl::Area(id, value));
-            }
-            ClauseKind::Reaction { on, block } => {
-                let condition = self.instant(Temporal::Yes, |c| c.condition(on));
-                let facts = self.shown(&condition, true);
-                let block = self.with_setting(Setting::Instant, |c| {
-                    c.in_block(|c| {
-                        c.scope.facts.learn(facts);
-                        c.block(block)
-                    })
-                });
-                parts.reactions.push((condition, block));
-            }
+            ClauseKind::Signal { name, ty, value } => parts.decls.push(self.signal(name, ty.as_ref(), value)),
+            ClauseKind::Memory { name, ty, init } => parts.decls.push(self.memory(name, ty, init.as_ref())),
+            ClauseKind::Reaction { on, block } => parts.reactions.push(self.reaction(on, block)),
             ClauseKind::Abort { why, on: Some(on) } => {
                 let condition = self.instant(Temporal::Yes, |c| c.condition(on));
                 let why = self.told(why);
                 parts.aborts.push((why, condition));
             }
-            ClauseKind::Limits(limits) => {
-                for limit in limits {
-                    self.limit(limit, &mut parts.mission);
-                }
-            }
+            _ => {}
+        }
+    }
+
+    /// What a mission alone says of itself.
+    fn mission_part(&mut self, clause: &'t Clause, kind: Kind, parts: &mut Parts) {
+        if kind != Kind::Mission {
+            return self.misplaced(
+                clause.span,
+                "this stands in a mission only",
+                "move it to the mission; behaviors take what they need as parameters",
+            );
+        }
+        match &clause.kind {
+            ClauseKind::Area { name, value } => self.operating_area(name, value, clause.span, parts),
+            ClauseKind::Limits(limits) => limits.iter().for_each(|limit| self.limit(limit, &mut parts.mission)),
             ClauseKind::Requires(requires) => {
-                for require in requires {
-                    self.require(require, &mut parts.mission);
-                }
+                requires.iter().for_each(|require| self.require(require, &mut parts.mission));
             }
             ClauseKind::Recovery { within, block } => {
-                if parts.mission.recovery.is_some() {
-                    let finding = Diagnostic::error(Code::MissionsTwice, span, "a mission has one recovery");
-                    self.report(finding.help("keep one of them"));
-                }
-                let within = within.as_ref().map(|e| self.time_limit(e, "the time of the recovery"));
-                if within.is_none() {
-                    let word = Span { end: span.start + "recovery".len() as u32, ..span };
-                    self.report(
-                        Diagnostic::error(Code::MissionsEndless, word, "this recovery may go on for ever")
-                            .here("no `within` bounds it")
-                            .help("write `recovery within 10 min { … }`: the mission's own time does not bound it"),
-                    );
-                }
-                let finish = self.scope.finish.take();
-                self.scope.driving = Some(Driving::Recovery);
-                let block = self.in_block(|c| c.block(block));
-                self.scope.driving = None;
-                self.scope.finish = finish;
-                if let Some(place) = flow::aborts(&block) {
-                    self.report(
-                        Diagnostic::error(
-                            Code::MissionsRecovery,
-                            place,
-                            "a recovery cannot abort: the mission is over already",
-                        )
-                        .help("leave it out: the recovery ends with its last statement, or with its `within`"),
-                    );
-                }
-                parts.mission.recovery = Some((within, block));
+                self.recovery(within.as_ref(), block, clause.span, &mut parts.mission);
             }
             _ => {}
         }
+    }
+
+    fn signal(&mut self, name: &tree::Name, ty: Option<&tree::Ty>, value: &tree::Expr) -> Decl {
+        let value = self.instant(Temporal::Yes, |c| match ty {
+            Some(ty) => {
+                let ty = c.written_type(c.scope.module, ty);
+                c.expr_as(value, &ty, &format!("`{}`", name.node))
+            }
+            None => c.expr(value, None),
+        });
+        if value.ty == Type::None {
+            self.report(Diagnostic::error(Code::TypesNone, value.span, "this signal is always absent"));
+        }
+        let id = self.declare(name, VarKind::Signal, value.ty.clone());
+        Decl::Signal(id, value)
+    }
+
+    fn memory(&mut self, name: &tree::Name, ty: &tree::Ty, init: Option<&tree::Expr>) -> Decl {
+        let written = self.written_type(self.scope.module, ty);
+        let init = init.map(|e| {
+            let what = format!("`{}`", name.node);
+            self.instant(Temporal::No, |c| c.expr_as(e, &written, &what))
+        });
+        let empty_is_plain = matches!(written, Type::List(..) | Type::Optional(_) | Type::Unknown);
+        if init.is_none() && !empty_is_plain {
+            self.report(
+                Diagnostic::error(Code::TypesMemory, name.span, format!("with what does `{}` begin?", name.node))
+                    .help("write `= VALUE`; only lists begin empty and optionals absent"),
+            );
+        }
+        let id = self.declare(name, VarKind::Memory, written);
+        if let Some(range) = Self::implied_range(&self.scope.vars[id].ty) {
+            self.scope.vars[id].range = range;
+        }
+        if let Some(init) = &init {
+            self.assigned_in_range(id, init);
+        }
+        self.list_order(id, ty);
+        Decl::Memory(id, init)
+    }
+
+    fn reaction(&mut self, on: &tree::Expr, block: &tree::Block) -> (Expr, hir::Block) {
+        let condition = self.instant(Temporal::Yes, |c| c.condition(on));
+        let facts = self.shown(&condition, true);
+        let block = self.with_setting(Setting::Instant, |c| {
+            c.in_block(|c| {
+                c.scope.facts.learn(facts);
+                c.block(block)
+            })
+        });
+        (condition, block)
+    }
+
+    fn operating_area(&mut self, name: &tree::Name, value: &tree::Expr, span: Span, parts: &mut Parts) {
+        let value = self.instant(Temporal::No, |c| c.expr_as(value, &Type::Area, "the operating area"));
+        if let Some(earlier) = parts.mission.area {
+            let place = self.scope.vars[earlier].span;
+            self.report(
+                Diagnostic::error(Code::MissionsTwice, span, "a mission has one operating area")
+                    .label(place, "the first")
+                    .help("keep one of them"),
+            );
+        }
+        let id = self.declare(name, VarKind::Area, Type::Area);
+        parts.mission.area = Some(id);
+        parts.decls.push(Decl::Area(id, value));
+    }
+
+    fn recovery(&mut self, within: Option<&tree::Expr>, block: &tree::Block, span: Span, mission: &mut Mission) {
+        if mission.recovery.is_some() {
+            let finding = Diagnostic::error(Code::MissionsTwice, span, "a mission has one recovery");
+            self.report(finding.help("keep one of them"));
+        }
+        let within = within.map(|e| self.time_limit(e, "the time of the recovery"));
+        if within.is_none() {
+            let word = Span { end: span.start + "recovery".len() as u32, ..span };
+            self.report(
+                Diagnostic::error(Code::MissionsEndless, word, "this recovery may go on for ever")
+                    .here("no `within` bounds it")
+                    .help("write `recovery within 10 min { … }`: the mission's own time does not bound it"),
+            );
+        }
+        let finish = self.scope.finish.take();
+        self.scope.driving = Some(Driving::Recovery);
+        let block = self.in_block(|c| c.block(block));
+        self.scope.driving = None;
+        self.scope.finish = finish;
+        if let Some(place) = flow::aborts(&block) {
+            self.report(
+                Diagnostic::error(
+                    Code::MissionsRecovery,
+                    place,
+                    "a recovery cannot abort: the mission is over already",
+                )
+                .help("leave it out: the recovery ends with its last statement, or with its `within`"),
+            );
+        }
+        mission.recovery = Some((within, block));
     }
 
     /// Works where code is instantaneous.

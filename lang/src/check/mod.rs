@@ -6,6 +6,7 @@ mod area_file;
 mod args;
 mod body;
 mod choice;
+mod clause;
 mod constant;
 mod convert;
 mod declare;
@@ -150,6 +151,7 @@ struct Signature {
 }
 
 /// A clause that scenarios may hold.
+#[derive(Clone)]
 struct ClauseInfo<'t> {
     signature: Signature,
     /// For each parameter the kind of clause that is its value, when it takes a clause.

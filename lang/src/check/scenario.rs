@@ -1,7 +1,6 @@
 //! Scenarios: clauses with typed arguments. What a clause means is for the simulator; its parameters are declared in
 //! the standard library like those of any function.
 
-use super::names::Found;
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -9,7 +8,6 @@ use crate::dimension::Dimension;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
-use crate::{other_languages, suggest};
 
 /// Where a clause stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -24,7 +22,7 @@ pub(super) enum Standing {
 
 impl Standing {
     /// What it is in.
-    fn whole(self) -> &'static str {
+    pub(super) fn whole(self) -> &'static str {
         if self == Standing::Vehicle { "vehicle" } else { "scenario" }
     }
 }
@@ -148,221 +146,4 @@ impl<'t> Checker<'t> {
             }
         }
     }
-
-    /// `flow(12 cm/s toward 140 deg, meander: 8 deg)`, or as an argument `lbl(every: 120 s)`.
-    fn clause_use(&mut self, e: &'t tree::Expr, standing: Standing) -> Option<ClauseUse> {
-        let as_value = standing == Standing::Value;
-        use tree::ExprKind as K;
-        let (callee, args): (&'t tree::Expr, &'t [tree::Arg]) = match &e.kind {
-            K::Call(callee, args) => (callee, args),
-            K::Name(_) | K::Member(..) => (e, &[]),
-            _ => {
-                self.misplaced(e.span, "a scenario holds clauses such as `flow(…)`", "write `NAME(…)`");
-                return None;
-            }
-        };
-        let Some(id) = self
-            .clause_of_kind(callee, |kind| kind.is_some() == as_value)
-            .or_else(|| self.clause_of_kind(callee, |_| true))
-        else {
-            let name = match &callee.kind {
-                K::Name(name) => name.clone(),
-                _ => "this".to_string(),
-            };
-            let finding = Diagnostic::error(
-                Code::ScenariosClause,
-                callee.span,
-                format!("`{name}` is no clause of a {}", standing.whole()),
-            );
-            let may_stand = |kind: Option<&String>| kind.is_some() == as_value || self.is_line_of(standing, kind);
-            let known = self.clauses.iter().filter(|c| may_stand(c.kind.as_ref()));
-            let foreign = foreign_clause(&name, standing).map(str::to_string);
-            let finding = match foreign.or_else(|| self.suggestion(&name, known.map(|c| c.signature.name.as_str()))) {
-                Some(help) => finding.help(help),
-                None => finding,
-            };
-            self.report(finding);
-            return None;
-        };
-        let (name, params, nested, otherwise) = {
-            let clause = &self.clauses[id];
-            let signature = &clause.signature;
-            (signature.name.clone(), signature.params.clone(), clause.nested.clone(), clause.otherwise.clone())
-        };
-        let kind = self.clauses[id].kind.as_ref();
-        if kind.is_some() != as_value && !self.is_line_of(standing, kind) {
-            let takes =
-                self.clauses.iter().find(|c| c.nested.iter().any(|nested| nested.is_some() && nested.as_ref() == kind));
-            let help = match takes {
-                _ if let Some(help) = foreign_clause(&name, standing) => help.to_string(),
-                Some(clause) => format!("it is a value of another clause: `{}({name}…)`", clause.signature.name),
-                None => "it stands on a line of its own".to_string(),
-            };
-            self.report(
-                Diagnostic::error(Code::ScenariosClause, e.span, format!("`{name}` cannot stand here")).help(help),
-            );
-            return None;
-        }
-        // Clauses as arguments are taken out first: the rest are arguments like any.
-        let mut values: Vec<(String, ClauseArg)> = Vec::new();
-        let mut plain_args = Vec::new();
-        let mut failed = false;
-        for arg in args {
-            if let Some(label) = &arg.label
-                && let Some(param) = params.iter().find(|param| param.name == label.node)
-            {
-                self.names_used.refer(label.span, param.span);
-            }
-            let head = match &arg.value.kind {
-                K::Call(callee, _) => callee.as_ref(),
-                _ => &arg.value,
-            };
-            if let Some(vehicle) = self.vehicle_named(head) {
-                let given = self.of_vehicle(vehicle, head.span, &params, &nested);
-                // What is wrong with a vehicle that gives nothing has been told.
-                failed |= given.is_empty();
-                values.extend(given);
-                continue;
-            }
-            if nested.iter().any(Option::is_some) && self.misses_vehicle(head) {
-                failed = true;
-                continue;
-            }
-            let takes = |kind: Option<&String>| kind.is_some() && nested.iter().any(|n| n.as_ref() == kind);
-            // A parameter of the scenario goes before a clause of its name, but where just such a clause is wanted.
-            let is_local = matches!(&head.kind, K::Name(name) if self.local(name).is_some());
-            let any = |_: Option<&String>| !is_local;
-            if let Some(inner) = self.clause_of_kind(head, takes).or_else(|| self.clause_of_kind(head, any)) {
-                let inner_name = self.clauses[inner].signature.name.clone();
-                // Where it goes: the parameter of its label, else the first whose type it is.
-                let kind = self.clauses[inner].kind.clone();
-                let place = params
-                    .iter()
-                    .zip(&nested)
-                    .find(|(p, n)| n.is_some() && **n == kind && arg.label.as_ref().is_none_or(|l| l.node == p.name));
-                let given = place.and_then(|(param, _)| values.iter().find(|(given, _)| *given == param.name));
-                match place {
-                    Some((param, _)) if let Some((_, first)) = given => {
-                        let message = format!("`{}` of `{name}` is given twice", param.name);
-                        let mut finding = Diagnostic::error(Code::ArgsTwice, arg.value.span, message);
-                        if let ClauseArg::Nested(first) = first {
-                            finding = finding.label(first.span, "the first");
-                        }
-                        self.report(finding.help(format!("leave one of them out, or write a `{name}` for each")));
-                        failed = true;
-                    }
-                    Some((param, _)) => {
-                        let param = param.name.clone();
-                        if let Some(used) = self.clause_use(&arg.value, Standing::Value) {
-                            values.push((param, ClauseArg::Nested(used)));
-                        }
-                    }
-                    None => self.report(Diagnostic::error(
-                        Code::ScenariosClause,
-                        arg.value.span,
-                        format!("`{name}` takes no `{inner_name}`"),
-                    )),
-                }
-            } else if let Some(kind) = self.misspelt_clause(head, arg, &params, &nested) {
-                failed = true;
-                let written = match &head.kind {
-                    K::Name(name) => name.as_str(),
-                    _ => "this",
-                };
-                let or_vehicle = if name == super::vehicle::CLAUSE { " and no vehicle" } else { "" };
-                let message = format!("there is no {kind}{or_vehicle} named `{written}`");
-                let finding = Diagnostic::error(Code::ScenariosClause, head.span, message);
-                let finding = match self.help_with_value(&name, &kind, written) {
-                    Some(help) => finding.help(help),
-                    None => finding,
-                };
-                self.report(finding);
-            } else {
-                plain_args.push(arg.clone());
-            }
-        }
-        for ((param, nested), otherwise) in params.iter().zip(&nested).zip(otherwise) {
-            let is_given = values.iter().any(|(given, _)| *given == param.name);
-            if let Some(otherwise) = otherwise.filter(|_| nested.is_some() && !is_given && !failed) {
-                let used = self.clause_use(otherwise, Standing::Value);
-                values.extend(used.map(|used| (param.name.clone(), ClauseArg::Nested(used))));
-            }
-        }
-        let plain: Vec<super::ParamInfo> =
-            params.iter().zip(&nested).filter(|(_, n)| n.is_none()).map(|(p, _)| p.clone()).collect();
-        // What is no clause fits nothing where only clauses do.
-        if let (true, [arg, ..]) = (plain.is_empty() && !nested.is_empty(), plain_args.as_slice()) {
-            let kinds: Vec<String> = nested.iter().flatten().cloned().collect();
-            let fits = self.clauses.iter().filter(|c| c.kind.as_ref().is_some_and(|kind| kinds.contains(kind)));
-            let fits: Vec<&str> = fits.map(|c| c.signature.name.as_str()).collect();
-            let message = format!("`{name}` takes no such thing: it takes a {}", kinds.join(" or a "));
-            let finding = Diagnostic::error(Code::ScenariosClause, arg.value.span, message);
-            self.report(finding.help(format!("there is {}", suggest::listed(&fits))));
-            return None;
-        }
-        let checked = self.arguments(&name, &plain, &plain_args, e.span, None).filter(|_| !failed)?;
-        values.extend(plain.into_iter().map(|p| p.name).zip(checked.into_iter().map(ClauseArg::Value)));
-        Some(ClauseUse { name, span: e.span, args: values })
-    }
-
-    /// Whether what is else the value of a clause stands on a line there: a vehicle says how it moves.
-    fn is_line_of(&self, standing: Standing, kind: Option<&String>) -> bool {
-        standing == Standing::Vehicle && kind.is_some_and(|kind| self.vehicle_kinds().contains(kind))
-    }
-
-    /// What may be meant by a name that no value of a clause has.
-    fn help_with_value(&self, clause: &str, kind: &str, written: &str) -> Option<String> {
-        let of_kind = |c: &&super::ClauseInfo| c.kind.as_deref() == Some(kind);
-        let known: Vec<&str> = self.clauses.iter().filter(of_kind).map(|c| c.signature.name.as_str()).collect();
-        if clause == super::vehicle::CLAUSE && self.vehicle_kinds().iter().any(|k| k == kind) {
-            self.help_with_vehicle(written, &known)
-        } else {
-            self.suggestion(written, known)
-        }
-    }
-
-    /// The clause that an expression names, of a kind that fits: `flow` is a clause, and in `fault(flow, off)` a sensor.
-    fn clause_of_kind(&self, e: &tree::Expr, fits: impl Fn(Option<&String>) -> bool) -> Option<usize> {
-        let tree::ExprKind::Name(name) = &e.kind else {
-            return match self.find(e) {
-                Found::Def(Def::Clause(id)) => Some(id),
-                _ => None,
-            };
-        };
-        let is_wanted = |def: &Def| matches!(def, Def::Clause(id) if fits(self.clauses[*id].kind.as_ref()));
-        match self.lookup_if(self.scope.module, name, is_wanted) {
-            Some(Def::Clause(id)) => {
-                self.refer_to(e.span, self.scope.module, name, is_wanted);
-                Some(*id)
-            }
-            _ => None,
-        }
-    }
-
-    /// The kind of clause that a name which nobody has stands for: of those that its parameter takes, or that the clause takes
-    /// where it has no label, the one that has a name like it, else the first.
-    fn misspelt_clause(
-        &self,
-        head: &tree::Expr,
-        arg: &tree::Arg,
-        params: &[super::ParamInfo],
-        nested: &[Option<String>],
-    ) -> Option<String> {
-        let tree::ExprKind::Name(name) = &head.kind else { return None };
-        if self.local(name).is_some() || self.lookup(self.scope.module, name).is_some() {
-            return None;
-        }
-        let fits = |p: &super::ParamInfo| arg.label.as_ref().is_none_or(|label| label.node == p.name);
-        let kinds: Vec<&String> =
-            params.iter().zip(nested).filter(|(p, _)| fits(p)).filter_map(|(_, k)| k.as_ref()).collect();
-        let fitting = self.clauses.iter().filter(|c| c.kind.as_ref().is_some_and(|kind| kinds.contains(&kind)));
-        let near = self.nearest(name, fitting.clone().map(|c| c.signature.name.as_str()));
-        let nearest = near.and_then(|near| fitting.clone().find(|c| c.signature.name == near)?.kind.clone());
-        nearest.or_else(|| kinds.first().map(|kind| (*kind).clone()))
-    }
-}
-
-/// What others call a clause of a scenario: a vehicle has none of these.
-fn foreign_clause(name: &str, standing: Standing) -> Option<&'static str> {
-    other_languages::clause(name).filter(|_| standing == Standing::Line)
 }
