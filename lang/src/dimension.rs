@@ -159,7 +159,8 @@ pub struct Unit {
     pub scale: f64,
 }
 
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
+/// A degree, rad.
+pub const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// The units that every script knows, by the word that names them.
 pub const UNITS: [(&str, Dimension, f64); 26] = [
@@ -215,33 +216,4 @@ pub fn unit(text: &str, own: &dyn Fn(&str) -> Option<Unit>) -> Option<Unit> {
         product = Unit { dimension: product.dimension / below.dimension, scale: product.scale / below.scale };
     }
     Some(product)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[track_caller]
-    fn check(text: &str, dimension: Dimension, scale: f64) {
-        let unit = unit(text, &|_| None).unwrap();
-        assert_eq!(unit.dimension, dimension);
-        assert!((unit.scale - scale).abs() < 1e-12 * scale, "{}", unit.scale);
-    }
-
-    #[test]
-    fn units_compose() {
-        check("cm/s", Dimension::SPEED, 0.01);
-        check("m2/s", Dimension::of_type("Diffusivity").unwrap(), 1.0);
-        check("m/s^0.5", Dimension::of_type("RandomWalk").unwrap(), 1.0);
-        check("deg/s", Dimension::of_type("TurnRate").unwrap(), DEGREE);
-        check("degC/m", Dimension::TEMPERATURE / Dimension::LENGTH, 1.0);
-        assert_eq!(unit("sec", &|_| None), None);
-        assert_eq!(unit("m/t", &|_| None), None);
-    }
-
-    #[test]
-    fn a_dimension_says_its_name_or_its_units() {
-        assert_eq!(Dimension::SPEED.to_string(), "Speed");
-        assert_eq!((Dimension::LENGTH * Dimension::ANGLE).to_string(), "a quantity in m rad");
-    }
 }

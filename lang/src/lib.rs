@@ -6,25 +6,20 @@
 mod broken;
 mod cascade;
 mod check;
-pub mod code;
 pub mod cost;
-pub mod diagnostic;
 pub mod diagram;
 pub mod dimension;
-pub mod doc;
-pub mod fmt;
 pub mod hir;
 mod loader;
 mod lower;
 pub mod names;
-mod other_languages;
 pub mod prompt;
 mod rules;
-pub mod source;
-pub mod syntax;
 pub mod types;
 
 pub use albacore_formats::FileFault;
+pub use albacore_syntax as syntax;
+pub use albacore_syntax::{code, diagnostic, doc, fmt, source};
 pub use albacore_wording::{help as suggestion, nearest};
 pub use lower::{
     ExpectProgram, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots,

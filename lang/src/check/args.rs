@@ -7,12 +7,13 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
-use crate::{other_languages, suggest};
 use albacore_arithmetic::{Operation, Sqrt};
 use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 use albacore_program::{Channel, Guide};
+use albacore_syntax::other_languages;
 
 /// What is said of an area that is meant to be round.
 const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";

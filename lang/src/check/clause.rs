@@ -7,8 +7,9 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::source::Span;
+use crate::suggest;
 use crate::syntax::tree::{self, ExprKind};
-use crate::{other_languages, suggest};
+use albacore_syntax::other_languages;
 
 /// The arguments of a clause, as far as they have been looked at.
 #[derive(Default)]

@@ -7,12 +7,12 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
-use crate::other_languages;
 use crate::prompt::{Held, Known};
 use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_syntax::other_languages;
 
 /// What a path of names leads to.
 pub(super) enum Found {

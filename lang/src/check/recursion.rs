@@ -83,16 +83,3 @@ fn circles(calls: &[Vec<usize>]) -> Vec<Vec<usize>> {
     }
     circles
 }
-
-#[cfg(test)]
-mod tests {
-    use super::circles;
-
-    #[test]
-    fn each_circle_is_found_once() {
-        assert_eq!(circles(&[vec![1], vec![2], vec![]]), Vec::<Vec<usize>>::new());
-        assert_eq!(circles(&[vec![0]]), [[0]]);
-        assert_eq!(circles(&[vec![1], vec![2], vec![1, 3], vec![]]), [[1, 2]]);
-        assert_eq!(circles(&[vec![1, 1], vec![0]]), [[0, 1]]);
-    }
-}

@@ -1,7 +1,7 @@
 //! Stretches of a source as a reader wants them: without the blanks of the place that they stand in.
 
 use crate::source::Span;
-use crate::syntax::tree::Block;
+use crate::tree::Block;
 
 /// A source to take stretches from.
 pub struct Written<'a>(&'a str);

@@ -4,7 +4,7 @@ use super::comments::Comments;
 use super::written::Written;
 use super::{Behavior, Declaration, Param};
 use crate::source::Span;
-use crate::syntax::tree::{self, Activity, ActivityKind, Block, Clause, ClauseKind, Item};
+use crate::tree::{self, Activity, ActivityKind, Block, Clause, ClauseKind, Item};
 
 /// What is told of an item; nothing of imports and tests.
 pub fn declaration(item: &Item, span: Span, written: &Written, comments: &mut Comments) -> Option<Declaration> {

@@ -29,7 +29,7 @@ macro_rules! codes {
             pub const fn page(self) -> &'static str {
                 match self {
                     $($(Code::$variant =>
-                        include_str!(concat!("../../docs/explain/", stringify!($group), "/", $name, ".md")),)*)*
+                        include_str!(concat!("../../../docs/explain/", stringify!($group), "/", $name, ".md")),)*)*
                 }
             }
         }

@@ -10,9 +10,9 @@ mod doc;
 mod print;
 mod table;
 
+use crate::Parsed;
 use crate::diagnostic::{Diagnostic, has_error};
 use crate::source::FileId;
-use crate::syntax::{self, Parsed};
 
 /// No line is wider, unless nothing in it can be broken, or it is a row of a switching table.
 const WIDTH: usize = 120;
@@ -37,7 +37,7 @@ pub fn format(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
 }
 
 fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
-    let parsed = syntax::parse(file, source);
+    let parsed = crate::parse(file, source);
     if has_error(&parsed.findings) {
         return Err(parsed.findings);
     }
@@ -47,7 +47,7 @@ fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     align::comments(&mut lines);
     let formatted: String = lines.iter().map(print::Line::text).collect();
     // Better not formatted than not the same script: a fault of ours must not reach a person's file.
-    let again = syntax::parse(file, &formatted);
+    let again = crate::parse(file, &formatted);
     let is_whole = !has_error(&again.findings) && again.file.items.len() == parsed.file.items.len();
     Ok(if is_whole && words(&again, &formatted) == words(&parsed, source) { formatted } else { source.to_string() })
 }

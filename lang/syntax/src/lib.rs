@@ -1,18 +1,28 @@
-//! Text to tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
+//! Source text to one tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
+//!
+//! A script is scanned (`scan`), mended where brackets are missing (`braces`), read by the grammar (`grammar.pest`) into a
+//! concrete tree (`concrete`), and built (`build`) into what the checker reads (`tree`). Layout (`fmt`) and the pages about
+//! scripts (`doc`) read the same tree. What is wrong is a [`Diagnostic`](diagnostic::Diagnostic) with a [`Code`](code::Code).
 
 mod braces;
 mod build;
 mod build_block;
 mod build_expr;
+pub mod code;
 mod concrete;
 mod confusables;
+pub mod diagnostic;
+pub mod doc;
 mod elsewhere;
 mod errors;
+pub mod fmt;
 mod habits;
+pub mod other_languages;
 mod places;
 mod quotient;
 mod scan;
 mod slips;
+pub mod source;
 pub mod tree;
 pub mod words;
 
@@ -37,7 +47,7 @@ mod grammar {
     #![allow(missing_docs, reason = "made from grammar.pest, whose rules carry their own comments")]
 
     #[derive(pest_derive::Parser)]
-    #[grammar = "syntax/grammar.pest"]
+    #[grammar = "grammar.pest"]
     pub struct Grammar;
 }
 
@@ -118,7 +128,7 @@ pub fn statements(source: &str) -> Vec<&str> {
 }
 
 /// A stretch of a source with blanks for its comments.
-pub(crate) fn uncommented(file: FileId, stretch: &str) -> String {
+pub fn uncommented(file: FileId, stretch: &str) -> String {
     scan::scan(file, stretch).text
 }
 

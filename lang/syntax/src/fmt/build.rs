@@ -1,7 +1,7 @@
 //! From what the grammar has read to a document. The words are the source's own: nothing is spelt anew.
 
 use super::doc::{Clause, Column, Comment, Doc, Indent, Word};
-use crate::syntax::{ConcreteTree, Node, Rule};
+use crate::{ConcreteTree, Node, Rule};
 
 /// The document of a file.
 pub fn file<'a>(source: &'a str, tree: &'a ConcreteTree) -> Doc<'a> {

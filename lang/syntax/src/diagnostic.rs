@@ -78,7 +78,7 @@ impl Diagnostic {
 }
 
 /// Whether any of these is a mistake.
-pub(crate) fn has_error(findings: &[Diagnostic]) -> bool {
+pub fn has_error(findings: &[Diagnostic]) -> bool {
     findings.iter().any(|finding| finding.severity == Severity::Error)
 }
 

@@ -9,8 +9,7 @@ mod written;
 
 use crate::diagnostic::has_error;
 use crate::source::{FileId, Source, Span};
-use crate::syntax;
-use crate::syntax::tree::Item;
+use crate::tree::Item;
 use comments::Comments;
 use written::Written;
 
@@ -77,7 +76,7 @@ pub struct Behavior {
 /// The page of a script without mistakes; of any other there is nothing to tell.
 pub fn page(source: &Source) -> Option<Page> {
     let file = FileId(0);
-    let parsed = syntax::parse(file, &source.text);
+    let parsed = crate::parse(file, &source.text);
     let spans: Vec<Span> = parsed.concrete.root(&source.text).inner().map(|item| item.span()).collect();
     if has_error(&parsed.findings) || spans.len() != parsed.file.items.len() {
         return None;

@@ -8,7 +8,6 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::other_languages;
 use crate::source::{FileId, Span};
-use crate::suggest;
 use pest::Parser;
 use pest::error::{Error, ErrorVariant, InputLocation};
 use std::collections::BTreeSet;
@@ -88,7 +87,7 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
             let given = if after_word.starts_with(['(', ':', '=']) { "…" } else { line_end(after_word) };
             return finding.help(format!("what is called has its arguments in brackets: `{word}({given})`"));
         }
-        return match suggest::nearest(&word, first_words.iter().copied()) {
+        return match albacore_wording::nearest(&word, first_words.iter().copied()) {
             Some(near) => finding.help(format!("did you mean `{near}`?")),
             None if bad.place == Place::Item => {
                 finding.help("a file holds behaviors, strategies, missions, scenarios, …")

@@ -1,0 +1,29 @@
+//! Units and dimensions: what each comes to.
+
+#![expect(clippy::unwrap_used, reason = "a unit that is not known has failed the test")]
+
+use albacore_lang::dimension::{DEGREE, Dimension, unit};
+
+#[track_caller]
+fn check(text: &str, dimension: Dimension, scale: f64) {
+    let unit = unit(text, &|_| None).unwrap();
+    assert_eq!(unit.dimension, dimension);
+    assert!((unit.scale - scale).abs() < 1e-12 * scale, "{}", unit.scale);
+}
+
+#[test]
+fn units_compose() {
+    check("cm/s", Dimension::SPEED, 0.01);
+    check("m2/s", Dimension::of_type("Diffusivity").unwrap(), 1.0);
+    check("m/s^0.5", Dimension::of_type("RandomWalk").unwrap(), 1.0);
+    check("deg/s", Dimension::of_type("TurnRate").unwrap(), DEGREE);
+    check("degC/m", Dimension::TEMPERATURE / Dimension::LENGTH, 1.0);
+    assert_eq!(unit("sec", &|_| None), None);
+    assert_eq!(unit("m/t", &|_| None), None);
+}
+
+#[test]
+fn a_dimension_says_its_name_or_its_units() {
+    assert_eq!(Dimension::SPEED.to_string(), "Speed");
+    assert_eq!((Dimension::LENGTH * Dimension::ANGLE).to_string(), "a quantity in m rad");
+}
