@@ -1,6 +1,6 @@
 //! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
 
-mod growing;
+mod digested_file;
 mod provenance;
 pub mod seeds;
 mod summary;

@@ -60,7 +60,7 @@ impl Check {
                     }
                     // A mission that costs too much is an error, and the one whose bill is wanted.
                     if self.cost {
-                        cost::tell(&script);
+                        cost::print(&script);
                     }
                 }
                 Err(error) => {

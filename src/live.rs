@@ -3,10 +3,10 @@
 use crate::exit::Exit;
 use crate::interruption;
 use crate::message;
-use crate::run::{self, Telling};
+use crate::run::{self, ResultPrinter};
 use crate::run_folder::{Left, RunFolder};
 use crate::speaker::{Speaker, no_thread, within};
-use albacore_session::{LiveUpdate, Lived, Means, Run, Sink, WAITING_BYTES};
+use albacore_session::{LiveOptions, LiveRun, LiveUpdate, Run, Sink, WAITING_BYTES};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -31,16 +31,16 @@ pub struct Live {
     /// The run's files.
     pub kept: RunFolder,
     /// How its result is told.
-    pub telling: Telling,
+    pub printer: ResultPrinter,
 }
 
 impl Live {
     /// Runs to the end, gives the vehicle back, and then waits for terminal and disk no longer than is stated.
     pub fn run(self, run: Run) -> Exit {
-        let Live { speaker, journal, interrupted, mut kept, telling } = self;
+        let Live { speaker, journal, interrupted, mut kept, printer } = self;
         let stopping = interruption::ctrl_z();
         let watch = kept.watch();
-        let mut tell = |told: LiveUpdate<'_>| {
+        let mut report = |told: LiveUpdate<'_>| {
             if stopping.swap(false, Ordering::Relaxed) {
                 message::write(CTRL_Z);
             }
@@ -54,8 +54,8 @@ impl Live {
                 LiveUpdate::Nothing => {}
             }
         };
-        let lived = run.live(Means { journal, interrupted, tell: &mut tell, waiting_bytes: WAITING_BYTES });
-        let Lived { run, outcome, journal_stalled } = match lived {
+        let lived = run.live(LiveOptions { journal, interrupted, report: &mut report, waiting_bytes: WAITING_BYTES });
+        let LiveRun { run, outcome, journal_stalled } = match lived {
             Ok(lived) => lived,
             Err(error) => return no_thread(&error),
         };
@@ -64,7 +64,7 @@ impl Live {
             message::write(&kept.journal_stalled());
         }
         let all_said = speaker.end();
-        let (summary, release_failed) = (run.summary(telling.wall_s()), run.release_failed());
+        let (summary, release_failed) = (run.summary(printer.wall_s()), run.release_failed());
         let folder = kept.path().map(Path::to_path_buf);
         let result = summary.clone();
         let files = within(FILES, move || (kept.finish(&run, &result), kept.has_failed()));
@@ -78,10 +78,10 @@ impl Live {
                 (Left { folder, picture: None }, true)
             });
             let told = run::RunResult { summary: &summary, folder: left.folder.as_deref() };
-            telling.tell(&told, outcome, left.picture.as_deref());
+            printer.print(&told, outcome, left.picture.as_deref());
             failed
         });
         // A result that nobody could be told is a failure too.
-        Telling::exit(outcome, release_failed || !all_said || told.unwrap_or(true))
+        ResultPrinter::exit(outcome, release_failed || !all_said || told.unwrap_or(true))
     }
 }

@@ -6,7 +6,7 @@ use crate::exit::Exit;
 use crate::live::Live;
 use crate::output::Lines;
 use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
-use crate::run_folder::{Asked, Place, Record, RunFolder};
+use crate::run_folder::{Place, Record, RunFolder, RunRequest};
 use crate::speaker::{Speaker, no_thread};
 use crate::synced::Synced;
 use crate::vehicle::told;
@@ -76,7 +76,7 @@ impl Run {
             Ok(prepared) => prepared,
             Err(exit) => return exit,
         };
-        let telling = Telling { json: self.json, on_link: self.link.is_some(), started };
+        let printer = ResultPrinter { json: self.json, on_link: self.link.is_some(), started };
         let interrupted = interruption::flag();
         // A vehicle that never answers costs nobody the run that was there.
         if self.replace && self.link.is_some() {
@@ -102,21 +102,21 @@ impl Run {
         if let Some(speaker) = speaker {
             let (json, doing) = (self.json, plan.program.mission.name.clone());
             speaker.shows(move || bar(json, &doing));
-            return Live { speaker, journal, interrupted, kept, telling }.run(run);
+            return Live { speaker, journal, interrupted, kept, printer }.run(run);
         }
         if let Some((journal, changes)) = journal {
             run.with_journal(journal, &changes);
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
-        let summary = run.summary(telling.wall_s());
+        let summary = run.summary(printer.wall_s());
         warn_of_faults_after(&plan, summary.sim_time_s);
         let left = kept.finish(&run, &summary);
-        telling.tell(
+        printer.print(
             &RunResult { summary: &summary, folder: left.folder.as_deref() },
             outcome,
             left.picture.as_deref(),
         );
-        Telling::exit(outcome, kept.has_failed() || run.release_failed())
+        ResultPrinter::exit(outcome, kept.has_failed() || run.release_failed())
     }
 
     /// The plan, and a run of it at its first tick: in a simulated world or on a link.
@@ -160,7 +160,7 @@ impl Run {
             None => Place::New(plan.program.mission.name.clone()),
         };
         let started = Utc::now();
-        let asked = Asked {
+        let asked = RunRequest {
             seed: self.seed,
             link: self.link.as_deref(),
             rate: self.rate,
@@ -217,20 +217,20 @@ fn bar(json: bool, doing: &str) -> ProgressBar {
 
 /// How the result of a run is told.
 #[derive(Clone, Copy)]
-pub struct Telling {
+pub struct ResultPrinter {
     json: bool,
     on_link: bool,
     started: Duration,
 }
 
-impl Telling {
+impl ResultPrinter {
     /// Seconds since the run was asked for.
     pub fn wall_s(&self) -> f64 {
         now().saturating_sub(self.started).as_secs_f64()
     }
 
     /// Tells it.
-    pub fn tell(&self, told: &RunResult, outcome: Outcome, picture: Option<&Path>) {
+    pub fn print(&self, told: &RunResult, outcome: Outcome, picture: Option<&Path>) {
         let summary = told.summary;
         let link_failed = self.on_link && outcome == Outcome::Failed;
         if link_failed {

@@ -13,7 +13,7 @@ use crate::synced::WRITTEN_INTO;
 use albacore_session::{PICTURE, RUN_FILES, Run, Summary};
 use folder::{Folder, JOURNAL, RECORD, Refusal};
 pub use folder::{Place, is_of_a_run};
-pub use record::{Asked, Record};
+pub use record::{Record, RunRequest};
 use std::fmt::Display;
 use std::fs::File;
 use std::io;

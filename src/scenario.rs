@@ -95,15 +95,15 @@ fn listing(shown: &Shown) -> Lines {
     let mut lines = Lines::default();
     lines.add(&format!("scenario {}", shown.name));
     for clause in &shown.clauses {
-        let unsaid = match clause.whence {
+        let unsaid = match clause.source {
             ValueSource::Said => "",
             ValueSource::Default => "  (not said)",
             ValueSource::Record => "  (of the record)",
         };
         lines.add("");
         lines.add(&format!("{}{unsaid}", clause.name));
-        for (name, value, whence) in &clause.values {
-            let mark = match whence {
+        for (name, value, source) in &clause.values {
+            let mark = match source {
                 ValueSource::Said => "",
                 ValueSource::Default => "default",
                 ValueSource::Record => "record",

@@ -3,7 +3,7 @@
 //! Each line of the table, the first too, has a record of 17 bytes: the digest of its bytes, as 16 hexadecimal digits, and
 //! a line end. It is written after the line, so that a line without one was not finished.
 
-use super::growing::Growing;
+use super::digested_file::DigestedFile;
 use super::provenance::{Unread, beside, read_beside};
 use super::seeds::RUNS_MAX;
 use super::table::TableError;
@@ -19,7 +19,7 @@ const RECORD: usize = 17;
 const BYTES_MAX: u64 = RECORD as u64 * (RUNS_MAX + 2);
 
 /// Where a table's checksums go.
-pub struct Sums(Growing);
+pub struct Sums(DigestedFile);
 
 impl Sums {
     /// Those of a table that is begun.
@@ -35,14 +35,14 @@ impl Sums {
             return Sums::written(path, text.as_bytes());
         }
         match disk::known_file(&path) {
-            Ok((file, forbidden)) => Ok(Sums(Growing::known(file, forbidden, path, found))),
+            Ok((file, forbidden)) => Ok(Sums(DigestedFile::known(file, forbidden, path, found))),
             Err(error) => Err(TableError::Disk(path, error)),
         }
     }
 
     fn written(path: PathBuf, text: &[u8]) -> Result<Self, TableError> {
         match disk::replace(&path, text) {
-            Ok(file) => Ok(Sums(Growing::new(file, path, text))),
+            Ok(file) => Ok(Sums(DigestedFile::new(file, path, text))),
             Err(error) => Err(TableError::Disk(path, error)),
         }
     }

@@ -4,7 +4,7 @@
 //! rows that are as they were written, runs the seeds of the others again, and goes on: the bytes are the same as without
 //! the interruption, and whatever the disk did.
 
-use super::growing::Growing;
+use super::digested_file::DigestedFile;
 use super::provenance::{self, Provenance, Unread, beside};
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
@@ -52,9 +52,9 @@ struct Found {
 
 enum State {
     /// Rows are added at the end.
-    Adding { file: Growing, sums: Sums, rows: u64 },
+    Adding { file: DigestedFile, sums: Sums, rows: u64 },
     /// Rows of those that were written are run again first. The files are left as they are until all of them are known, and locked.
-    Mending { file: Growing, found: Found, lines: Lines },
+    Mending { file: DigestedFile, found: Found, lines: Lines },
 }
 
 /// What is known of a table's lines, the first too.
@@ -138,7 +138,7 @@ impl Table {
         let head = line(columns.names());
         write(origin, path)?;
         let mut sums = Sums::begin(path)?;
-        let mut file = Growing::new(file, path.to_path_buf(), &[]);
+        let mut file = DigestedFile::new(file, path.to_path_buf(), &[]);
         file.add(&head)?;
         sums.add(&head)?;
         let state = State::Adding { file, sums, rows: 0 };
@@ -171,7 +171,7 @@ impl Table {
         lock(&file, path)?;
         let mut text = Vec::new();
         file.read_to_end(&mut text).map_err(disk_of(path))?;
-        let file = Growing::known(file, forbidden, path.clone(), &text);
+        let file = DigestedFile::known(file, forbidden, path.clone(), &text);
         let changed_origin = if text.is_empty() { left_by(path, origin)? } else { belongs(path, origin)? };
         let sums = match sums::read(path) {
             Err(Unread::Missing) if text.is_empty() => Vec::new(),
@@ -187,7 +187,7 @@ impl Table {
     /// Goes on with what is left of a table.
     fn held(
         path: &Path,
-        mut file: Growing,
+        mut file: DigestedFile,
         found: Found,
         columns: &Columns,
         origin: &Provenance,
@@ -270,7 +270,7 @@ impl Table {
         } else {
             disk::replace(&self.path, &written)
         };
-        let file = Growing::new(file.map_err(disk_of(&self.path))?, self.path.clone(), &written);
+        let file = DigestedFile::new(file.map_err(disk_of(&self.path))?, self.path.clone(), &written);
         let rows = known.len() as u64 - 1;
         let sums = Sums::go_on(&self.path, &found.sums, known.into_iter())?;
         self.state = State::Adding { file, sums, rows };

@@ -7,7 +7,7 @@ use albacore_session::{Cost, Script, grouped as number};
 const LINES: usize = 8;
 
 /// Tells what the missions of a script cost, but for those with other mistakes than their cost.
-pub fn tell(script: &Script) {
+pub fn print(script: &Script) {
     for mission in script.missions().filter(|mission| script.mission_is_sound(&mission.name)) {
         if let Some(Ok(cost)) = script.cost(&mission.name) {
             output::print(&table(&mission.name, &cost));

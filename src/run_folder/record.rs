@@ -51,7 +51,7 @@ pub fn is_record(path: &Path) -> bool {
 }
 
 /// What the command line asked for.
-pub struct Asked<'a> {
+pub struct RunRequest<'a> {
     /// The seed of all that is random.
     pub seed: u64,
     /// The link to a vehicle.
@@ -66,7 +66,7 @@ pub struct Asked<'a> {
 
 impl Record {
     /// The record of a run that begins.
-    pub fn new(plan: &Plan, asked: &Asked, started: Utc) -> Self {
+    pub fn new(plan: &Plan, asked: &RunRequest, started: Utc) -> Self {
         Record {
             albacore: env!("CARGO_PKG_VERSION"),
             mission: plan.program.mission.name.clone(),

@@ -1,7 +1,7 @@
 //! Both ends of a link in one process: a vehicle that lives a tick whenever its controller waits for bytes.
 
 use albacore_link::recon::{self, Deframer, FromVehicle, State, ToVehicle};
-use albacore_link::{Faulty, Happening, LinkError, LinkFault, Transport};
+use albacore_link::{Faulty, LinkError, LinkFault, ServerEvent, Transport};
 use albacore_session::FarEnd;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -29,7 +29,7 @@ pub struct Desk {
     /// What the vehicle said of itself.
     pub states: Vec<State>,
     /// What happened to it.
-    pub happenings: Vec<Happening>,
+    pub happenings: Vec<ServerEvent>,
 }
 
 impl Desk {

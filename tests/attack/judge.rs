@@ -2,7 +2,7 @@
 
 use crate::desk::{Desk, Sent};
 use crate::weather::Fate;
-use albacore_link::Happening;
+use albacore_link::ServerEvent;
 use albacore_link::recon::{SpeedGoal, ToVehicle};
 use albacore_session::Outcome;
 use albacore_trace::TickRecord;
@@ -38,8 +38,10 @@ pub fn broken(desk: &Desk, journal: &[u8], outcome: Option<Outcome>, fate: Fate)
     let mut driven = false;
     for happening in &desk.happenings {
         match happening {
-            Happening::Taken(..) => driven = true,
-            Happening::Released | Happening::TimedOut(_) | Happening::TakenBack | Happening::GivenUp => driven = false,
+            ServerEvent::Taken(..) => driven = true,
+            ServerEvent::Released | ServerEvent::TimedOut(_) | ServerEvent::TakenBack | ServerEvent::GivenUp => {
+                driven = false
+            }
             _ => {}
         }
     }

@@ -103,7 +103,7 @@ impl Walk<'_> {
                         Owner::Overlay(_) => "take one of the two overlays off",
                         _ => "take the overlay off, or leave the setpoint out",
                     });
-            self.findings.tell(finding);
+            self.findings.report(finding);
             return;
         }
         *slot = owner;
@@ -113,7 +113,7 @@ impl Walk<'_> {
     fn limited(&mut self, channel: Channel, setpoint: &Expr) {
         let range = self.range(setpoint);
         if let Some(finding) = limits::beyond(&self.limits, channel, setpoint, range) {
-            self.findings.tell(finding);
+            self.findings.report(finding);
         }
     }
 
@@ -184,13 +184,13 @@ impl Walk<'_> {
             }
         };
         if vertical && owners[Axis::Vertical as usize] == Owner::Nobody {
-            self.findings.tell(
+            self.findings.report(
                 Diagnostic::error(Code::ChannelsUnset, span, "how deep? neither depth nor altitude is set here")
                     .help("write `at depth 3 m` after it, or `with altitude 2 m` around it"),
             );
         }
         if speed && owners[Axis::Speed as usize] == Owner::Nobody {
-            self.findings.tell(
+            self.findings.report(
                 Diagnostic::error(Code::ChannelsUnset, span, "how fast? no speed is set here")
                     .help("write `at speed 1.5 m/s` after it, or `with speed 1.5 m/s` around it"),
             );

@@ -51,7 +51,7 @@ impl Walk<'_> {
                     self.activity(*id, driving);
                     self.findings.back();
                 }
-                Action::Override(_) | Action::Watch if driving => self.findings.tell(
+                Action::Override(_) | Action::Watch if driving => self.findings.report(
                     Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle is ours here: nothing to take over")
                         .help("this is called from an `override` or a recovery: call it outside, or leave this out"),
                 ),
@@ -60,7 +60,7 @@ impl Walk<'_> {
                 // A pause sends nothing that was not sent before.
                 Action::Guide(guide, _) if matches!(guide.law().steering, Steering::Nothing) => {}
                 Action::Guide(..) | Action::Keep(..) if driving => {}
-                Action::Guide(..) | Action::Keep(..) => self.findings.tell(
+                Action::Guide(..) | Action::Keep(..) => self.findings.report(
                     Diagnostic::error(Code::TimeControl, stmt.span, "the vehicle drives itself here")
                         .label(self.guest, "this makes the mission a guest, which drives in `override { … }` alone")
                         .help("put it into an `override { … }`"),

@@ -25,7 +25,7 @@ impl Findings {
     }
 
     /// Tells a finding. The same at several places is one mistake, shown where it first tells and in some more places.
-    pub fn tell(&mut self, mut finding: Diagnostic) {
+    pub fn report(&mut self, mut finding: Diagnostic) {
         let span = finding.span();
         if let Some(known) = self.findings.iter_mut().find(|f| f.code == finding.code && f.message == finding.message) {
             if known.labels.len() < PLACES_MAX && !known.labels.iter().any(|(s, _)| *s == span) {

@@ -113,10 +113,10 @@ impl FrontSeat {
     }
 
     /// What its own plan asks for in the coming tick; none without a plan. A plan that is done floats up and waits to be found.
-    pub fn steer(&mut self, known: Known, tell: &mut dyn FnMut(Milestone)) -> Option<Command> {
+    pub fn steer(&mut self, known: Known, report: &mut dyn FnMut(Milestone)) -> Option<Command> {
         let plan = self.plan.as_mut()?;
         let speed = plan.speed();
-        Some(match plan.step(known.position, known.course, tell) {
+        Some(match plan.step(known.position, known.course, report) {
             Some(course) => {
                 let water = through_water(course, speed, known.flow, self.speed_max);
                 Command::new(water.heading, water.speed, self.vertical)

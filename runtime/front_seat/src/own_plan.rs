@@ -102,7 +102,7 @@ impl OwnPlan {
     }
 
     /// The course over ground to steer in the coming tick; none when a guest drives or the legs are done.
-    pub fn step(&mut self, position: Point, course: Heading, tell: &mut dyn FnMut(Milestone)) -> Option<Heading> {
+    pub fn step(&mut self, position: Point, course: Heading, report: &mut dyn FnMut(Milestone)) -> Option<Heading> {
         if let Doing::Return(goto) = &mut self.doing {
             let guidance = goto.step(position, course);
             if !guidance.arrived {
@@ -111,7 +111,7 @@ impl OwnPlan {
             let from = self.break_off.take().unwrap_or(position);
             self.route.resume(from);
             self.doing = Doing::Legs;
-            tell(Milestone::Resumed(from, self.route.number()));
+            report(Milestone::Resumed(from, self.route.number()));
         }
         if !matches!(self.doing, Doing::Legs) {
             return None;
@@ -120,9 +120,9 @@ impl OwnPlan {
         let course = self.route.step(position, course);
         if self.route.is_over() {
             self.doing = Doing::Over;
-            tell(Milestone::Over);
+            report(Milestone::Over);
         } else if self.route.number() != before {
-            tell(Milestone::Leg(self.route.number(), self.route.count()));
+            report(Milestone::Leg(self.route.number(), self.route.count()));
         }
         Some(course)
     }

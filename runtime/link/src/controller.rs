@@ -7,17 +7,17 @@
 
 mod allowance;
 mod goal;
-mod hearing;
 mod judge;
 mod late;
+mod received;
 mod round_trip;
 mod side;
 mod speak;
 mod vehicle_time;
 
-pub use hearing::{Count, Hearing};
+pub use received::{Count, Received};
 pub(crate) use round_trip::host_ticks;
-pub use side::{ControllerSide, Say};
+pub use side::{ControllerMessage, ControllerSide};
 pub(crate) use vehicle_time::DAY_MS;
 
 use crate::grounding::Grounding;
@@ -29,8 +29,8 @@ use albacore_vehicle::channels::{self, VEHICLE_MODE};
 use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot};
 use allowance::Allowance;
 use goal::{Goal, Held};
-use hearing::Fact;
 use late::Late;
+use received::Fact;
 use round_trip::{GoalSource, Moment, RoundTrip};
 use std::collections::VecDeque;
 use std::mem::discriminant;
@@ -81,7 +81,7 @@ struct Heard {
 pub struct Controller {
     side: Box<dyn ControllerSide>,
     channels: Vec<Channel>,
-    hearing: Hearing,
+    received: Received,
     heard: VecDeque<Heard>,
     /// Samples that belong to the next state.
     gathered: Vec<Sample>,
@@ -101,7 +101,7 @@ pub struct Controller {
     /// Ticks whose commands came too late to be sent, since the last that was.
     late: Late,
     /// It was told that a tick takes longer to compute than it lasts.
-    told_slow: bool,
+    slow_warning: bool,
     /// How long the command that comes next took to compute.
     computed: Duration,
     /// How long a tick of the vehicle lasts by the host's clock.
@@ -136,7 +136,7 @@ impl Controller {
         Controller {
             side,
             channels: channels::all(),
-            hearing: Hearing::new(frame),
+            received: Received::new(frame),
             heard: VecDeque::new(),
             gathered: Vec::new(),
             latest_tick: None,
@@ -150,7 +150,7 @@ impl Controller {
             ours: 0,
             goals: Default::default(),
             late: Late::default(),
-            told_slow: false,
+            slow_warning: false,
             computed: Duration::ZERO,
             tick: TICK,
             was_late: false,
@@ -173,7 +173,7 @@ impl Controller {
 
     /// The same, with positions that a navigator of ours makes of those that the vehicle tells; else they are as they are told.
     pub fn navigated(mut self, navigator: Box<dyn Navigator>) -> Self {
-        self.hearing.navigator = navigator;
+        self.received.navigator = navigator;
         self
     }
 
@@ -204,7 +204,7 @@ impl Controller {
 
     /// How much came.
     pub fn count(&self) -> Count {
-        self.hearing.count
+        self.received.count
     }
 
     /// What is to be sent; taken once.
@@ -246,9 +246,9 @@ impl Controller {
 
     /// Takes in bytes, however they are cut.
     pub fn hear(&mut self, bytes: &[u8]) {
-        self.hearing.count.bytes += bytes.len() as u64;
-        self.side.hear(bytes, &mut self.hearing);
-        for fact in self.hearing.take_facts() {
+        self.received.count.bytes += bytes.len() as u64;
+        self.side.hear(bytes, &mut self.received);
+        for fact in self.received.take_facts() {
             self.take_in(fact);
         }
     }
@@ -260,7 +260,7 @@ impl Controller {
             Fact::State(status, holds) => self.take_in_state(status, holds),
             Fact::Accepted(set_point) => self.goals[set_point.place()].held = Some(Held::SetPoint(set_point)),
             Fact::OtherSpeed(text) => self.goals[SetPoint::Speed(0.0).place()].held = Some(Held::Other(text)),
-            Fact::HeadingHeard(heading) => self.round_trip.told(heading, GoalSource::Echo, self.moment()),
+            Fact::HeadingHeard(heading) => self.round_trip.reported(heading, GoalSource::Echo, self.moment()),
             Fact::Aground(aground, _) if self.grounding.hear(aground, self.next_tick) => {}
             Fact::Aground(_, text) | Fact::Notice(text) => self.notice_of_vehicle(text),
         }
@@ -288,7 +288,7 @@ impl Controller {
     fn take_in_state(&mut self, status: Status, holds: Vec<SetPoint>) {
         for set_point in &holds {
             if let SetPoint::Heading(heading) = set_point {
-                self.round_trip.told(*heading, GoalSource::State, self.moment());
+                self.round_trip.reported(*heading, GoalSource::State, self.moment());
             }
         }
         self.gather(Sample { channel: VEHICLE_MODE, reading: [f64::from(status.phase.number()), 0.0, 0.0, 0.0] });
@@ -335,7 +335,7 @@ impl Controller {
         let before = self.control;
         self.control = self.judge(tick);
         if self.control == Control::InControl && before != Control::InControl {
-            self.say(&Say::Begin);
+            self.say(&ControllerMessage::Begin);
             self.goals = Default::default();
         } else if self.control != Control::InControl {
             self.round_trip.pause();
@@ -352,8 +352,8 @@ impl Controller {
         match (self.want, self.control) {
             _ if self.waits_for_answer(tick) => {}
             // Who asks again when it was given back has just asked.
-            (Want::Drive { .. }, Control::Requesting) if self.spoke < tick => self.say(&Say::TakeOver),
-            (Want::GiveBack { .. }, _) => self.say(&Say::GiveBack),
+            (Want::Drive { .. }, Control::Requesting) if self.spoke < tick => self.say(&ControllerMessage::TakeOver),
+            (Want::GiveBack { .. }, _) => self.say(&ControllerMessage::GiveBack),
             // After late ticks a command comes first.
             (Want::Drive { .. }, Control::InControl | Control::Suspended)
                 if self.spoke < tick && !was_late && self.left == 0 =>

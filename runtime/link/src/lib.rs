@@ -19,12 +19,12 @@ mod url;
 
 pub use albacore_front_seat::Milestone;
 pub use albacore_guidance::{Route, Rows};
-pub use controller::{Controller, ControllerSide, Count, Hearing, Say};
+pub use controller::{Controller, ControllerMessage, ControllerSide, Count, Received};
 pub use dialect::{Dialect, Framing, Settings};
 pub use dialects::recon;
 pub use error::LinkError;
 pub use port::{HostClock, LinkVehicle};
-pub use server::{Goal, Happening, Refusal, Report, Request, Senses, Server, ServerSide, StateReport};
+pub use server::{Goal, Refusal, Report, Request, Senses, Server, ServerEvent, ServerSide, StateReport};
 pub use set_point::SetPoint;
 pub use status::{Phase, Status};
 pub use transport::{Faulty, LinkFault, Transport, call, serve};

@@ -3,10 +3,10 @@
 //! It serves any [`Vehicle`], one tick at a time, and is a function of what is said to it in these ticks. On release, and when
 //! the guest is silent for too long, it returns to the point where the guest took over and goes on with its leg (the 2003 paper).
 
-mod happening;
+mod event;
 mod side;
 
-pub use happening::Happening;
+pub use event::ServerEvent;
 pub use side::{Goal, Refusal, Report, Request, Senses, ServerSide, StateReport};
 
 use crate::grounding;
@@ -75,7 +75,7 @@ pub struct Server<V> {
     /// Why something was refused last, and when.
     refused: Option<(&'static str, u64)>,
     out: Vec<u8>,
-    happenings: Vec<Happening>,
+    happenings: Vec<ServerEvent>,
 }
 
 impl<V: Vehicle> Server<V> {
@@ -90,7 +90,8 @@ impl<V: Vehicle> Server<V> {
     ) -> Self {
         let speed_max = vehicle.limits().speed.unwrap_or(f64::INFINITY);
         let seat = FrontSeat::new(Some((route, vertical)), Handover::default(), start, speed_max);
-        let happenings = seat.plan().map(|plan| Happening::Plan(Milestone::Leg(1, plan.legs()))).into_iter().collect();
+        let happenings =
+            seat.plan().map(|plan| ServerEvent::Plan(Milestone::Leg(1, plan.legs()))).into_iter().collect();
         Server {
             side,
             vehicle,
@@ -124,7 +125,7 @@ impl<V: Vehicle> Server<V> {
     }
 
     /// What happened; taken once.
-    pub fn take_happenings(&mut self) -> Vec<Happening> {
+    pub fn take_happenings(&mut self) -> Vec<ServerEvent> {
         std::mem::take(&mut self.happenings)
     }
 
@@ -161,10 +162,10 @@ impl<V: Vehicle> Server<V> {
         if self.tick == 0 {
             self.vehicle.take_over()?;
         }
-        self.happenings.extend(self.vehicle.notices().into_iter().map(Happening::Notice));
+        self.happenings.extend(self.vehicle.notices().into_iter().map(ServerEvent::Notice));
         if !self.given_up && matches!(self.snapshot.control, Control::Released | Control::Refused) {
             (self.given_up, self.goals, self.command) = (true, None, None);
-            self.happenings.push(Happening::GivenUp);
+            self.happenings.push(ServerEvent::GivenUp);
         }
         self.tell_senses();
         self.tell_grounding();
@@ -199,7 +200,7 @@ impl<V: Vehicle> Server<V> {
         self.say(&Report::Answered);
         let timeout = self.timeout_ticks();
         if self.is_driven() && self.silent >= timeout {
-            self.happenings.push(Happening::TimedOut(timeout));
+            self.happenings.push(ServerEvent::TimedOut(timeout));
             self.leave();
         }
     }
@@ -218,7 +219,7 @@ impl<V: Vehicle> Server<V> {
             }
             Request::GiveBack => {
                 if self.is_driven() {
-                    self.happenings.push(Happening::Released);
+                    self.happenings.push(ServerEvent::Released);
                 }
                 self.leave();
             }
@@ -242,15 +243,15 @@ impl<V: Vehicle> Server<V> {
         }
         match (before, self.control) {
             (before, now) if before == now => {}
-            (_, Control::Released) => self.happenings.push(Happening::TakenBack),
-            (_, Control::Suspended) => self.happenings.push(Happening::Suspended),
-            (Control::Suspended, _) => self.happenings.push(Happening::GoesOn),
+            (_, Control::Released) => self.happenings.push(ServerEvent::TakenBack),
+            (_, Control::Suspended) => self.happenings.push(ServerEvent::Suspended),
+            (Control::Suspended, _) => self.happenings.push(ServerEvent::GoesOn),
             _ => {}
         }
     }
 
     fn give_over(&mut self) {
-        self.happenings.push(Happening::Taken(self.senses.position, self.leg()));
+        self.happenings.push(ServerEvent::Taken(self.senses.position, self.leg()));
         let (heading, speed) = (self.senses.heading, self.seat.plan().map_or(0.0, OwnPlan::speed));
         self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.seat.vertical() });
     }
@@ -297,7 +298,7 @@ impl<V: Vehicle> Server<V> {
         let timeout = self.timeout_ticks();
         let again = self.refused.is_some_and(|(last, tick)| last == why && self.tick - tick < timeout);
         if !again {
-            self.happenings.push(Happening::Refused(what.to_string(), why));
+            self.happenings.push(ServerEvent::Refused(what.to_string(), why));
         }
         self.refused = Some((why, self.tick));
     }
@@ -328,7 +329,7 @@ impl<V: Vehicle> Server<V> {
         let Senses { position, course, heading, flow, .. } = self.senses;
         let known = Known { position, course, heading, flow: flow.unwrap_or(Vector::ZERO) };
         let happenings = &mut self.happenings;
-        self.seat.steer(known, &mut |milestone| happenings.push(Happening::Plan(milestone)))
+        self.seat.steer(known, &mut |milestone| happenings.push(ServerEvent::Plan(milestone)))
     }
 
     /// Takes in what was sensed, and passes it on.

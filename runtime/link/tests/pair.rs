@@ -3,14 +3,14 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose vehicle cannot be made has failed")]
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::{Controller, Happening, Milestone, Rows, Server, recon};
+use albacore_link::{Controller, Milestone, Rows, Server, ServerEvent, recon};
 use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
 use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
 use std::collections::VecDeque;
 
 /// The vehicle leaves a guest who is silent for so long.
-const TIMED_OUT: Happening = Happening::TimedOut(recon::DIALECT.timeout_ticks);
+const TIMED_OUT: ServerEvent = ServerEvent::TimedOut(recon::DIALECT.timeout_ticks);
 
 /// A generator for tests (SplitMix64): what goes wrong is the same in every run.
 struct Chance(u64);
@@ -104,7 +104,7 @@ struct Pair {
     snapshot: Snapshot,
     /// Every change of control that the controller saw, and what happened at the vehicle.
     controls: Vec<Control>,
-    happenings: Vec<Happening>,
+    happenings: Vec<ServerEvent>,
 }
 
 impl Pair {
@@ -159,7 +159,7 @@ impl Pair {
 
     /// Ticks until something has happened, and how many there were.
     #[track_caller]
-    fn until(&mut self, most: usize, what: impl Fn(&Happening) -> bool) -> usize {
+    fn until(&mut self, most: usize, what: impl Fn(&ServerEvent) -> bool) -> usize {
         for count in 0..most {
             if self.happenings.iter().any(&what) {
                 return count;
@@ -204,7 +204,9 @@ fn excursion(seed: u64, share: f64) -> Pair {
 #[test]
 fn takes_control_drives_releases_and_the_vehicle_resumes_its_rows() {
     let mut pair = excursion(1, 0.0);
-    let Some(Happening::Taken(break_off, 1)) = pair.happenings.last().cloned() else { panic!("{:?}", pair.happenings) };
+    let Some(ServerEvent::Taken(break_off, 1)) = pair.happenings.last().cloned() else {
+        panic!("{:?}", pair.happenings)
+    };
     assert!((20.0..35.0).contains(&break_off.north), "20 s at 1.5 m/s: {break_off:?}");
     assert!(pair.vehicle.position().distance(break_off) > 50.0);
     let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
@@ -212,9 +214,9 @@ fn takes_control_drives_releases_and_the_vehicle_resumes_its_rows() {
     assert!(pair.release(10));
     assert_eq!(pair.controller.control(), Control::Released);
     assert_eq!(pair.controls, [Control::Monitoring, Control::InControl], "the answer comes within the tick");
-    pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(at, 1)) if *at == break_off));
+    pair.until(1500, |h| matches!(h, ServerEvent::Plan(Milestone::Resumed(at, 1)) if *at == break_off));
     assert!(pair.vehicle.position().distance(break_off) < 12.0);
-    pair.until(3000, |h| *h == Happening::Plan(Milestone::Over));
+    pair.until(3000, |h| *h == ServerEvent::Plan(Milestone::Over));
     assert!(!pair.happenings.contains(&TIMED_OUT));
 }
 
@@ -256,7 +258,7 @@ fn a_bad_wire_costs_time_and_nothing_else() {
             assert!(pair.release(300), "seed {seed}, {share}");
             assert!(pair.controls.contains(&Control::InControl), "seed {seed}, {share}: {:?}", pair.controls);
             assert!(pair.vehicle.position().distance(Point::ORIGIN) > 50.0, "seed {seed}, {share}");
-            pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(_, 1))));
+            pair.until(1500, |h| matches!(h, ServerEvent::Plan(Milestone::Resumed(_, 1))));
             let count = pair.controller.count();
             assert!(count.unreadable > 0 && count.messages > count.unreadable, "seed {seed}: {count:?}");
         }
@@ -278,7 +280,7 @@ fn who_falls_silent_loses_control_after_five_seconds_exactly() {
     assert!(pair.happenings.contains(&TIMED_OUT));
     pair.ticks(3, None);
     assert_eq!(pair.snapshot.control, Control::Released, "and the controller, back again, is told");
-    pair.until(1500, |h| matches!(h, Happening::Plan(Milestone::Resumed(_, 1))));
+    pair.until(1500, |h| matches!(h, ServerEvent::Plan(Milestone::Resumed(_, 1))));
 }
 
 #[test]
@@ -307,7 +309,7 @@ fn commands_beyond_the_scenarios_limits_are_held_at_them_and_noticed() {
     pair.send();
     let deep = Command { vertical: Vertical::Depth(400.0), ..east() };
     pair.ticks(100, Some(&deep));
-    let told = Happening::Notice("is asked to go deeper than 6.00 m: it stays there".into());
+    let told = ServerEvent::Notice("is asked to go deeper than 6.00 m: it stays there".into());
     assert!(pair.happenings.contains(&told), "{:?}", pair.happenings);
     let notices = pair.controller.take_notices();
     assert!(notices.iter().any(|n| n.contains("error 2, is asked to go deeper than 6.00 m")), "{notices:?}");
@@ -336,7 +338,7 @@ fn a_vehicle_that_runs_aground_says_so_and_that_it_came_free() {
 #[test]
 fn a_mission_that_is_over_cannot_be_overridden() {
     let mut pair = Pair::new("10x5x1", 1, 0.0);
-    pair.until(1000, |h| *h == Happening::Plan(Milestone::Over));
+    pair.until(1000, |h| *h == ServerEvent::Plan(Milestone::Over));
     pair.controller.take_over();
     pair.send();
     pair.ticks(3, None);
@@ -347,7 +349,7 @@ fn a_mission_that_is_over_cannot_be_overridden() {
 #[test]
 fn a_guest_that_comes_back_on_the_way_does_not_move_the_break_off_point() {
     let mut pair = excursion(1, 0.0);
-    let Some(Happening::Taken(first, _)) = pair.happenings.last().cloned() else { panic!("{:?}", pair.happenings) };
+    let Some(ServerEvent::Taken(first, _)) = pair.happenings.last().cloned() else { panic!("{:?}", pair.happenings) };
     assert!(pair.release(10));
     pair.ticks(20, None);
     pair.controller = Controller::new(recon::controller(), frame());
@@ -357,7 +359,7 @@ fn a_guest_that_comes_back_on_the_way_does_not_move_the_break_off_point() {
     pair.ticks(100, Some(&east()));
     assert_eq!(pair.controls.last(), Some(&Control::InControl));
     assert!(pair.release(10));
-    pair.until(2000, |h| matches!(h, Happening::Plan(Milestone::Resumed(at, 1)) if *at == first));
+    pair.until(2000, |h| matches!(h, ServerEvent::Plan(Milestone::Resumed(at, 1)) if *at == first));
 }
 
 #[test]
@@ -367,7 +369,7 @@ fn the_closest_point_of_the_row_can_be_asked_for() {
     let north = Command { heading: Heading::NORTH, ..east() };
     pair.ticks(150, Some(&north));
     assert!(pair.release(10));
-    let closest = |h: &Happening| matches!(h, Happening::Plan(Milestone::Resumed(at, 1)) if at.east.abs() < 0.5 && at.north > 45.0);
+    let closest = |h: &ServerEvent| matches!(h, ServerEvent::Plan(Milestone::Resumed(at, 1)) if at.east.abs() < 0.5 && at.north > 45.0);
     pair.until(1500, closest);
 }
 
@@ -499,7 +501,7 @@ fn the_late_answer_to_a_question_of_our_own_is_no_offer() {
     for (patience, times) in [(10, 1), (14, 1), (12, 4), (7, 4), (20, 4)] {
         let pair = impatient(patience, times);
         let Pair { controls, happenings, .. } = &pair;
-        assert!(happenings.iter().any(|h| matches!(h, Happening::Taken(..))), "{happenings:?}");
+        assert!(happenings.iter().any(|h| matches!(h, ServerEvent::Taken(..))), "{happenings:?}");
         assert!(!happenings.contains(&TIMED_OUT), "{happenings:?}");
         for wrong in [Control::Offered, Control::Released, Control::Refused] {
             assert!(!controls.contains(&wrong), "{patience} ticks, {times} times: {controls:?}");
@@ -536,6 +538,6 @@ fn a_question_that_is_still_under_way_is_released_until_it_is_heard() {
     }
     assert!(is_released);
     pair.to_vehicle.clear();
-    pair.until(80, |h| *h == Happening::Released);
+    pair.until(80, |h| *h == ServerEvent::Released);
     assert!(!pair.happenings.contains(&TIMED_OUT), "{:?}", pair.happenings);
 }

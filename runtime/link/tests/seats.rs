@@ -9,7 +9,7 @@ use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_guidance::Route;
 use albacore_link::recon::{self, FromVehicle, State};
-use albacore_link::{Controller, Happening, Rows, Server};
+use albacore_link::{Controller, Rows, Server, ServerEvent};
 use albacore_sim::{Bottom, OwnMission, Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::Control::{InControl, Monitoring, Refused, Released, Requesting, Suspended};
 use albacore_vehicle::Vertical::{Altitude, Depth};
@@ -267,7 +267,7 @@ impl Seat for Served {
         told.retain(|told| told.contains("error 2"));
         let happenings = self.vehicle.take_happenings().into_iter();
         told.extend(happenings.filter_map(|happening| match happening {
-            Happening::Notice(notice) => Some(notice),
+            ServerEvent::Notice(notice) => Some(notice),
             _ => None,
         }));
         told

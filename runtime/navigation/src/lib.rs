@@ -15,5 +15,5 @@ mod trust;
 pub use flow_estimate::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates, Verdict};
 pub use health::{Anomaly, AnomalyEvent, HealthMonitor};
 pub use navigator::{Estimate, Fix, Navigator, Sensed};
-pub use navigators::{AsTold, DeadReckoning, NavigatorSetup};
+pub use navigators::{DeadReckoning, NavigatorSetup, Reported};
 pub use trust::Trust;

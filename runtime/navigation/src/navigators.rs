@@ -1,10 +1,10 @@
 //! The table of navigators: a module for each, and how scenarios name them.
 
-mod as_told;
 mod dead_reckoning;
+mod reported;
 
-pub use as_told::AsTold;
 pub use dead_reckoning::DeadReckoning;
+pub use reported::Reported;
 
 use crate::navigator::Navigator;
 use albacore_geometry::Point;

@@ -49,7 +49,7 @@ pub use past::PastRun;
 pub use plan::{Plan, PlanError};
 pub use recorders::journal::{Sink, is_journal, is_journal_as_left};
 pub use recorders::{PICTURE, RUN_FILES, RunFile, TRACE};
-pub use run::{LiveUpdate, Lived, Means, Run, Running, WAITING_BYTES};
+pub use run::{LiveOptions, LiveRun, LiveUpdate, Run, Running, WAITING_BYTES};
 pub use served_vehicle::{FarEnd, ServedVehicle};
 pub use shown::{Shown, ShownClause, ValueSource};
 pub use summary::{Report, Summary};

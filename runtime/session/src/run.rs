@@ -21,7 +21,7 @@ use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) use driver::Driver;
-pub use live::{LiveUpdate, Lived, Means, WAITING_BYTES};
+pub use live::{LiveOptions, LiveRun, LiveUpdate, WAITING_BYTES};
 
 /// A run under way.
 pub struct Run {

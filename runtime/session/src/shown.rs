@@ -32,7 +32,7 @@ pub struct ShownClause {
     /// Its name; of a value of another clause, both: `vehicle kinematic`.
     pub name: String,
     /// Why it is in force.
-    pub whence: ValueSource,
+    pub source: ValueSource,
     /// Its parameters, their values (of an area each corner, of a list each item on a line), and why they have them.
     pub values: Vec<(String, String, ValueSource)>,
 }
@@ -60,14 +60,14 @@ impl Shown {
         let words = scenario::words(&lowered);
         let formatter = ClauseFormatter { words: &words, frame: lowered.origin.map(|origin| TangentFrame { origin }) };
         for clause in &lowered.clauses {
-            formatter.tell(clause, "", ValueSource::Said, &mut clauses);
+            formatter.push_clause(clause, "", ValueSource::Said, &mut clauses);
             match (clause.name.as_str(), clauses.last_mut()) {
                 ("bottom_grid", Some(told)) => {
                     if let Ground::Grid(grid) = &world.bottom.ground {
                         told.values.extend(formatter.survey(grid));
                     }
                 }
-                ("recorded_plume", _) => record::tell(&world, &formatter, &mut clauses),
+                ("recorded_plume", _) => record::push_recorded(&world, &formatter, &mut clauses),
                 _ => {}
             }
         }
@@ -76,7 +76,7 @@ impl Shown {
         for name in clause_names() {
             match DEFAULTS.in_force(&name, &world) {
                 _ if clauses.iter().any(|told| told.name == name) => {}
-                Some(clause) => formatter.tell(clause, "", ValueSource::Default, &mut clauses),
+                Some(clause) => formatter.push_clause(clause, "", ValueSource::Default, &mut clauses),
                 None => absent.push(name),
             }
         }

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot set up its own run has failed")]
 
 use albacore_machine::Machine;
-use albacore_session::{LiveUpdate, Lived, Means, Outcome, PICTURE, Plan, Run, Sink, WAITING_BYTES, load};
+use albacore_session::{LiveOptions, LiveRun, LiveUpdate, Outcome, PICTURE, Plan, Run, Sink, WAITING_BYTES, load};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Ending, Journal};
 use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError};
@@ -118,12 +118,13 @@ impl io::Write for Disk {
     }
 }
 
-fn live(run: Run, disk: &Disk, waiting_bytes: usize, tell: &mut dyn FnMut(LiveUpdate<'_>, &AtomicBool)) -> Lived {
+fn live(run: Run, disk: &Disk, waiting_bytes: usize, report: &mut dyn FnMut(LiveUpdate<'_>, &AtomicBool)) -> LiveRun {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     let journal: Sink = Box::new(disk.clone());
-    let mut tell = |told: LiveUpdate<'_>| tell(told, &flag);
-    run.live(Means { journal: Some((journal, Vec::new())), interrupted, tell: &mut tell, waiting_bytes }).unwrap()
+    let mut report = |told: LiveUpdate<'_>| report(told, &flag);
+    run.live(LiveOptions { journal: Some((journal, Vec::new())), interrupted, report: &mut report, waiting_bytes })
+        .unwrap()
 }
 
 const FREE: u64 = u64::MAX;

@@ -21,7 +21,7 @@ pub use craft::sensors::{
 };
 pub use craft::setup::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 pub use noise::{Noise, Stream};
-pub use scenario::{Scenario, ScenarioError, ScenarioIssue, Setting, Why};
+pub use scenario::{IssueCause, Scenario, ScenarioError, ScenarioIssue, Setting};
 pub use simulator::Simulator;
 pub use world::bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use world::plume::{Patch, Plume, Source, Times};

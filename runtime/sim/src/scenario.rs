@@ -3,8 +3,8 @@
 mod issues;
 mod setting;
 
-pub(crate) use issues::{FLOW_MAX, OfClause, ScenarioIssues, rounded_down, told};
-pub use issues::{ScenarioError, ScenarioIssue, Why};
+pub(crate) use issues::{FLOW_MAX, OfClause, ScenarioIssues, number, rounded_down};
+pub use issues::{IssueCause, ScenarioError, ScenarioIssue};
 pub use setting::Setting;
 
 use crate::craft::fault::{self, Fault};

@@ -249,7 +249,7 @@ impl Vehicle for Simulator {
         self.note_incidents();
         if !self.spent && self.time_s() >= self.endurance {
             self.spent = true;
-            self.incidents.tell("the battery is empty: the vehicle floats up");
+            self.incidents.notice("the battery is empty: the vehicle floats up");
         }
         if self.gives_up() {
             // Who has asked, and has not been told yet that he drives, is to have an answer.
@@ -311,8 +311,8 @@ impl Vehicle for Simulator {
         self.watch.limits().clone()
     }
 
-    fn clamp_command(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
-        self.watch.limits().clamp_command(asked, Some(self.water_depth_here()), tell);
+    fn clamp_command(&self, asked: &Command, report: &mut dyn FnMut(Beyond)) {
+        self.watch.limits().clamp_command(asked, Some(self.water_depth_here()), report);
     }
 
     fn held(&self) -> Option<Command> {

@@ -209,8 +209,8 @@ pub trait Vehicle {
     }
 
     /// What of a command is beyond its own limits, by all that it knows of itself and of the water.
-    fn clamp_command(&self, asked: &Command, tell: &mut dyn FnMut(Beyond)) {
-        self.limits().clamp_command(asked, None, tell);
+    fn clamp_command(&self, asked: &Command, report: &mut dyn FnMut(Beyond)) {
+        self.limits().clamp_command(asked, None, report);
     }
 
     /// What it does now: the command that it follows, as far as its own limits let it, whoever gave it. None when it follows

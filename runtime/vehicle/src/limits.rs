@@ -53,15 +53,15 @@ impl fmt::Display for Beyond {
 impl Limits {
     /// A command as far as the vehicle follows it, where the water is so deep (m) if that is known; `tell` hears of each limit
     /// that it goes beyond. The least altitude rules over all else: it lifts the vehicle whatever it was told.
-    pub fn clamp_command(&self, asked: &Command, water_depth: Option<f64>, tell: &mut dyn FnMut(Beyond)) -> Command {
-        let vertical = self.within(asked.vertical, water_depth, tell);
+    pub fn clamp_command(&self, asked: &Command, water_depth: Option<f64>, report: &mut dyn FnMut(Beyond)) -> Command {
+        let vertical = self.within(asked.vertical, water_depth, report);
         let speed = match self.speed {
             Some(most) if asked.speed > most + SLACK => {
-                tell(Beyond::Fast(most));
+                report(Beyond::Fast(most));
                 most
             }
             _ if asked.speed < -SLACK => {
-                tell(Beyond::Astern);
+                report(Beyond::Astern);
                 0.0
             }
             _ => asked.speed.max(0.0),
@@ -69,13 +69,13 @@ impl Limits {
         Command { speed, vertical, ..*asked }
     }
 
-    fn within(&self, asked: Vertical, water_depth: Option<f64>, tell: &mut dyn FnMut(Beyond)) -> Vertical {
+    fn within(&self, asked: Vertical, water_depth: Option<f64>, report: &mut dyn FnMut(Beyond)) -> Vertical {
         let mut vertical = asked;
         if let Vertical::Depth(depth) = asked
             && depth < 0.0
         {
             if depth < -SLACK {
-                tell(Beyond::High);
+                report(Beyond::High);
             }
             vertical = Vertical::Depth(0.0);
         }
@@ -86,7 +86,7 @@ impl Limits {
         if let (Some(depth), Some(most)) = (depth, self.depth)
             && depth > most + SLACK
         {
-            tell(Beyond::Deep(most));
+            report(Beyond::Deep(most));
             vertical = Vertical::Depth(most);
         }
         let altitude = match vertical {
@@ -97,7 +97,7 @@ impl Limits {
             && self.altitude > 0.0
             && altitude < self.altitude - SLACK
         {
-            tell(Beyond::Low(self.altitude));
+            report(Beyond::Low(self.altitude));
             vertical = Vertical::Altitude(self.altitude);
         }
         vertical

@@ -78,21 +78,21 @@ impl Unreadable {
 /// where it begins.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
-    kinds: Vec<Alike>,
+    kinds: Vec<FaultGroup>,
     others: u64,
     count: u64,
 }
 
 /// Faults with one mend: the first of them in words, and how many there are.
 #[derive(Debug)]
-struct Alike {
+struct FaultGroup {
     fault: Fault,
     count: u64,
 }
 
-impl Alike {
+impl FaultGroup {
     fn into_fault(self) -> Fault {
-        let Alike { mut fault, count } = self;
+        let FaultGroup { mut fault, count } = self;
         if count > NAMED_MAX {
             fault.message += &format!("; and {} more such", count - NAMED_MAX);
         }
@@ -115,7 +115,7 @@ impl Faults {
                     alike.fault.message += &format!("; {}", fault.message);
                 }
             }
-            None if has_room => self.kinds.push(Alike { fault, count: 1 }),
+            None if has_room => self.kinds.push(FaultGroup { fault, count: 1 }),
             None => self.others += 1,
         }
     }
@@ -131,7 +131,7 @@ impl Faults {
     }
 
     pub fn into_unreadable(self) -> Option<Unreadable> {
-        let mut faults: Vec<Fault> = self.kinds.into_iter().map(Alike::into_fault).collect();
+        let mut faults: Vec<Fault> = self.kinds.into_iter().map(FaultGroup::into_fault).collect();
         if let (Some(last), 1..) = (faults.last(), self.others) {
             let help = last.help.clone();
             faults.push(Fault::new(format!("and {} more faults such as these", self.others), help));

@@ -4,9 +4,9 @@ use albacore_vehicle::TICK_S;
 use std::time::Duration;
 
 /// So many late ticks one after the other are told.
-const TICKS_TOLD: u64 = 10;
+const TICKS_REPORTED: u64 = 10;
 /// ... and sooner, when it took so long to compute them.
-const COMPUTED_TOLD: Duration = Duration::from_secs(1);
+const COMPUTED_REPORTED: Duration = Duration::from_secs(1);
 
 /// Late ticks one after the other, up to now.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,9 +27,9 @@ impl Late {
     }
 
     /// What there is to tell of them when they are over.
-    pub fn told(self) -> Option<String> {
+    pub fn summary(self) -> Option<String> {
         let seconds = self.ticks as f64 * TICK_S;
-        (self.ticks >= TICKS_TOLD)
+        (self.ticks >= TICKS_REPORTED)
             .then(|| format!("this computer or the link was {seconds:.1} s late: the commands of that time were left out, up to the newest"))
     }
 
@@ -37,14 +37,14 @@ impl Late {
     pub fn cost_us_the_vehicle(self, tick: Duration) -> Option<String> {
         let seconds = self.ticks as f64 * TICK_S;
         let why = if self.is_slow(tick) { format!(": {}", self.slow(tick)) } else { String::new() };
-        (self.ticks >= TICKS_TOLD)
+        (self.ticks >= TICKS_REPORTED)
             .then(|| format!("the commands of its last {seconds:.1} s came too late to be sent{why}"))
     }
 
     /// What there is to tell while they go on: they are late because they take longer to compute than they last.
-    pub fn told_slow(self, tick: Duration, timeout_ticks: u64) -> Option<String> {
+    pub fn slow_warning(self, tick: Duration, timeout_ticks: u64) -> Option<String> {
         let timeout = timeout_ticks as f64 * TICK_S;
-        (self.computed >= COMPUTED_TOLD && self.is_slow(tick)).then(|| {
+        (self.computed >= COMPUTED_REPORTED && self.is_slow(tick)).then(|| {
             format!(
                 "{}: commands come too late to be sent, and a vehicle that hears nothing for {timeout} s takes control back; use a \
                  faster computer, or do less in a tick (`albacore check --cost` shows what it does)",

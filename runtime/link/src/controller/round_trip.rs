@@ -130,7 +130,7 @@ impl RoundTrip {
         let newest = self.sent.back().map(|(mark, _)| *mark);
         // One that was sent a while ago is the least likely to come back late.
         let mark = (beside.into_iter())
-            .filter(|mark| !self.is_told(*mark) && newest != Some(*mark))
+            .filter(|mark| !self.is_reported(*mark) && newest != Some(*mark))
             .min_by_key(|mark| self.sent.iter().rposition(|(sent, _)| sent == mark).map_or(0, |at| at + 1))
             .unwrap_or(beside[0]);
         self.mark = Some(mark);
@@ -142,11 +142,11 @@ impl RoundTrip {
     fn is_good(&self, mark: Mark, now: Moment) -> bool {
         match self.sent.back().filter(|(sent, _)| *sent == mark) {
             Some((_, when)) if self.heard() == self.sent.len() => self.between(*when, now) < MARK_TICKS,
-            _ => !self.is_told(mark),
+            _ => !self.is_reported(mark),
         }
     }
 
-    fn is_told(&self, mark: Mark) -> bool {
+    fn is_reported(&self, mark: Mark) -> bool {
         self.back.iter().any(|back| back.last == Some(mark))
     }
 
@@ -174,7 +174,7 @@ impl RoundTrip {
 
     /// The vehicle has told a heading goal. What it told before as well tells nothing; of those that were sent alike it may be the
     /// oldest.
-    pub fn told(&mut self, heading: Heading, by: GoalSource, now: Moment) {
+    pub fn reported(&mut self, heading: Heading, by: GoalSource, now: Moment) {
         if let GoalSource::State = by {
             let ahead = self.ahead_of(now);
             self.ahead = Some(self.ahead.map_or(ahead, |least| least.min(ahead)));

@@ -1,6 +1,6 @@
 //! What a dialect does for a controller: it reads what a vehicle says, and writes what is said to it.
 
-use super::Hearing;
+use super::Received;
 use crate::dialect::Dialect;
 use crate::set_point::SetPoint;
 use albacore_vehicle::Command;
@@ -10,11 +10,11 @@ pub trait ControllerSide: Send {
     /// The dialect that it is of.
     fn dialect(&self) -> &'static Dialect;
 
-    /// Takes in bytes, however they were cut on their way, and gives `hearing` what they say, in the order in which it came.
-    fn hear(&mut self, bytes: &[u8], hearing: &mut Hearing);
+    /// Takes in bytes, however they were cut on their way, and gives `received` what they say, in the order in which it came.
+    fn hear(&mut self, bytes: &[u8], received: &mut Received);
 
     /// Adds the messages to `out` that say something to the vehicle.
-    fn say(&mut self, what: &Say, out: &mut Vec<u8>);
+    fn say(&mut self, what: &ControllerMessage, out: &mut Vec<u8>);
 
     /// A set-point as it stands on the wire, for people. Those with the same text are the same to the vehicle.
     fn text(&self, set_point: SetPoint) -> String;
@@ -22,7 +22,7 @@ pub trait ControllerSide: Send {
 
 /// What is said to a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Say {
+pub enum ControllerMessage {
     /// We want to drive: said again until its status shows that we do.
     TakeOver,
     /// It is to drive itself: said again until its status shows that it does.

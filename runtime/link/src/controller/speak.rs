@@ -2,7 +2,7 @@
 
 use super::late::Late;
 use super::round_trip::Moment;
-use super::{Controller, Given, Say, Want};
+use super::{Controller, ControllerMessage, Given, Want};
 use crate::set_point::SetPoint;
 use albacore_vehicle::{Command, Control};
 
@@ -43,7 +43,7 @@ impl Controller {
                 self.round_trip.begin();
                 self.ours = 0;
                 self.late = Late::default();
-                self.say(&Say::TakeOver);
+                self.say(&ControllerMessage::TakeOver);
             }
             // What the vehicle says of the question before would be taken for the answer to this one.
             Want::GiveBack { again, .. } => *again = true,
@@ -59,7 +59,7 @@ impl Controller {
                 let given = Given { since: self.moment(), driven };
                 self.want = Want::GiveBack { given, again: false };
                 self.control = Control::Monitoring;
-                self.say(&Say::GiveBack);
+                self.say(&ControllerMessage::GiveBack);
             }
             Want::GiveBack { again, .. } => {
                 *again = false;
@@ -76,10 +76,13 @@ impl Controller {
         let computed = std::mem::take(&mut self.computed);
         if self.is_late() {
             self.late.add(computed);
-            let told =
-                if self.told_slow { None } else { self.late.told_slow(self.tick, self.side.dialect().timeout_ticks) };
+            let told = if self.slow_warning {
+                None
+            } else {
+                self.late.slow_warning(self.tick, self.side.dialect().timeout_ticks)
+            };
             if let Some(told) = told {
-                self.told_slow = true;
+                self.slow_warning = true;
                 self.notice(told);
             }
             return;
@@ -87,7 +90,7 @@ impl Controller {
         if !self.is_ours() {
             return;
         }
-        if let Some(told) = std::mem::take(&mut self.late).told() {
+        if let Some(told) = std::mem::take(&mut self.late).summary() {
             self.notice(told);
         }
         let (now, moment) = (self.next_tick, self.moment());
@@ -110,12 +113,12 @@ impl Controller {
         if let SetPoint::Heading(heading) = asked {
             self.round_trip.sent(heading, moment);
         }
-        self.say(&Say::SetPoint(asked, command));
+        self.say(&ControllerMessage::SetPoint(asked, command));
     }
 
     /// Says that we are here, without asking for anything.
     pub fn hello(&mut self) {
-        self.say(&Say::KeepAlive);
+        self.say(&ControllerMessage::KeepAlive);
     }
 
     /// Gives control back: call it now and then until it is true, which it is when the vehicle's status says so. Who never asked
@@ -139,11 +142,11 @@ impl Controller {
                 }
             }
         }
-        self.say(&Say::GiveBack);
+        self.say(&ControllerMessage::GiveBack);
         false
     }
 
-    pub(super) fn say(&mut self, what: &Say) {
+    pub(super) fn say(&mut self, what: &ControllerMessage) {
         self.spoke = self.next_tick.saturating_sub(1);
         self.side.say(what, &mut self.out);
     }

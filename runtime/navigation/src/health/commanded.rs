@@ -40,7 +40,7 @@ const HELD: f64 = 0.5;
 /// What is remembered of how commands are followed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Commanded {
-    astray: Option<Astray>,
+    astray: Option<HeadingError>,
     goal: Option<Goal>,
     depth: Depth,
     /// That when the altitude was first told that is still told.
@@ -59,7 +59,7 @@ struct Altitudes {
 
 /// A heading that is far off.
 #[derive(Clone, Copy, Debug)]
-struct Astray {
+struct HeadingError {
     /// What was told last, and which way from there the one commanded is the nearer.
     heading: Heading,
     is_clockwise: bool,
@@ -135,11 +135,11 @@ impl Commanded {
             return;
         }
         let is_clockwise = off > 0.0;
-        let before = self.astray.unwrap_or(Astray { heading, is_clockwise, ticks: 0, turned: 0.0 });
+        let before = self.astray.unwrap_or(HeadingError { heading, is_clockwise, ticks: 0, turned: 0.0 });
         let clockwise = heading - before.heading;
         let turned = before.turned + if before.is_clockwise { clockwise } else { -clockwise };
         let (ticks, turned) = if turned > HEADING_TURNS { (0, 0.0) } else { (before.ticks + 1, turned) };
-        self.astray = Some(Astray { heading, is_clockwise, ticks, turned });
+        self.astray = Some(HeadingError { heading, is_clockwise, ticks, turned });
         if ticks > HEADING_TICKS {
             anomalies.see(Anomaly::HeadingNotAsCommanded);
         }

@@ -75,7 +75,7 @@ impl Columns {
     }
 
     /// How many of its reports a row tells.
-    pub(super) fn told(&self, cells: &[&str]) -> usize {
+    pub(super) fn report_count(&self, cells: &[&str]) -> usize {
         let further = cells.iter().skip(FIXED.len()).step_by(2).filter(|t_s| !t_s.is_empty()).count();
         let first = !Self::cell(cells, "report_t_s").is_empty();
         if self.from == 0 { further } else { further + usize::from(first) }

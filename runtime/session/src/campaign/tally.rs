@@ -44,7 +44,7 @@ impl Tally {
         self.path_length_m.extend(number("path_length_m"));
         let reports = cell("reports").parse().unwrap_or(0);
         self.reports_max = self.reports_max.max(reports);
-        if columns.told(cells) < reports {
+        if columns.report_count(cells) < reports {
             self.crowded += 1;
         }
     }

@@ -89,7 +89,7 @@ impl Task {
     }
 
     /// What happened in a tick, as lines. That a line of the prompt is a mission is nobody's concern.
-    fn tell(&mut self, tick: u64, say: &mut dyn FnMut(&str)) {
+    fn print_events(&mut self, tick: u64, say: &mut dyn FnMut(&str)) {
         let own = self.machine.program().mission.activity;
         let is_line = self.left.is_some();
         let events: Vec<Event> = self
@@ -195,7 +195,7 @@ impl Moment {
         let mut command = None;
         if let Some(task) = &mut self.task {
             command = task.machine.step(&self.snapshot);
-            task.tell(self.tick, say);
+            task.print_events(self.tick, say);
             task.assign(&mut self.names);
             if task.machine.outcome().is_some() {
                 let left = task.left();

@@ -101,7 +101,7 @@ impl<'t> Expectations<'t> {
     }
 
     /// Puts what is true now where the expectations look for it.
-    fn tell(&mut self) {
+    fn set_slots(&mut self) {
         let (slots, results, position, time) = (&self.test.slots, &self.results, self.position, self.time_s());
         let start = results.start.unwrap_or(Point::ORIGIN);
         let completed = results.outcome() == Some(Outcome::Completed);
@@ -139,12 +139,12 @@ impl Recorder for Expectations<'_> {
             Step::Tick if record.tick == 0 || record.is_last => {}
             Step::Tick => {
                 if self.test.expects.iter().any(|expect| expect.share.is_none()) {
-                    self.tell();
+                    self.set_slots();
                     self.look(true);
                 }
             }
             Step::End(_) => {
-                self.tell();
+                self.set_slots();
                 self.look(true);
                 self.look(false);
             }

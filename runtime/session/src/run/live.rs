@@ -29,13 +29,13 @@ const PATIENCE_LOOKS: u32 = 60;
 const PROGRESS_TICKS: u64 = 10;
 
 /// What a run in real time is done with.
-pub struct Means<'a> {
+pub struct LiveOptions<'a> {
     /// Where the journal goes, and the texts of the parameters changed for this run.
     pub journal: Option<(Sink, Vec<String>)>,
     /// Raised when the run is to end.
     pub interrupted: Arc<AtomicBool>,
     /// Hears what a person should; it must not wait.
-    pub tell: &'a mut dyn FnMut(LiveUpdate<'_>),
+    pub report: &'a mut dyn FnMut(LiveUpdate<'_>),
     /// The most bytes of records that wait for a writer: mostly [`WAITING_BYTES`].
     pub waiting_bytes: usize,
 }
@@ -53,7 +53,7 @@ pub enum LiveUpdate<'a> {
 }
 
 /// A run in real time that is over.
-pub struct Lived {
+pub struct LiveRun {
     /// The run.
     pub run: Run,
     /// How it ended.
@@ -65,8 +65,8 @@ pub struct Lived {
 impl Run {
     /// Runs to the end in the vehicle's time, on threads of its own. An error tells of a thread that could not be begun:
     /// then nothing was sent.
-    pub fn live(self, means: Means<'_>) -> io::Result<Lived> {
-        let Means { journal, interrupted, tell, waiting_bytes } = means;
+    pub fn live(self, means: LiveOptions<'_>) -> io::Result<LiveRun> {
+        let LiveOptions { journal, interrupted, report, waiting_bytes } = means;
         let (feed, records) = queue(waiting_bytes);
         let mut lines = Lines { memory: feed, unseen: 0, journal: None, gap: None };
         let mut journalist = None;
@@ -77,11 +77,11 @@ impl Run {
         }
         let Run { driver, mut memory, journal, record } = self;
         let driving = Builder::new().name("driver".into()).spawn(move || drive(driver, &interrupted, lines))?;
-        fold(&mut memory, &records, journalist.as_ref(), tell);
+        fold(&mut memory, &records, journalist.as_ref(), report);
         let driver = driving.join().map_err(|_| io::Error::other("the driver has panicked: report this"))?;
-        let journal_stalled = journalist.is_some_and(|journalist| !journalist.ends(tell));
+        let journal_stalled = journalist.is_some_and(|journalist| !journalist.ends(report));
         let outcome = memory.results.outcome().unwrap_or(Outcome::Failed);
-        Ok(Lived { run: Run { driver, memory, journal, record }, outcome, journal_stalled })
+        Ok(LiveRun { run: Run { driver, memory, journal, record }, outcome, journal_stalled })
     }
 }
 
@@ -164,7 +164,7 @@ fn fold(
     memory: &mut InMemory,
     records: &Intake<(u64, Arc<TickRecord>)>,
     journalist: Option<&Journalist>,
-    tell: &mut dyn FnMut(LiveUpdate<'_>),
+    report: &mut dyn FnMut(LiveUpdate<'_>),
 ) {
     loop {
         match records.take(LOOK) {
@@ -174,20 +174,20 @@ fn fold(
                 }
                 memory.take(&record);
                 for notice in memory.notices.take_all() {
-                    tell(LiveUpdate::Notice(&notice));
+                    report(LiveUpdate::Notice(&notice));
                 }
                 if matches!(record.step, Step::Tick) && record.tick.is_multiple_of(PROGRESS_TICKS) {
                     let activities = &memory.results.plan.program.activities;
                     let names: Vec<&str> =
                         record.active.iter().map(|id| activities[*id as usize].name.as_str()).collect();
-                    tell(LiveUpdate::Progress(record.tick, &names));
+                    report(LiveUpdate::Progress(record.tick, &names));
                 }
             }
-            Err(RecvTimeoutError::Timeout) => tell(LiveUpdate::Nothing),
+            Err(RecvTimeoutError::Timeout) => report(LiveUpdate::Nothing),
             Err(RecvTimeoutError::Disconnected) => return,
         }
         if let Some(error) = journalist.and_then(|journalist| journalist.failures.try_recv().ok()) {
-            tell(LiveUpdate::JournalFailed(error));
+            report(LiveUpdate::JournalFailed(error));
         }
     }
 }
@@ -209,11 +209,11 @@ impl Journalist {
     }
 
     /// Waits for its end, as long as it gets anything done; whether it came.
-    fn ends(&self, tell: &mut dyn FnMut(LiveUpdate<'_>)) -> bool {
+    fn ends(&self, report: &mut dyn FnMut(LiveUpdate<'_>)) -> bool {
         let (mut level, mut looks) = (usize::MAX, 0);
         while looks < PATIENCE_LOOKS {
             match self.failures.recv_timeout(LOOK) {
-                Ok(error) => tell(LiveUpdate::JournalFailed(error)),
+                Ok(error) => report(LiveUpdate::JournalFailed(error)),
                 Err(RecvTimeoutError::Disconnected) => return true,
                 Err(RecvTimeoutError::Timeout) => {
                     let now = self.level.load(Ordering::Relaxed);

@@ -4,7 +4,7 @@ use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue};
 use albacore_program::{Shape, number};
-use albacore_sim::{ScenarioIssue, Why};
+use albacore_sim::{IssueCause, ScenarioIssue};
 
 /// What cannot be, at the argument or the clause that says it; what no clause says, at the scenario's name.
 pub fn objected(scenario: &ScenarioProgram, objection: &ScenarioIssue) -> Diagnostic {
@@ -14,8 +14,8 @@ pub fn objected(scenario: &ScenarioProgram, objection: &ScenarioIssue) -> Diagno
     let written = arg.filter(|arg| !arg.is_default);
     let span = written.map(|arg| arg.span).or(clause.map(|clause| clause.span)).unwrap_or(scenario.span);
     let (message, mend) = match &objection.why {
-        Why::Said(message, mend) => (message.clone(), mend.clone()),
-        Why::Over(value, most) => {
+        IssueCause::Said(message, mend) => (message.clone(), mend.clone()),
+        IssueCause::Over(value, most) => {
             let param = objection.param.unwrap_or_default();
             let message = format!("`{param}` of `{}` is {}", objection.clause, in_units(arg, *value));
             (message, format!("it must be {} at most", in_units(arg, *most)))

@@ -30,12 +30,12 @@ pub fn recorded_plume(understood: &mut Understood, clause: RecordedPlumeClause, 
     let RecordedPlumeClause { file: path, kernel, start, start_spread, threshold } = clause;
     let header = files.data(&path, HEADER_BYTES_MAX)?;
     let header = String::from_utf8(header).map_err(|_| not_utf8(&path))?;
-    let header = RecordingHeader::read(&header).map_err(|e| told(&path, e))?;
+    let header = RecordingHeader::read(&header).map_err(|e| wrong(&path, e))?;
     // The binary lies beside its header.
     let folder = path.rfind('/').map_or("", |slash| &path[..=slash]);
     let binary = format!("{folder}{}", header.binary());
     let bytes = files.data(&binary, RecordingHeader::BINARY_BYTES_MAX)?;
-    let recording = header.decode(&bytes).map_err(|error| told(&path, error))?;
+    let recording = header.decode(&bytes).map_err(|error| wrong(&path, error))?;
     let recorded = RecordedPlume { recording: Arc::new(recording), kernel, start, start_spread, threshold };
     let mut digest = Digest::new();
     digest.text(recorded.recording.sha256());
@@ -48,7 +48,7 @@ pub fn recorded_plume(understood: &mut Understood, clause: RecordedPlumeClause, 
     Ok(())
 }
 
-fn told(path: &str, error: RecordingError) -> Wrong {
+fn wrong(path: &str, error: RecordingError) -> Wrong {
     let fault = |fault| Fault { message: format!("`{path}`: {fault}"), help: Some(error.help.into()) };
     Wrong(error.faults.into_iter().map(fault).collect())
 }

@@ -16,18 +16,18 @@ pub(super) struct ClauseFormatter<'a> {
 
 impl ClauseFormatter<'_> {
     /// Adds a clause, and after it the clauses that are its values.
-    pub fn tell(&self, clause: &ScenarioClause, outer: &str, whence: ValueSource, told: &mut Vec<ShownClause>) {
+    pub fn push_clause(&self, clause: &ScenarioClause, outer: &str, source: ValueSource, shown: &mut Vec<ShownClause>) {
         let name = if outer.is_empty() { clause.name.clone() } else { format!("{outer} {}", clause.name) };
         let values = clause.args.iter().filter_map(|arg| {
             let text = self.value(&arg.value)?;
-            Some((arg.name.clone(), text, if arg.is_default { ValueSource::Default } else { whence }))
+            Some((arg.name.clone(), text, if arg.is_default { ValueSource::Default } else { source }))
         });
-        told.push(ShownClause { name: name.clone(), whence, values: values.collect() });
+        shown.push(ShownClause { name: name.clone(), source, values: values.collect() });
         for arg in &clause.args {
             if let ScenarioValue::Clause(nested) = &arg.value
                 && !nested.args.is_empty()
             {
-                self.tell(nested, &name, whence, told);
+                self.push_clause(nested, &name, source, shown);
             }
         }
     }

@@ -6,14 +6,14 @@ use albacore_program::{Display, Shape, number};
 use albacore_sim::Scenario;
 
 /// Tells them after `recorded_plume`, with what of each is in the record.
-pub(super) fn tell(world: &Scenario, formatter: &ClauseFormatter, told: &mut Vec<ShownClause>) {
+pub(super) fn push_recorded(world: &Scenario, formatter: &ClauseFormatter, shown: &mut Vec<ShownClause>) {
     let Some(recorded) = &world.recording else { return };
     let (recording, source) = (&recorded.recording, recorded.source());
-    if let Some(clause) = told.last_mut() {
+    if let Some(clause) = shown.last_mut() {
         clause.values.extend(values([("lasts", quantity("s", recording.duration()))]));
     }
     let mut brings =
-        |name: &str, values| told.push(ShownClause { name: name.into(), whence: ValueSource::Record, values });
+        |name: &str, values| shown.push(ShownClause { name: name.into(), source: ValueSource::Record, values });
     brings("region", values([("area", formatter.area(recording.area().corners().iter().copied()))]));
     brings("flow", values([("mean", vector(&display("m/s"), recording.mean_flow()))]));
     let (growth, initial_radius) = (recording.growth(), recording.initial_radius());

@@ -13,7 +13,7 @@ pub use sensor::Sensor;
 pub(crate) use under_way::Faults;
 
 use crate::craft::setup::HullSetup;
-use crate::scenario::{OfClause, Scenario, ScenarioIssues, told};
+use crate::scenario::{OfClause, Scenario, ScenarioIssues, number};
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
@@ -140,7 +140,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             of.unless(
                 Some("to"),
                 to > fault.from,
-                format!("this fault is over at {} s, and begins at {} s", told(to), told(fault.from)),
+                format!("this fault is over at {} s, and begins at {} s", number(to), number(fault.from)),
                 "make `to` later than `from`, or leave it out for a fault that lasts",
             );
         }

@@ -55,11 +55,11 @@ pub struct Motion {
 #[error(
     "the motion of the hull cannot be computed: take a shorter `step`, or less of `turns_max`, `fin_max` and `speed_max`"
 )]
-pub struct RanAway;
+pub struct Diverged;
 
 /// Where a hull is before its first tick, at rest in the water.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Berth {
+pub struct StartPose {
     /// Where.
     pub position: Point,
     /// Where its nose points.
@@ -70,9 +70,9 @@ pub struct Berth {
     pub flow: Vector,
 }
 
-impl Berth {
+impl StartPose {
     fn motion(&self) -> Motion {
-        let Berth { position, heading, depth, flow } = *self;
+        let StartPose { position, heading, depth, flow } = *self;
         Motion { position, heading, depth, ground_velocity: flow, ..Motion::default() }
     }
 }
@@ -91,7 +91,7 @@ pub enum Hull {
 impl Hull {
     /// At rest at its start, in water that moves with `flow`.
     pub fn new(setup: &VehicleSetup, flow: Vector, seed: u64) -> Self {
-        let berth = Berth { position: setup.start, heading: setup.heading, depth: setup.depth, flow };
+        let berth = StartPose { position: setup.start, heading: setup.heading, depth: setup.depth, flow };
         let settings = |hull: &SubmersibleHull, gains: Gains| Settings {
             steps: hull.steps(),
             speed_max: hull.speed_max,
@@ -130,7 +130,7 @@ impl Hull {
         command: Option<&Command>,
         flow: Vector,
         water_depth: impl Fn(Point) -> f64,
-    ) -> Result<(), RanAway> {
+    ) -> Result<(), Diverged> {
         match self {
             Hull::Kinematic(hull) => {
                 hull.step(tick, command, flow, water_depth);

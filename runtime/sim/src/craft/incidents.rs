@@ -58,9 +58,9 @@ impl Incidents {
     }
 
     /// Something else has happened.
-    pub fn tell(&mut self, notice: &str) {
+    pub fn notice(&mut self, text: &str) {
         if self.notices.len() < NOTICES_MAX {
-            self.notices.push(notice.to_string());
+            self.notices.push(text.to_string());
         }
     }
 

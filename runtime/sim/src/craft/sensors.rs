@@ -175,7 +175,7 @@ impl Instruments {
 
     /// The flow that the vehicle knows of, m/s toward.
     pub fn flow(&self) -> Vector {
-        self.adcp.told()
+        self.adcp.last_sample()
     }
 
     /// Where the chemical sensor's intake is on a vehicle that moves so, and its height above the bottom (m).

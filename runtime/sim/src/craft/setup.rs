@@ -1,7 +1,7 @@
 //! The vehicle, its own mission and its computer: what a scenario says of them, and what of that cannot be.
 
 use crate::craft::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
-use crate::scenario::{OfClause, Scenario, ScenarioIssues, rounded_down, told};
+use crate::scenario::{OfClause, Scenario, ScenarioIssues, number, rounded_down};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
 use albacore_guidance::{Route, Rows, Waypoints};
@@ -224,8 +224,8 @@ impl SubmersibleHull {
             format!(
                 "`{}` cannot swim {} m/s: its `turns_max` of {} Hz gives {possible:.2} m/s at most",
                 of.clause(),
-                told(self.speed_max),
-                told(self.turns_max)
+                number(self.speed_max),
+                number(self.turns_max)
             ),
             "make `speed_max` smaller, or `turns_max` greater",
         );
@@ -233,7 +233,7 @@ impl SubmersibleHull {
         of.unless(
             Some("step"),
             STEPS.contains(&steps.round()) && (steps - steps.round()).abs() < 1e-9,
-            format!("`step` of `{}` is {} ms", of.clause(), told(self.step * 1000.0)),
+            format!("`step` of `{}` is {} ms", of.clause(), number(self.step * 1000.0)),
             format!("a tick of 100 ms must be a whole number of steps, {} to {}", STEPS.start(), STEPS.end()),
         );
     }
@@ -310,7 +310,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             !(limits.altitude > water && water > 0.0),
             format!(
                 "the vehicle keeps {} m from the bottom, and starts where the water is {} m deep",
-                told(limits.altitude),
+                number(limits.altitude),
                 rounded_down(water)
             ),
             format!("make `altitude` {} m at most, or start in deeper water", rounded_down(water)),
@@ -358,7 +358,7 @@ fn check_own_mission(scenario: &Scenario, own: &OwnMission, objections: &mut Sce
         format!(
             "where it is to swim the water is {} m deep: it cannot swim there at {} m",
             rounded_down(shallowest),
-            told(depth)
+            number(depth)
         ),
         "make `depth` less, or leave it out for an `altitude`",
     );
@@ -390,7 +390,7 @@ fn check_start(v: &VehicleSetup, water: f64, of: &mut OfClause) {
     of.unless(
         Some("depth"),
         v.depth <= water || water == 0.0 || !water.is_finite(),
-        format!("the vehicle {may} below the bottom: {} m deep in {most} m of water", told(v.depth)),
+        format!("the vehicle {may} below the bottom: {} m deep in {most} m of water", number(v.depth)),
         format!("make `depth` {most} m at most, or start in deeper water"),
     );
 }

@@ -22,12 +22,12 @@ pub struct ScenarioIssue {
     /// The clause's parameter, or one of a clause that is its value; none: all of the clause.
     pub param: Option<&'static str>,
     /// What is wrong with it.
-    pub why: Why,
+    pub why: IssueCause,
 }
 
 /// What is wrong with a clause or a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Why {
+pub enum IssueCause {
     /// A size, in SI units, is greater than it may be.
     Over(f64, f64),
     /// What is wrong, and the mend.
@@ -37,11 +37,11 @@ pub enum Why {
 impl fmt::Display for ScenarioIssue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.why {
-            Why::Over(value, most) => {
-                let (param, value, most) = (self.param.unwrap_or_default(), told(*value), told(*most));
+            IssueCause::Over(value, most) => {
+                let (param, value, most) = (self.param.unwrap_or_default(), number(*value), number(*most));
                 write!(f, "`{param}` of `{}` is {value}: it must be {most} at most", self.clause)
             }
-            Why::Said(message, _) => f.write_str(message),
+            IssueCause::Said(message, _) => f.write_str(message),
         }
     }
 }
@@ -82,7 +82,7 @@ impl OfClause<'_> {
         self.unless(Some("name"), name.is_empty() || !others.contains(&name), message, "give each a name of its own");
     }
 
-    fn add(&mut self, param: Option<&'static str>, why: Why) {
+    fn add(&mut self, param: Option<&'static str>, why: IssueCause) {
         self.all.push(ScenarioIssue { clause: self.clause, nth: self.nth, param, why });
     }
 
@@ -95,14 +95,14 @@ impl OfClause<'_> {
         mend: impl Into<String>,
     ) {
         if !holds {
-            self.add(param, Why::Said(message.into(), mend.into()));
+            self.add(param, IssueCause::Said(message.into(), mend.into()));
         }
     }
 
     /// The size of a vector, in SI units.
     pub fn at_most(&mut self, param: &'static str, size: f64, most: f64) {
         if size > most * (1.0 + ROUNDING) {
-            self.add(Some(param), Why::Over(size, most));
+            self.add(Some(param), IssueCause::Over(size, most));
         }
     }
 
@@ -117,7 +117,7 @@ pub(crate) const FLOW_MAX: f64 = 10.0;
 const ROUNDING: f64 = 1e-12;
 
 /// A number as a person writes it: four decimals at most, and no zeros at the end.
-pub(crate) fn told(x: f64) -> String {
+pub(crate) fn number(x: f64) -> String {
     let text = format!("{x:.4}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
     // What four decimals do not show is shown whole.
@@ -127,5 +127,5 @@ pub(crate) fn told(x: f64) -> String {
 /// The greatest number of one decimal, and for what is smaller of three, that is not greater.
 pub(crate) fn rounded_down(x: f64) -> String {
     let decimals = if x.abs() < 1.0 { 1000.0 } else { 10.0 };
-    told((x * decimals).floor() / decimals)
+    number((x * decimals).floor() / decimals)
 }

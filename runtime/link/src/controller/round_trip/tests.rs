@@ -80,7 +80,7 @@ fn measured(
     let (mut there, mut back) = (Way::new(link.lost, link.repeated), Way::new(link.lost, link.repeated));
     let (mut moments, mut told) = (Way::new(0, 0), Way::new(0, 0));
     let (mut held, mut newest, mut known, mut spoke) = (mark(200.0), 0, 0, (Heading::NORTH, 0));
-    trip.told(held, GoalSource::State, at(0));
+    trip.reported(held, GoalSource::State, at(0));
     (1..=ticks)
         .map(|now| {
             let (to, from) = delay(now);
@@ -98,7 +98,7 @@ fn measured(
             told.send(newest, now, from, &mut chance);
             back.last_due = back.last_due.max(told.last_due);
             told.last_due = back.last_due;
-            back.arrived(now).into_iter().for_each(|(heading, by)| trip.told(heading, by, at(now)));
+            back.arrived(now).into_iter().for_each(|(heading, by)| trip.reported(heading, by, at(now)));
             known = told.arrived(now).last().copied().unwrap_or(known);
             let measured = trip.ticks(at(now));
             let heading = trip.marked(Heading::from_degrees(course(now)), at(now));
@@ -186,31 +186,31 @@ fn mark(degrees: f64) -> Heading {
 fn the_longer_of_the_two_clocks_counts() {
     let mut trip = RoundTrip::new(1.0);
     trip.sent(mark(5.0), at(100));
-    trip.told(mark(5.0), GoalSource::State, Moment { tick: 103, host: Duration::from_millis(10_200) });
+    trip.reported(mark(5.0), GoalSource::State, Moment { tick: 103, host: Duration::from_millis(10_200) });
     assert_eq!(trip.ticks(at(103)), 102, "the vehicle's clock runs slow");
     trip.sent(mark(6.0), Moment { tick: 110, host: Duration::from_secs(20) });
-    trip.told(mark(6.0), GoalSource::State, Moment { tick: 150, host: Duration::from_secs(21) });
+    trip.reported(mark(6.0), GoalSource::State, Moment { tick: 150, host: Duration::from_secs(21) });
     assert_eq!(trip.ticks(at(150)), 40);
     let mut slow = RoundTrip::new(0.1);
     slow.sent(mark(5.0), at(0));
-    slow.told(mark(5.0), GoalSource::Echo, Moment { tick: 1, host: Duration::from_secs(3) });
+    slow.reported(mark(5.0), GoalSource::Echo, Moment { tick: 1, host: Duration::from_secs(3) });
     assert_eq!(slow.ticks(at(1)), 3, "3 s of the host's are 0.3 s of the vehicle's");
 }
 
 #[test]
 fn what_the_vehicle_tells_anyway_proves_nothing() {
     let mut trip = RoundTrip::new(1.0);
-    trip.told(mark(90.0), GoalSource::State, at(1));
+    trip.reported(mark(90.0), GoalSource::State, at(1));
     assert_eq!(Mark::of(trip.marked(mark(90.0), at(1))), Mark(901), "that can be told from what it holds");
     trip.sent(mark(90.1), at(1));
     for (tick, told) in [(2, 90.0), (3, 200.0), (4, 90.0)] {
-        trip.told(mark(told), GoalSource::State, at(tick));
+        trip.reported(mark(told), GoalSource::State, at(tick));
     }
     assert_eq!(trip.ticks(at(40)), 39);
     for (tick, goal) in [(50, 80.0), (60, 90.1)] {
         trip.sent(mark(goal), at(tick));
     }
-    trip.told(mark(90.1), GoalSource::State, at(61));
+    trip.reported(mark(90.1), GoalSource::State, at(61));
     assert_eq!(trip.ticks(at(61)), 60, "the first of the two, as far as anybody knows");
 }
 
@@ -229,13 +229,13 @@ fn of_late_states(late: impl Fn(u64) -> u64, protects: impl Fn(u64) -> bool, sto
             let moment = |tick: u64| Moment { tick, host: Duration::from_millis(100 * now) };
             while let Some((_, stamp, heading)) = states.pop_front_if(|(due, ..)| *due <= now) {
                 told = stamp;
-                trip.told(heading, GoalSource::State, moment(told));
+                trip.reported(heading, GoalSource::State, moment(told));
             }
             let heading = trip.marked(mark(90.0), moment(told));
             trip.sent(heading, moment(told));
             if !stops(now) {
                 held = heading;
-                trip.told(held, GoalSource::Echo, moment(told));
+                trip.reported(held, GoalSource::Echo, moment(told));
             }
             trip.ticks(moment(told))
         })

@@ -3,7 +3,7 @@
 use super::frame::{Deframer, seal};
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
 use super::{DIALECT, FULL_SCALE_VOLTS, grounding};
-use crate::controller::{ControllerSide, Hearing, Say};
+use crate::controller::{ControllerMessage, ControllerSide, Received};
 use crate::dialect::Dialect;
 use crate::set_point::SetPoint;
 use albacore_geometry::Vector;
@@ -41,28 +41,30 @@ impl ControllerSide for Controller {
         &DIALECT
     }
 
-    fn hear(&mut self, bytes: &[u8], hearing: &mut Hearing) {
+    fn hear(&mut self, bytes: &[u8], received: &mut Received) {
         let memory = &mut self.memory;
         self.deframer.push(bytes, |frame| {
             // A line that is no frame and a frame that is no message come to the same: noise.
             if let Some(message) = frame.ok().and_then(|body| FromVehicle::parse(body).ok()) {
-                hearing.message();
-                memory.take_in(message, hearing);
+                received.message();
+                memory.take_in(message, received);
             } else {
-                hearing.unreadable();
+                received.unreadable();
             }
         });
     }
 
-    fn say(&mut self, what: &Say, out: &mut Vec<u8>) {
+    fn say(&mut self, what: &ControllerMessage, out: &mut Vec<u8>) {
         let message = match what {
-            Say::TakeOver => ToVehicle::Override(true),
-            Say::GiveBack => ToVehicle::Override(false),
-            Say::KeepAlive => ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into()),
+            ControllerMessage::TakeOver => ToVehicle::Override(true),
+            ControllerMessage::GiveBack => ToVehicle::Override(false),
+            ControllerMessage::KeepAlive => {
+                ToVehicle::KeepAlive(concat!("albacore ", env!("CARGO_PKG_VERSION")).into())
+            }
             // The first commands of the first override are accepted after a question only.
-            Say::Begin => ToVehicle::Query("Depth".into()),
+            ControllerMessage::Begin => ToVehicle::Query("Depth".into()),
             // Goals latch, and each has a line of its own.
-            Say::SetPoint(set_point, _) => (*set_point).into(),
+            ControllerMessage::SetPoint(set_point, _) => (*set_point).into(),
         };
         out.extend_from_slice(seal(&message.to_string()).as_bytes());
     }
@@ -84,49 +86,49 @@ impl From<SetPoint> for ToVehicle {
 }
 
 impl Memory {
-    fn take_in(&mut self, message: FromVehicle, hearing: &mut Hearing) {
+    fn take_in(&mut self, message: FromVehicle, received: &mut Received) {
         match message {
-            FromVehicle::State(state) => self.take_in_state(&state, hearing),
-            FromVehicle::Adcp(adcp) => self.take_in_adcp(&adcp, hearing),
-            FromVehicle::Fluorometer { value, .. } => hearing.sample(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
-            FromVehicle::Battery { percent, .. } => hearing.sample(BATTERY, &[percent / 100.0]),
-            FromVehicle::Accepted(text) => take_in_echo(&text, hearing),
+            FromVehicle::State(state) => self.take_in_state(&state, received),
+            FromVehicle::Adcp(adcp) => self.take_in_adcp(&adcp, received),
+            FromVehicle::Fluorometer { value, .. } => received.sample(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
+            FromVehicle::Battery { percent, .. } => received.sample(BATTERY, &[percent / 100.0]),
+            FromVehicle::Accepted(text) => take_in_echo(&text, received),
             FromVehicle::Error(code, text) => {
                 let comma = if text.is_empty() { "" } else { ", " };
                 let said = format!("the vehicle says: error {code}{comma}{text}");
-                match grounding::heard(code, &text) {
-                    Some(aground) => hearing.aground(aground, said),
-                    None => hearing.notice(said),
+                match grounding::parse(code, &text) {
+                    Some(aground) => received.aground(aground, said),
+                    None => received.notice(said),
                 }
             }
             FromVehicle::Ctd(ctd) => {
-                hearing.sample(TEMPERATURE, &[ctd.temperature]);
-                hearing.sample(SALINITY, &[ctd.salinity]);
+                received.sample(TEMPERATURE, &[ctd.temperature]);
+                received.sample(SALINITY, &[ctd.salinity]);
             }
             FromVehicle::Version(_) | FromVehicle::Other(_) => {}
         }
     }
 
-    fn take_in_state(&mut self, state: &State, hearing: &mut Hearing) {
-        let Some(tick) = hearing.begin_state(state.time_ms) else { return };
+    fn take_in_state(&mut self, state: &State, received: &mut Received) {
+        let Some(tick) = received.begin_state(state.time_ms) else { return };
         self.speed = state.speed;
-        hearing.position(state.position, POSITION_SIGMA);
+        received.position(state.position, POSITION_SIGMA);
         if let Some((angle, _)) = self.drift.filter(|(_, of)| tick.saturating_sub(*of) <= DRIFT_TICKS) {
-            hearing.sample(COURSE, &[(state.heading + angle).radians()]);
+            received.sample(COURSE, &[(state.heading + angle).radians()]);
         }
-        hearing.sample(HEADING, &[state.heading.radians()]);
-        hearing.sample(SPEED, &[state.speed]);
-        hearing.sample(DEPTH, &[state.depth]);
+        received.sample(HEADING, &[state.heading.radians()]);
+        received.sample(SPEED, &[state.speed]);
+        received.sample(DEPTH, &[state.depth]);
         if let Some(altitude) = state.altitude {
-            hearing.sample(ALTITUDE, &[altitude]);
-            hearing.sample(WATER_DEPTH, &[state.depth + altitude]);
+            received.sample(ALTITUDE, &[altitude]);
+            received.sample(WATER_DEPTH, &[state.depth + altitude]);
         }
-        hearing
+        received
             .end_state(state.mode.into(), &[SetPoint::Heading(state.heading_goal), SetPoint::Depth(state.depth_goal)]);
     }
 
-    fn take_in_adcp(&mut self, adcp: &Adcp, hearing: &mut Hearing) {
-        let tick = hearing.tick();
+    fn take_in_adcp(&mut self, adcp: &Adcp, received: &mut Received) {
+        let tick = received.tick();
         if adcp.ahead != 0.0 || adcp.starboard != 0.0 {
             self.drift = Some((atan2(adcp.starboard, adcp.ahead), tick));
         } else if self.speed < AT_REST {
@@ -137,20 +139,20 @@ impl Memory {
             let unit = adcp.heading.unit();
             let flow =
                 Vector::new(ahead * unit.north - starboard * unit.east, ahead * unit.east + starboard * unit.north);
-            hearing.sample(FLOW, &[flow.north, flow.east]);
+            received.sample(FLOW, &[flow.north, flow.east]);
         }
     }
 }
 
 /// An echo is no acceptance, but it was heard: what `#S` tells of the goals, it tells better. Of speed and altitude it tells
 /// nothing.
-fn take_in_echo(text: &str, hearing: &mut Hearing) {
+fn take_in_echo(text: &str, received: &mut Received) {
     match ToVehicle::parse(&format!("C,{text}")) {
         // Ours are in metres a second: an echo in another unit is of someone else's.
-        Ok(ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed))) => hearing.accepted(SetPoint::Speed(speed)),
-        Ok(other @ ToVehicle::Speed(_)) => hearing.other_speed(format!("#{other}")),
-        Ok(ToVehicle::Altitude(altitude)) => hearing.accepted(SetPoint::Altitude(altitude)),
-        Ok(ToVehicle::Heading(heading)) => hearing.heading_heard(heading),
+        Ok(ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed))) => received.accepted(SetPoint::Speed(speed)),
+        Ok(other @ ToVehicle::Speed(_)) => received.other_speed(format!("#{other}")),
+        Ok(ToVehicle::Altitude(altitude)) => received.accepted(SetPoint::Altitude(altitude)),
+        Ok(ToVehicle::Heading(heading)) => received.heading_heard(heading),
         _ => {}
     }
 }

@@ -11,7 +11,7 @@ const GRAINS: f64 = 600_000.0;
 /// No number of the dialect is greater: what four hundred digits stand for is none.
 const GREATEST: f64 = 1e9;
 /// ... and none that a sensor tells counts for more.
-const TOLD_MAX: f64 = 1e8;
+const SENSOR_NUMBER_MAX: f64 = 1e8;
 
 /// Where numbers lie, in the units of the message. The sources state no ranges: ours are wider than any vehicle's, and their
 /// sums and products stay numbers. A message with a number outside is no message, but for what a sensor tells: a sounder that hears
@@ -45,8 +45,8 @@ pub fn number(text: &str) -> Option<f64> {
 
 /// What a sensor tells, however absurd: a plain decimal number, and no greater than one that has sums. Whether it can be is for who
 /// believes it to say, and the rest of its line is as true as ever.
-pub fn told(text: &str) -> Option<f64> {
-    plain(text).map(|x| x.clamp(-TOLD_MAX, TOLD_MAX))
+pub fn sensor_number(text: &str) -> Option<f64> {
+    plain(text).map(|x| x.clamp(-SENSOR_NUMBER_MAX, SENSOR_NUMBER_MAX))
 }
 
 /// A plain decimal number in a range.

@@ -6,7 +6,7 @@ mod to_vehicle;
 pub use from_vehicle::{Adcp, Ctd, FromVehicle, State};
 pub use to_vehicle::{SpeedGoal, ToVehicle};
 
-use super::fields::{fixed, number, ranges, told, within};
+use super::fields::{fixed, number, ranges, sensor_number, within};
 use albacore_geometry::Heading;
 use std::ops::RangeInclusive;
 
@@ -48,13 +48,13 @@ impl<'a> Fields<'a> {
     }
 
     /// What a sensor tells.
-    fn told(&self, name: &str) -> Option<f64> {
-        told(self.text(name)?)
+    fn sensor_number(&self, name: &str) -> Option<f64> {
+        sensor_number(self.text(name)?)
     }
 
     /// 0 stands for what is not known, and so does what is a little below the bottom; what no sounder is out by is told as it is.
     fn altitude(&self, name: &str) -> Option<Option<f64>> {
-        self.told(name).map(|a| (a > 0.0 || !ranges::HEIGHTS.contains(&a)).then_some(a))
+        self.sensor_number(name).map(|a| (a > 0.0 || !ranges::HEIGHTS.contains(&a)).then_some(a))
     }
 }
 

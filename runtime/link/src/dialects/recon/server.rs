@@ -70,7 +70,7 @@ impl ServerSide for Server {
                     say(FromVehicle::Adcp(adcp(senses)));
                 }
             }
-            Report::Aground(aground) => say(grounding::told(*aground)),
+            Report::Aground(aground) => say(grounding::report(*aground)),
             Report::Accepted(goal) => {
                 say(FromVehicle::Accepted(goal.strip_prefix("#C,").unwrap_or(goal).to_string()));
             }

@@ -9,7 +9,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(super) struct FaultClause {
     sensor: Option<Sensor>,
-    trouble: Option<TroubleClause>,
+    trouble: Option<FaultKindClause>,
     from: f64,
     to: Option<f64>,
 }
@@ -17,7 +17,7 @@ pub(super) struct FaultClause {
 /// What is wrong.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum TroubleClause {
+enum FaultKindClause {
     Off,
     Stuck,
     Garbage,
@@ -36,32 +36,32 @@ enum TroubleClause {
 }
 
 /// What a trouble is one of.
-enum Of {
+enum FaultOf {
     Sensor(&'static str, SensorFault),
     Vehicle(&'static str, FaultKind),
 }
 
-impl From<TroubleClause> for Of {
-    fn from(clause: TroubleClause) -> Self {
-        use TroubleClause as T;
+impl From<FaultKindClause> for FaultOf {
+    fn from(clause: FaultKindClause) -> Self {
+        use FaultKindClause as T;
         match clause {
-            T::Off => Of::Sensor("off", SensorFault::Off),
-            T::Stuck => Of::Sensor("stuck", SensorFault::Stuck),
-            T::Garbage => Of::Sensor("garbage", SensorFault::Garbage),
-            T::Wrong { size } => Of::Sensor("wrong", SensorFault::Wrong(size)),
-            T::Slow { every } => Of::Sensor("slow", SensorFault::Slow(every)),
-            T::Delayed { by } => Of::Sensor("delayed", SensorFault::Delayed(by)),
+            T::Off => FaultOf::Sensor("off", SensorFault::Off),
+            T::Stuck => FaultOf::Sensor("stuck", SensorFault::Stuck),
+            T::Garbage => FaultOf::Sensor("garbage", SensorFault::Garbage),
+            T::Wrong { size } => FaultOf::Sensor("wrong", SensorFault::Wrong(size)),
+            T::Slow { every } => FaultOf::Sensor("slow", SensorFault::Slow(every)),
+            T::Delayed { by } => FaultOf::Sensor("delayed", SensorFault::Delayed(by)),
             T::Intermittent { heard, silent } => {
-                Of::Sensor("intermittent", SensorFault::Intermittent { on: heard, off: silent })
+                FaultOf::Sensor("intermittent", SensorFault::Intermittent { on: heard, off: silent })
             }
-            T::NotANumber => Of::Sensor("not_a_number", SensorFault::NotANumber),
-            T::Jump { by, toward } => Of::Sensor("jump", SensorFault::Jump(by * toward.unit())),
-            T::Saturated { rate } => Of::Sensor("saturated", SensorFault::Saturated(rate)),
-            T::IgnoredCommands => Of::Vehicle("ignored_commands", FaultKind::IgnoredCommands),
-            T::Leak => Of::Vehicle("leak", FaultKind::Leak),
-            T::Flooding { water, within } => Of::Vehicle("flooding", FaultKind::Flooding { water, within }),
-            T::StuckRudder { at } => Of::Vehicle("stuck_rudder", FaultKind::StuckRudder(at)),
-            T::StrongCurrent { current } => Of::Vehicle("strong_current", FaultKind::StrongCurrent(current)),
+            T::NotANumber => FaultOf::Sensor("not_a_number", SensorFault::NotANumber),
+            T::Jump { by, toward } => FaultOf::Sensor("jump", SensorFault::Jump(by * toward.unit())),
+            T::Saturated { rate } => FaultOf::Sensor("saturated", SensorFault::Saturated(rate)),
+            T::IgnoredCommands => FaultOf::Vehicle("ignored_commands", FaultKind::IgnoredCommands),
+            T::Leak => FaultOf::Vehicle("leak", FaultKind::Leak),
+            T::Flooding { water, within } => FaultOf::Vehicle("flooding", FaultKind::Flooding { water, within }),
+            T::StuckRudder { at } => FaultOf::Vehicle("stuck_rudder", FaultKind::StuckRudder(at)),
+            T::StrongCurrent { current } => FaultOf::Vehicle("strong_current", FaultKind::StrongCurrent(current)),
         }
     }
 }
@@ -74,14 +74,14 @@ impl TryFrom<FaultClause> for Fault {
         let trouble = trouble
             .ok_or("this does not say what is wrong\nwrite `fault(position, off)` or `fault(leak)`, for example")?;
         let trouble = match (trouble.into(), sensor) {
-            (Of::Sensor(_, disorder), Some(sensor)) => FaultKind::Sensor(sensor, disorder),
-            (Of::Sensor(name, _), None) => {
+            (FaultOf::Sensor(_, disorder), Some(sensor)) => FaultKind::Sensor(sensor, disorder),
+            (FaultOf::Sensor(name, _), None) => {
                 return Err(format!(
                     "`{name}` is a trouble of a sensor\nsay of which: `fault(position, {name})`, for example"
                 ));
             }
-            (Of::Vehicle(_, trouble), None) => trouble,
-            (Of::Vehicle(name, _), Some(sensor)) => {
+            (FaultOf::Vehicle(_, trouble), None) => trouble,
+            (FaultOf::Vehicle(name, _), Some(sensor)) => {
                 let sensor = sensor.name();
                 return Err(format!("`{name}` is a trouble of the vehicle, not of `{sensor}`\nleave `{sensor}` out"));
             }

@@ -8,7 +8,7 @@ use albacore_vehicle::{Sample, TICK_S};
 
 /// What the vehicle itself suffers from in a tick: all that a hull and a computer need to know of faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Ailing {
+pub(crate) struct VehicleFaults {
     /// It hears no commands.
     pub deaf: bool,
     /// Water has got in. It stays in when the fault is over.
@@ -25,7 +25,7 @@ pub(crate) struct Ailing {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Faults {
     all: Vec<Known>,
-    ailing: Ailing,
+    ailing: VehicleFaults,
     notices: Vec<String>,
 }
 
@@ -52,7 +52,7 @@ impl Faults {
 
     /// Begins and ends what begins and ends with a tick.
     pub fn advance_to(&mut self, tick: u64) {
-        let mut ailing = Ailing { leaks: self.ailing.leaks, ..Ailing::default() };
+        let mut ailing = VehicleFaults { leaks: self.ailing.leaks, ..VehicleFaults::default() };
         for known in &mut self.all {
             let (from, to) = (to_tick(known.fault.from), known.fault.to.map_or(f64::INFINITY, to_tick));
             let in_force = (from..to).contains(&(tick as f64));
@@ -77,7 +77,7 @@ impl Faults {
     }
 
     /// What the vehicle suffers from in this tick.
-    pub fn ailing(&self) -> &Ailing {
+    pub fn ailing(&self) -> &VehicleFaults {
         &self.ailing
     }
 

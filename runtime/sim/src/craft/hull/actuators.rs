@@ -99,7 +99,7 @@ impl Actuators {
 mod tests {
     use super::*;
 
-    fn told(actuators: &mut Actuators, wanted: Controls, steps: u32) -> Controls {
+    fn moved(actuators: &mut Actuators, wanted: Controls, steps: u32) -> Controls {
         let goal = actuators.within_limits(&wanted);
         for _ in 0..steps {
             actuators.step(&goal);
@@ -111,11 +111,11 @@ mod tests {
     fn they_follow_within_their_limits_with_their_time_constants() {
         let mut actuators = Actuators::new(ActuatorLimits::default(), 0.01);
         let hard = Controls { rudder: 1.0, stern: -0.1, rpm: 9000.0 };
-        let soon = told(&mut actuators, hard, 10);
+        let soon = moved(&mut actuators, hard, 10);
         let share = 1.0 - exp(-1.0);
         assert!((soon.rudder - 15.0 * PI / 180.0 * share).abs() < 1e-12, "after one time constant");
         assert!((soon.stern + 0.1 * share).abs() < 1e-12);
-        let late = told(&mut actuators, hard, 2000);
+        let late = moved(&mut actuators, hard, 2000);
         assert!((late.rpm - 1525.0).abs() < 1e-4 && (late.rudder - 15.0 * PI / 180.0).abs() < 1e-12);
     }
 
@@ -136,10 +136,10 @@ mod tests {
         let mut actuators = Actuators::new(ActuatorLimits::default(), 0.01);
         actuators.stuck = Stuck { rudder: Some(0.1), rpm: Some(0.0), ..Stuck::default() };
         let wanted = Controls { rudder: -0.2, stern: 0.2, rpm: 1500.0 };
-        let now = told(&mut actuators, wanted, 500);
+        let now = moved(&mut actuators, wanted, 500);
         assert_eq!((now.rudder, now.rpm), (0.1, 0.0));
         assert!((now.stern - 0.2).abs() < 1e-12, "the other fin obeys");
         actuators.stuck = Stuck::default();
-        assert!((told(&mut actuators, wanted, 500).rudder + 0.2).abs() < 1e-12);
+        assert!((moved(&mut actuators, wanted, 500).rudder + 0.2).abs() < 1e-12);
     }
 }

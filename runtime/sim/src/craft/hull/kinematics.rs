@@ -1,6 +1,6 @@
 //! How the vehicle moves: heading, speed and depth follow the command within limits on their rates, and the water carries it.
 
-use super::{Berth, Motion};
+use super::{Motion, StartPose};
 use crate::craft::setup::KinematicHull;
 use crate::noise::{Noise, Stream};
 use albacore_geometry::math::exp;
@@ -19,7 +19,7 @@ pub struct Kinematics {
 
 impl Kinematics {
     /// At rest in water that moves with `flow`.
-    pub fn new(settings: &KinematicHull, berth: &Berth, seed: u64) -> Self {
+    pub fn new(settings: &KinematicHull, berth: &StartPose, seed: u64) -> Self {
         let jitter = Jitter::new(settings, seed);
         Kinematics { settings: settings.clone(), motion: berth.motion(), stuck_rudder: None, jitter }
     }
@@ -142,7 +142,7 @@ mod tests {
     }
 
     fn at_rest(settings: &KinematicHull, depth: f64, flow: Vector) -> Kinematics {
-        Kinematics::new(settings, &Berth { depth, flow, ..Berth::default() }, 7)
+        Kinematics::new(settings, &StartPose { depth, flow, ..StartPose::default() }, 7)
     }
 
     fn run(v: &mut Kinematics, ticks: u64, command: Option<&Command>, flow: Vector) {

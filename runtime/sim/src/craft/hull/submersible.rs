@@ -5,7 +5,7 @@ use super::autopilot::{Autopilot, Gains, Sensed};
 use super::grounding::{Grounding, Intent, pivot};
 use super::six_dof::{Attitude, Controls, Plant, State, Surroundings, runge_kutta};
 use super::surface::{Body, Surface};
-use super::{Berth, Motion, RanAway};
+use super::{Diverged, Motion, StartPose};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_vehicle::{Command, TICK_S};
 
@@ -42,8 +42,8 @@ pub struct Submersible<P> {
 
 impl<P: Plant> Submersible<P> {
     /// At rest in water that moves with `flow`.
-    pub fn new(plant: P, body: &Body, settings: &Settings, berth: &Berth) -> Self {
-        let Berth { position, heading, depth, flow } = *berth;
+    pub fn new(plant: P, body: &Body, settings: &Settings, berth: &StartPose) -> Self {
+        let StartPose { position, heading, depth, flow } = *berth;
         let pose = [position.north, position.east, depth, 0.0, 0.0, wrap_angle(heading.radians())];
         let [u, v, w] = Attitude::of(&pose).to_body([flow.north, flow.east, 0.0]);
         let state = State { pose, velocity: [u, v, w, 0.0, 0.0, 0.0] };
@@ -93,7 +93,7 @@ impl<P: Plant> Submersible<P> {
         command: Option<&Command>,
         flow: Vector,
         water_depth: impl Fn(Point) -> f64,
-    ) -> Result<(), RanAway> {
+    ) -> Result<(), Diverged> {
         let before = self.motion.position;
         let goal = self.controls(command, water_depth(before));
         let around = Surroundings { current: flow, buoyancy_loss: self.buoyancy_loss, surface: Some(self.surface) };
@@ -104,7 +104,7 @@ impl<P: Plant> Submersible<P> {
             state = runge_kutta(&self.plant, &state, &controls, &around, h);
         }
         if !state.velocity.iter().all(|rate| rate.abs() <= RATE_MAX) {
-            return Err(RanAway);
+            return Err(Diverged);
         }
         state.pose[5] = wrap_angle(state.pose[5]);
         self.meet_bottom(state, command, water_depth);

@@ -112,7 +112,7 @@ impl Profiler {
     }
 
     /// The flow that it told last, m/s toward; none at first.
-    pub fn told(&self) -> Vector {
+    pub fn last_sample(&self) -> Vector {
         self.told
     }
 

@@ -3,7 +3,7 @@
 use super::delay::Delay;
 use super::{Instrument, InstrumentSetup, Surroundings};
 use crate::noise::{Noise, Stream};
-use crate::scenario::{ScenarioIssues, told};
+use crate::scenario::{ScenarioIssues, number};
 use crate::world::World;
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::Snapshot;
@@ -123,7 +123,7 @@ pub(super) fn check(setup: &InstrumentSetup, issues: &mut ScenarioIssues) {
     issues.of("fluorometer").unless(
         Some("false_alarms"),
         false_alarms <= rate,
-        format!("`fluorometer` has more `false_alarms` than samples: its `rate` is {} Hz", told(rate)),
+        format!("`fluorometer` has more `false_alarms` than samples: its `rate` is {} Hz", number(rate)),
         "make them fewer: a sample gives one alarm at most",
     );
 }

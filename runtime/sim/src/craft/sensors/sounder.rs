@@ -4,7 +4,7 @@ use super::delay::Delay;
 use super::rate::is_due;
 use super::{EVERY_TICK, Instrument, InstrumentSetup, Surroundings};
 use crate::noise::{Noise, Stream};
-use crate::scenario::{ScenarioIssues, told};
+use crate::scenario::{ScenarioIssues, number};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
 use serde::Deserialize;
@@ -84,7 +84,7 @@ impl Instrument for EchoSounder {
 /// What of it cannot be.
 pub(super) fn check(setup: &InstrumentSetup, issues: &mut ScenarioIssues) {
     let Sounder { nearest, farthest: Some(farthest), .. } = setup.sounder else { return };
-    let (farthest_m, nearest_m) = (told(farthest), told(nearest));
+    let (farthest_m, nearest_m) = (number(farthest), number(nearest));
     issues.of("sounder").unless(
         Some("farthest"),
         farthest > nearest,

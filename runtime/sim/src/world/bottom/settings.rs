@@ -1,6 +1,6 @@
 //! The water's depth: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{Scenario, ScenarioIssues, told};
+use crate::scenario::{Scenario, ScenarioIssues, number};
 use albacore_geometry::{Area, Heading, Point};
 use serde::Deserialize;
 use std::sync::Arc;
@@ -120,8 +120,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
         of.unless(
             Some("radius"),
             pit.depth <= STEEPEST * pit.radius,
-            format!("a pit {} m deep with a radius of {} m is a shaft", told(pit.depth), told(pit.radius)),
-            format!("make `radius` {} m at least", told(pit.depth / STEEPEST)),
+            format!("a pit {} m deep with a radius of {} m is a shaft", number(pit.depth), number(pit.radius)),
+            format!("make `radius` {} m at least", number(pit.depth / STEEPEST)),
         );
         let deepest = scenario.bottom.depth_at(pit.at);
         of.unless(
@@ -149,7 +149,7 @@ fn check_grid(grid: &Grid, objections: &mut ScenarioIssues) {
     of.unless(
         None,
         size.north > 0.0 && size.east > 0.0 && size.north.is_finite() && size.east.is_finite(),
-        format!("the grid is {} m long northward and {} m eastward", told(size.north), told(size.east)),
+        format!("the grid is {} m long northward and {} m eastward", number(size.north), number(size.east)),
         "it must have an extent: look at its axes and at `scale`",
     );
     let cells = u64::from(grid.rows) * u64::from(grid.columns);

@@ -1,6 +1,6 @@
 //! The plume: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{Scenario, ScenarioIssues, told};
+use crate::scenario::{Scenario, ScenarioIssues, number};
 use crate::world::plume::{LONGEST_PLUME_STEP_S, stays_in_layer};
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
@@ -61,7 +61,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             of.unless(
                 Some("vertical"),
                 stays_in_layer(plume, LONGEST_PLUME_STEP_S) || layer <= 0.0,
-                format!("`vertical` of `plume` mixes a `layer` of {} m within seconds", told(layer)),
+                format!("`vertical` of `plume` mixes a `layer` of {} m within seconds", number(layer)),
                 "make `vertical` smaller, or leave both out for a flat plume",
             );
         }
@@ -76,7 +76,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     of.unless(
         Some("step"),
         plume.step >= TICK_S && plume.step <= LONGEST_PLUME_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
-        format!("`step` of `plume` is {} s", told(plume.step)),
+        format!("`step` of `plume` is {} s", number(plume.step)),
         format!("it must be a whole number of ticks of {TICK_S} s, and {LONGEST_PLUME_STEP_S} s at most"),
     );
 }

@@ -1,6 +1,6 @@
 //! What releases chemical, or has released it: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{OfClause, Scenario, ScenarioIssues, rounded_down, told};
+use crate::scenario::{OfClause, Scenario, ScenarioIssues, number, rounded_down};
 use crate::world::plume::spin_up_begin;
 use crate::world::water::Flow;
 use albacore_geometry::Point;
@@ -188,7 +188,7 @@ fn check_source(source: &Source, of: &mut OfClause) {
         of.unless(
             Some("ends"),
             ends > begins,
-            format!("`{}` ends at {} s, and begins at {} s", source.name, told(ends), told(begins)),
+            format!("`{}` ends at {} s, and begins at {} s", source.name, number(ends), number(begins)),
             "let it begin before it ends",
         );
     }
@@ -196,7 +196,7 @@ fn check_source(source: &Source, of: &mut OfClause) {
         of.unless(
             Some("off"),
             off == 0.0 || times.on.is_some_and(|on| on > 0.0),
-            format!("`{}` is off for {} s at a time, and never on", source.name, told(off)),
+            format!("`{}` is off for {} s at a time, and never on", source.name, number(off)),
             "say for how long it is `on`, such as `on: 5 min`",
         );
     }
@@ -224,14 +224,18 @@ fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: 
     of.unless(
         Some("height"),
         height <= water || water <= 0.0,
-        format!("this is {} m above the bottom, where the water is {} m deep", told(height), rounded_down(water)),
+        format!("this is {} m above the bottom, where the water is {} m deep", number(height), rounded_down(water)),
         format!("make `height` {} m at most", rounded_down(water)),
     );
     if let Some(layer) = scenario.plume.as_ref().and_then(|plume| plume.layer) {
         of.unless(
             Some("height"),
             height <= layer || height > water,
-            format!("this is {} m above the bottom, and the `layer` of the plume {} m high", told(height), told(layer)),
+            format!(
+                "this is {} m above the bottom, and the `layer` of the plume {} m high",
+                number(height),
+                number(layer)
+            ),
             "make `height` smaller, or the layer higher",
         );
     }
@@ -248,7 +252,7 @@ fn check_layer(scenario: &Scenario, objections: &mut ScenarioIssues) {
         objections.of("plume").unless(
             Some("layer"),
             false,
-            format!("the `layer` of the plume is {} m high: at `{name}` the water is {most} m deep", told(layer)),
+            format!("the `layer` of the plume is {} m high: at `{name}` the water is {most} m deep", number(layer)),
             format!("make it {most} m at most, or leave `layer` and `vertical` out for a flat plume"),
         );
     }

@@ -1,6 +1,6 @@
 //! A record as the world of a scenario.
 
-use crate::scenario::{Scenario, ScenarioIssues, told};
+use crate::scenario::{Scenario, ScenarioIssues, number};
 use crate::world::plume::Source;
 use albacore_formats::recording::{RecordedKernel, Recording};
 use std::sync::Arc;
@@ -75,7 +75,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     of.unless(
         Some("start"),
         latest < duration,
-        format!("the run begins up to {} s into the record, and that ends at {} s", told(latest), told(duration)),
+        format!("the run begins up to {} s into the record, and that ends at {} s", number(latest), number(duration)),
         "make `start` and `start_spread` smaller",
     );
 }

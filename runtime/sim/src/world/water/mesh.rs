@@ -1,6 +1,6 @@
 //! The grid of a flow field: its nodes, its spacing, and the step that is stable on it.
 
-use crate::scenario::{rounded_down, told};
+use crate::scenario::{number, rounded_down};
 use crate::world::water::Meander;
 use crate::world::water::frame::FlowFrame;
 
@@ -54,15 +54,15 @@ pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Opti
     if meander.viscosity < least {
         let message = format!(
             "`viscosity` of `flow` is {} m2/s: too little for cells of {} m in a flow of up to {fastest:.2} m/s",
-            told(meander.viscosity),
-            told(meander.cell)
+            number(meander.viscosity),
+            number(meander.cell)
         );
         let (enough, smaller) = ((least * 10.0).ceil() / 10.0, rounded_down(meander.viscosity / fastest));
         return fault("viscosity", message, format!("make it {enough} m2/s or more, or `cell` {smaller} m or less"));
     }
     let nodes = (frame.length / meander.cell + 1.0) * (frame.width / meander.cell + 1.0);
     if nodes > NODES_MAX {
-        let cell = told(meander.cell);
+        let cell = number(meander.cell);
         let message = format!("cells of {cell} m over the region make more than {NODES_MAX} nodes");
         return fault("cell", message, "make `cell` larger, or the region smaller".into());
     }

@@ -1,6 +1,6 @@
 //! The water's motion: what a scenario says of it, and what of that cannot be.
 
-use crate::scenario::{FLOW_MAX, Scenario, ScenarioIssues, rounded_down, told};
+use crate::scenario::{FLOW_MAX, Scenario, ScenarioIssues, number, rounded_down};
 use crate::world::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
 use albacore_geometry::{Heading, Vector};
@@ -174,14 +174,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             waves.height <= highest || start <= 0.0 || !start.is_finite(),
             format!(
                 "waves {} m high break where the vehicle starts, in {} m of water",
-                told(waves.height),
+                number(waves.height),
                 rounded_down(start)
             ),
             format!("make them {} m high at most, or start in deeper water", rounded_down(highest)),
         );
     }
     let (speed, tides) = (scenario.flow.speed(), !scenario.flow.tides.is_empty());
-    let message = format!("with its tides the water runs as fast as {} m/s: no sea does", told(speed));
+    let message = format!("with its tides the water runs as fast as {} m/s: no sea does", number(speed));
     let mend = format!("make flow and tides less: {FLOW_MAX} m/s at most, all together");
     objections.of("flow").unless(Some("mean"), !tides || speed <= FLOW_MAX, message, mend);
     if let Some(upper) = &scenario.flow.upper {
@@ -193,15 +193,19 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             upper.above <= deepest || !deepest.is_finite(),
             format!(
                 "{} m above the bottom is out of the water, which is {} m deep at most",
-                told(upper.above),
-                told(deepest)
+                number(upper.above),
+                number(deepest)
             ),
             "let the upper layer begin in the water",
         );
         layer.unless(
             Some("moves"),
             upper.moves <= upper.above,
-            format!("the boundary moves by {} m, and is {} m above the bottom", told(upper.moves), told(upper.above)),
+            format!(
+                "the boundary moves by {} m, and is {} m above the bottom",
+                number(upper.moves),
+                number(upper.above)
+            ),
             "let it move less: it stays above the bottom",
         );
     }
@@ -221,7 +225,7 @@ fn check_current(flow: &Flow, objections: &mut ScenarioIssues) {
     of.unless(
         Some("height"),
         waves.height <= steepest,
-        format!("waves {} m high break when their period is {} s", told(waves.height), told(waves.period)),
+        format!("waves {} m high break when their period is {} s", number(waves.height), number(waves.period)),
         format!("make them {} m high at most, or their `period` longer", rounded_down(steepest)),
     );
 }
@@ -246,7 +250,7 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut ScenarioIssues
     of.unless(
         Some("damping"),
         meander.damping > 0.0 && meander.damping < 1.0,
-        format!("`damping` of `flow` is {}", told(meander.damping)),
+        format!("`damping` of `flow` is {}", number(meander.damping)),
         "it must be between 0 and 1",
     );
     if objections.0.len() == before {

@@ -153,16 +153,16 @@ impl State {
         Some(State {
             time_ms: time(fields.text("T")?)?,
             position: position(fields.text("LAT")?, fields.text("LON")?)?,
-            depth: fields.told("D")?,
+            depth: fields.sensor_number("D")?,
             depth_goal: fields.within("DG", ranges::HEIGHTS)?,
             altitude: fields.altitude("A")?,
-            pitch: radians(fields.told("P")?),
-            roll: radians(fields.told("R")?),
-            rpm: fields.told("TR")?,
-            rpm_goal: fields.told("TRG")?,
-            speed: fields.told("V")?,
+            pitch: radians(fields.sensor_number("P")?),
+            roll: radians(fields.sensor_number("R")?),
+            rpm: fields.sensor_number("TR")?,
+            rpm_goal: fields.sensor_number("TRG")?,
+            speed: fields.sensor_number("V")?,
             heading: fields.heading("H")?,
-            heading_rate: radians(fields.told("HR")?),
+            heading_rate: radians(fields.sensor_number("HR")?),
             heading_goal: fields.heading("HG")?,
             mode: Mode(u8::from_str_radix(mode, 16).ok()?),
             leg,
@@ -176,7 +176,7 @@ impl Adcp {
         Some(Adcp {
             ahead: fields.within("F", ranges::SPEEDS)?,
             starboard: fields.within("S", ranges::SPEEDS)?,
-            vertical: fields.told("V")?,
+            vertical: fields.sensor_number("V")?,
             altitude: fields.altitude("A")?,
             heading: fields.heading("H")?,
             current: match (fields.text("CF"), fields.text("CS")) {
@@ -194,7 +194,7 @@ impl Ctd {
             temperature: fields.number("T")?,
             conductivity: fields.number("C")?,
             salinity: fields.number("S")?,
-            depth: fields.told("D")?,
+            depth: fields.sensor_number("D")?,
             sound_speed: fields.number("V")?,
         })
     }

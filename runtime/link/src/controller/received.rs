@@ -4,7 +4,7 @@ use super::vehicle_time::{Stamp, VehicleTime};
 use crate::set_point::SetPoint;
 use crate::status::Status;
 use albacore_geometry::{Geodetic, Heading, TangentFrame};
-use albacore_navigation::{AsTold, Estimate, Fix, Navigator, Sensed};
+use albacore_navigation::{Estimate, Fix, Navigator, Reported, Sensed};
 use albacore_vehicle::channels::{COURSE, HEADING, POSITION, SPEED};
 use albacore_vehicle::{Reading, Sample, TICK_S};
 
@@ -41,7 +41,7 @@ pub(super) enum Fact {
 }
 
 /// Takes down what a dialect reads.
-pub struct Hearing {
+pub struct Received {
     frame: TangentFrame,
     time: VehicleTime,
     /// Makes the position that a mission reads of those that the vehicle tells.
@@ -60,12 +60,12 @@ struct Motion {
     speed: f64,
 }
 
-impl Hearing {
+impl Received {
     pub(super) fn new(frame: TangentFrame) -> Self {
-        Hearing {
+        Received {
             frame,
             time: VehicleTime::default(),
-            navigator: Box::new(AsTold::default()),
+            navigator: Box::new(Reported::default()),
             motion: Motion::default(),
             facts: Vec::new(),
             count: Count::default(),

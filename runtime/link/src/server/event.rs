@@ -7,7 +7,7 @@ use std::fmt;
 
 /// What happened, for who watches.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
+pub enum ServerEvent {
     /// A step in the life of the vehicle's own plan.
     Plan(Milestone),
     /// A guest drives; from where, and on which leg.
@@ -30,28 +30,28 @@ pub enum Happening {
     GivenUp,
 }
 
-impl fmt::Display for Happening {
+impl fmt::Display for ServerEvent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Happening::Plan(Milestone::Leg(leg, of)) => write!(f, "leg {leg} of {of}"),
-            Happening::Taken(at, leg) => {
+            ServerEvent::Plan(Milestone::Leg(leg, of)) => write!(f, "leg {leg} of {of}"),
+            ServerEvent::Taken(at, leg) => {
                 write!(f, "override taken at ({:.1}, {:.1}) m, on leg {leg}", at.north, at.east)
             }
-            Happening::Released => f.write_str("override released; returns to the break-off point"),
-            Happening::TimedOut(ticks) => {
+            ServerEvent::Released => f.write_str("override released; returns to the break-off point"),
+            ServerEvent::TimedOut(ticks) => {
                 let seconds = *ticks as f64 * TICK_S;
                 write!(f, "override timed out: no message for {seconds} s; returns to the break-off point")
             }
-            Happening::TakenBack => f.write_str("override taken back; returns to the break-off point"),
-            Happening::Suspended => f.write_str("suspended: the vehicle stays where it is, and listens to nobody"),
-            Happening::GoesOn => f.write_str("suspended no more"),
-            Happening::Plan(Milestone::Resumed(at, leg)) => {
+            ServerEvent::TakenBack => f.write_str("override taken back; returns to the break-off point"),
+            ServerEvent::Suspended => f.write_str("suspended: the vehicle stays where it is, and listens to nobody"),
+            ServerEvent::GoesOn => f.write_str("suspended no more"),
+            ServerEvent::Plan(Milestone::Resumed(at, leg)) => {
                 write!(f, "back at the break-off point ({:.1}, {:.1}) m; resumes leg {leg}", at.north, at.east)
             }
-            Happening::Plan(Milestone::Over) => f.write_str("the last leg is done: mission over"),
-            Happening::Notice(notice) => f.write_str(notice),
-            Happening::GivenUp => f.write_str("the vehicle has given up, and floats up"),
-            Happening::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
+            ServerEvent::Plan(Milestone::Over) => f.write_str("the last leg is done: mission over"),
+            ServerEvent::Notice(notice) => f.write_str(notice),
+            ServerEvent::GivenUp => f.write_str("the vehicle has given up, and floats up"),
+            ServerEvent::Refused(what, why) => write!(f, "refused `{what}`: {why}"),
         }
     }
 }

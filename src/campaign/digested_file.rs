@@ -9,7 +9,7 @@ use std::io;
 use std::path::PathBuf;
 
 /// A file with a digest of all that was written to it.
-pub struct Growing {
+pub struct DigestedFile {
     file: Synced,
     path: PathBuf,
     digest: Digest,
@@ -17,16 +17,16 @@ pub struct Growing {
     forbidden: Option<io::Error>,
 }
 
-impl Growing {
+impl DigestedFile {
     /// A file that holds this text, whole lines.
     pub fn new(file: File, path: PathBuf, text: &[u8]) -> Self {
         let (file, digest) = (Synced::new(file, text.len() as u64), digest(Digest::new(), text));
-        Growing { file, path, digest, forbidden: None }
+        DigestedFile { file, path, digest, forbidden: None }
     }
 
     /// One that may turn out to be complete as it is: then nothing has to be written into it.
     pub fn known(file: File, forbidden: Option<io::Error>, path: PathBuf, text: &[u8]) -> Self {
-        Growing { forbidden, ..Growing::new(file, path, text) }
+        DigestedFile { forbidden, ..DigestedFile::new(file, path, text) }
     }
 
     /// An error if it can only be read.

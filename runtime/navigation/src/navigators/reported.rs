@@ -5,15 +5,15 @@ use albacore_geometry::Point;
 
 /// Takes every position as it is told; the filter is aboard the vehicle.
 #[derive(Clone, Debug)]
-pub struct AsTold(Estimate);
+pub struct Reported(Estimate);
 
-impl Default for AsTold {
+impl Default for Reported {
     fn default() -> Self {
-        AsTold(Estimate { position: Point::ORIGIN, sigma: 0.0 })
+        Reported(Estimate { position: Point::ORIGIN, sigma: 0.0 })
     }
 }
 
-impl Navigator for AsTold {
+impl Navigator for Reported {
     fn predict(&mut self, _: &Sensed, _: f64) {}
 
     fn update(&mut self, fix: &Fix) -> bool {
