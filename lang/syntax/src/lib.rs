@@ -2,7 +2,7 @@
 //!
 //! A script is scanned (`scan`), mended where brackets are missing (`braces`), read by the grammar (`grammar.pest`) into a
 //! concrete tree (`concrete`), and built (`build`) into what the checker reads (`tree`). Layout (`fmt`) and the pages about
-//! scripts (`doc`) read the same tree. What is wrong is a [`Diagnostic`](diagnostic::Diagnostic) with a [`Code`](code::Code).
+//! scripts (`doc`) read the same tree. What is wrong is a [`Diagnostic`] with a [`Code`].
 
 mod braces;
 mod build;

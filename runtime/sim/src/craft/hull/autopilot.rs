@@ -10,6 +10,7 @@ use super::six_dof::{Attitude, Controls, Load, Plant};
 use albacore_geometry::math::{PI, sin};
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::{Command, TICK_S, Vertical};
+use nalgebra::Vector6;
 
 /// The gains of a hull's autopilot. Angles of fins in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -257,8 +258,8 @@ pub(crate) fn speed_possible<P: Plant>(plant: &P, rpm: f64) -> f64 {
 /// The turns a minute for each m/s, straight and level: where thrust and drag balance. Both grow as a square, so that the
 /// quotient is hardly another at another speed.
 fn rpm_per_speed<P: Plant>(plant: &P) -> f64 {
-    let level = Attitude::of(&[0.0; 6]);
-    let ahead = [MAP_SPEED, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let level = Attitude::of(&Vector6::zeros());
+    let ahead = Vector6::new(MAP_SPEED, 0.0, 0.0, 0.0, 0.0, 0.0);
     let surge = |rpm: f64| {
         let controls = Controls { rpm, ..Controls::default() };
         plant.acceleration(&level, &ahead, &controls, Vector::ZERO, Load::default())[0]

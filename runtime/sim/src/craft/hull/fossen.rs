@@ -13,6 +13,7 @@ use super::surface::Body;
 use albacore_geometry::Vector;
 use albacore_geometry::math::{PI, atan2, exp, ln};
 use cross_flow::CrossFlow;
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// Density of the water, kg/m3.
 const DENSITY: f64 = 1026.0;
@@ -57,7 +58,7 @@ const TORQUE_LEFT: f64 = 0.1;
 pub struct Fossen {
     mass: f64,
     /// Moments of inertia about the origin, kg m2.
-    inertia: [f64; 3],
+    inertia: Vector3<f64>,
     /// Mass times the depth of its centre, kg m.
     moment: f64,
     /// Added mass and inertia: a diagonal.
@@ -86,7 +87,7 @@ impl Fossen {
         let mass = 4.0 / 3.0 * PI * DENSITY * a * b * b;
         let (roll, pitch) = (0.4 * mass * b * b, 0.2 * mass * (a * a + b * b));
         let offset = mass * METACENTRE * METACENTRE;
-        let inertia = [roll + offset, pitch + offset, pitch];
+        let inertia = Vector3::new(roll + offset, pitch + offset, pitch);
         let moment = mass * METACENTRE;
 
         // Added mass of a prolate spheroid, Lamb's k-factors (Fossen 2021, eqs. 6.35-6.41).
@@ -98,27 +99,24 @@ impl Fossen {
         let beta = 1.0 / e2 - (1.0 - e2) / (2.0 * e3) * logarithm;
         let (k1, k2) = (alpha / (2.0 - alpha), beta / (2.0 - beta));
         let k = e2 * e2 * (beta - alpha) / ((2.0 - e2) * (2.0 * e2 - (2.0 - e2) * (beta - alpha)));
-        let added = [mass * k1, mass * k2, mass * k2, ADDED_ROLL * roll, k * pitch, k * pitch];
+        let added = Vector6::new(mass * k1, mass * k2, mass * k2, ADDED_ROLL * roll, k * pitch, k * pitch);
 
-        let rigid = [mass, mass, mass, inertia[0], inertia[1], inertia[2]];
-        let mut matrix: [Six; 6] = [[0.0; 6]; 6];
-        for (i, row) in matrix.iter_mut().enumerate() {
-            row[i] = rigid[i] + added[i];
-        }
-        (matrix[0][4], matrix[4][0]) = (moment, moment);
-        (matrix[1][3], matrix[3][1]) = (-moment, -moment);
+        let rigid = Vector6::new(mass, mass, mass, inertia.x, inertia.y, inertia.z);
+        let mut matrix = Matrix6::from_diagonal(&(rigid + added));
+        (matrix[(0, 4)], matrix[(4, 0)]) = (moment, moment);
+        (matrix[(1, 3)], matrix[(3, 1)]) = (-moment, -moment);
 
         // Roll and pitch are pendulums: w = sqrt(W (z_g - z_b) / I).
         let pendulum = |inertia: f64| (mass * GRAVITY * METACENTRE / inertia).sqrt();
-        let swing = |i: usize, ratio: f64| matrix[i][i] * 2.0 * ratio * pendulum(matrix[i][i]);
-        let damping = [
-            matrix[0][0] / SURGE_TIME,
-            matrix[1][1] / SWAY_TIME,
-            matrix[2][2] / HEAVE_TIME,
+        let swing = |i: usize, ratio: f64| matrix[(i, i)] * 2.0 * ratio * pendulum(matrix[(i, i)]);
+        let damping = Vector6::new(
+            matrix[(0, 0)] / SURGE_TIME,
+            matrix[(1, 1)] / SWAY_TIME,
+            matrix[(2, 2)] / HEAVE_TIME,
             swing(3, ROLL_DAMPING),
             swing(4, PITCH_DAMPING),
-            matrix[5][5] / YAW_TIME,
-        ];
+            matrix[(5, 5)] / YAW_TIME,
+        );
 
         // The hull as a wing of low aspect ratio (Beard & McLain 2012).
         let area = 0.7 * LENGTH * DIAMETER;
@@ -168,14 +166,14 @@ impl Fossen {
         let (m, g) = (self.mass, self.moment);
         let a = [m * u + g * q, m * v - g * p, m * w];
         let b = [self.inertia[0] * p - g * v, self.inertia[1] * q + g * u, self.inertia[2] * r];
-        [
+        Vector6::new(
             q * a[2] - r * a[1],
             r * a[0] - p * a[2],
             p * a[1] - q * a[0],
             v * a[2] - w * a[1] + q * b[2] - r * b[1],
             w * a[0] - u * a[2] + r * b[0] - p * b[2],
             u * a[1] - v * a[0] + p * b[1] - q * b[0],
-        ]
+        )
     }
 
     /// Those of the added mass. The published model leaves out eight elements of the matrix, by which an ellipsoid in a
@@ -184,14 +182,14 @@ impl Fossen {
     fn added_coriolis(&self, [v, w]: [f64; 2], [p, q, r]: [f64; 3]) -> Six {
         let m_a = &self.added;
         let b = [m_a[3] * p, m_a[4] * q, m_a[5] * r];
-        [
+        Vector6::new(
             0.0,
             -m_a[2] * w * p,
             m_a[1] * v * p,
             (m_a[2] - m_a[1]) * v * w + q * b[2] - r * b[1],
             r * b[0] - p * b[2],
             p * b[1] - q * b[0],
-        ]
+        )
     }
 }
 
@@ -205,7 +203,7 @@ impl Plant for Fossen {
         current: Vector,
         load: Load,
     ) -> Six {
-        let [_, _, w, p, q, r] = *velocity;
+        let [_, _, w, p, q, r] = (*velocity).into();
         // The published model turns the current with yaw alone, as if the hull were level.
         let current_ahead = current.north * attitude.cos_yaw + current.east * attitude.sin_yaw;
         let current_right = current.east * attitude.cos_yaw - current.north * attitude.sin_yaw;
@@ -218,7 +216,7 @@ impl Plant for Fossen {
         let added = self.added_coriolis([v, w], [p, q, r]);
         let fade = exp(-DAMPING_FADE * speed);
         let d = &self.damping;
-        let damping = [d[0] * fade * u, d[1] * fade * v, d[2] * w, d[3] * p, d[4] * q, d[5] * r];
+        let damping = Vector6::new(d[0] * fade * u, d[1] * fade * v, d[2] * w, d[3] * p, d[4] * q, d[5] * r);
 
         // Lift and drag of the hull at its angle of attack.
         let (sin_attack, cos_attack) = if across2 > 0.0 {
@@ -241,7 +239,7 @@ impl Plant for Fossen {
         // The centre of gravity below that of buoyancy rights it; weight that has become more acts at the origin.
         let heel = attitude.cos_pitch * attitude.sin_roll;
         let righting = METACENTRE * self.weight();
-        let force = [
+        let force = Vector6::new(
             thrust + rudder * controls.rudder + stern * controls.stern - cos_attack * drag + sin_attack * lift
                 - load.down * attitude.sin_pitch,
             rudder - sway_drag + load.down * heel,
@@ -249,9 +247,8 @@ impl Plant for Fossen {
             torque - righting * heel,
             load.pitch - FIN_AT * stern - righting * attitude.sin_pitch,
             FIN_AT * rudder - yaw_drag,
-        ];
-        let balance = std::array::from_fn(|i| force[i] - rigid[i] - added[i] - damping[i]);
-        let mut acceleration = self.inverse.accelerate(&balance);
+        );
+        let mut acceleration = self.inverse.accelerate(&(force - rigid - added - damping));
         // The current, seen from a frame that turns.
         acceleration[0] += r * current_right;
         acceleration[1] -= r * current_ahead;

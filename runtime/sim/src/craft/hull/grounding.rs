@@ -9,6 +9,7 @@ use super::six_dof::{Attitude, Six, State};
 use albacore_geometry::math::{PI, sin_cos};
 use albacore_geometry::{Heading, Point, wrap_angle};
 use albacore_vehicle::{Command, TICK_S, Vertical};
+use nalgebra::{Vector3, Vector6};
 
 /// How fast a hull turns upon the bottom, rad/s.
 const PIVOT_RATE: f64 = 10.0 * PI / 180.0;
@@ -33,15 +34,16 @@ impl Grounding {
         state: &mut State,
         water_depth: impl Fn(Point) -> f64,
     ) -> Option<Grounding> {
-        let [north, east, down, ..] = state.pose;
+        let [north, east, down, roll, pitch, yaw] = state.pose.into();
         if down.max(0.0) >= water_depth(Point::new(north, east)) {
-            let [north, east, ..] = *before;
+            let (north, east) = (before[0], before[1]);
             let down = down.min(water_depth(Point::new(north, east)));
-            state.pose[..3].copy_from_slice(&[north, east, down]);
+            state.pose = Vector6::new(north, east, down, roll, pitch, yaw);
             let attitude = Attitude::of(&state.pose);
-            let [u, v, w, ..] = state.velocity;
-            let [_, _, sinking] = attitude.to_ned([u, v, w]);
-            state.velocity[..3].copy_from_slice(&attitude.to_body([0.0, 0.0, sinking.min(0.0)]));
+            let [u, v, w, p, q, r] = state.velocity.into();
+            let sinking = attitude.to_ned(Vector3::new(u, v, w)).z;
+            let [u, v, w] = attitude.to_body(Vector3::new(0.0, 0.0, sinking.min(0.0))).into();
+            state.velocity = Vector6::new(u, v, w, p, q, r);
             return Some(Grounding { clear_s: 0.0 });
         }
         let clear_s = grounding?.clear_s + TICK_S;
@@ -87,12 +89,13 @@ pub fn pivot(state: &mut State, from: &Six, heading: Option<Heading>, climbs: bo
         let step = PIVOT_RATE * TICK_S;
         from + wrap_angle(to - from).clamp(-step, step)
     };
-    let [_, _, _, roll, pitch, yaw] = *from;
-    let [u, v, w, ..] = state.velocity;
-    let over_ground = Attitude::of(&state.pose).to_ned([u, v, w]);
+    let [_, _, _, roll, pitch, yaw] = (*from).into();
+    let [u, v, w, ..]: [f64; 6] = state.velocity.into();
+    let over_ground = Attitude::of(&state.pose).to_ned(Vector3::new(u, v, w));
     let heading = heading.map_or(yaw, Heading::radians);
     let nose_up = if climbs { PITCH_MAX } else { 0.0 };
-    state.pose[3..].copy_from_slice(&[turned(roll, 0.0), turned(pitch, nose_up), wrap_angle(turned(yaw, heading))]);
-    let [u, v, w] = Attitude::of(&state.pose).to_body(over_ground);
-    state.velocity = [u, v, w, 0.0, 0.0, 0.0];
+    (state.pose[3], state.pose[4]) = (turned(roll, 0.0), turned(pitch, nose_up));
+    state.pose[5] = wrap_angle(turned(yaw, heading));
+    let [u, v, w] = Attitude::of(&state.pose).to_body(over_ground).into();
+    state.velocity = Vector6::new(u, v, w, 0.0, 0.0, 0.0);
 }

@@ -16,6 +16,7 @@ use super::six_dof::{Attitude, Controls, Load, Plant, Six};
 use super::surface::Body;
 use albacore_geometry::Vector;
 use albacore_geometry::math::TAU;
+use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// Weight and buoyancy, N; mass, kg.
@@ -105,14 +106,15 @@ impl Default for Prestero {
 impl Prestero {
     /// The REMUS 100.
     pub fn new(crossflow: Crossflow) -> Self {
-        let matrix: [Six; 6] = [
-            [MASS - X_UDOT, 0.0, 0.0, 0.0, MASS * Z_G, 0.0],
-            [0.0, MASS - Y_VDOT, 0.0, -MASS * Z_G, 0.0, -Y_RDOT],
-            [0.0, 0.0, MASS - Z_WDOT, 0.0, -Z_QDOT, 0.0],
-            [0.0, -MASS * Z_G, 0.0, INERTIA[0] - K_PDOT, 0.0, 0.0],
-            [MASS * Z_G, 0.0, -M_WDOT, 0.0, INERTIA[1] - M_QDOT, 0.0],
-            [0.0, -N_VDOT, 0.0, 0.0, 0.0, INERTIA[2] - N_RDOT],
-        ];
+        #[rustfmt::skip]
+        let matrix = Matrix6::new(
+            MASS - X_UDOT, 0.0, 0.0, 0.0, MASS * Z_G, 0.0,
+            0.0, MASS - Y_VDOT, 0.0, -MASS * Z_G, 0.0, -Y_RDOT,
+            0.0, 0.0, MASS - Z_WDOT, 0.0, -Z_QDOT, 0.0,
+            0.0, -MASS * Z_G, 0.0, INERTIA[0] - K_PDOT, 0.0, 0.0,
+            MASS * Z_G, 0.0, -M_WDOT, 0.0, INERTIA[1] - M_QDOT, 0.0,
+            0.0, -N_VDOT, 0.0, 0.0, 0.0, INERTIA[2] - N_RDOT,
+        );
         let y_vv = match crossflow {
             Crossflow::Corrected => -131.0,
             Crossflow::AsPrinted => -1310.0,
@@ -141,8 +143,8 @@ impl Plant for Prestero {
         current: Vector,
         load: Load,
     ) -> Six {
-        let [_, _, _, p, q, r] = *velocity;
-        let water = attitude.to_body([current.north, current.east, 0.0]);
+        let [_, _, _, p, q, r] = (*velocity).into();
+        let water = attitude.to_body(Vector3::new(current.north, current.east, 0.0));
         let (u, v, w) = (velocity[0] - water[0], velocity[1] - water[1], velocity[2] - water[2]);
 
         // Down at the origin, and down at the centre of gravity.
@@ -154,7 +156,7 @@ impl Plant for Prestero {
         // The printed rudder turns to port when positive; ours to starboard.
         let (rudder, stern) = (-u * u * controls.rudder, u * u * controls.stern);
 
-        let force = [
+        let force = Vector6::new(
             -heavy * attitude.sin_pitch
                 + X_UU * u * u.abs()
                 + (X_WQ - MASS) * w * q
@@ -199,7 +201,7 @@ impl Plant for Prestero {
                 + N_WP * w * p
                 + N_UR * u * r
                 + N_RUDDER * rudder,
-        ];
+        );
         let mut acceleration = self.inverse.accelerate(&force);
         // The current, seen from a frame that turns: -w x c.
         acceleration[0] += r * water[1] - q * water[2];

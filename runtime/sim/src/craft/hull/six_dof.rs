@@ -7,9 +7,10 @@
 use super::surface::Surface;
 use albacore_geometry::Vector;
 use albacore_geometry::math::sin_cos;
+use nalgebra::{Vector3, Vector6};
 
 /// Six numbers of a body: three of translation, three of rotation.
-pub type Six = [f64; 6];
+pub type Six = Vector6<f64>;
 
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -95,39 +96,40 @@ impl Attitude {
 
     /// A vector of the body in the frame of north, east and down.
     #[inline]
-    pub fn to_ned(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub fn to_ned(self, v: Vector3<f64>) -> Vector3<f64> {
         // Roll, then pitch, then yaw.
-        let starboard = self.cos_roll * y - self.sin_roll * z;
-        let down = self.sin_roll * y + self.cos_roll * z;
-        let ahead = self.cos_pitch * x + self.sin_pitch * down;
-        [
+        let starboard = self.cos_roll * v.y - self.sin_roll * v.z;
+        let down = self.sin_roll * v.y + self.cos_roll * v.z;
+        let ahead = self.cos_pitch * v.x + self.sin_pitch * down;
+        Vector3::new(
             self.cos_yaw * ahead - self.sin_yaw * starboard,
             self.sin_yaw * ahead + self.cos_yaw * starboard,
-            self.cos_pitch * down - self.sin_pitch * x,
-        ]
+            self.cos_pitch * down - self.sin_pitch * v.x,
+        )
     }
 
     /// A vector of north, east and down in the frame of the body.
     #[inline]
-    pub fn to_body(self, [north, east, down]: [f64; 3]) -> [f64; 3] {
-        let ahead = self.cos_yaw * north + self.sin_yaw * east;
-        let starboard = self.cos_yaw * east - self.sin_yaw * north;
-        let below = self.sin_pitch * ahead + self.cos_pitch * down;
-        [
-            self.cos_pitch * ahead - self.sin_pitch * down,
+    pub fn to_body(self, v: Vector3<f64>) -> Vector3<f64> {
+        let ahead = self.cos_yaw * v.x + self.sin_yaw * v.y;
+        let starboard = self.cos_yaw * v.y - self.sin_yaw * v.x;
+        let below = self.sin_pitch * ahead + self.cos_pitch * v.z;
+        Vector3::new(
+            self.cos_pitch * ahead - self.sin_pitch * v.z,
             self.cos_roll * starboard + self.sin_roll * below,
             self.cos_roll * below - self.sin_roll * starboard,
-        ]
+        )
     }
 
     /// How fast the pose changes: (2) of the 2016 paper, Fossen's J.
     #[inline]
     fn rates(self, velocity: &Six) -> Six {
-        let [u, v, w, p, q, r] = *velocity;
-        let [north, east, down] = self.to_ned([u, v, w]);
+        let [u, v, w, p, q, r] = (*velocity).into();
+        let over_ground = self.to_ned(Vector3::new(u, v, w));
         let cos_pitch = if self.cos_pitch.abs() < COS_PITCH_MIN { COS_PITCH_MIN } else { self.cos_pitch };
         let yaw = (self.sin_roll * q + self.cos_roll * r) / cos_pitch;
-        [north, east, down, p + self.sin_pitch * yaw, self.cos_roll * q - self.sin_roll * r, yaw]
+        let (roll, pitch) = (p + self.sin_pitch * yaw, self.cos_roll * q - self.sin_roll * r);
+        Vector6::new(over_ground.x, over_ground.y, over_ground.z, roll, pitch, yaw)
     }
 }
 
@@ -155,22 +157,17 @@ pub fn runge_kutta<P: Plant>(
     let k2 = derivative(plant, &moved(state, &k1, 0.5 * h), &controls[1], around);
     let k3 = derivative(plant, &moved(state, &k2, 0.5 * h), &controls[1], around);
     let k4 = derivative(plant, &moved(state, &k3, h), &controls[2], around);
-    let blend = |s: &Six, k1: &Six, k2: &Six, k3: &Six, k4: &Six| -> Six {
-        std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
-    };
+    let mean = |k1: Six, k2: Six, k3: Six, k4: Six| k1 + (k2 + k3) * 2.0 + k4;
     State {
-        pose: blend(&state.pose, &k1.pose, &k2.pose, &k3.pose, &k4.pose),
-        velocity: blend(&state.velocity, &k1.velocity, &k2.velocity, &k3.velocity, &k4.velocity),
+        pose: state.pose + mean(k1.pose, k2.pose, k3.pose, k4.pose) * (h / 6.0),
+        velocity: state.velocity + mean(k1.velocity, k2.velocity, k3.velocity, k4.velocity) * (h / 6.0),
     }
 }
 
 /// A state moved along its rate of change.
 #[inline]
 fn moved(state: &State, rate: &State, time: f64) -> State {
-    State {
-        pose: std::array::from_fn(|i| state.pose[i] + time * rate.pose[i]),
-        velocity: std::array::from_fn(|i| state.velocity[i] + time * rate.velocity[i]),
-    }
+    State { pose: state.pose + rate.pose * time, velocity: state.velocity + rate.velocity * time }
 }
 
 #[cfg(test)]
@@ -179,30 +176,32 @@ mod tests {
 
     #[test]
     fn the_frames_turn_into_one_another() {
-        let attitude = Attitude::of(&[0.0, 0.0, 0.0, 0.3, -0.4, 2.0]);
-        let back = attitude.to_body(attitude.to_ned([1.0, -2.0, 3.0]));
-        assert!(back.iter().zip([1.0, -2.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-14), "{back:?}");
+        let attitude = Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.3, -0.4, 2.0));
+        let v = Vector3::new(1.0, -2.0, 3.0);
+        let back = attitude.to_body(attitude.to_ned(v));
+        assert!((back - v).amax() < 1e-14, "{back:?}");
     }
 
     #[test]
     fn a_nose_that_points_up_climbs_and_one_that_points_east_goes_there() {
-        let nose = |pitch: f64, yaw: f64| Attitude::of(&[0.0, 0.0, 0.0, 0.0, pitch, yaw]).to_ned([1.0, 0.0, 0.0]);
-        assert!((nose(0.1, 0.0)[2] + 0.1).abs() < 1e-3, "down is positive");
-        assert!((nose(0.0, std::f64::consts::FRAC_PI_2)[1] - 1.0).abs() < 1e-15);
+        let nose =
+            |pitch: f64, yaw: f64| Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.0, pitch, yaw)).to_ned(Vector3::x());
+        assert!((nose(0.1, 0.0).z + 0.1).abs() < 1e-3, "down is positive");
+        assert!((nose(0.0, std::f64::consts::FRAC_PI_2).y - 1.0).abs() < 1e-15);
     }
 
     /// A body that nothing accelerates, but that turns: the frame of the body turns with it.
     struct Free;
     impl Plant for Free {
         fn acceleration(&self, _: &Attitude, velocity: &Six, _: &Controls, _: Vector, _: Load) -> Six {
-            let [u, v, _, _, _, r] = *velocity;
-            [r * v, -r * u, 0.0, 0.0, 0.0, 0.0]
+            let [u, v, _, _, _, r] = (*velocity).into();
+            Vector6::new(r * v, -r * u, 0.0, 0.0, 0.0, 0.0)
         }
     }
 
     #[test]
     fn the_method_is_of_fourth_order() {
-        let start = State { velocity: [2.0, 0.0, 0.0, 0.0, 0.0, 1.0], ..State::default() };
+        let start = State { velocity: Vector6::new(2.0, 0.0, 0.0, 0.0, 0.0, 1.0), ..State::default() };
         let error = |steps: u32| {
             let h = 4.0 / f64::from(steps);
             let still = (&[Controls::default(); 3], &Surroundings::default());

@@ -8,6 +8,7 @@ use super::surface::{Body, Surface};
 use super::{Diverged, Motion, StartPose};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_vehicle::{Command, TICK_S};
+use nalgebra::{Vector3, Vector6};
 
 /// What is set for a submersible, whatever its plant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,9 +45,9 @@ impl<P: Plant> Submersible<P> {
     /// At rest in water that moves with `flow`.
     pub fn new(plant: P, body: &Body, settings: &Settings, berth: &StartPose) -> Self {
         let StartPose { position, heading, depth, flow } = *berth;
-        let pose = [position.north, position.east, depth, 0.0, 0.0, wrap_angle(heading.radians())];
-        let [u, v, w] = Attitude::of(&pose).to_body([flow.north, flow.east, 0.0]);
-        let state = State { pose, velocity: [u, v, w, 0.0, 0.0, 0.0] };
+        let pose = Vector6::new(position.north, position.east, depth, 0.0, 0.0, wrap_angle(heading.radians()));
+        let [u, v, w] = Attitude::of(&pose).to_body(Vector3::new(flow.north, flow.east, 0.0)).into();
+        let state = State { pose, velocity: Vector6::new(u, v, w, 0.0, 0.0, 0.0) };
         let motion = berth.motion();
         Submersible {
             actuators: Actuators::new(settings.limits, TICK_S / f64::from(settings.steps)),
@@ -69,8 +70,8 @@ impl<P: Plant> Submersible<P> {
 
     /// What its autopilot and its actuators make of a command in the coming tick.
     fn controls(&mut self, command: Option<&Command>, water_depth: f64) -> Controls {
-        let [_, _, depth, _, pitch, _] = self.state.pose;
-        let [_, _, _, _, pitch_rate, yaw_rate] = self.state.velocity;
+        let [_, _, depth, _, pitch, _] = self.state.pose.into();
+        let [_, _, _, _, pitch_rate, yaw_rate] = self.state.velocity.into();
         let sensed = Sensed {
             heading: self.motion.heading,
             pitch,
@@ -132,9 +133,9 @@ impl<P: Plant> Submersible<P> {
     }
 
     fn observe(&mut self, before: Point, flow: Vector) {
-        let [north, east, depth, roll, pitch, yaw] = self.state.pose;
+        let [north, east, depth, roll, pitch, yaw] = self.state.pose.into();
         let position = Point::new(north, east);
-        let [ahead, ..] = Attitude::of(&self.state.pose).to_body([flow.north, flow.east, 0.0]);
+        let ahead = Attitude::of(&self.state.pose).to_body(Vector3::new(flow.north, flow.east, 0.0)).x;
         self.motion = Motion {
             position,
             heading: Heading::from_radians(yaw),

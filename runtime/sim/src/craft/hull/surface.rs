@@ -62,12 +62,13 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Vector6;
 
     const SURFACE: Surface = Surface { length: 1.6, stiffness: 500.0, damping: 100.0 };
 
     fn load(depth: f64, pitch: f64, sinking: f64) -> Load {
-        let attitude = Attitude::of(&[0.0, 0.0, depth, 0.0, pitch, 0.0]);
-        SURFACE.load(&attitude, depth, &[0.0, 0.0, sinking, 0.0, 0.0, 0.0])
+        let attitude = Attitude::of(&Vector6::new(0.0, 0.0, depth, 0.0, pitch, 0.0));
+        SURFACE.load(&attitude, depth, &Vector6::new(0.0, 0.0, sinking, 0.0, 0.0, 0.0))
     }
 
     #[test]

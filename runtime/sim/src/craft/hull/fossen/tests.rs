@@ -20,7 +20,7 @@ fn glide(start: State, around: &Surroundings, steps: u32) -> Vec<State> {
 
 /// A hull that moves and lies as it likes.
 fn tumbling() -> State {
-    State { pose: [0.0, 0.0, 50.0, 0.4, -0.3, 1.0], velocity: [1.5, 0.3, -0.2, 0.3, 0.2, -0.4] }
+    State { pose: Vector6::new(0.0, 0.0, 50.0, 0.4, -0.3, 1.0), velocity: Vector6::new(1.5, 0.3, -0.2, 0.3, 0.2, -0.4) }
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn the_numbers_are_the_published_ones() {
 
 /// Motion and height of the centre of gravity, J.
 fn energy(plant: &Fossen, state: &State) -> f64 {
-    let [u, v, w, p, q, r] = state.velocity;
+    let [u, v, w, p, q, r] = state.velocity.into();
     let m = plant.mass;
     let a = &plant.added;
     let moving = (m + a[0]) * u * u
@@ -78,7 +78,7 @@ fn energy_is_only_ever_lost_without_propeller_and_current() {
 /// In a perfect fluid, where nothing drags and nothing lifts, no energy is lost either: the inertial forces do no work.
 #[test]
 fn energy_is_kept_where_nothing_drags() {
-    let mut plant = Fossen { damping: [0.0; 6], wing: 0.0, ..Fossen::new() };
+    let mut plant = Fossen { damping: Vector6::zeros(), wing: 0.0, ..Fossen::new() };
     plant.cross_flow = CrossFlow::new(0.0, LENGTH, DIAMETER);
     let first = energy(&plant, &tumbling());
     let mut state = tumbling();
@@ -91,14 +91,14 @@ fn energy_is_kept_where_nothing_drags() {
 
 #[test]
 fn a_hull_at_rest_stays_at_rest_at_any_depth_and_place() {
-    let rest = State { pose: [100.0, -40.0, 30.0, 0.0, 0.0, 2.0], ..State::default() };
+    let rest = State { pose: Vector6::new(100.0, -40.0, 30.0, 0.0, 0.0, 2.0), ..State::default() };
     assert_eq!(glide(rest, &Surroundings::default(), 1000).last(), Some(&rest));
 }
 
 #[test]
 fn where_it_is_changes_nothing() {
     let (here, mut there) = (tumbling(), tumbling());
-    there.pose[..3].copy_from_slice(&[1000.0, -500.0, 80.0]);
+    there.pose += Vector6::new(1000.0, -500.0, 30.0, 0.0, 0.0, 0.0);
     let ends = [here, there].map(|start| *glide(start, &Surroundings::default(), 3000).last().unwrap());
     assert_eq!(ends[0].velocity, ends[1].velocity);
     let moved: Vec<f64> = (0..3).map(|i| ends[1].pose[i] - ends[0].pose[i]).collect();
@@ -109,8 +109,8 @@ fn where_it_is_changes_nothing() {
 fn port_and_starboard_are_mirror_images_to_the_bit() {
     // The propeller's torque is what tells them apart: it is off.
     let mirror = |s: State| {
-        let ([x, y, z, roll, pitch, yaw], [u, v, w, p, q, r]) = (s.pose, s.velocity);
-        State { pose: [x, -y, z, -roll, pitch, -yaw], velocity: [u, -v, w, -p, q, -r] }
+        let ([x, y, z, roll, pitch, yaw], [u, v, w, p, q, r]) = (s.pose.into(), s.velocity.into());
+        State { pose: Vector6::new(x, -y, z, -roll, pitch, -yaw), velocity: Vector6::new(u, -v, w, -p, q, -r) }
     };
     let plant = Fossen::new();
     let fins = |rudder: f64| [Controls { rudder, stern: 0.05, rpm: 0.0 }; 3];
@@ -141,12 +141,18 @@ fn a_current_carries_a_level_hull_as_a_whole() {
     // Level and turning about the vertical alone, the published turning of the current by yaw alone is exact: the hull is
     // accelerated as in still water, seen from a frame that moves with the water. With roll and pitch it is not.
     let plant = Fossen::new();
-    let attitude = Attitude::of(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.7]);
+    let attitude = Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.7));
     let (current, r) = (Vector::new(0.3, -0.4), 0.2);
-    let [ahead, right, _] = attitude.to_body([current.north, current.east, 0.0]);
+    let [ahead, right, _] = attitude.to_body(Vector3::new(current.north, current.east, 0.0)).into();
     let controls = Controls { rudder: 0.1, stern: -0.1, rpm: 1200.0 };
-    let still = plant.acceleration(&attitude, &[1.5, 0.2, 0.1, 0.0, 0.0, r], &controls, Vector::ZERO, Load::default());
-    let over_ground = [1.5 + ahead, 0.2 + right, 0.1, 0.0, 0.0, r];
+    let still = plant.acceleration(
+        &attitude,
+        &Vector6::new(1.5, 0.2, 0.1, 0.0, 0.0, r),
+        &controls,
+        Vector::ZERO,
+        Load::default(),
+    );
+    let over_ground = Vector6::new(1.5 + ahead, 0.2 + right, 0.1, 0.0, 0.0, r);
     let carried = plant.acceleration(&attitude, &over_ground, &controls, current, Load::default());
     let turning = [r * right, -r * ahead, 0.0, 0.0, 0.0, 0.0];
     for i in 0..6 {
@@ -163,7 +169,7 @@ fn it_turns_as_widely_as_others_computed() {
         let controls = [Controls { rudder: radians(rudder_deg), stern: 0.0, rpm }; 3];
         let still = Surroundings::default();
         let end = (0..12_000).fold(State::default(), |state, _| runge_kutta(&plant, &state, &controls, &still, 0.01));
-        let [u, v, _, _, _, r] = end.velocity;
+        let [u, v, _, _, _, r] = end.velocity.into();
         let wide = (u * u + v * v).sqrt() / r;
         println!("{rpm} rpm, {rudder_deg} deg: {:.2} deg/s, {wide:.1} m", degrees(r));
         assert!((degrees(r) - rate).abs() < 0.02 && (wide - radius).abs() < 0.6, "{rpm} {rudder_deg}");

@@ -10,7 +10,7 @@ fn run(plant: &Prestero, start: State, controls: Controls, around: &Surroundings
 }
 
 fn ahead(speed: f64) -> State {
-    State { velocity: [speed, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::default() }
+    State { velocity: Vector6::new(speed, 0.0, 0.0, 0.0, 0.0, 0.0), ..State::default() }
 }
 
 /// Revolutions that hold 1.54 m/s.
@@ -20,7 +20,7 @@ const CRUISE: Controls = Controls { rudder: 0.0, stern: 0.0, rpm: 1500.0 };
 fn turn(crossflow: Crossflow, rudder_deg: f64) -> (f64, f64, f64) {
     let controls = Controls { rudder: radians(rudder_deg), ..CRUISE };
     let end = run(&Prestero::new(crossflow).neutral(), ahead(1.54), controls, &Surroundings::default(), 120.0);
-    let [u, v, _, _, _, r] = end.velocity;
+    let [u, v, _, _, _, r] = end.velocity.into();
     let speed = (u * u + v * v).sqrt();
     (degrees(r), speed, speed / r)
 }
@@ -44,10 +44,16 @@ fn its_buoyancy_asks_for_the_trim_of_others() {
     // Level flight at 1.54 m/s: heave and pitch balance for one angle of pitch and one of the stern plane.
     let plant = Prestero::default();
     let unbalanced = |pitch: f64, stern: f64| {
-        let attitude = Attitude::of(&[0.0, 0.0, 0.0, 0.0, pitch, 0.0]);
-        let [u, v, w] = attitude.to_body([1.54, 0.0, 0.0]);
+        let attitude = Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.0, pitch, 0.0));
+        let [u, v, w] = attitude.to_body(Vector3::new(1.54, 0.0, 0.0)).into();
         let controls = Controls { stern, ..CRUISE };
-        let a = plant.acceleration(&attitude, &[u, v, w, 0.0, 0.0, 0.0], &controls, Vector::ZERO, Load::default());
+        let a = plant.acceleration(
+            &attitude,
+            &Vector6::new(u, v, w, 0.0, 0.0, 0.0),
+            &controls,
+            Vector::ZERO,
+            Load::default(),
+        );
         (a[2], a[4])
     };
     // Newton's method on two nearly linear equations.
@@ -69,9 +75,15 @@ fn its_buoyancy_asks_for_the_trim_of_others() {
 fn left_alone_it_does_not_run_straight() {
     // Sway and yaw about a straight run at 1.54 m/s, linearised: one of the two grows, e-fold in a second.
     let plant = Prestero::default().neutral();
-    let level = Attitude::of(&[0.0; 6]);
+    let level = Attitude::of(&Vector6::zeros());
     let rates = |v: f64, r: f64| {
-        let a = plant.acceleration(&level, &[1.54, v, 0.0, 0.0, 0.0, r], &CRUISE, Vector::ZERO, Load::default());
+        let a = plant.acceleration(
+            &level,
+            &Vector6::new(1.54, v, 0.0, 0.0, 0.0, r),
+            &CRUISE,
+            Vector::ZERO,
+            Load::default(),
+        );
         (a[1], a[5])
     };
     let (step, rest) = (1e-6, rates(0.0, 0.0));
@@ -87,7 +99,7 @@ fn it_holds_its_speed_at_1500_rpm() {
     let end = run(&Prestero::default().neutral(), ahead(1.0), CRUISE, &Surroundings::default(), 5.0);
     assert!(end.velocity[0] > 1.0);
     let a = Prestero::default().neutral().acceleration(
-        &Attitude::of(&[0.0; 6]),
+        &Attitude::of(&Vector6::zeros()),
         &ahead(1.543).velocity,
         &CRUISE,
         Vector::ZERO,
@@ -107,20 +119,21 @@ fn a_uniform_current_carries_it_as_a_whole() {
     carried.velocity[1] += current.east;
     let still = run(&plant, ahead(1.5), controls, &Surroundings::default(), 60.0);
     let carried = run(&plant, carried, controls, &water, 60.0);
-    let drift = [60.0 * current.north, 60.0 * current.east, 0.0, 0.0, 0.0, 0.0];
-    for ((carried, still), drift) in carried.pose.iter().zip(still.pose).zip(drift) {
-        let apart = carried - still - drift;
-        assert!(apart.abs() < 1e-5, "{apart}");
-    }
+    let drift = Vector6::new(60.0 * current.north, 60.0 * current.east, 0.0, 0.0, 0.0, 0.0);
+    let apart = carried.pose - still.pose - drift;
+    assert!(apart.amax() < 1e-5, "{apart}");
 }
 
 #[test]
 fn port_and_starboard_are_mirror_images_to_the_bit() {
     let mirror = |s: State| {
-        let ([x, y, z, roll, pitch, yaw], [u, v, w, p, q, r]) = (s.pose, s.velocity);
-        State { pose: [x, -y, z, -roll, pitch, -yaw], velocity: [u, -v, w, -p, q, -r] }
+        let ([x, y, z, roll, pitch, yaw], [u, v, w, p, q, r]) = (s.pose.into(), s.velocity.into());
+        State { pose: Vector6::new(x, -y, z, -roll, pitch, -yaw), velocity: Vector6::new(u, -v, w, -p, q, -r) }
     };
-    let start = State { pose: [0.0, 0.0, 5.0, 0.2, -0.1, 0.0], velocity: [1.5, 0.2, 0.1, 0.1, -0.1, 0.2] };
+    let start = State {
+        pose: Vector6::new(0.0, 0.0, 5.0, 0.2, -0.1, 0.0),
+        velocity: Vector6::new(1.5, 0.2, 0.1, 0.1, -0.1, 0.2),
+    };
     let fins = |rudder: f64| Controls { rudder, stern: 0.05, rpm: 0.0 };
     let still = Surroundings::default();
     let one = run(&Prestero::default(), start, fins(0.1), &still, 20.0);
@@ -129,7 +142,7 @@ fn port_and_starboard_are_mirror_images_to_the_bit() {
 
 #[test]
 fn it_rights_itself_and_floats_up() {
-    let heeled = State { pose: [0.0, 0.0, 50.0, 0.3, 0.3, 0.0], ..State::default() };
+    let heeled = State { pose: Vector6::new(0.0, 0.0, 50.0, 0.3, 0.3, 0.0), ..State::default() };
     let controls = Controls::default();
     let soon = run(&Prestero::default(), heeled, controls, &Surroundings::default(), 0.01);
     assert!(soon.velocity[3] < 0.0 && soon.velocity[4] < 0.0);
@@ -140,7 +153,7 @@ fn it_rights_itself_and_floats_up() {
 
 /// Motion and height of the centre of gravity, of the hull that neither rises nor sinks, J.
 fn energy(state: &State) -> f64 {
-    let [u, v, w, p, q, r] = state.velocity;
+    let [u, v, w, p, q, r] = state.velocity.into();
     let moving = (MASS - X_UDOT) * u * u
         + (MASS - Y_VDOT) * v * v
         + (MASS - Z_WDOT) * w * w
@@ -157,12 +170,12 @@ fn energy(state: &State) -> f64 {
 fn energy_is_only_ever_lost_without_propeller_and_current() {
     // Fitted coefficients owe nobody that: but it is unstable by what its way ahead gives, not out of nothing.
     let plant = Prestero::default().neutral();
-    let heeled = [0.0, 0.0, 50.0, 0.4, -0.3, 1.0];
+    let heeled = Vector6::new(0.0, 0.0, 50.0, 0.4, -0.3, 1.0);
     for start in [
         ahead(1.5),
-        State { velocity: [1.5, 0.01, -0.02, 0.03, 0.02, -0.04], ..State::default() },
-        State { velocity: [0.3, 0.8, 0.4, 0.1, 0.1, 0.5], ..State::default() },
-        State { pose: heeled, velocity: [1.5, 0.3, -0.2, 0.3, 0.2, -0.4] },
+        State { velocity: Vector6::new(1.5, 0.01, -0.02, 0.03, 0.02, -0.04), ..State::default() },
+        State { velocity: Vector6::new(0.3, 0.8, 0.4, 0.1, 0.1, 0.5), ..State::default() },
+        State { pose: heeled, velocity: Vector6::new(1.5, 0.3, -0.2, 0.3, 0.2, -0.4) },
     ] {
         let (mut state, first) = (start, energy(&start));
         let mut last = first;
