@@ -1,6 +1,7 @@
 //! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
 
 mod digested_file;
+mod neighbours;
 mod provenance;
 pub mod seeds;
 mod summary;

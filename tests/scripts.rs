@@ -26,6 +26,7 @@ mod rules;
 mod runs;
 mod scenario;
 mod set;
+mod sizes;
 mod syntax;
 mod test_verb;
 mod thermocline;

@@ -156,17 +156,7 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
         findings.push(too_much);
         broken.everywhere = true;
     }
-    for (_, id) in missions.iter().filter(|(_, id)| !broken.reaches(*id)) {
-        findings.extend(rules::check(&checked.hir, &checked.types, *id));
-    }
-    let tables = (0..checked.hir.activities.len()).filter(|id| checked.hir.activities[*id].span.file == ENTRY);
-    for id in tables.filter(|id| !broken.reaches(*id)) {
-        findings.extend(rules::livelocks(&checked.hir, id));
-    }
-    let own = checked.hir.tests.iter().filter(|test| test.span.file == ENTRY);
-    for test in own.filter(|test| !broken.reaches(test.mission)) {
-        findings.extend(rules::tests_reports(&checked.hir, test));
-    }
+    findings.extend(of_sound_parts(&checked.hir, &checked.types, &broken, missions.iter().map(|(_, id)| *id)));
     let meant: Vec<usize> = missions
         .iter()
         .filter(|(info, _)| chosen.as_ref().is_none_or(|chosen| chosen.name.node == info.name))
@@ -196,6 +186,21 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
         overrides,
         broken,
     }
+}
+
+/// What the rules for whole missions, tables and tests find in those of the script's own file that have no error.
+fn of_sound_parts(
+    hir: &hir::Hir,
+    types: &types::TypeTable,
+    broken: &Broken,
+    missions: impl Iterator<Item = usize>,
+) -> Vec<Diagnostic> {
+    let of_missions = missions.filter(|id| !broken.reaches(*id)).flat_map(|id| rules::check(hir, types, id));
+    let own = |id: &usize| hir.activities[*id].span.file == ENTRY && !broken.reaches(*id);
+    let of_tables = (0..hir.activities.len()).filter(own).flat_map(|id| rules::livelocks(hir, id));
+    let tests = hir.tests.iter().filter(|test| test.span.file == ENTRY && !broken.reaches(test.mission));
+    let of_tests = tests.flat_map(|test| rules::tests_reports(hir, test));
+    of_missions.chain(of_tables).chain(of_tests).collect()
 }
 
 impl Script {

@@ -5,6 +5,9 @@
 //! the interruption, and whatever the disk did.
 
 use super::digested_file::DigestedFile;
+use super::neighbours::{
+    MADE_FROM, alone, alone_of_name, belongs, is_there, left_by, lock, neighbours, no_stray_link, same, silent, write,
+};
 use super::provenance::{self, Provenance, Unread, beside};
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
@@ -13,7 +16,7 @@ use crate::made::is_as_summed;
 use albacore_session::campaign::{Columns, Row, Tally, plain};
 use albacore_session::read_file;
 use std::collections::BTreeSet;
-use std::fs::{File, TryLockError};
+use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -372,108 +375,6 @@ impl Table {
         }
         Ok(tally)
     }
-}
-
-/// The files that lie beside a table.
-fn neighbours(table: &Path) -> [PathBuf; 2] {
-    [".origin", ".sums"].map(|suffix| beside(table, suffix))
-}
-
-fn write(origin: &Provenance, table: &Path) -> Result<(), TableError> {
-    origin.write(table).map_err(|error| TableError::Disk(beside(table, ".origin"), error))
-}
-
-fn is_there(path: &Path) -> bool {
-    path.symlink_metadata().is_ok()
-}
-
-fn no_stray_link(path: &Path) -> Result<(), TableError> {
-    if !path.is_symlink() || path.exists() {
-        return Ok(());
-    }
-    let message = format!("`{}` is there already: a link that leads nowhere", path.display());
-    Err(TableError::Asked(message, "remove it, or choose another file with `--out`".to_string()))
-}
-
-/// Says what lies beside a table of which nothing is left.
-fn alone(table: &Path) -> TableError {
-    let [of, sums] = neighbours(table);
-    let (left, why, again) = match (is_there(&of), sums::are_sums(table)) {
-        (_, false) => (sums, "holds no checksums of a table", ""),
-        (true, true) => {
-            (of, "nothing is left of its table", "with `--resume` the same campaign makes the table again; or ")
-        }
-        (false, true) => (sums, "nothing is left of its table and its `.origin`", ""),
-    };
-    let message = format!("`{}` is there already, and {why}", left.display());
-    TableError::Asked(message, format!("{again}move it away, or choose another file with `--out`"))
-}
-
-/// A table that is gone, or empty, is made again where what lies beside it is its own, and no other in its place. Gives the origin if it
-/// is not as it was written.
-fn left_by(path: &Path, origin: &Provenance) -> Result<Option<Vec<u8>>, TableError> {
-    let [of, sums] = neighbours(path);
-    let changed = if is_there(&of) { belongs(path, origin)? } else { None };
-    if is_there(&sums) && !(is_there(&of) && sums::are_sums(path)) { Err(alone(path)) } else { Ok(changed) }
-}
-
-/// What is written into a table that is gone on with would be in a backup, too, that is another name of it or of what lies beside it.
-fn alone_of_name(path: &Path) -> Result<(), TableError> {
-    let [of, sums] = neighbours(path);
-    let Some(linked) = [path, &of, &sums].into_iter().find(|path| disk::names(path) > 1) else { return Ok(()) };
-    let message = format!("`{}` has another name (a hard link), under which it would be changed too", linked.display());
-    Err(TableError::Asked(
-        message,
-        "go on with a copy of the table, its `.origin` and its `.sums` as `--out`".to_string(),
-    ))
-}
-
-/// Two campaigns must not write one file. Where a disk knows no locks, nothing is said.
-fn lock(file: &File, path: &Path) -> Result<(), TableError> {
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => {
-            let message = format!("another campaign is writing `{}`", path.display());
-            Err(TableError::Asked(message, "wait for its end, or choose another file with `--out`".to_string()))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Says that a file beside a table does not tell what it should.
-fn silent(table: &Path, suffix: &str, what: &str, unread: Unread) -> TableError {
-    let message = match unread {
-        Unread::Missing => format!("`{}` has no `{suffix}` beside it, {what}", table.display()),
-        Unread::Wrong(error) => format!("`{}{suffix}`, {what}, cannot be read: {error}", table.display()),
-    };
-    TableError::Asked(message, "put that back as it was, or begin anew with another `--out`".to_string())
-}
-
-/// What a table's origin is.
-const MADE_FROM: &str = "which tells what it was made from";
-
-/// An error if this campaign is not the one that the table was begun by. Gives the origin if it says the same, and is not as it was
-/// written.
-fn belongs(path: &Path, origin: &Provenance) -> Result<Option<Vec<u8>>, TableError> {
-    let silent = |unread| silent(path, ".origin", MADE_FROM, unread);
-    let bytes = provenance::read(path).map_err(silent)?;
-    let problem = Provenance::of(&bytes).map_err(silent)?.difference(origin);
-    match problem {
-        None if is_as_summed(&bytes) => Ok(None),
-        None => Ok(Some(bytes)),
-        Some(problem) if is_as_summed(&bytes) => {
-            let help = "a table holds one campaign: give what it was begun with, or choose another file with `--out`";
-            Err(TableError::Asked(format!("`{}` {problem}", path.display()), help.to_string()))
-        }
-        Some(problem) => {
-            let why = format!("it was changed since it was written, and says that the table {problem}");
-            Err(silent(Unread::Wrong(why)))
-        }
-    }
-}
-
-/// Whether an origin is that of this campaign.
-fn same(bytes: &[u8], origin: &Provenance) -> bool {
-    Provenance::of(bytes).is_ok_and(|there| there.difference(origin).is_none())
 }
 
 /// Where the row of a known line stands among the lines: an error if it is none of these seeds.

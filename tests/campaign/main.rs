@@ -4,6 +4,7 @@
 #![cfg(unix)]
 
 mod changed;
+mod deeds;
 #[path = "../shell/mod.rs"]
 mod shell;
 

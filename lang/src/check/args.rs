@@ -7,13 +7,13 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_arithmetic::{Operation, Sqrt};
 use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 use albacore_program::{Channel, Guide};
 use albacore_syntax::other_languages;
+use albacore_wording::listed;
 
 /// What is said of an area that is meant to be round.
 const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";
@@ -60,76 +60,7 @@ impl<'t> Checker<'t> {
             self.report(finding);
             return None;
         }
-        let mut given: Vec<Option<&tree::Expr>> = vec![None; params.len()];
-        let mut failed = false;
-        let mut next = 0;
-        for arg in args {
-            let index = match &arg.label {
-                Some(label) => params.iter().position(|p| p.name == label.node),
-                None => {
-                    let index = (next < params.len()).then_some(next);
-                    next += 1;
-                    index
-                }
-            };
-            match (index, &arg.label) {
-                (Some(i), _) if given[i].is_some() => {
-                    failed = true;
-                    let message = format!("`{}` of `{what}` is given twice", params[i].name);
-                    let finding = Diagnostic::error(Code::ArgsTwice, arg.value.span, message);
-                    let finding = match given[i] {
-                        Some(first) => finding.label(first.span, "the first"),
-                        None => finding,
-                    };
-                    self.report(finding.help("leave one of them out"));
-                }
-                (Some(i), label) => {
-                    given[i] = Some(&arg.value);
-                    if let (Some(label), Some(_)) = (label, declared) {
-                        self.names_used.refer(label.span, params[i].span);
-                    }
-                }
-                (None, Some(label)) => {
-                    failed = true;
-                    let finding = Diagnostic::error(
-                        Code::ArgsLabel,
-                        label.span,
-                        format!("`{what}` has no parameter `{}`", label.node),
-                    );
-                    let is_setpoint = Channel::named(&label.node).is_some();
-                    // Of guidance, setpoints stand after `at` and time limits after `within`, not among its arguments.
-                    let finding = match self.suggestion(&label.node, params.iter().map(|p| p.name.as_str())) {
-                        _ if is_setpoint && Guide::takes_arguments(what) => {
-                            finding.help(format!("what it keeps follows `at`: `{what} … at {} …`", label.node))
-                        }
-                        _ if TIME_LIMITS.contains(&&*label.node) && Guide::takes_arguments(what) => {
-                            finding.help(format!("a time limit follows: `{what} … within 5 min`"))
-                        }
-                        Some(help) => finding.help(help),
-                        None => finding,
-                    };
-                    self.report(finding);
-                }
-                // A label that fits nothing, or one too many, is the mistake; what is then missing is its echo.
-                (None, None) => {
-                    failed = true;
-                    let finding = Diagnostic::error(
-                        Code::ArgsMany,
-                        arg.value.span,
-                        format!("`{what}` takes {}, not {}", count(params.len()), args.len()),
-                    );
-                    let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
-                    let finding = match names.as_slice() {
-                        [] => finding.help(format!("write `{what}()`")),
-                        names => {
-                            finding.help(format!("leave out what is too much: it takes {}", suggest::listed(names)))
-                        }
-                    };
-                    self.report(finding);
-                    break;
-                }
-            }
-        }
+        let (given, mut failed) = self.by_parameter(what, params, args, declared.is_some());
         let mut values = Vec::new();
         for (param, given) in params.iter().zip(given) {
             match (given, &param.default) {
@@ -160,6 +91,84 @@ impl<'t> Checker<'t> {
             }
         }
         (!failed).then_some(values)
+    }
+
+    /// What is written for each parameter, and whether something fitted none.
+    fn by_parameter<'e>(
+        &mut self,
+        what: &str,
+        params: &[ParamInfo],
+        args: &'e [tree::Arg],
+        is_declared: bool,
+    ) -> (Vec<Option<&'e tree::Expr>>, bool) {
+        let mut given: Vec<Option<&tree::Expr>> = vec![None; params.len()];
+        let mut failed = false;
+        let mut next = 0;
+        for arg in args {
+            let index = match &arg.label {
+                Some(label) => params.iter().position(|p| p.name == label.node),
+                None => {
+                    let index = (next < params.len()).then_some(next);
+                    next += 1;
+                    index
+                }
+            };
+            match (index, &arg.label) {
+                (Some(i), label) => match given[i].replace(&arg.value) {
+                    Some(first) => {
+                        failed = true;
+                        given[i] = Some(first);
+                        let message = format!("`{}` of `{what}` is given twice", params[i].name);
+                        let finding = Diagnostic::error(Code::ArgsTwice, arg.value.span, message);
+                        self.report(finding.label(first.span, "the first").help("leave one of them out"));
+                    }
+                    None => {
+                        if let Some(label) = label.as_ref().filter(|_| is_declared) {
+                            self.names_used.refer(label.span, params[i].span);
+                        }
+                    }
+                },
+                (None, Some(label)) => {
+                    failed = true;
+                    self.no_such_parameter(what, params, label);
+                }
+                // A label that fits nothing, or one too many, is the mistake; what is then missing is its echo.
+                (None, None) => {
+                    failed = true;
+                    self.too_many_arguments(what, params, args, arg.value.span);
+                    break;
+                }
+            }
+        }
+        (given, failed)
+    }
+
+    fn no_such_parameter(&mut self, what: &str, params: &[ParamInfo], label: &tree::Name) {
+        let message = format!("`{what}` has no parameter `{}`", label.node);
+        let finding = Diagnostic::error(Code::ArgsLabel, label.span, message);
+        let is_setpoint = Channel::named(&label.node).is_some();
+        // Of guidance, setpoints stand after `at` and time limits after `within`, not among its arguments.
+        let finding = match self.suggestion(&label.node, params.iter().map(|p| p.name.as_str())) {
+            _ if is_setpoint && Guide::takes_arguments(what) => {
+                finding.help(format!("what it keeps follows `at`: `{what} … at {} …`", label.node))
+            }
+            _ if TIME_LIMITS.contains(&&*label.node) && Guide::takes_arguments(what) => {
+                finding.help(format!("a time limit follows: `{what} … within 5 min`"))
+            }
+            Some(help) => finding.help(help),
+            None => finding,
+        };
+        self.report(finding);
+    }
+
+    fn too_many_arguments(&mut self, what: &str, params: &[ParamInfo], args: &[tree::Arg], span: Span) {
+        let message = format!("`{what}` takes {}, not {}", count(params.len()), args.len());
+        let finding = Diagnostic::error(Code::ArgsMany, span, message);
+        let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
+        self.report(match names.as_slice() {
+            [] => finding.help(format!("write `{what}()`")),
+            names => finding.help(format!("leave out what is too much: it takes {}", listed(names))),
+        });
     }
 
     /// Arguments of a built-in method or function, all needed.
@@ -279,12 +288,8 @@ impl<'t> Checker<'t> {
                     Some(Type::Vector(d)) => *d,
                     _ => Dimension::LENGTH,
                 };
-                simple(
-                    self,
-                    &[("north", Type::Quantity(d)), ("east", Type::Quantity(d))],
-                    Builtin::Pair,
-                    Type::Vector(d),
-                )
+                let params = [("north", Type::Quantity(d)), ("east", Type::Quantity(d))];
+                simple(self, &params, Builtin::Pair, Type::Vector(d))
             }
             "line" => simple(self, &[("start", Type::Point), ("end", Type::Point)], Builtin::Line, Type::Line),
             "rectangle" => {
@@ -325,25 +330,29 @@ impl<'t> Checker<'t> {
             "sqrt" => self.square_root(args, span),
             "abs" | "min" | "max" | "clamp" => self.ordered(name, args, span),
             _ => {
-                let finding =
-                    Diagnostic::error(Code::NamesUnknown, name_span, format!("nothing named `{name}` can be called"));
-                let known = BUILTINS.iter().copied().chain(self.callable_names());
-                // No area is round, and elsewhere `circle` is driven.
-                let round = (name == "circle" && expected == Some(&Type::Area)).then_some(ROUND);
-                let foreign = round.or_else(|| other_languages::called(name)).or_else(|| other_languages::help(name));
-                let finding = match (foreign, self.nearest(name, known)) {
-                    (Some(help), _) => finding.help(help),
-                    (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
-                    (None, None) => finding
-                        .help("functions, behaviors and strategies of other modules are written `module.name(…)`"),
-                };
-                self.report(finding);
+                self.no_such_function(name, name_span, expected);
                 for arg in args {
                     self.expr(&arg.value, None);
                 }
                 self.unknown(span)
             }
         }
+    }
+
+    fn no_such_function(&mut self, name: &str, span: Span, expected: Option<&Type>) {
+        let finding = Diagnostic::error(Code::NamesUnknown, span, format!("nothing named `{name}` can be called"));
+        let known = BUILTINS.iter().copied().chain(self.callable_names());
+        // No area is round, and elsewhere `circle` is driven.
+        let round = (name == "circle" && expected == Some(&Type::Area)).then_some(ROUND);
+        let foreign = round.or_else(|| other_languages::called(name)).or_else(|| other_languages::help(name));
+        let finding = match (foreign, self.nearest(name, known)) {
+            (Some(help), _) => finding.help(help),
+            (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
+            (None, None) => {
+                finding.help("functions, behaviors and strategies of other modules are written `module.name(…)`")
+            }
+        };
+        self.report(finding);
     }
 
     /// Says what is wrong with a rectangle's side.

@@ -137,42 +137,8 @@ impl<'t> Checker<'t> {
         let span = clause.span;
         let kind = match &clause.kind {
             ClauseKind::Let { name, ty, value } => return self.let_stmt(name, ty.as_ref(), value, span),
-            ClauseKind::Var { name, ty, value } => {
-                let value = match ty {
-                    Some(ty) => {
-                        let ty = self.written_type(self.scope.module, ty);
-                        self.expr_as(value, &ty, &format!("`{}`", name.node))
-                    }
-                    None => {
-                        let value = self.expr(value, None);
-                        self.definite(value, &name.node)
-                    }
-                };
-                if self.scope.setting == Setting::Body {
-                    let help = match self.known_at_prompt() {
-                        Some(_) => "declare it on a line of its own, before this one",
-                        None => "declare a `memory` of the behavior: it is kept while time goes by",
-                    };
-                    self.report(
-                        Diagnostic::error(Code::TimeVar, span, "a `var` lives in instantaneous code only").help(help),
-                    );
-                }
-                let id = self.declare(name, VarKind::Var, value.ty.clone());
-                if let Some(ty) = ty {
-                    self.list_order(id, ty);
-                }
-                StmtKind::Set(id, value)
-            }
-            ClauseKind::Assign { name, value } => {
-                // What can only be walked has no name: that is the mistake, whatever stands before it.
-                let id = if is_walked(value) { None } else { self.assignable(name) };
-                let ty = id.map_or(Type::Unknown, |id| self.scope.vars[id].ty.clone());
-                let value = self.expr_as(value, &ty, &format!("`{}`", name.node));
-                let id = id?;
-                self.assigned_in_range(id, &value);
-                self.scope.facts.forget(id);
-                StmtKind::Set(id, value)
-            }
+            ClauseKind::Var { name, ty, value } => self.var_stmt(name, ty.as_ref(), value, span),
+            ClauseKind::Assign { name, value } => self.assignment(name, value)?,
             ClauseKind::For { name, over, block } => return self.for_stmt(name, over, block, span),
             ClauseKind::While { condition, block } => return self.while_stmt(condition, block, span),
             ClauseKind::Loop(block) => {
@@ -187,75 +153,76 @@ impl<'t> Checker<'t> {
                 self.body_only(span, "`abort`");
                 StmtKind::Abort(self.told(why))
             }
-            ClauseKind::Report { name, value, fields } => {
-                let mut checked = vec![(String::new(), self.expr(value, None))];
-                for (label, value) in fields {
-                    checked.push((label.node.clone(), self.expr(value, None)));
-                }
-                for (_, value) in &mut checked {
-                    if value.ty.is_optional() {
-                        let finding = self.absent(value);
-                        self.report(finding);
-                    }
-                }
-                self.effects_allowed(span, "`report`");
-                StmtKind::Report { name: self.report_name(name), fields: checked }
-            }
+            ClauseKind::Report { name, value, fields } => self.report_stmt(name, value, fields, span),
             ClauseKind::Log(text) => {
                 self.effects_allowed(span, "`log`");
                 StmtKind::Log(self.told(text))
             }
-            ClauseKind::Memory { name, .. } | ClauseKind::Signal { name, .. } => {
-                self.misplaced(
-                    span,
-                    &format!("`{}` is declared too late", name.node),
-                    "declarations stand at the top of a behavior, strategy, overlay or mission, outside other blocks",
-                );
+            other => {
+                if let Some((message, help)) = no_statement(other) {
+                    self.misplaced(span, &message, help);
+                }
                 return None;
             }
-            ClauseKind::Rule(_) | ClauseKind::Start(_) => {
-                self.misplaced(
-                    span,
-                    "a switching table stands in a strategy or a mission",
-                    "move the rule out of this block",
-                );
-                return None;
-            }
-            ClauseKind::Behavior(_) => {
-                self.misplaced(
-                    span,
-                    "a behavior is declared in a file, a strategy or a mission",
-                    "move it out of this block",
-                );
-                return None;
-            }
-            ClauseKind::Reaction { .. } | ClauseKind::Abort { .. } => {
-                self.misplaced(
-                    span,
-                    "a reaction stands beside the declarations",
-                    "move it out of this block, to the top of the behavior",
-                );
-                return None;
-            }
-            ClauseKind::Amend(_) => {
-                self.misplaced(
-                    span,
-                    "`amend` stands in an overlay that amends the course",
-                    "write `overlay NAME amends course { amend { … } }`",
-                );
-                return None;
-            }
-            ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. } => {
-                self.misplaced(
-                    span,
-                    "this stands in a mission only, beside its declarations",
-                    "move it to the top of the mission",
-                );
-                return None;
-            }
-            ClauseKind::With(_) => return None,
         };
         Some(Stmt { kind, span })
+    }
+
+    fn var_stmt(&mut self, name: &tree::Name, ty: Option<&tree::Ty>, value: &tree::Expr, span: Span) -> StmtKind {
+        let value = match ty {
+            Some(ty) => {
+                let ty = self.written_type(self.scope.module, ty);
+                self.expr_as(value, &ty, &format!("`{}`", name.node))
+            }
+            None => {
+                let value = self.expr(value, None);
+                self.definite(value, &name.node)
+            }
+        };
+        if self.scope.setting == Setting::Body {
+            let help = match self.known_at_prompt() {
+                Some(_) => "declare it on a line of its own, before this one",
+                None => "declare a `memory` of the behavior: it is kept while time goes by",
+            };
+            self.report(Diagnostic::error(Code::TimeVar, span, "a `var` lives in instantaneous code only").help(help));
+        }
+        let id = self.declare(name, VarKind::Var, value.ty.clone());
+        if let Some(ty) = ty {
+            self.list_order(id, ty);
+        }
+        StmtKind::Set(id, value)
+    }
+
+    fn assignment(&mut self, name: &tree::Name, value: &tree::Expr) -> Option<StmtKind> {
+        // What can only be walked has no name: that is the mistake, whatever stands before it.
+        let id = if is_walked(value) { None } else { self.assignable(name) };
+        let ty = id.map_or(Type::Unknown, |id| self.scope.vars[id].ty.clone());
+        let value = self.expr_as(value, &ty, &format!("`{}`", name.node));
+        let id = id?;
+        self.assigned_in_range(id, &value);
+        self.scope.facts.forget(id);
+        Some(StmtKind::Set(id, value))
+    }
+
+    fn report_stmt(
+        &mut self,
+        name: &tree::Expr,
+        value: &tree::Expr,
+        fields: &[(tree::Name, tree::Expr)],
+        span: Span,
+    ) -> StmtKind {
+        let mut checked = vec![(String::new(), self.expr(value, None))];
+        for (label, value) in fields {
+            checked.push((label.node.clone(), self.expr(value, None)));
+        }
+        for (_, value) in &mut checked {
+            if value.ty.is_optional() {
+                let finding = self.absent(value);
+                self.report(finding);
+            }
+        }
+        self.effects_allowed(span, "`report`");
+        StmtKind::Report { name: self.report_name(name), fields: checked }
     }
 
     pub(super) fn misplaced(&mut self, span: Span, message: &str, help: &str) {
@@ -483,4 +450,33 @@ fn is_walked(value: &tree::Expr) -> bool {
         tree::ExprKind::Member(_, member) => member.node == "edges",
         _ => false,
     }
+}
+
+/// What is said of a clause that is no statement, and where it belongs.
+fn no_statement(kind: &ClauseKind) -> Option<(String, &'static str)> {
+    let (message, help) = match kind {
+        ClauseKind::Memory { name, .. } | ClauseKind::Signal { name, .. } => {
+            let help =
+                "declarations stand at the top of a behavior, strategy, overlay or mission, outside other blocks";
+            return Some((format!("`{}` is declared too late", name.node), help));
+        }
+        ClauseKind::Rule(_) | ClauseKind::Start(_) => {
+            ("a switching table stands in a strategy or a mission", "move the rule out of this block")
+        }
+        ClauseKind::Behavior(_) => {
+            ("a behavior is declared in a file, a strategy or a mission", "move it out of this block")
+        }
+        ClauseKind::Reaction { .. } | ClauseKind::Abort { .. } => {
+            ("a reaction stands beside the declarations", "move it out of this block, to the top of the behavior")
+        }
+        ClauseKind::Amend(_) => (
+            "`amend` stands in an overlay that amends the course",
+            "write `overlay NAME amends course { amend { … } }`",
+        ),
+        ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. } => {
+            ("this stands in a mission only, beside its declarations", "move it to the top of the mission")
+        }
+        _ => return None,
+    };
+    Some((message.to_string(), help))
 }

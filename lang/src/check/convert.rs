@@ -74,7 +74,6 @@ impl<'t> Checker<'t> {
 
     fn mismatch(&mut self, value: &Expr, wanted: &Type, what: &str) {
         let (has, wants) = (self.type_name(&value.ty), self.type_name(wanted));
-        let constant = value.range.constant();
         let finding = Diagnostic::error(
             Code::TypesMismatch,
             value.span,
@@ -86,6 +85,17 @@ impl<'t> Checker<'t> {
             let finding = Diagnostic::error(Code::TypesMismatch, value.span, message);
             return self.report(finding.help(self.namesakes()));
         }
+        let help = self.help_with_place(value, wanted).or_else(|| self.help_with_unit(value, wanted));
+        self.report(match help {
+            Some(help) => finding.help(help),
+            None => finding,
+        });
+    }
+
+    /// The help where a place, a direction, or a value that may be absent is taken for something else.
+    fn help_with_place(&self, value: &Expr, wanted: &Type) -> Option<String> {
+        let constant = value.range.constant();
+        let wants = self.type_name(wanted);
         let variable = match value.kind {
             ExprKind::Var(id) => Some(&self.scope.vars[id].name),
             _ => None,
@@ -95,75 +105,73 @@ impl<'t> Checker<'t> {
             let declared = variable.map_or(String::new(), |variable| format!("declare it `{variable}: {wants}`, or "));
             format!("{} is counted from the {origin}: {declared}write `{name} + LENGTH` or a constant", article(&wants))
         };
-        let finding = match (&value.ty, wanted) {
-            (Type::Optional(inner), w) if **inner == *w && Self::is_quotient(value) => finding.help(
-                "when the divisor is zero there is no quotient: write `… else VALUE`, or test it with `if` before",
-            ),
+        Some(match (&value.ty, wanted) {
+            (Type::Optional(inner), w) if **inner == *w && Self::is_quotient(value) => {
+                "when the divisor is zero there is no quotient: write `… else VALUE`, or test it with `if` before"
+                    .into()
+            }
             (Type::Optional(inner), w) if **inner == *w => {
-                finding.help("it may be absent: write `… else VALUE`, or test it with `if` before".to_string())
+                "it may be absent: write `… else VALUE`, or test it with `if` before".into()
             }
             (Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::ANGLE) => {
-                finding.help("an angle is measured from something: write `HEADING + ANGLE`, such as `north + x`")
+                "an angle is measured from something: write `HEADING + ANGLE`, such as `north + x`".into()
             }
             (Type::Heading, Type::Quantity(d)) if *d == Dimension::ANGLE => {
-                finding.help("an angle lies between two headings: write `HEADING - HEADING`")
+                "an angle lies between two headings: write `HEADING - HEADING`".into()
             }
-            (Type::Quantity(d), Type::Depth) if *d == Dimension::LENGTH => finding.help(counted("depth", "surface")),
-            (Type::Quantity(d), Type::Altitude) if *d == Dimension::LENGTH => {
-                finding.help(counted("altitude", "bottom"))
-            }
+            (Type::Quantity(d), Type::Depth) if *d == Dimension::LENGTH => counted("depth", "surface"),
+            (Type::Quantity(d), Type::Altitude) if *d == Dimension::LENGTH => counted("altitude", "bottom"),
             (Type::Int | Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::NONE) => {
                 match constant {
-                    Some(x) => finding.help(format!("give it a unit: `{x} deg`")),
-                    None => finding.help("give it a unit: `north + 1 deg * x`"),
+                    Some(x) => format!("give it a unit: `{x} deg`"),
+                    None => "give it a unit: `north + 1 deg * x`".into(),
                 }
             }
             (Type::Int | Type::Quantity(_), Type::Depth | Type::Altitude)
                 if value.ty.dimension() == Some(Dimension::NONE) =>
             {
-                finding.help(unit_help(constant, "m"))
+                unit_help(constant, "m")
             }
             (Type::Point, Type::Heading) => {
-                finding.help("to go to a point write `goto POINT`; the direction to it is `(POINT - position).toward`")
+                "to go to a point write `goto POINT`; the direction to it is `(POINT - position).toward`".into()
             }
-            (Type::Vector(_), Type::Heading) => finding.help("the direction of a vector is its `.toward`"),
-            (Type::Heading, Type::Point) => finding.help("to go in a direction write `steer HEADING`"),
+            (Type::Vector(_), Type::Heading) => "the direction of a vector is its `.toward`".into(),
+            (Type::Heading, Type::Point) => "to go in a direction write `steer HEADING`".into(),
             (Type::Quantity(d), Type::Point) if *d == Dimension::ANGLE => {
-                finding.help("to go in a direction write `steer HEADING`")
+                "to go in a direction write `steer HEADING`".into()
             }
-            (Type::Point, Type::Line) => {
-                finding.help("to go to a point write `goto POINT`; a line is `line(start, end)`")
-            }
+            (Type::Point, Type::Line) => "to go to a point write `goto POINT`; a line is `line(start, end)`".into(),
+            _ => return None,
+        })
+    }
+
+    /// The help where a quantity is of another kind or lacks its unit.
+    fn help_with_unit(&self, value: &Expr, wanted: &Type) -> Option<String> {
+        let constant = value.range.constant();
+        Some(match (&value.ty, wanted) {
             (Type::List(a, _), Type::List(b, m)) if a == b || matches!(value.kind, ExprKind::List(_)) => {
-                finding.help(format!("it holds {m} at most: leave elements out, or declare it longer"))
+                format!("it holds {m} at most: leave elements out, or declare it longer")
             }
             (Type::Int | Type::Quantity(_), Type::Quantity(d)) if value.ty.dimension() == Some(Dimension::NONE) => {
-                finding.help(unit_help(constant, &d.display().unit))
+                unit_help(constant, &d.display().unit)
             }
-            (Type::Quantity(has), Type::Quantity(wants)) => {
-                finding.help(scaling_help(*has, *wants, "it", constant.is_some()))
-            }
-            (Type::Vector(has), Type::Vector(wants)) => finding.help(scaling_help(*has, *wants, "it", false)),
-            (Type::Quantity(_), Type::Heading) if constant.is_some() => finding.help("write it in `deg`"),
-            (Type::Quantity(_), Type::Depth | Type::Altitude) if constant.is_some() => finding.help("write it in `m`"),
+            (Type::Quantity(has), Type::Quantity(wants)) => scaling_help(*has, *wants, "it", constant.is_some()),
+            (Type::Vector(has), Type::Vector(wants)) => scaling_help(*has, *wants, "it", false),
+            (Type::Quantity(_), Type::Heading) if constant.is_some() => "write it in `deg`".into(),
+            (Type::Quantity(_), Type::Depth | Type::Altitude) if constant.is_some() => "write it in `m`".into(),
             (Type::Depth | Type::Altitude, Type::Quantity(d)) if *d == Dimension::LENGTH => {
-                finding.help("how far one is from another is a Length: write `depth - top`, the difference of two")
+                "how far one is from another is a Length: write `depth - top`, the difference of two".into()
             }
             (Type::Vector(d), Type::Point) if *d == Dimension::LENGTH => {
-                finding.help("a vector leads from one point to another: write `POINT + VECTOR`")
+                "a vector leads from one point to another: write `POINT + VECTOR`".into()
             }
-            (Type::Point, Type::Vector(_)) => {
-                finding.help("a vector leads from one point to another: write `POINT - POINT`")
+            (Type::Point, Type::Vector(_)) => "a vector leads from one point to another: write `POINT - POINT`".into(),
+            (Type::Depth, Type::Altitude) | (Type::Altitude, Type::Depth) => {
+                "depth is counted from the surface and altitude from the bottom; `water_depth` is both together".into()
             }
-            (Type::Depth, Type::Altitude) | (Type::Altitude, Type::Depth) => finding
-                .help("depth is counted from the surface and altitude from the bottom; `water_depth` is both together"),
-            (Type::Text, _) => finding.help("a text cannot be calculated with: leave the quotes out"),
-            _ => match self.example(wanted) {
-                Some(example) => finding.help(example),
-                None => finding,
-            },
-        };
-        self.report(finding);
+            (Type::Text, _) => "a text cannot be calculated with: leave the quotes out".into(),
+            _ => return self.example(wanted),
+        })
     }
 
     /// A condition: a `Bool`, or an optional, which then means "is present".

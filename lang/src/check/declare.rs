@@ -1,6 +1,6 @@
 //! The first pass: what every module declares, before any body is looked at.
 
-use super::{Checker, ClauseInfo, Def, Lazy, Module, Scope, Setting, Signature};
+use super::{Checker, ClauseInfo, Def, Lazy, Module, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir;
@@ -8,16 +8,6 @@ use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, Item, TyKind};
 use crate::types::{EnumInfo, RecordInfo, Type};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Operands and operators of a file's signal at most, with those of the signals that it reads.
-const SIGNAL_PARTS_MAX: usize = 256;
-/// A constant waits for so many others at most that are declared after it.
-const WAITING_MAX: usize = 16;
-
-/// Parts of a constant at most, but for those that its own text spells out.
-const CONSTANT_PARTS_MAX: usize = 4096;
-/// Parts of constants that are read, each counted wherever it is: a constant stands for its value there.
-const PARTS_READ_MAX: usize = 1 << 20;
 
 /// Fields of a record at most, with those of the records that it holds.
 const PARTS_MAX: usize = 256;
@@ -171,24 +161,18 @@ impl<'t> Checker<'t> {
             }
             Item::Enum { name, variants } => {
                 let id = self.types.enums.len();
-                let variant_names = variants.iter().map(|v| v.node.clone()).collect();
-                self.types.enums.push(EnumInfo {
-                    name: name.node.clone(),
-                    module: self.modules[m].name.clone(),
-                    variants: variant_names,
-                });
+                let module = self.modules[m].name.clone();
+                let names = variants.iter().map(|v| v.node.clone()).collect();
+                self.types.enums.push(EnumInfo { name: name.node.clone(), module, variants: names });
                 self.define(m, name, Def::Enum(id));
                 for (i, variant) in variants.iter().enumerate() {
                     self.define(m, variant, Def::Variant(id, i));
                 }
             }
             Item::Record { name, .. } => {
-                self.types.records.push(RecordInfo {
-                    name: name.node.clone(),
-                    module: self.modules[m].name.clone(),
-                    fields: Vec::new(),
-                    places: Vec::new(),
-                });
+                let (name_text, module) = (name.node.clone(), self.modules[m].name.clone());
+                let (fields, places) = (Vec::new(), Vec::new());
+                self.types.records.push(RecordInfo { name: name_text, module, fields, places });
                 self.define(m, name, Def::Record(self.types.records.len() - 1));
             }
             Item::Unit { name, value } => {
@@ -197,29 +181,22 @@ impl<'t> Checker<'t> {
                 }
             }
             Item::Input { name, .. } => {
-                self.hir.inputs.push(hir::Input {
-                    name: name.node.clone(),
-                    ty: Type::Unknown,
-                    fields: Vec::new(),
-                    places: Vec::new(),
-                });
+                let (fields, places) = (Vec::new(), Vec::new());
+                self.hir.inputs.push(hir::Input { name: name.node.clone(), ty: Type::Unknown, fields, places });
                 self.define(m, name, Def::Input(self.hir.inputs.len() - 1));
             }
             Item::Clause { name, result, of_vehicle, .. } => {
-                let signature =
-                    Signature { name: name.node.clone(), span: name.span, params: Vec::new(), result: None };
                 let kind = result.as_ref().and_then(|ty| match &ty.kind {
                     TyKind::Named { path, .. } => Some(path.text()),
                     TyKind::List { .. } => None,
                 });
-                let (nested, otherwise, of_vehicle) = (Vec::new(), Vec::new(), *of_vehicle);
+                let (signature, of_vehicle) = (Signature::named(name), *of_vehicle);
+                let (nested, otherwise) = (Vec::new(), Vec::new());
                 self.clauses.push(ClauseInfo { signature, nested, otherwise, kind, of_vehicle });
                 self.define(m, name, Def::Clause(self.clauses.len() - 1));
             }
             Item::Fn(f) => {
-                let signature =
-                    Signature { name: f.name.node.clone(), span: f.name.span, params: Vec::new(), result: None };
-                self.fn_signatures.push(signature);
+                self.fn_signatures.push(Signature::named(&f.name));
                 self.define(m, &f.name, Def::Fn(self.fn_signatures.len() - 1));
             }
             Item::Signal { name, ty, value } => {
@@ -227,9 +204,7 @@ impl<'t> Checker<'t> {
                 self.define(m, name, Def::Signal(self.signals.len() - 1));
             }
             Item::Activity(a) => {
-                let signature =
-                    Signature { name: a.name.node.clone(), span: a.name.span, params: Vec::new(), result: None };
-                self.activity_signatures.push(signature);
+                self.activity_signatures.push(Signature::named(&a.name));
                 let id = self.activity_signatures.len() - 1;
                 match a.kind {
                     ActivityKind::Overlay { .. } => _ = self.overlay_ids.insert(id),
@@ -238,20 +213,22 @@ impl<'t> Checker<'t> {
                 }
                 self.define(m, &a.name, Def::Activity(id));
             }
-            Item::Scenario { name, .. } => {
-                self.hir.scenarios.push(hir::Scenario {
-                    name: name.node.clone(),
-                    full_name: self.full_name(m, &name.node),
-                    path: self.path_from_script(m, &name.node),
-                    span: name.span,
-                    vars: Vec::new(),
-                    defaults: Vec::new(),
-                    clauses: Vec::new(),
-                });
-                self.define(m, name, Def::Scenario(self.hir.scenarios.len() - 1));
-            }
+            Item::Scenario { name, .. } => self.declare_scenario(m, name),
             Item::Vehicle { name, .. } => self.declare_vehicle(m, name),
         }
+    }
+
+    fn declare_scenario(&mut self, m: usize, name: &'t tree::Name) {
+        self.hir.scenarios.push(hir::Scenario {
+            name: name.node.clone(),
+            full_name: self.full_name(m, &name.node),
+            path: self.path_from_script(m, &name.node),
+            span: name.span,
+            vars: Vec::new(),
+            defaults: Vec::new(),
+            clauses: Vec::new(),
+        });
+        self.define(m, name, Def::Scenario(self.hir.scenarios.len() - 1));
     }
 
     fn declare_types(&mut self, m: usize, item: &'t Item) {
@@ -410,103 +387,6 @@ impl<'t> Checker<'t> {
             let finding = Diagnostic::error(Code::NamesShadowed, name.span, message);
             self.report(finding.here("nothing can be shadowed").help("choose another name"));
         }
-    }
-
-    /// The value of a constant, checked when first needed.
-    pub(super) fn constant(&mut self, id: usize) -> hir::Expr {
-        let value = self.lazy(id, true);
-        if matches!(value.kind, hir::ExprKind::Number(_)) {
-            return value;
-        }
-        let is_told = self.parts_read > PARTS_READ_MAX;
-        self.parts_read = self.parts_read.saturating_add(value.parts());
-        if self.parts_read <= PARTS_READ_MAX {
-            return value;
-        }
-        if !is_told {
-            let message = format!("with this constant more than {PARTS_READ_MAX} parts of constants are read");
-            let finding = Diagnostic::error(Code::LimitsConstants, value.span, message);
-            self.report(finding.help("name it once with `let` where it is read, or make lists of constants shorter"));
-        }
-        self.unknown(value.span)
-    }
-
-    /// The expression of a module's signal.
-    pub(super) fn module_signal(&mut self, id: usize) -> hir::Expr {
-        self.lazy(id, false)
-    }
-
-    fn lazy(&mut self, id: usize, is_const: bool) -> hir::Expr {
-        let table = if is_const { &mut self.consts } else { &mut self.signals };
-        match &table[id] {
-            Lazy::Done(value) => value.clone(),
-            &Lazy::InProgress(name) => {
-                let message = format!("`{}` is made of itself", name.node);
-                self.report(
-                    Diagnostic::error(Code::NamesRecursive, name.span, message).help("give it a value of its own"),
-                );
-                self.unknown(name.span)
-            }
-            &Lazy::Unchecked { name, .. } if self.waiting == WAITING_MAX => {
-                let message = format!("`{}` is made of more than {WAITING_MAX} others declared after it", name.node);
-                let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
-                self.report(finding.help("declare first what others are made of"));
-                self.unknown(name.span)
-            }
-            &Lazy::Unchecked { module, name, ty, value } => {
-                table[id] = Lazy::InProgress(name);
-                self.waiting += 1;
-                let setting = if is_const { Setting::Constant } else { Setting::Instant };
-                let (checked, _) = self.within(Scope::new(module, setting), |c| match ty {
-                    Some(ty) => {
-                        let ty = c.written_type(module, ty);
-                        c.expr_as(value, &ty, &format!("`{}`", name.node))
-                    }
-                    None => c.expr(value, None),
-                });
-                self.waiting -= 1;
-                let checked =
-                    if is_const { self.small_constant(name, checked) } else { self.short_signal(name, checked) };
-                let table = if is_const { &mut self.consts } else { &mut self.signals };
-                table[id] = Lazy::Done(checked.clone());
-                checked
-            }
-        }
-    }
-
-    /// The expression of a file's signal, which stands wherever it is read: of signals that read others twice, each
-    /// would otherwise be twice as long.
-    fn short_signal(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
-        if value.is_within(SIGNAL_PARTS_MAX) {
-            return value;
-        }
-        let message = format!(
-            "`{}` is made of more than {SIGNAL_PARTS_MAX} parts, with those of the signals that it reads",
-            name.node
-        );
-        let finding = Diagnostic::error(Code::LimitsSignal, name.span, message);
-        self.report(finding.help(
-            "declare such signals in the behavior or mission that reads them: there each is computed once a tick",
-        ));
-        self.unknown(name.span)
-    }
-
-    /// The value of a constant, which stands wherever it is read: of lists that hold others twice, each would otherwise be
-    /// twice as long.
-    fn small_constant(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
-        // No part is written with less than a byte.
-        let written = (value.span.end - value.span.start) as usize;
-        if value.is_within(CONSTANT_PARTS_MAX.max(written)) {
-            return value;
-        }
-        let message =
-            format!("`{}` has more than {CONSTANT_PARTS_MAX} parts, with those of the constants in it", name.node);
-        let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
-        self.report(finding.help(
-            "hold fewer constants in one another: each stands for all that it is made of, wherever it is read; write the number \
-             that it comes to, or declare it with `let` in a mission or a behavior",
-        ));
-        self.unknown(name.span)
     }
 
     fn check_item(&mut self, m: usize, item: &'t Item) {

@@ -8,10 +8,10 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::{RecordInfo, Type};
 use albacore_arithmetic::{Age, Operation, counted};
+use albacore_wording::listed;
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 const VECTOR: Type = Type::Vector(Dimension::LENGTH);
@@ -116,13 +116,7 @@ impl<'t> Checker<'t> {
             (Type::Vector(d), "length") => self.operation(Builtin::Length, vec![value], Type::Quantity(d), span),
             (Type::Vector(_), "toward") => self.operation(Builtin::Direction, vec![value], Type::Heading, span),
             (Type::Area, "center") => self.operation(Builtin::Center, vec![value], Type::Point, span),
-            (Type::Area, "edges") => {
-                self.report(
-                    Diagnostic::error(Code::TypesWalked, span, "`edges` can only be walked")
-                        .help("write `for edge in area.edges { … }`"),
-                );
-                self.unknown(span)
-            }
+            (Type::Area, "edges") => self.only_walked("edges", "write `for edge in area.edges { … }`", span),
             (Type::Edge, "line") => part(self, value, 0, Type::Line),
             (Type::Edge, "normal") => part(self, value, 4, Type::Vector(Dimension::NONE)),
             (Type::Line, "start") => part(self, value, 0, Type::Point),
@@ -144,19 +138,7 @@ impl<'t> Checker<'t> {
                 let zero = self.make(ExprKind::Number(0.0), Type::Int, span);
                 self.operation(Builtin::At, vec![value, zero], inner.optional(), span)
             }
-            (Type::Record(id), field) => {
-                let RecordInfo { fields, places, .. } = self.types.records[id].clone();
-                let mut at = 0;
-                for ((name, ty), place) in fields.into_iter().zip(places) {
-                    if name == field {
-                        self.names_used.refer(member.span, place);
-                        return part(self, value, at, ty);
-                    }
-                    at += self.types.words(&ty);
-                }
-                self.no_such_member(&value, member);
-                self.unknown(span)
-            }
+            (Type::Record(id), _) => self.record_field(id, value, member, span),
             (Type::Optional(_), _) => {
                 let finding = self.absent(&value);
                 self.report(finding);
@@ -167,6 +149,26 @@ impl<'t> Checker<'t> {
                 self.unknown(span)
             }
         }
+    }
+
+    fn record_field(&mut self, id: usize, value: Expr, member: &tree::Name, span: Span) -> Expr {
+        let RecordInfo { fields, places, .. } = self.types.records[id].clone();
+        let mut at = 0;
+        for ((name, ty), place) in fields.into_iter().zip(places) {
+            if name == member.node {
+                self.names_used.refer(member.span, place);
+                return self.make(ExprKind::Part(Box::new(value), at), ty, span);
+            }
+            at += self.types.words(&ty);
+        }
+        self.no_such_member(&value, member);
+        self.unknown(span)
+    }
+
+    fn only_walked(&mut self, name: &str, help: &str, span: Span) -> Expr {
+        let finding = Diagnostic::error(Code::TypesWalked, span, format!("`{name}` can only be walked"));
+        self.report(finding.help(help));
+        self.unknown(span)
     }
 
     /// `Colour.Blue`: variants are written without their enum.
@@ -184,7 +186,7 @@ impl<'t> Checker<'t> {
             Diagnostic::error(Code::NamesUnknown, member.span, format!("`{name}` has no variant `{}`", member.node))
                 .help(match self.nearest(&member.node, known.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`? it is written without `{name}.`"),
-                    None => format!("its variants are written alone: {}", suggest::listed(&known)),
+                    None => format!("its variants are written alone: {}", listed(&known)),
                 })
         };
         self.report(finding);
@@ -317,52 +319,9 @@ impl<'t> Checker<'t> {
             return self.operation(method.op, operands, method.result, span);
         }
         match (value.ty.clone(), member.node.as_str()) {
-            (Type::Vector(d), "dot") => {
-                let Some([arg]) = self.positional::<1>("dot", args, span) else { return self.unknown(span) };
-                let other = self.expr(&arg, None);
-                match other.ty {
-                    Type::Vector(e) => self.operation(Builtin::Dot, vec![value, other], Type::Quantity(d * e), span),
-                    Type::Unknown => other,
-                    _ => {
-                        let name = self.type_name(&other.ty);
-                        self.report(Diagnostic::error(
-                            Code::TypesMismatch,
-                            other.span,
-                            format!("`dot` takes another vector, this is {}", article(&name)),
-                        ));
-                        self.unknown(span)
-                    }
-                }
-            }
-            (Type::Area, "rows") => {
-                self.report(
-                    Diagnostic::error(Code::TypesWalked, span, "`rows` can only be walked")
-                        .help("write `for row in area.rows(step) { … }`"),
-                );
-                self.unknown(span)
-            }
-            (Type::Area, "contains") => {
-                let Some(point) = self.simple_args("contains", POINT_PARAM, args, span) else {
-                    return self.unknown(span);
-                };
-                let gap = self.operation(Builtin::Gap, [vec![value], point].concat(), LENGTH, span);
-                let zero = self.make(ExprKind::Number(0.0), LENGTH, span);
-                Expr { kind: ExprKind::Do(Builtin::Le, vec![zero, gap]), ty: Type::Bool, span, range: Interval::ANY }
-            }
-            (Type::Area, "run") => {
-                // How far one can go in a direction before the edge.
-                let params = &[("point", Type::Point), ("toward", Type::Heading)];
-                let Some(given) = self.simple_args("run", params, args, span) else { return self.unknown(span) };
-                let run = self.operation(Builtin::Run, [vec![value], given].concat(), VECTOR, span);
-                self.operation(Builtin::Length, vec![run], LENGTH, span)
-            }
-            (Type::Area, "corner") => {
-                let params = &[("toward", Type::Heading), ("near", Type::Point)];
-                // Without `near` the machine takes the centre.
-                let params = &params[..args.len().clamp(1, 2)];
-                let Some(given) = self.simple_args("corner", params, args, span) else { return self.unknown(span) };
-                self.operation(Builtin::Corner, [vec![value], given].concat(), Type::Point, span)
-            }
+            (Type::Vector(d), "dot") => self.dot(value, d, args, span),
+            (Type::Area, "rows") => self.only_walked("rows", "write `for row in area.rows(step) { … }`", span),
+            (Type::Area, name @ ("contains" | "run" | "corner")) => self.area_method(value, name, args, span),
             (Type::List(inner, n), "top") => {
                 let Some([count]) = self.positional::<1>("top", args, span) else { return self.unknown(span) };
                 let count = self.expr_as(&count, &Type::Int, "the argument of `top`");
@@ -400,6 +359,47 @@ impl<'t> Checker<'t> {
                 self.no_such_member(&value, member);
                 self.unknown(span)
             }
+        }
+    }
+
+    fn dot(&mut self, vector: Expr, dimension: Dimension, args: &[tree::Arg], span: Span) -> Expr {
+        let Some([arg]) = self.positional::<1>("dot", args, span) else { return self.unknown(span) };
+        let other = self.expr(&arg, None);
+        match other.ty {
+            Type::Vector(e) => self.operation(Builtin::Dot, vec![vector, other], Type::Quantity(dimension * e), span),
+            Type::Unknown => other,
+            _ => {
+                let message = format!("`dot` takes another vector, this is {}", article(&self.type_name(&other.ty)));
+                self.report(Diagnostic::error(Code::TypesMismatch, other.span, message));
+                self.unknown(span)
+            }
+        }
+    }
+
+    /// The methods of an area that are more than one operation of the machine.
+    fn area_method(&mut self, area: Expr, name: &str, args: &[tree::Arg], span: Span) -> Expr {
+        let toward = ("toward", Type::Heading);
+        let params: &[(&str, Type)] = match name {
+            "contains" => POINT_PARAM,
+            "run" => &[("point", Type::Point), toward],
+            // Without `near` the machine takes the centre.
+            _ if args.len() < 2 => &[toward],
+            _ => &[toward, ("near", Type::Point)],
+        };
+        let Some(given) = self.simple_args(name, params, args, span) else { return self.unknown(span) };
+        let operands = [vec![area], given].concat();
+        match name {
+            "contains" => {
+                let gap = self.operation(Builtin::Gap, operands, LENGTH, span);
+                let zero = self.make(ExprKind::Number(0.0), LENGTH, span);
+                Expr { kind: ExprKind::Do(Builtin::Le, vec![zero, gap]), ty: Type::Bool, span, range: Interval::ANY }
+            }
+            "run" => {
+                // How far one can go in a direction before the edge.
+                let run = self.operation(Builtin::Run, operands, VECTOR, span);
+                self.operation(Builtin::Length, vec![run], LENGTH, span)
+            }
+            _ => self.operation(Builtin::Corner, operands, Type::Point, span),
         }
     }
 

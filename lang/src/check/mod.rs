@@ -17,6 +17,7 @@ mod flow;
 mod foregone;
 mod globe;
 mod hidden;
+mod lazy;
 mod lists;
 mod loops;
 mod members;
@@ -148,6 +149,13 @@ struct Signature {
     span: Span,
     params: Vec<ParamInfo>,
     result: Option<Type>,
+}
+
+impl Signature {
+    /// Of what has been declared, its parameters unread as yet.
+    fn named(name: &tree::Name) -> Self {
+        Signature { name: name.node.clone(), span: name.span, params: Vec::new(), result: None }
+    }
 }
 
 /// A clause that scenarios may hold.

@@ -281,20 +281,6 @@ impl<'t> Checker<'t> {
     fn comparison(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
         use Type::*;
         let equality = matches!(op.node, Binary::Eq | Binary::Ne);
-        let comparable = match (&a.ty, &b.ty) {
-            (x, y) if x == y => match x {
-                Quantity(_) | Int | Depth | Altitude => true,
-                Heading => equality,
-                _ => equality,
-            },
-            (Depth | Altitude, t) if *t == LENGTH => b.range.constant().is_some(),
-            (t, Depth | Altitude) if *t == LENGTH => a.range.constant().is_some(),
-            (Heading, t) if *t == ANGLE && equality => b.range.constant().is_some(),
-            (t, Heading) if *t == ANGLE && equality => a.range.constant().is_some(),
-            (Optional(x), y) | (y, Optional(x)) if **x == *y && equality => true,
-            (Optional(_), None) | (None, Optional(_)) if equality => true,
-            (x, y) => matches!((x.dimension(), y.dimension()), (Some(d), Some(e)) if d == e),
-        };
         let of_heading = |x: &Type, y: &Type| *x == Heading && (*y == Heading || *y == ANGLE);
         if !equality && (of_heading(&a.ty, &b.ty) || of_heading(&b.ty, &a.ty)) {
             let message = "headings have no order: 350 deg is just left of 10 deg";
@@ -306,7 +292,7 @@ impl<'t> Checker<'t> {
             self.report(finding);
             return self.unknown(span);
         }
-        if !comparable {
+        if !are_comparable(&a, &b, equality) {
             return self.no_such(op, &a, &b, span);
         }
         // A constant angle beside a heading is a heading as it is elsewhere: -90 deg points where 270 deg does.
@@ -411,6 +397,8 @@ impl<'t> Checker<'t> {
 
     fn operator_help(&self, op: Binary, a: &Expr, b: &Expr) -> Option<String> {
         use Type::*;
+        let takes_metres = op.compares() || matches!(op, Binary::Add | Binary::Sub);
+        let is_number = |x: &Type| x.dimension().is_some_and(Dimension::is_none);
         Some(match (op, &a.ty, &b.ty) {
             (Binary::Add, Text, _) | (Binary::Add, _, Text) => {
                 "write one text, with values between `{` and `}`: `\"{a} and {b}\"`".into()
@@ -463,18 +451,8 @@ impl<'t> Checker<'t> {
             {
                 "compare with a depth or an altitude, such as `top + 1 m`, or with a constant".into()
             }
-            (_, Depth | Altitude, x)
-                if (op.compares() || matches!(op, Binary::Add | Binary::Sub))
-                    && x.dimension().is_some_and(Dimension::is_none) =>
-            {
-                in_metres("right", b)
-            }
-            (_, x, Depth | Altitude)
-                if (op.compares() || matches!(op, Binary::Add | Binary::Sub))
-                    && x.dimension().is_some_and(Dimension::is_none) =>
-            {
-                in_metres("left", a)
-            }
+            (_, Depth | Altitude, x) if takes_metres && is_number(x) => in_metres("right", b),
+            (_, x, Depth | Altitude) if takes_metres && is_number(x) => in_metres("left", a),
             (Binary::Add | Binary::Sub, x, y)
             | (Binary::Lt | Binary::Le | Binary::Gt | Binary::Ge | Binary::Eq | Binary::Ne, x, y) => {
                 let (Some(d), Some(e)) = (x.dimension(), y.dimension()) else {
@@ -490,5 +468,20 @@ impl<'t> Checker<'t> {
             }
             (op, x, y) => return partner(op, x, y).map(str::to_string),
         })
+    }
+}
+
+/// Whether values of two types can be compared, by their order or only by `==` and `!=`.
+fn are_comparable(a: &Expr, b: &Expr, equality: bool) -> bool {
+    use Type::*;
+    match (&a.ty, &b.ty) {
+        (x, y) if x == y => equality || matches!(x, Quantity(_) | Int | Depth | Altitude),
+        (Depth | Altitude, t) if *t == LENGTH => b.range.constant().is_some(),
+        (t, Depth | Altitude) if *t == LENGTH => a.range.constant().is_some(),
+        (Heading, t) if *t == ANGLE && equality => b.range.constant().is_some(),
+        (t, Heading) if *t == ANGLE && equality => a.range.constant().is_some(),
+        (Optional(x), y) | (y, Optional(x)) if **x == *y && equality => true,
+        (Optional(_), None) | (None, Optional(_)) if equality => true,
+        (x, y) => matches!((x.dimension(), y.dimension()), (Some(d), Some(e)) if d == e),
     }
 }

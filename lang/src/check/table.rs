@@ -34,13 +34,9 @@ impl<'t> Checker<'t> {
             match &clause.kind {
                 ClauseKind::Behavior(b) => {
                     if let Some(earlier) = names.index(&b.name.node).map(|i| names.all[i]) {
-                        let finding = Diagnostic::error(
-                            Code::NamesTwice,
-                            b.name.span,
-                            format!("there are two behaviors `{}`", b.name.node),
-                        )
-                        .label(earlier.span, "the first");
-                        self.report(finding);
+                        let message = format!("there are two behaviors `{}`", b.name.node);
+                        let finding = Diagnostic::error(Code::NamesTwice, b.name.span, message);
+                        self.report(finding.label(earlier.span, "the first"));
                     }
                     self.names_used.define(&b.name, "a behavior");
                     names.push(&b.name);
@@ -84,35 +80,34 @@ impl<'t> Checker<'t> {
         let start = match start {
             Some(name) => self.behavior_named(name, &names),
             None => {
-                let name = &a.name.node;
-                // A brace in the wrong place.
-                let inner =
-                    names.all.first().filter(|_| matches!(a.kind, tree::ActivityKind::Behavior) && written.is_empty());
-                self.report(match inner {
-                    Some(inner) => Diagnostic::error(
-                        Code::RulesStart,
-                        inner.span,
-                        format!("the behavior `{}` stands inside the behavior `{name}`", inner.node),
-                    )
-                    .label(a.name.span, "which is open here")
-                    .help(format!(
-                        "close `{name}` before it; what holds behaviors is a `strategy`, with `start NAME` and rules"
-                    )),
-                    None => Diagnostic::error(
-                        Code::RulesStart,
-                        a.name.span,
-                        format!("with which behavior does `{name}` begin?"),
-                    )
-                    .help("write `start NAME`"),
-                });
+                self.no_start(a, &names, written.is_empty());
                 None
             }
         };
-        if behaviors.is_empty() || start.is_none() {
-            return Body::Sequence(hir::Block::default());
+        match start {
+            Some(start) if !behaviors.is_empty() => Body::Table { start, behaviors, rules },
+            _ => Body::Sequence(hir::Block::default()),
         }
-        let start = start.unwrap_or(0);
-        Body::Table { start, behaviors, rules }
+    }
+
+    /// A table that says not where it begins.
+    fn no_start(&mut self, a: &tree::Activity, names: &Names, has_no_rules: bool) {
+        let name = &a.name.node;
+        // A brace in the wrong place.
+        let inner = names.all.first().filter(|_| matches!(a.kind, tree::ActivityKind::Behavior) && has_no_rules);
+        self.report(match inner {
+            Some(inner) => {
+                let message = format!("the behavior `{}` stands inside the behavior `{name}`", inner.node);
+                let help = "before it; what holds behaviors is a `strategy`, with `start NAME` and rules";
+                Diagnostic::error(Code::RulesStart, inner.span, message)
+                    .label(a.name.span, "which is open here")
+                    .help(format!("close `{name}` {help}"))
+            }
+            None => {
+                let message = format!("with which behavior does `{name}` begin?");
+                Diagnostic::error(Code::RulesStart, a.name.span, message).help("write `start NAME`")
+            }
+        });
     }
 
     fn nested(&mut self, owner: usize, b: &'t tree::Activity) -> usize {
@@ -258,23 +253,12 @@ impl<'t> Checker<'t> {
             .map(|&b| tree::Name { node: hir.activities[b].name.clone(), span: hir.activities[b].span })
             .collect();
         let leaving = hir::leaving(rules, behaviors.len());
-        let mut reached = vec![false; names.len()];
+        let reached = reached(rules, &leaving, start);
         // Whether a rule leads there that does not come back.
         let mut entered = vec![false; names.len()];
         for rule in rules {
             if let Target::Behavior(to) = rule.target {
                 entered[to] |= !rule.back;
-            }
-        }
-        let mut todo = vec![start];
-        while let Some(at) = todo.pop() {
-            if std::mem::replace(&mut reached[at], true) {
-                continue;
-            }
-            for &rule in &leaving[at] {
-                if let Target::Behavior(to) = rules[rule].target {
-                    todo.push(to);
-                }
             }
         }
         let mut known = BTreeSet::new();
@@ -483,4 +467,21 @@ fn alone(clause: &Clause) -> Option<(&str, Span)> {
         },
         _ => None,
     }
+}
+
+/// Which behaviors rules lead to from the first, each rule as often as it has sources.
+fn reached(rules: &[Rule], leaving: &[Vec<usize>], start: usize) -> Vec<bool> {
+    let mut reached = vec![false; leaving.len()];
+    let mut todo = vec![start];
+    while let Some(at) = todo.pop() {
+        if std::mem::replace(&mut reached[at], true) {
+            continue;
+        }
+        for &rule in &leaving[at] {
+            if let Target::Behavior(to) = rules[rule].target {
+                todo.push(to);
+            }
+        }
+    }
+    reached
 }

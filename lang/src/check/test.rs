@@ -49,21 +49,7 @@ impl<'t> Checker<'t> {
             (args, c.scenario_named(scenario), first, last)
         });
         let (args, scenario, first, last) = setup;
-        let without_last = if seeds.inclusive { 0.0 } else { 1.0 };
-        let seeds = match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
-            (Some(a), Some(b)) if a >= 0.0 && a <= b && b - a < SEEDS_MAX => (a as u64, b as u64),
-            _ => {
-                self.report(
-                    Diagnostic::error(
-                        Code::TestsSeeds,
-                        first.span.to(last.span),
-                        "seeds are two whole numbers, the smaller first",
-                    )
-                    .help("for example `seeds 1..20`"),
-                );
-                return;
-            }
-        };
+        let Some(seeds) = self.seeds(&first, &last, seeds.inclusive) else { return };
         let (checked, scope) = self.within(Scope::new(m, Setting::Constant), |c| {
             c.test_scope(id);
             let mut expects = Vec::new();
@@ -78,17 +64,10 @@ impl<'t> Checker<'t> {
             (expects, snapshots, c.test.take())
         });
         let (expects, snapshots, known) = checked;
-        for seed in &snapshots {
-            if *seed < seeds.0 || *seed > seeds.1 {
-                self.report(
-                    Diagnostic::error(
-                        Code::TestsSeeds,
-                        test.name.span,
-                        format!("seed {seed} is not among those that are run"),
-                    )
-                    .help("take the snapshot of a seed that `run` names"),
-                );
-            }
+        for seed in snapshots.iter().filter(|seed| **seed < seeds.0 || **seed > seeds.1) {
+            let message = format!("seed {seed} is not among those that are run");
+            let finding = Diagnostic::error(Code::TestsSeeds, test.name.span, message);
+            self.report(finding.help("take the snapshot of a seed that `run` names"));
         }
         let (Some(args), Some(scenario), Some(known)) = (args, scenario, known) else { return };
         self.hir.tests.push(Test {
@@ -104,6 +83,20 @@ impl<'t> Checker<'t> {
             known: known.names,
             depths: known.depths,
         });
+    }
+
+    /// The first seed and the last.
+    fn seeds(&mut self, first: &Expr, last: &Expr, is_inclusive: bool) -> Option<(u64, u64)> {
+        let without_last = if is_inclusive { 0.0 } else { 1.0 };
+        match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
+            (Some(a), Some(b)) if a >= 0.0 && a <= b && b - a < SEEDS_MAX => Some((a as u64, b as u64)),
+            _ => {
+                let message = "seeds are two whole numbers, the smaller first";
+                let finding = Diagnostic::error(Code::TestsSeeds, first.span.to(last.span), message);
+                self.report(finding.help("for example `seeds 1..20`"));
+                None
+            }
+        }
     }
 
     /// Snapshots are kept under the names of their tests.

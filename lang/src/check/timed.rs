@@ -6,7 +6,7 @@ use super::{Checker, Def, Driving, ParamInfo, Setting, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{self, Action, ExprKind, Interval, Stmt, StmtKind, Timed, VarKind, With};
+use crate::hir::{self, Action, ExprKind, Interval, Stmt, StmtKind, Timed, VarId, VarKind, With};
 use crate::source::Span;
 use crate::suggest;
 use crate::syntax::tree::{self, WithItem};
@@ -40,27 +40,11 @@ impl<'t> Checker<'t> {
         if let tree::Action::Expr(e) = &timed.action
             && self.called_activity(e).is_none()
         {
-            if timed.is_modified() {
-                if self.misspelt_statement(e) {
-                    return None;
-                }
-                // What is called may be misspelt: then nobody knows whether it takes time.
-                let told = self.findings.len();
-                let stmt = self.expr_stmt(e, span);
-                if self.findings.len() > told {
-                    return stmt;
-                }
-                self.report(
-                    Diagnostic::error(
-                        Code::TimeModifier,
-                        timed.span,
-                        "this takes no time: nothing to end or to cut off",
-                    )
-                    .help("`for`, `until`, `within` and `at` belong to statements that take time"),
-                );
-                return stmt;
-            }
-            return self.expr_stmt(e, span);
+            return if timed.is_modified() {
+                self.modified_instant(e, timed.span, span)
+            } else {
+                self.expr_stmt(e, span)
+            };
         }
         if self.scope.setting != Setting::Body && !self.is_done_in_value(timed.span) {
             let finding = Diagnostic::error(
@@ -85,55 +69,59 @@ impl<'t> Checker<'t> {
         self.time_passes();
         // It is first tried on the tick after the statement began.
         let until = timed.until.as_ref().map(|e| self.with_temporal(Temporal::Yes, |c| c.condition(e)));
+        let is_bounded = duration.is_some() || until.is_some() || within.is_some();
         let result = bind.map(|(name, ty)| {
-            let cut = duration.is_some() || until.is_some() || within.is_some();
             let found = match (&action, result_ty) {
-                (Action::Call(..), Some(ty)) => {
-                    if cut {
-                        ty.optional()
-                    } else {
-                        ty
-                    }
-                }
+                (Action::Call(..), Some(ty)) if is_bounded => ty.optional(),
+                (Action::Call(..), Some(ty)) => ty,
                 (Action::Override(_), _) => self.override_end(),
                 _ => Type::Bool,
             };
-            if let Some(ty) = ty {
-                let written = self.written_type(self.scope.module, ty);
-                if written != found {
-                    let (has, wants) = (self.type_name(&found), self.type_name(&written));
-                    let place = ty.span;
-                    self.report(
-                        Diagnostic::error(
-                            Code::TypesMismatch,
-                            place,
-                            format!("this gives {}, not {}", article(&has), article(&wants)),
-                        )
-                        .help(format!("write `{has}`, or leave the type out")),
-                    );
-                }
-            }
-            self.declare(name, VarKind::Let, found)
+            self.bound_outcome(name, ty, found)
         });
-        let overrides = matches!(action, Action::Override(_));
-        if within.is_some() && result.is_none() && !overrides {
+        if within.is_some() && result.is_none() && !matches!(action, Action::Override(_)) {
             self.report(
                 Diagnostic::warning(Code::TimeUnread, timed.span, "nobody learns whether this was cut off")
                     .help("write `let ok = …`, or `until after T` when either end will do"),
             );
         }
-        if !ends && bind.is_some() && duration.is_none() && until.is_none() && within.is_none() {
-            self.report(
-                Diagnostic::error(
-                    Code::FlowEndless,
-                    timed.span,
-                    "this never ends by itself: its outcome is never known",
-                )
-                .help("bound it with `for T`, `until X` or `within T`"),
-            );
+        if !ends && bind.is_some() && !is_bounded {
+            let message = "this never ends by itself: its outcome is never known";
+            let finding = Diagnostic::error(Code::FlowEndless, timed.span, message);
+            self.report(finding.help("bound it with `for T`, `until X` or `within T`"));
         }
         let timed = Timed { action, duration, until, within, at, result };
         Some(Stmt { kind: StmtKind::Timed(Box::new(timed)), span })
+    }
+
+    /// An expression with a modifier, where only what takes time can have one.
+    fn modified_instant(&mut self, e: &tree::Expr, timed: Span, span: Span) -> Option<Stmt> {
+        if self.misspelt_statement(e) {
+            return None;
+        }
+        // What is called may be misspelt: then nobody knows whether it takes time.
+        let known = self.findings.len();
+        let stmt = self.expr_stmt(e, span);
+        if self.findings.len() == known {
+            let message = "this takes no time: nothing to end or to cut off";
+            let finding = Diagnostic::error(Code::TimeModifier, timed, message);
+            self.report(finding.help("`for`, `until`, `within` and `at` belong to statements that take time"));
+        }
+        stmt
+    }
+
+    /// The name that a statement's outcome is given, with the type that is written for it.
+    fn bound_outcome(&mut self, name: &tree::Name, ty: Option<&tree::Ty>, found: Type) -> VarId {
+        if let Some(ty) = ty {
+            let written = self.written_type(self.scope.module, ty);
+            if written != found {
+                let (has, wants) = (self.type_name(&found), self.type_name(&written));
+                let message = format!("this gives {}, not {}", article(&has), article(&wants));
+                let finding = Diagnostic::error(Code::TypesMismatch, ty.span, message);
+                self.report(finding.help(format!("write `{has}`, or leave the type out")));
+            }
+        }
+        self.declare(name, VarKind::Let, found)
     }
 
     /// `wiat for 10 s` reads as a value named `wiat`: when a word of the language is near, that was meant.

@@ -138,16 +138,7 @@ impl<'a> Lowering<'a> {
         let condition_timers = self.place_timers(conditions);
 
         if activity.kind == Kind::Mission {
-            self.program.mission.params = self.here();
-            // Nobody calls a mission: its parameters have their defaults, which `--set` may have changed.
-            for (param, default) in activity.defaults.iter().enumerate() {
-                let given = self.mission_args.and_then(|args| args.get(param));
-                if let Some(e) = given.or(default.as_ref()) {
-                    let to = self.frame.vars[param];
-                    self.scratch(|l| l.expr_into(e, to));
-                }
-            }
-            self.emit(Op::Return);
+            self.mission_params(&activity.defaults);
         }
         let entry = self.here();
         signal_timers.iter().for_each(|timers| self.reset_timers(timers));
@@ -160,17 +151,7 @@ impl<'a> Lowering<'a> {
 
         let refresh = self.here();
         for (decl, timers) in activity.decls.iter().zip(&signal_timers) {
-            match decl {
-                Decl::Signal(var, e) => {
-                    self.update_timers(timers, at, None);
-                    let to = self.frame.vars[*var];
-                    self.scratch(|l| l.expr_into(e, to));
-                }
-                Decl::Memory(var, _) => {
-                    self.refresh_order(*var);
-                }
-                _ => {}
-            }
+            self.refresh(decl, timers, at);
         }
         self.update_timers(&condition_timers, at, None);
         self.emit(Op::Return);
@@ -184,22 +165,7 @@ impl<'a> Lowering<'a> {
         }
         self.emit(Op::Return);
 
-        let body = match &activity.body {
-            hir::Body::Sequence(block) => {
-                let body = self.here();
-                self.stmts(&block.stmts);
-                self.emit(Op::End);
-                Body::Sequence(body)
-            }
-            hir::Body::Amend { asked, block } => {
-                let value = self.lasting(1);
-                let entry = self.here();
-                self.block_into(block, value);
-                self.emit(Op::Return);
-                Body::Amend { asked: self.frame.vars[*asked], amended: Code { entry, value } }
-            }
-            hir::Body::Table { start, behaviors, rules } => self.table(id, *start, behaviors, rules),
-        };
+        let body = self.activity_body(id, &activity.body);
         if let Some(mission) = &activity.mission {
             self.mission_parts(mission);
         }
@@ -228,6 +194,51 @@ impl<'a> Lowering<'a> {
             result,
         });
         self.program.activities.len() as u32 - 1
+    }
+
+    /// Nobody calls a mission: its parameters have their defaults, which `--set` may have changed.
+    fn mission_params(&mut self, defaults: &[Option<Expr>]) {
+        self.program.mission.params = self.here();
+        for (param, default) in defaults.iter().enumerate() {
+            let given = self.mission_args.and_then(|args| args.get(param));
+            if let Some(e) = given.or(default.as_ref()) {
+                let to = self.frame.vars[param];
+                self.scratch(|l| l.expr_into(e, to));
+            }
+        }
+        self.emit(Op::Return);
+    }
+
+    fn activity_body(&mut self, id: usize, body: &hir::Body) -> Body {
+        match body {
+            hir::Body::Sequence(block) => {
+                let body = self.here();
+                self.stmts(&block.stmts);
+                self.emit(Op::End);
+                Body::Sequence(body)
+            }
+            hir::Body::Amend { asked, block } => {
+                let value = self.lasting(1);
+                let entry = self.here();
+                self.block_into(block, value);
+                self.emit(Op::Return);
+                Body::Amend { asked: self.frame.vars[*asked], amended: Code { entry, value } }
+            }
+            hir::Body::Table { start, behaviors, rules } => self.table(id, *start, behaviors, rules),
+        }
+    }
+
+    /// A declaration, on each tick after the entry.
+    fn refresh(&mut self, decl: &Decl, timers: &[Timer], at: Slot) {
+        match decl {
+            Decl::Signal(var, e) => {
+                self.update_timers(timers, at, None);
+                let to = self.frame.vars[*var];
+                self.scratch(|l| l.expr_into(e, to));
+            }
+            Decl::Memory(var, _) => self.refresh_order(*var),
+            _ => {}
+        }
     }
 
     /// A declaration, at entry.

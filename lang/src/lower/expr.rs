@@ -233,12 +233,7 @@ impl<'a> Lowering<'a> {
     fn builtin(&mut self, op: Builtin, operands: &[Expr], to: Slot) {
         use Builtin as B;
         if op == B::Pair || op == B::Line {
-            let mut at = to;
-            for operand in operands {
-                self.expr_into(operand, at);
-                at = at.saturating_add(self.words(&operand.ty));
-            }
-            return;
+            return self.side_by_side(operands, to);
         }
         let slots: Vec<Slot> = operands.iter().map(|o| self.expr(o)).collect();
         let a = slots.first().copied().unwrap_or(to);
@@ -254,36 +249,21 @@ impl<'a> Lowering<'a> {
             let words = self.words(&operands[0].ty);
             self.emit(Compute::Clear { to, words });
         }
+        if let Some(operator) = unary(op) {
+            self.emit(Compute::One { operator, to, a });
+            return;
+        }
+        // `number(angle)` has one operand: it is the angle.
+        if op == B::Add && operands.len() == 1 {
+            return self.copy(to, a, 1);
+        }
+        if let Some(operator) = binary(op) {
+            self.emit(Compute::two(operator, to, a, b));
+            return;
+        }
         let op: Op = match op {
             B::Quotient => Compute::Quotient { to, a, b }.into(),
-            B::VectorQuotient => {
-                let (one, inverse) = (self.number(1.0), self.temp(2));
-                self.emit(Compute::Quotient { to: inverse, a: one, b });
-                self.emit(Compute::Copy { to, from: inverse });
-                Compute::Scale { to: to + 1, vector: a, by: inverse + 1 }.into()
-            }
-            // `number(angle)` has one operand: it is the angle.
-            B::Add if operands.len() == 1 => Compute::Copy { to, from: a }.into(),
-            B::Add => Compute::two(Operator::Add, to, a, b).into(),
-            B::Sub => Compute::two(Operator::Sub, to, a, b).into(),
-            B::Mul => Compute::two(Operator::Mul, to, a, b).into(),
-            B::AddInt => Compute::two(Operator::AddInt, to, a, b).into(),
-            B::SubInt => Compute::two(Operator::SubInt, to, a, b).into(),
-            B::MulInt => Compute::two(Operator::MulInt, to, a, b).into(),
-            B::Div => Compute::two(Operator::Div, to, a, b).into(),
-            B::Pow => Compute::two(Operator::Pow, to, a, b).into(),
-            B::Neg => Compute::One { operator: Operator::Neg, to, a }.into(),
-            B::Abs => Compute::One { operator: Operator::Abs, to, a }.into(),
-            B::Min => Compute::two(Operator::Min, to, a, b).into(),
-            B::Max => Compute::two(Operator::Max, to, a, b).into(),
-            B::Sqrt => Compute::One { operator: Operator::Sqrt, to, a }.into(),
-            B::Floor => Compute::One { operator: Operator::Floor, to, a }.into(),
-            B::Ceil => Compute::One { operator: Operator::Ceil, to, a }.into(),
-            B::Round => Compute::One { operator: Operator::Round, to, a }.into(),
-            B::Sin => Compute::One { operator: Operator::Sin, to, a }.into(),
-            B::Cos => Compute::One { operator: Operator::Cos, to, a }.into(),
-            B::Heading => Compute::One { operator: Operator::WrapHeading, to, a }.into(),
-            B::Angle => Compute::One { operator: Operator::WrapAngle, to, a }.into(),
+            B::VectorQuotient => self.vector_quotient(to, a, b),
             B::Lt => Compute::Lt { to, a, b }.into(),
             B::Le => Compute::Le { to, a, b }.into(),
             B::Eq => Compute::Eq { to, a, b, words: self.words(&operands[0].ty) }.into(),
@@ -298,7 +278,10 @@ impl<'a> Lowering<'a> {
             B::Length => Compute::two(Operator::Length, to, a, a + 1).into(),
             B::Dot => Compute::Dot { to, a, b }.into(),
             B::Along => Compute::Along { to, vector: a, heading: b }.into(),
-            B::Pair | B::Line => return,
+            // Emitted above.
+            B::Pair | B::Line | B::Add | B::Sub | B::Mul | B::Div | B::AddInt | B::SubInt | B::MulInt => return,
+            B::Pow | B::Min | B::Max | B::Neg | B::Abs | B::Sqrt | B::Floor | B::Ceil | B::Round => return,
+            B::Sin | B::Cos | B::Heading | B::Angle => return,
             B::Rectangle => AreaOp::Rectangle { to, center: a, along: b, length: c, width: d }.into(),
             B::Polygon => AreaOp::Polygon { to: to + 1, points: a, ok: to }.into(),
             B::LineVector => Compute::SubVector { to, a: a + 2, b: a }.into(),
@@ -312,11 +295,7 @@ impl<'a> Lowering<'a> {
             B::EdgeGap => Compute::EdgeGap { to, edge: a, point: b }.into(),
             B::EdgeTangent => AreaOp::EdgeTangent { to, edge: a, heading: b }.into(),
             B::Exit => AreaOp::Exit { to, area: a, point: b, heading: c }.into(),
-            B::Run => {
-                let exit = self.temp(2);
-                self.emit(AreaOp::Exit { to: exit, area: a, point: b, heading: c });
-                Compute::SubVector { to, a: exit, b }.into()
-            }
+            B::Run => self.run(to, a, b, c),
             B::Top => ListOp::Top { to, list: a, count: b, words: element_words(self) }.into(),
             B::At => ListOp::At { to, list: a, index: b, words: element_words(self) }.into(),
             B::Spread => ListOp::Spread { to, list: a, heading: b }.into(),
@@ -325,6 +304,30 @@ impl<'a> Lowering<'a> {
         if let (Op::List(ListOp::At { .. }), Type::List(inner, _)) = (op, &operands[0].ty) {
             self.typed(to.saturating_add(1), inner);
         }
+    }
+
+    /// Values one after the other.
+    fn side_by_side(&mut self, values: &[Expr], to: Slot) {
+        let mut at = to;
+        for value in values {
+            self.expr_into(value, at);
+            at = at.saturating_add(self.words(&value.ty));
+        }
+    }
+
+    /// A vector over a number that may be zero.
+    fn vector_quotient(&mut self, to: Slot, vector: Slot, by: Slot) -> Op {
+        let (one, inverse) = (self.number(1.0), self.temp(2));
+        self.emit(Compute::Quotient { to: inverse, a: one, b: by });
+        self.emit(Compute::Copy { to, from: inverse });
+        Compute::Scale { to: to + 1, vector, by: inverse + 1 }.into()
+    }
+
+    /// The way from a point to where it leaves an area.
+    fn run(&mut self, to: Slot, area: Slot, point: Slot, heading: Slot) -> Op {
+        let exit = self.temp(2);
+        self.emit(AreaOp::Exit { to: exit, area, point, heading });
+        Compute::SubVector { to, a: exit, b: point }.into()
     }
 
     fn center_of(&mut self, area: Slot) -> Slot {
@@ -377,4 +380,40 @@ impl<'a> Lowering<'a> {
         self.emit(Op::Return);
         Code { entry, value }
     }
+}
+
+/// The operator of one number that a function or an operator of the language is.
+fn unary(op: Builtin) -> Option<Operator> {
+    use Builtin as B;
+    Some(match op {
+        B::Neg => Operator::Neg,
+        B::Abs => Operator::Abs,
+        B::Sqrt => Operator::Sqrt,
+        B::Floor => Operator::Floor,
+        B::Ceil => Operator::Ceil,
+        B::Round => Operator::Round,
+        B::Sin => Operator::Sin,
+        B::Cos => Operator::Cos,
+        B::Heading => Operator::WrapHeading,
+        B::Angle => Operator::WrapAngle,
+        _ => return None,
+    })
+}
+
+/// The same of two numbers.
+fn binary(op: Builtin) -> Option<Operator> {
+    use Builtin as B;
+    Some(match op {
+        B::Add => Operator::Add,
+        B::Sub => Operator::Sub,
+        B::Mul => Operator::Mul,
+        B::AddInt => Operator::AddInt,
+        B::SubInt => Operator::SubInt,
+        B::MulInt => Operator::MulInt,
+        B::Div => Operator::Div,
+        B::Pow => Operator::Pow,
+        B::Min => Operator::Min,
+        B::Max => Operator::Max,
+        _ => return None,
+    })
 }

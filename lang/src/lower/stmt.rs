@@ -22,29 +22,8 @@ impl<'a> Lowering<'a> {
 
     fn stmt(&mut self, stmt: &Stmt) {
         match &stmt.kind {
-            StmtKind::Set(var, e) => {
-                let to = self.frame.vars[*var];
-                // `x = x.something` may read what it writes: by way of a temporary.
-                if self.words(&e.ty) > 1 {
-                    let from = self.expr(e);
-                    let words = self.words(&e.ty);
-                    self.copy(to, from, words);
-                } else {
-                    self.expr_into(e, to);
-                }
-                self.sort(*var);
-            }
-            StmtKind::Insert(var, e) => {
-                let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
-                let capacity = self.capacity(*var);
-                match self.frame.sorters.get(var).cloned() {
-                    Some(Sorter { entry: sort, it, element, .. }) => {
-                        self.emit(ListOp::PushSorted { list, item, words, capacity, sort });
-                        self.typed(it, &element);
-                    }
-                    None => _ = self.emit(ListOp::Push { list, item, words, capacity }),
-                }
-            }
+            StmtKind::Set(var, e) => self.set(*var, e),
+            StmtKind::Insert(var, e) => self.insert(*var, e),
             StmtKind::Remove(var, e) => {
                 let (list, item, words) = (self.frame.vars[*var], self.expr(e), self.words(&e.ty));
                 self.emit(ListOp::Remove { list, item, words });
@@ -78,21 +57,7 @@ impl<'a> Lowering<'a> {
             StmtKind::ForList { var, list, body } => self.for_list(*var, list, body),
             StmtKind::ForEdges { var, area, body } => self.for_edges(*var, area, body),
             StmtKind::ForRows { var, area, step, near, body } => self.for_rows(*var, area, (step, near), body),
-            StmtKind::While { condition, bind, body } => {
-                let top = self.here();
-                let unless = self.scratch(|l| {
-                    let value = l.expr(condition);
-                    let unless = l.emit(Compute::jump_unless(value, 0));
-                    if let Some(var) = bind {
-                        let (to, words) = (l.frame.vars[*var], l.words(condition.ty.present()));
-                        l.copy(to, value + 1, words);
-                    }
-                    unless
-                });
-                self.body(body);
-                self.emit(Compute::jump(top));
-                self.land(unless);
-            }
+            StmtKind::While { condition, bind, body } => self.while_loop(condition, *bind, body),
             StmtKind::Loop(body) => {
                 let top = self.here();
                 self.body(body);
@@ -122,6 +87,47 @@ impl<'a> Lowering<'a> {
                 self.emit(Op::Log { text });
             }
         }
+    }
+
+    fn set(&mut self, var: usize, e: &Expr) {
+        let to = self.frame.vars[var];
+        // `x = x.something` may read what it writes: by way of a temporary.
+        if self.words(&e.ty) > 1 {
+            let from = self.expr(e);
+            let words = self.words(&e.ty);
+            self.copy(to, from, words);
+        } else {
+            self.expr_into(e, to);
+        }
+        self.sort(var);
+    }
+
+    fn insert(&mut self, var: usize, e: &Expr) {
+        let (list, item, words) = (self.frame.vars[var], self.expr(e), self.words(&e.ty));
+        let capacity = self.capacity(var);
+        match self.frame.sorters.get(&var).cloned() {
+            Some(Sorter { entry: sort, it, element, .. }) => {
+                self.emit(ListOp::PushSorted { list, item, words, capacity, sort });
+                self.typed(it, &element);
+            }
+            None => _ = self.emit(ListOp::Push { list, item, words, capacity }),
+        }
+    }
+
+    fn while_loop(&mut self, condition: &Expr, bind: Option<usize>, body: &Block) {
+        let top = self.here();
+        let unless = self.scratch(|l| {
+            let value = l.expr(condition);
+            let unless = l.emit(Compute::jump_unless(value, 0));
+            if let Some(var) = bind {
+                let (to, words) = (l.frame.vars[var], l.words(condition.ty.present()));
+                l.copy(to, value + 1, words);
+            }
+            unless
+        });
+        self.body(body);
+        self.emit(Compute::jump(top));
+        self.land(unless);
     }
 
     fn sort(&mut self, var: usize) {
@@ -199,18 +205,7 @@ impl<'a> Lowering<'a> {
         let owner = self.frame.header;
         let begun = self.lasting(1);
         self.emit(Compute::Now { to: begun, owner });
-        // Setpoints of its own are frozen now; without them those in force are used where they are.
-        let in_force = owner + header::SETPOINTS;
-        let setpoints = if timed.at.is_empty() {
-            in_force
-        } else {
-            let own = self.lasting(setpoints::WORDS);
-            self.copy(own, in_force, setpoints::WORDS);
-            for (channel, e) in &timed.at {
-                self.scratch(|l| l.setpoint(*channel, e, own));
-            }
-            own
-        };
+        let setpoints = self.own_setpoints(&timed.at, owner + header::SETPOINTS);
         let duration = timed.duration.as_ref().map(|e| self.frozen_ticks(e));
         let within = timed.within.as_ref().map(|e| self.frozen_ticks(e));
         let timers = self.place_timers(&timed.until);
@@ -250,43 +245,54 @@ impl<'a> Lowering<'a> {
             self.outcome_of_end(&action, has_value.as_ref(), cut, to);
         }
         let mut ends = Vec::new();
-        for (jumps, cause, by_itself) in
-            [(cut_normally, Cause::Until, 1.0), (cut_off.into_iter().collect(), Cause::TimedOut, 0.0)]
-        {
-            if jumps.is_empty() {
-                continue;
-            }
-            ends.push(self.emit(Compute::jump(0)));
-            for jump in jumps {
-                self.land(jump);
-            }
-            if let Running::Call { call, .. } | Running::Override { call, .. } = action {
-                self.emit(Op::Cut { call, cause });
-            }
-            if let Running::Override { end, .. } = action {
-                let value = if by_itself == 0.0 { OverrideEnd::TimedOut } else { OverrideEnd::Completed };
-                self.emit(Compute::Const { to: end, value: value.number() });
-                continue;
-            }
-            if let Some(to) = result {
-                match &has_value {
-                    Some(ty) => {
-                        let words = self.words(&ty.clone().optional());
-                        self.emit(Compute::Clear { to, words });
-                    }
-                    // `for` and `until` are normal ends; only `within` cuts off.
-                    None => _ = self.emit(Compute::Const { to, value: by_itself }),
-                }
+        for (jumps, cause) in [(cut_normally, Cause::Until), (cut_off.into_iter().collect(), Cause::TimedOut)] {
+            if !jumps.is_empty() {
+                ends.push(self.emit(Compute::jump(0)));
+                self.land_all(jumps);
+                self.cut(&action, cause, result, has_value.as_ref());
             }
         }
-        for end in ends {
-            self.land(end);
-        }
+        self.land_all(ends);
         if let Running::Override { end, .. } = action {
             match result {
                 Some(to) => self.copy(to, end, 1),
                 None => _ = self.emit(Op::Desert { end }),
             }
+        }
+    }
+
+    /// Setpoints of a statement's own are frozen as it begins; without them those in force are used where they are.
+    fn own_setpoints(&mut self, at: &[(Channel, Expr)], in_force: Slot) -> Slot {
+        if at.is_empty() {
+            return in_force;
+        }
+        let own = self.lasting(setpoints::WORDS);
+        self.copy(own, in_force, setpoints::WORDS);
+        for (channel, e) in at {
+            self.scratch(|l| l.setpoint(*channel, e, own));
+        }
+        own
+    }
+
+    /// Ends what runs, from outside; its outcome goes where `let` wants it.
+    fn cut(&mut self, action: &Running, cause: Cause, result: Option<Slot>, value: Option<&Type>) {
+        // `for` and `until` are normal ends; only `within` cuts off.
+        let is_normal = cause == Cause::Until;
+        if let Running::Call { call, .. } | Running::Override { call, .. } = *action {
+            self.emit(Op::Cut { call, cause });
+        }
+        if let Running::Override { end, .. } = *action {
+            let value = if is_normal { OverrideEnd::Completed } else { OverrideEnd::TimedOut };
+            self.emit(Compute::Const { to: end, value: value.number() });
+            return;
+        }
+        match (result, value) {
+            (Some(to), Some(ty)) => {
+                let words = self.words(&ty.clone().optional());
+                self.emit(Compute::Clear { to, words });
+            }
+            (Some(to), None) => _ = self.emit(Compute::Const { to, value: f64::from(u8::from(is_normal)) }),
+            (None, _) => {}
         }
     }
 

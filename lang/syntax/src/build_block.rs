@@ -83,10 +83,7 @@ fn clause(b: &mut Builder, node: Node) -> Option<ClauseKind> {
         },
         Rule::amend => ClauseKind::Amend(block(b, inner.next()?)),
         Rule::abort => ClauseKind::Abort { why: text(b, inner.next()?), on: inner.next().map(|p| cond(b, p)) },
-        Rule::finish => {
-            let value = inner.find(|p| p.rule() == Rule::expr).map(|p| expr(b, p));
-            ClauseKind::Finish(value)
-        }
+        Rule::finish => ClauseKind::Finish(inner.find(|p| p.rule() == Rule::expr).map(|p| expr(b, p))),
         Rule::report => ClauseKind::Report {
             name: text(b, inner.next()?),
             value: expr(b, inner.next()?),
@@ -98,19 +95,15 @@ fn clause(b: &mut Builder, node: Node) -> Option<ClauseKind> {
                 .collect(),
         },
         Rule::log => ClauseKind::Log(expr(b, inner.next()?)),
-        Rule::for_stmt => ClauseKind::For {
-            name: name(inner.next()?),
-            over: {
-                let first = expr(b, inner.next()?);
-                match inner.next_if(|next| next.rule() == Rule::range_op) {
-                    Some(op) => {
-                        ForOver::Range(Range { first, inclusive: is_inclusive(op), last: expr(b, inner.next()?) })
-                    }
-                    None => ForOver::List(first),
-                }
-            },
-            block: block(b, inner.next()?),
-        },
+        Rule::for_stmt => {
+            let name = name(inner.next()?);
+            let first = expr(b, inner.next()?);
+            let over = match inner.next_if(|next| next.rule() == Rule::range_op) {
+                Some(op) => ForOver::Range(Range { first, inclusive: is_inclusive(op), last: expr(b, inner.next()?) }),
+                None => ForOver::List(first),
+            };
+            ClauseKind::For { name, over, block: block(b, inner.next()?) }
+        }
         Rule::while_stmt => ClauseKind::While {
             condition: super::build_expr::condition(b, inner.next()?)?,
             block: block(b, inner.next()?),

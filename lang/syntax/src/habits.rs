@@ -284,9 +284,13 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
             help: format!("write `at {channel} {value}` in place of `, {channel} {value}`"),
         });
     }
+    if expected.starts_with("`depth`") { unnamed_setpoint(rest, value) } else { None }
+}
+
+/// The value of a setpoint without its name, after `at`.
+fn unnamed_setpoint(rest: &str, value: &str) -> Option<Habit> {
     // `goto p at 1,5 m/s`
-    if expected.starts_with("`depth`")
-        && let Some((whole, decimals)) = line_end(rest).split_once(',')
+    if let Some((whole, decimals)) = line_end(rest).split_once(',')
         && whole.chars().all(|c| c.is_ascii_digit())
         && let Some((_, unit)) = quantity(decimals).filter(|_| decimals.starts_with(|c: char| c.is_ascii_digit()))
     {
@@ -297,7 +301,7 @@ fn setpoint(before: &str, rest: &str, expected: &str) -> Option<Habit> {
         });
     }
     // `goto p at 3 m/s`
-    if expected.starts_with("`depth`") && rest.starts_with(|c: char| c.is_ascii_digit()) {
+    if rest.starts_with(|c: char| c.is_ascii_digit()) {
         let channel = match quantity(value) {
             Some((_, unit)) if !unit.contains('/') && !unit.starts_with("kn") => "depth",
             _ => "speed",

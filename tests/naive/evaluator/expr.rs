@@ -212,8 +212,38 @@ fn fitting(v: Vector) -> Value {
     Value::pair(fits(v.north), fits(v.east))
 }
 
+/// What gives an area, or a place on one.
+fn of_area(op: Builtin, operands: &[Value]) -> Option<Value> {
+    use Builtin as B;
+    let n = |i: usize| operands[i].number();
+    let at = |i: usize| &operands[i];
+    Some(match op {
+        B::Rectangle => {
+            let area = Area::rectangle(at(0).point(), at(1).heading(), n(2), n(3));
+            Value::Area(area.edges().collect())
+        }
+        B::Polygon => {
+            let corners: Vec<Point> = at(0).list().iter().map(Value::point).collect();
+            let area = Area::polygon(&corners).ok();
+            Value::Maybe(area.map(|area| Box::new(Value::Area(area.edges().collect()))))
+        }
+        B::Center => Value::of_point(center(at(0).edges())),
+        B::Corner => {
+            let near = operands.get(2).map_or_else(|| center(at(0).edges()), Value::point);
+            Value::of_point(corner(at(0).edges(), at(1).heading(), near))
+        }
+        B::NearestEdge => Value::of_edge(nearest_edge(at(0).edges(), at(1).point())),
+        B::Exit => Value::of_point(exit(at(0).edges(), at(1).point(), at(2).heading())),
+        B::Run => fitting(exit(at(0).edges(), at(1).point(), at(2).heading()) - at(1).point()),
+        _ => return None,
+    })
+}
+
 fn builtin(op: Builtin, operands: &[Value]) -> Value {
     use Builtin as B;
+    if let Some(value) = of_area(op, operands) {
+        return value;
+    }
     let n = |i: usize| operands[i].number();
     let at = |i: usize| &operands[i];
     let number = match op {
@@ -262,30 +292,16 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Dot => fits(at(0).vector().dot(at(1).vector())),
         B::Along => fits(at(0).vector().along(at(1).heading())),
         B::Pair | B::Line => return Value::Parts(operands.to_vec()),
-        B::Rectangle => {
-            let area = Area::rectangle(at(0).point(), at(1).heading(), n(2), n(3));
-            return Value::Area(area.edges().collect());
-        }
-        B::Polygon => {
-            let corners: Vec<Point> = at(0).list().iter().map(Value::point).collect();
-            let area = Area::polygon(&corners).ok();
-            return Value::Maybe(area.map(|area| Box::new(Value::Area(area.edges().collect()))));
+        B::Rectangle | B::Polygon | B::Center | B::Corner | B::NearestEdge | B::Exit | B::Run => {
+            unreachable!("`of_area` gives it")
         }
         B::LineVector => {
             let line = at(0).line();
             return fitting(line.end - line.start);
         }
-        B::Center => return Value::of_point(center(at(0).edges())),
-        B::Gap => fits(gap(at(0).edges(), at(1).point())),
-        B::Corner => {
-            let near = operands.get(2).map_or_else(|| center(at(0).edges()), Value::point);
-            return Value::of_point(corner(at(0).edges(), at(1).heading(), near));
-        }
-        B::NearestEdge => return Value::of_edge(nearest_edge(at(0).edges(), at(1).point())),
         B::EdgeGap => fits(at(0).edge().gap(at(1).point())),
         B::EdgeTangent => at(0).edge().tangent(at(1).heading()).radians(),
-        B::Exit => return Value::of_point(exit(at(0).edges(), at(1).point(), at(2).heading())),
-        B::Run => return fitting(exit(at(0).edges(), at(1).point(), at(2).heading()) - at(1).point()),
+        B::Gap => fits(gap(at(0).edges(), at(1).point())),
         B::Top => {
             let list = at(0).list();
             return Value::List(list[..n(1).clamp(0.0, list.len() as f64) as usize].to_vec());

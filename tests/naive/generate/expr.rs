@@ -2,6 +2,52 @@
 
 use super::{Generator, Ty};
 
+/// What makes a truth.
+const CONDITIONS: [&str; 20] = [
+    "($L < $L)",
+    "($L >= $L)",
+    "($R > $R)",
+    "($I == $I)",
+    "($I != $I)",
+    "(not $B)",
+    "($B and $B)",
+    "($B or $B)",
+    "($H == $H)",
+    "($M == $M)",
+    // Alone it would show that what is tested by `if let` afterwards is never absent.
+    "(($p != none) or $B)",
+    "($D > $D)",
+    "($S <= $S)",
+    "($P == $P)",
+    "($A < $A)",
+    "($F == $F)",
+    "($i == $i)",
+    "($l == $l)",
+    "($q != $q)",
+    "($i.count > 1)",
+];
+
+/// What makes a length.
+const LENGTHS: [&str; 17] = [
+    "($L + $L)",
+    "($L - $L)",
+    "($R * $L)",
+    "abs($L)",
+    "distance($P, $P)",
+    "$P.north",
+    "($V).length",
+    "$P.along($H)",
+    "max($L, $L)",
+    "clamp($L, 1 m, 30 m)",
+    "($l else $L)",
+    "($D - $D)",
+    "$F.size",
+    "$q.spread($H)",
+    "line($P, $P).length",
+    "sqrt(abs($L) * 4 m)",
+    "twice($L, $I)",
+];
+
 impl Generator {
     /// An expression of a type, so many operations deep.
     pub(super) fn expr(&mut self, ty: Ty, deep: usize) -> String {
@@ -113,29 +159,7 @@ impl Generator {
         let r = &mut self.random;
         let senses = !self.is_pure;
         match ty {
-            Ty::Bool => r.of(&[
-                "($L < $L)",
-                "($L >= $L)",
-                "($R > $R)",
-                "($I == $I)",
-                "($I != $I)",
-                "(not $B)",
-                "($B and $B)",
-                "($B or $B)",
-                "($H == $H)",
-                "($M == $M)",
-                // Alone it would show that what is tested by `if let` afterwards is never absent.
-                "(($p != none) or $B)",
-                "($D > $D)",
-                "($S <= $S)",
-                "($P == $P)",
-                "($A < $A)",
-                "($F == $F)",
-                "($i == $i)",
-                "($l == $l)",
-                "($q != $q)",
-                "($i.count > 1)",
-            ]),
+            Ty::Bool => r.of(&CONDITIONS),
             Ty::Int if senses && r.percent(30) => "chemical.hits($R, of: 4)",
             Ty::Int => r.of(&[
                 "($I + $I)",
@@ -151,25 +175,7 @@ impl Generator {
                 "$i.top($I).count",
                 "many($I, $M)",
             ]),
-            Ty::Length => r.of(&[
-                "($L + $L)",
-                "($L - $L)",
-                "($R * $L)",
-                "abs($L)",
-                "distance($P, $P)",
-                "$P.north",
-                "($V).length",
-                "$P.along($H)",
-                "max($L, $L)",
-                "clamp($L, 1 m, 30 m)",
-                "($l else $L)",
-                "($D - $D)",
-                "$F.size",
-                "$q.spread($H)",
-                "line($P, $P).length",
-                "sqrt(abs($L) * 4 m)",
-                "twice($L, $I)",
-            ]),
+            Ty::Length => r.of(&LENGTHS),
             Ty::Ratio if senses && r.percent(20) => "(chemical.age / 3 s)",
             Ty::Ratio => r.of(&[
                 "($R + $R)",

@@ -2,89 +2,17 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose vehicle cannot be made has failed")]
 
+mod wire;
+
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::{Controller, Milestone, Rows, Server, ServerEvent, recon};
 use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
 use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
-use std::collections::VecDeque;
+use wire::{Chance, Delay, Wire};
 
 /// The vehicle leaves a guest who is silent for so long.
 const TIMED_OUT: ServerEvent = ServerEvent::TimedOut(recon::DIALECT.timeout_ticks);
-
-/// A generator for tests (SplitMix64): what goes wrong is the same in every run.
-struct Chance(u64);
-
-impl Chance {
-    fn draw(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.draw() % n as u64) as usize
-    }
-
-    fn happens(&mut self, share: f64) -> bool {
-        (self.draw() >> 11) as f64 / (1_u64 << 53) as f64 <= share && share > 0.0
-    }
-}
-
-/// A wire that loses lines, changes bytes, repeats lines and adds noise, each with the same share of lines.
-struct Wire {
-    chance: Chance,
-    share: f64,
-}
-
-/// What is under way on a wire, one portion for each tick that it takes.
-#[derive(Default)]
-struct Delay(VecDeque<Vec<u8>>);
-
-impl Delay {
-    fn of(ticks: usize) -> Self {
-        Delay(std::iter::repeat_n(Vec::new(), ticks).collect())
-    }
-
-    /// Puts in what is sent in a tick, and gives what arrives in it.
-    fn carry(&mut self, bytes: Vec<u8>) -> Vec<u8> {
-        self.0.push_back(bytes);
-        self.0.pop_front().unwrap_or_default()
-    }
-
-    /// The wire becomes longer by some ticks.
-    fn lengthen(&mut self, ticks: usize) {
-        (0..ticks).for_each(|_| self.0.push_front(Vec::new()));
-    }
-}
-
-impl Wire {
-    fn carry(&mut self, bytes: &[u8]) -> Vec<u8> {
-        let mut out = Vec::new();
-        for line in bytes.split_inclusive(|b| *b == b'\n') {
-            let mut line = line.to_vec();
-            if self.chance.happens(self.share) {
-                continue;
-            }
-            if self.chance.happens(self.share) {
-                let at = self.chance.below(line.len());
-                line[at] = self.chance.draw() as u8;
-            }
-            if self.chance.happens(self.share) {
-                for _ in 0..self.chance.below(40) {
-                    out.push(self.chance.draw() as u8);
-                }
-            }
-            if self.chance.happens(self.share) {
-                out.extend_from_slice(&line);
-            }
-            out.extend_from_slice(&line);
-        }
-        out
-    }
-}
 
 fn frame() -> TangentFrame {
     TangentFrame { origin: Geodetic::from_degrees(36.18, -75.74) }

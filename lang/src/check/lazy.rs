@@ -1,0 +1,116 @@
+//! Constants and signals of files: each is checked when it is first read, and stands wherever it is read.
+
+use super::{Checker, Lazy, Scope, Setting};
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir;
+use crate::syntax::tree;
+
+/// Operands and operators of a file's signal at most, with those of the signals that it reads.
+const SIGNAL_PARTS_MAX: usize = 256;
+/// A constant waits for so many others at most that are declared after it.
+const WAITING_MAX: usize = 16;
+
+/// Parts of a constant at most, but for those that its own text spells out.
+const CONSTANT_PARTS_MAX: usize = 4096;
+/// Parts of constants that are read, each counted wherever it is: a constant stands for its value there.
+const PARTS_READ_MAX: usize = 1 << 20;
+
+impl Checker<'_> {
+    /// The value of a constant, checked when first needed.
+    pub(super) fn constant(&mut self, id: usize) -> hir::Expr {
+        let value = self.lazy(id, true);
+        if matches!(value.kind, hir::ExprKind::Number(_)) {
+            return value;
+        }
+        let is_told = self.parts_read > PARTS_READ_MAX;
+        self.parts_read = self.parts_read.saturating_add(value.parts());
+        if self.parts_read <= PARTS_READ_MAX {
+            return value;
+        }
+        if !is_told {
+            let message = format!("with this constant more than {PARTS_READ_MAX} parts of constants are read");
+            let finding = Diagnostic::error(Code::LimitsConstants, value.span, message);
+            self.report(finding.help("name it once with `let` where it is read, or make lists of constants shorter"));
+        }
+        self.unknown(value.span)
+    }
+
+    /// The expression of a module's signal.
+    pub(super) fn module_signal(&mut self, id: usize) -> hir::Expr {
+        self.lazy(id, false)
+    }
+
+    fn lazy(&mut self, id: usize, is_const: bool) -> hir::Expr {
+        let table = if is_const { &mut self.consts } else { &mut self.signals };
+        match &table[id] {
+            Lazy::Done(value) => value.clone(),
+            &Lazy::InProgress(name) => {
+                let message = format!("`{}` is made of itself", name.node);
+                self.report(
+                    Diagnostic::error(Code::NamesRecursive, name.span, message).help("give it a value of its own"),
+                );
+                self.unknown(name.span)
+            }
+            &Lazy::Unchecked { name, .. } if self.waiting == WAITING_MAX => {
+                let message = format!("`{}` is made of more than {WAITING_MAX} others declared after it", name.node);
+                let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
+                self.report(finding.help("declare first what others are made of"));
+                self.unknown(name.span)
+            }
+            &Lazy::Unchecked { module, name, ty, value } => {
+                table[id] = Lazy::InProgress(name);
+                self.waiting += 1;
+                let setting = if is_const { Setting::Constant } else { Setting::Instant };
+                let (checked, _) = self.within(Scope::new(module, setting), |c| match ty {
+                    Some(ty) => {
+                        let ty = c.written_type(module, ty);
+                        c.expr_as(value, &ty, &format!("`{}`", name.node))
+                    }
+                    None => c.expr(value, None),
+                });
+                self.waiting -= 1;
+                let checked =
+                    if is_const { self.small_constant(name, checked) } else { self.short_signal(name, checked) };
+                let table = if is_const { &mut self.consts } else { &mut self.signals };
+                table[id] = Lazy::Done(checked.clone());
+                checked
+            }
+        }
+    }
+
+    /// The expression of a file's signal, which stands wherever it is read: of signals that read others twice, each
+    /// would otherwise be twice as long.
+    fn short_signal(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
+        if value.is_within(SIGNAL_PARTS_MAX) {
+            return value;
+        }
+        let message = format!(
+            "`{}` is made of more than {SIGNAL_PARTS_MAX} parts, with those of the signals that it reads",
+            name.node
+        );
+        let finding = Diagnostic::error(Code::LimitsSignal, name.span, message);
+        self.report(finding.help(
+            "declare such signals in the behavior or mission that reads them: there each is computed once a tick",
+        ));
+        self.unknown(name.span)
+    }
+
+    /// The value of a constant, which stands wherever it is read: of lists that hold others twice, each would otherwise be
+    /// twice as long.
+    fn small_constant(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
+        // No part is written with less than a byte.
+        let written = (value.span.end - value.span.start) as usize;
+        if value.is_within(CONSTANT_PARTS_MAX.max(written)) {
+            return value;
+        }
+        let message =
+            format!("`{}` has more than {CONSTANT_PARTS_MAX} parts, with those of the constants in it", name.node);
+        let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
+        self.report(finding.help(
+            "hold fewer constants in one another: each stands for all that it is made of, wherever it is read; write the number \
+             that it comes to, or declare it with `let` in a mission or a behavior",
+        ));
+        self.unknown(name.span)
+    }
+}

@@ -1,0 +1,83 @@
+//! Texts, and the statements that take one, as other languages write them.
+
+use super::super::habits::{Habit, line_end, word};
+use super::write;
+
+/// `"at {}"`.
+pub(super) fn empty_hole(before: &str, rest: &str) -> Option<Habit> {
+    let line = rest.split('\n').next().unwrap_or(rest);
+    let is_empty = before.trim().is_empty() && line.strip_prefix('}').is_some_and(|after| after.contains('"'));
+    is_empty.then(|| Habit {
+        message: Some("no value stands here".to_string()),
+        help: "write the value itself between the braces: `\"at {depth}\"`".to_string(),
+    })
+}
+
+/// What should be a text, or follow one.
+pub(super) fn text(before: &str, rest: &str) -> Option<Habit> {
+    let first = word(before.trim_start());
+    if first == "abort" {
+        if before.trim() == "abort" {
+            if let Some(why) = rest.strip_prefix('(').and_then(quoted) {
+                return write(format!("abort {why}"));
+            }
+            let condition = line_end(rest);
+            let condition = condition.find('"').map_or(condition, |why| &condition[why..]);
+            let joins = matches!(word(condition), "if" | "when" | "on" | "because");
+            let condition = if joins { condition[word(condition).len()..].trim() } else { condition };
+            return match condition {
+                "" => write("abort \"why\""),
+                why if quoted(why).is_some() => write(format!("abort {why}")),
+                condition => write(format!("abort \"why\" on {condition}")),
+            };
+        }
+        if ["if", "when"].contains(&word(rest)) {
+            return write("abort \"why\" on X")
+                .map(|habit| Habit { help: format!("{}: `on` in place of `{}`", habit.help, word(rest)), ..habit });
+        }
+    }
+    if first == "report" && rest.starts_with('"') {
+        let name = before.split('"').nth(1).unwrap_or("NAME");
+        let after = line_end(&rest[1..]);
+        let value = after.trim_start_matches([',', ' ', '=']);
+        return write(format!("report \"{name}\": {}", if value.is_empty() { "position" } else { value }));
+    }
+    if first == "report"
+        && let Some(name) = rest.strip_prefix('(').and_then(quoted)
+    {
+        let value = rest[1..].trim_start()[name.len()..].trim_start_matches([',', ' ', ':']);
+        let value = line_end(value).trim_end_matches(')');
+        return write(format!("report {name}: {}", if value.is_empty() { "position" } else { value }));
+    }
+    let is_value = rest.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    if first == "log" && is_value && before.trim_end().ends_with('"') && before.matches('"').count() == 2 {
+        let text = before.split('"').nth(1).unwrap_or("").trim_end();
+        return Some(Habit {
+            message: None,
+            help: format!("one text holds it all: `log \"{text} {{{}}}\"`", line_end(rest)),
+        });
+    }
+    if first == "log" && rest.starts_with([',', '+']) {
+        let value = line_end(&rest[1..]);
+        return Some(Habit { message: None, help: format!("one text holds it all: `log \"… {{{value}}}\"`") });
+    }
+    None
+}
+
+/// The text on one line with which something begins, with its quotes.
+fn quoted(text: &str) -> Option<&str> {
+    let text = text.trim_start();
+    let inside = text.strip_prefix('"')?;
+    let end = inside.find(['"', '\n']).filter(|end| inside[*end..].starts_with('"'))?;
+    Some(&text[..end + 2])
+}
+
+/// `"{d:.2f}"`: how a value is printed is said where other languages say it.
+pub(super) fn format(before: &str, rest: &str, expected: &str) -> Option<Habit> {
+    let (format, after) = rest.strip_prefix(':')?.split_once('}')?;
+    let is_format = format.chars().all(|c| c.is_ascii_alphanumeric() || "<>^=+-_.,% ".contains(c));
+    (expected == "`else`" && is_format && after.contains('"')).then(|| Habit {
+        message: Some("no format follows a value".to_string()),
+        help: format!("write `{{{}}}`: quantities are printed with their unit, rounded for people", before.trim()),
+    })
+}
