@@ -5,7 +5,7 @@
 
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_session::{Plan, load};
-use albacore_vehicle::{Channel, Control, Lag, Snapshot};
+use albacore_vehicle::{Control, Lag, Measurement, Snapshot};
 use std::path::Path;
 
 /// A mission under way on a vehicle of which heading and depth are heard in every tick.
@@ -20,8 +20,8 @@ impl Mission {
         let path = Path::new("tests/link/lag.alb");
         let plan =
             Plan::new(&load(path, None, &[]).unwrap(), &path.display().to_string(), Some(name), Some("calm")).unwrap();
-        let channel = |name: &str| Channel { name: name.into(), width: 1 };
-        let machine = Machine::new(plan.program, &[channel("heading"), channel("depth")]).unwrap();
+        let measurement = |name: &str| Measurement { name: name.into(), width: 1 };
+        let machine = Machine::new(plan.program, &[measurement("heading"), measurement("depth")]).unwrap();
         Mission { machine, tick: 0, told: Vec::new() }
     }
 
@@ -142,8 +142,9 @@ fn the_thermocline_is_found_over_a_link_too() {
     let script = load(path, None, &[]).unwrap();
     let plan = Plan::new(&script, &path.display().to_string(), Some("thermocline"), Some("summer_shelf")).unwrap();
     let names = ["position", "course", "heading", "depth", "water_depth", "temperature", "altitude", "salinity"];
-    let channels = names.map(|name| Channel { name: name.into(), width: if name == "position" { 3 } else { 1 } });
-    let mut machine = Machine::new(plan.program, &channels).unwrap();
+    let measurements =
+        names.map(|name| Measurement { name: name.into(), width: if name == "position" { 3 } else { 1 } });
+    let mut machine = Machine::new(plan.program, &measurements).unwrap();
     let lag = Lag { round_trip: 4, host: None };
     let mut reported = false;
     for tick in 0..900 {
@@ -151,7 +152,7 @@ fn the_thermocline_is_found_over_a_link_too() {
         let temperature = if depth < 18.0 { 20.0 } else { 10.0 };
         let samples = [0.0, 1.5, 1.5, depth, 40.0, temperature, 40.0 - depth, 32.0];
         let mut snapshot = Snapshot { control: Control::InControl, lag, ..Snapshot::default() };
-        (0..).zip(samples).for_each(|(channel, sample)| snapshot.push(channel, &[sample, 0.0, 1.0]));
+        (0..).zip(samples).for_each(|(measurement, sample)| snapshot.push(measurement, &[sample, 0.0, 1.0]));
         machine.step(&snapshot);
         reported |= machine.events().iter().any(|event| format!("{event:?}").starts_with("Reported"));
     }

@@ -3,10 +3,10 @@
 
 use albacore_machine::{Event, Machine};
 use albacore_session::{Plan, load};
-use albacore_vehicle::{Channel, Command, Control, Snapshot, Vertical};
+use albacore_vehicle::{Command, Control, Measurement, Snapshot, Vertical};
 use std::path::Path;
 
-/// The channels that the test speaks on.
+/// The measurements that the test speaks on.
 const HEADING: u16 = 0;
 const DEPTH: u16 = 1;
 const FLOW: u16 = 2;
@@ -15,12 +15,12 @@ const FLOW: u16 = 2;
 fn it_keeps_still_until_the_last_input_has_come_and_then_begins() {
     let path = Path::new("tests/rules/17_limit_while_awaiting.alb");
     let plan = Plan::new(&load(path, None, &[]).unwrap(), &path.display().to_string(), None, None).unwrap();
-    let channel = |name: &str, width| Channel { name: name.into(), width };
-    let channels = [channel("heading", 1), channel("depth", 1), channel("flow", 2)];
-    let mut machine = Machine::new(plan.program, &channels).unwrap();
+    let measurement = |name: &str, width| Measurement { name: name.into(), width };
+    let measurements = [measurement("heading", 1), measurement("depth", 1), measurement("flow", 2)];
+    let mut machine = Machine::new(plan.program, &measurements).unwrap();
     let mut tick = |samples: &[(u16, &[f64])]| -> (Option<Command>, Vec<Event>) {
         let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
-        samples.iter().for_each(|(channel, numbers)| snapshot.push(*channel, numbers));
+        samples.iter().for_each(|(measurement, numbers)| snapshot.push(*measurement, numbers));
         (machine.step(&snapshot), machine.events().to_vec())
     };
     let begun = |events: &[Event]| events.iter().any(|e| matches!(e, Event::Entered(_)));

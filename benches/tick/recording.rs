@@ -25,7 +25,7 @@ impl Recording {
         let script = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(mission), None, &[]).unwrap();
         let plan = Plan::new(&script, mission, None, None).unwrap();
         let mut vehicle = Simulator::new(&plan.scenario, 1).unwrap();
-        let mut machine = Machine::new(Arc::clone(&plan.program), vehicle.channels()).unwrap();
+        let mut machine = Machine::new(Arc::clone(&plan.program), vehicle.measurements()).unwrap();
         let mut began: Option<(usize, State)> = None;
         let (mut snapshots, mut commands) = (Vec::new(), Vec::new());
         let mut snapshot = Snapshot::default();

@@ -3,7 +3,8 @@
 use crate::hir::{self, Activity, Block, Body, Hir, TextPart};
 use crate::source::{Sources, Span};
 use crate::syntax;
-use crate::{ENTRY, Script, nearest, suggest};
+use crate::{ENTRY, Script};
+use albacore_wording::{listed, nearest};
 
 /// A strategy, or a mission whose body is a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,7 +83,7 @@ impl Script {
             }
             (None, several) => {
                 let message = format!("`{file}` has several switching tables");
-                return Err(NoDiagram { message, help: Some(format!("name one of {}", suggest::listed(several))) });
+                return Err(NoDiagram { message, help: Some(format!("name one of {}", listed(several))) });
             }
         };
         if let Some(found) = self.hir.activities.iter().find(|a| a.owner.is_none() && a.full_name == chosen) {
@@ -99,7 +100,7 @@ impl Script {
         let help = match nearest(chosen, all.iter().copied()).or(all.iter().copied().find(|n| last(n) == last(chosen)))
         {
             Some(near) => Some(format!("did you mean `{near}`?")),
-            None => (!all.is_empty()).then(|| format!("switching tables are {}", suggest::listed(&all))),
+            None => (!all.is_empty()).then(|| format!("switching tables are {}", listed(&all))),
         };
         Err(NoDiagram { message, help })
     }
@@ -107,7 +108,7 @@ impl Script {
 
 /// What an importing script may have meant.
 fn imported(names: &[&str]) -> Option<String> {
-    (!names.is_empty()).then(|| format!("name one that it imports: {}", suggest::listed(names)))
+    (!names.is_empty()).then(|| format!("name one that it imports: {}", listed(names)))
 }
 
 /// The diagram of an activity, if it has a table.

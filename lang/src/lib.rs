@@ -17,19 +17,17 @@ pub mod prompt;
 mod rules;
 pub mod types;
 
-pub use albacore_formats::FileFault;
 pub use albacore_syntax as syntax;
 pub use albacore_syntax::{code, diagnostic, doc, fmt, source};
-pub use albacore_wording::{help as suggestion, nearest};
 pub use lower::{
     ExpectProgram, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots,
 };
 pub use rules::{FAR_M, hemisphere};
 
 use crate::code::Code;
+pub use albacore_formats::FileFault;
 use albacore_geometry::Geodetic;
 use albacore_program::{Channel, Program};
-use albacore_wording as suggest;
 use broken::Broken;
 use cascade::Cascades;
 use check::{Checked, Override};

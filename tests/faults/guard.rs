@@ -2,7 +2,7 @@
 
 use albacore_session::Plan;
 use albacore_sim::Simulator;
-use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Measurement, Snapshot, Vehicle, VehicleError, Vertical};
 use std::sync::{Arc, Mutex};
 
 /// The limits that `survey.alb` gives itself: m/s, m, m.
@@ -60,8 +60,8 @@ impl Guard {
 }
 
 impl Vehicle for Guard {
-    fn channels(&self) -> &[Channel] {
-        self.vehicle.channels()
+    fn measurements(&self) -> &[Measurement] {
+        self.vehicle.measurements()
     }
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {

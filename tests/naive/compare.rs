@@ -19,7 +19,7 @@ pub fn compare(script: &Script, mission: &str, vehicle: &mut dyn Vehicle, ticks_
     let checked = script.checked(mission).expect("the mission");
     let most = script.cost(mission).expect("the mission").expect("a cost").steps;
     let recovery = recovery(checked.0, checked.2);
-    let sensors = vehicle.channels().to_vec();
+    let sensors = vehicle.measurements().to_vec();
     let mut machine = Machine::new(Arc::new(program), &sensors).expect("a vehicle that delivers");
     let mut evaluator = Evaluator::new(checked, &script.sources, &recovery, &sensors).expect("a mission");
     let mut run = Run { ticks: 0, events: Vec::new(), difference: None };

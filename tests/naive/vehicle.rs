@@ -2,7 +2,9 @@
 
 use crate::random::Random;
 use albacore_geometry::{Heading, Point};
-use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical, channels};
+use albacore_vehicle::{
+    Command, Control, Measurement, Snapshot, TICK_S, Vehicle, VehicleError, Vertical, measurements,
+};
 
 /// So much faster than life: what takes minutes at sea takes some dozens of ticks.
 const HASTE: f64 = 10.0;
@@ -31,14 +33,14 @@ const ABSURD: [f64; 16] = [
 pub struct Chance {
     /// Whether its sensors tell absurd numbers.
     is_absurd: bool,
-    channels: Vec<Channel>,
+    measurements: Vec<Measurement>,
     random: Random,
     tick: u64,
     position: Point,
     command: Command,
     depth: f64,
     chemical: f64,
-    /// Until which tick each channel is silent, and the link suspended.
+    /// Until which tick each measurement is silent, and the link suspended.
     silent: Vec<u64>,
     suspended: u64,
     /// How it ends, if by the vehicle, and when.
@@ -47,22 +49,22 @@ pub struct Chance {
 }
 
 impl Chance {
-    /// One whose sensors tell absurd numbers, and on a channel `told` four of them.
+    /// One whose sensors tell absurd numbers, and on a measurement `told` four of them.
     pub fn absurd(seed: u64) -> Self {
         let mut vehicle = Chance { is_absurd: true, ..Chance::new(seed) };
-        vehicle.channels.push(Channel { name: "told".to_string(), ..vehicle.channels[0].clone() });
+        vehicle.measurements.push(Measurement { name: "told".to_string(), ..vehicle.measurements[0].clone() });
         vehicle
     }
 
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed, 2);
-        let channels = channels::all();
+        let measurements = measurements::all();
         let ends = [Control::Released, Control::TimedOut, Control::Disconnected, Control::Refused];
         let end = random.percent(8).then(|| (1 + random.bits() % 150, ends[random.below(ends.len())]));
         Chance {
             is_absurd: false,
-            silent: (0..channels.len()).map(|_| if random.percent(15) { random.bits() % 12 } else { 0 }).collect(),
-            channels,
+            silent: (0..measurements.len()).map(|_| if random.percent(15) { random.bits() % 12 } else { 0 }).collect(),
+            measurements,
             tick: 0,
             position: Point::new(40.0 * random.uniform() - 20.0, 40.0 * random.uniform() - 20.0),
             command: Command {
@@ -102,44 +104,44 @@ impl Chance {
 }
 
 impl Vehicle for Chance {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
+    fn measurements(&self) -> &[Measurement] {
+        &self.measurements
     }
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         snapshot.samples.clear();
         self.live();
-        let mut say = |vehicle: &mut Self, channel: u16, numbers: &[f64]| {
-            if vehicle.tick >= vehicle.silent[usize::from(channel)] {
-                snapshot.push(channel, numbers);
+        let mut say = |vehicle: &mut Self, measurement: u16, numbers: &[f64]| {
+            if vehicle.tick >= vehicle.silent[usize::from(measurement)] {
+                snapshot.push(measurement, numbers);
             }
         };
         let heading = self.command.heading.radians();
         let sigma = 5.0 * self.random.uniform();
-        say(self, channels::POSITION, &[self.position.north, self.position.east, sigma]);
-        say(self, channels::COURSE, &[heading]);
-        say(self, channels::HEADING, &[heading]);
-        say(self, channels::SPEED, &[self.command.speed]);
-        say(self, channels::DEPTH, &[self.depth]);
-        say(self, channels::ALTITUDE, &[BOTTOM_M - self.depth]);
+        say(self, measurements::POSITION, &[self.position.north, self.position.east, sigma]);
+        say(self, measurements::COURSE, &[heading]);
+        say(self, measurements::HEADING, &[heading]);
+        say(self, measurements::SPEED, &[self.command.speed]);
+        say(self, measurements::DEPTH, &[self.depth]);
+        say(self, measurements::ALTITUDE, &[BOTTOM_M - self.depth]);
         if self.random.percent(60) {
-            say(self, channels::WATER_DEPTH, &[BOTTOM_M]);
+            say(self, measurements::WATER_DEPTH, &[BOTTOM_M]);
         }
         if self.tick.is_multiple_of(5) {
             let flow = [0.4 * self.random.uniform() - 0.2, 0.4 * self.random.uniform() - 0.2];
-            say(self, channels::FLOW, &flow);
+            say(self, measurements::FLOW, &flow);
         }
         for _ in 0..self.random.below(4) {
             let noise = if self.random.percent(3) { f64::NAN } else { 0.02 * self.random.uniform() };
             let chemical = self.chemical + noise;
-            say(self, channels::CHEMICAL, &[chemical]);
+            say(self, measurements::CHEMICAL, &[chemical]);
         }
         if self.tick.is_multiple_of(7) {
             let battery = 1.0 - self.tick as f64 / 400.0;
-            say(self, channels::BATTERY, &[battery]);
+            say(self, measurements::BATTERY, &[battery]);
         }
         if self.is_absurd {
-            snapshot.push(self.channels.len() as u16 - 1, &[0.0; 4]);
+            snapshot.push(self.measurements.len() as u16 - 1, &[0.0; 4]);
             for number in snapshot.samples.iter_mut().flat_map(|sample| &mut sample.reading) {
                 if self.random.percent(30) {
                     *number = ABSURD[self.random.below(ABSURD.len())];

@@ -1,7 +1,7 @@
 //! The latest samples, and whether they are fresh enough.
 
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_vehicle::{Sample, channels};
+use albacore_vehicle::{Sample, measurements};
 
 /// The latest valid samples, and the ticks on which they came.
 #[derive(Clone)]
@@ -56,30 +56,30 @@ impl Senses {
             if !a.is_finite() || !b.is_finite() {
                 continue;
             }
-            match sample.channel {
-                channels::POSITION => {
+            match sample.measurement {
+                measurements::POSITION => {
                     self.position = Point::new(a, b);
                     self.position_at = Some(tick);
                 }
-                channels::COURSE => {
+                measurements::COURSE => {
                     self.course = Heading::from_radians(a);
                     self.course_at = Some(tick);
                 }
-                channels::HEADING => {
+                measurements::HEADING => {
                     self.heading = Heading::from_radians(a);
                     self.heading_at = Some(tick);
                 }
-                channels::FLOW => {
+                measurements::FLOW => {
                     self.flow = Vector::new(a, b);
                     self.flow_at = Some(tick);
                 }
-                channels::CHEMICAL => {
+                measurements::CHEMICAL => {
                     let first = self.chemical_at != Some(tick);
                     self.chemical_peak = if first { a } else { self.chemical_peak.max(a) };
                     self.chemical = a;
                     self.chemical_at = Some(tick);
                 }
-                channels::WATER_DEPTH => self.water_depth = Some(a),
+                measurements::WATER_DEPTH => self.water_depth = Some(a),
                 _ => {}
             }
         }

@@ -4,9 +4,9 @@ use super::Checker;
 use super::expr::article;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart};
-use crate::suggest;
 use crate::syntax::tree::Binary;
 use crate::types::{RecordInfo, Type};
+use albacore_wording::listed;
 
 /// A number that has no unit, and needs one.
 pub(super) fn unit_help(constant: Option<f64>, unit: &str) -> String {
@@ -168,7 +168,7 @@ impl Checker<'_> {
             }
             Type::Enum(id) => {
                 let variants: Vec<&str> = self.types.enums[*id].variants.iter().map(String::as_str).collect();
-                return Some(format!("there is {}", suggest::listed(&variants)));
+                return Some(format!("there is {}", listed(&variants)));
             }
             Type::Optional(inner) => return self.example(inner),
             Type::List(..) => "a list is asked for, such as `[a, b]`",

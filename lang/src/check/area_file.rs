@@ -1,13 +1,13 @@
 //! `area_file("bay.geojson")`: an area of a file, read while the script is checked, as if its corners stood in the script.
 
 use super::{Checker, ParamInfo};
-use crate::FileFault;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Builtin, Expr, ExprKind, TextPart};
 use crate::source::{Source, Span};
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_formats::FileFault;
 use albacore_formats::area::{self as area_file, BYTES_MAX, Ring};
 use std::collections::BTreeSet;
 

@@ -7,9 +7,9 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Block, Expr, ExprKind, Stmt, StmtKind, VarKind};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree::{self, Condition};
 use crate::types::Type;
+use albacore_wording::listed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -233,12 +233,9 @@ impl<'t> Checker<'t> {
         let missing: Vec<&str> =
             variants.iter().enumerate().filter(|(i, _)| !seen.contains(i)).map(|(_, v)| v.as_str()).collect();
         if otherwise.is_none() && !missing.is_empty() {
-            let finding = Diagnostic::error(
-                Code::TypesMatch,
-                span,
-                format!("this `match` says nothing of {}", suggest::listed(&missing)),
-            )
-            .help("add an arm for each, or `else { … }`");
+            let finding =
+                Diagnostic::error(Code::TypesMatch, span, format!("this `match` says nothing of {}", listed(&missing)))
+                    .help("add an arm for each, or `else { … }`");
             self.report(finding);
         }
         (on, checked, otherwise)

@@ -7,9 +7,9 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree::{self, ExprKind};
 use albacore_syntax::other_languages;
+use albacore_wording::listed;
 
 /// The arguments of a clause, as far as they have been looked at.
 #[derive(Default)]
@@ -183,7 +183,7 @@ impl<'t> Checker<'t> {
         let fits: Vec<&str> = fits.map(|c| c.signature.name.as_str()).collect();
         let message = format!("`{}` takes no such thing: it takes a {}", clause.signature.name, kinds.join(" or a "));
         let finding = Diagnostic::error(Code::ScenariosClause, arg.value.span, message);
-        let help = format!("there is {}", suggest::listed(&fits));
+        let help = format!("there is {}", listed(&fits));
         self.report(finding.help(help));
     }
 

@@ -44,16 +44,16 @@ pub use params::Override;
 pub(crate) use plausibility::range_of_var;
 pub use table::never_ends;
 
+use crate::Library;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Unit;
 use crate::hir::{self, Hir, Interval};
 use crate::names::Names;
 use crate::prompt::Known;
 use crate::source::{Source, Span};
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
-use crate::{FileFault, Library};
+use albacore_formats::FileFault;
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -353,12 +353,12 @@ impl<'t> Checker<'t> {
 
     /// The name that was probably meant.
     fn nearest<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-        if self.findings.len() < HELPED_MAX { suggest::nearest(name, known) } else { None }
+        if self.findings.len() < HELPED_MAX { albacore_wording::nearest(name, known) } else { None }
     }
 
     /// "did you mean `x`?", or else what there is.
     fn suggestion<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str> + Clone) -> Option<String> {
-        if self.findings.len() < HELPED_MAX { suggest::help(name, known) } else { None }
+        if self.findings.len() < HELPED_MAX { albacore_wording::help(name, known) } else { None }
     }
 
     fn type_name(&self, ty: &Type) -> String {

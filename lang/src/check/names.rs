@@ -9,10 +9,10 @@ use crate::dimension;
 use crate::hir::{self, Expr, ExprKind, InputPart, Interval, VarId, VarKind};
 use crate::prompt::{Held, Known};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_syntax::other_languages;
+use albacore_wording::listed;
 
 /// What a path of names leads to.
 pub(super) enum Found {
@@ -181,7 +181,7 @@ impl<'t> Checker<'t> {
                     Def::Activity(_) => finding.help(format!("call it as a statement: `{name}(…)`")),
                     Def::Enum(id) => {
                         let variants: Vec<&str> = self.types.enums[*id].variants.iter().map(String::as_str).collect();
-                        finding.help(format!("its variants are written alone: {}", suggest::listed(&variants)))
+                        finding.help(format!("its variants are written alone: {}", listed(&variants)))
                     }
                     _ => finding,
                 };

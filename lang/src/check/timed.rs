@@ -8,10 +8,10 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{self, Action, ExprKind, Interval, Stmt, StmtKind, Timed, VarId, VarKind, With};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree::{self, WithItem};
 use crate::types::Type;
 use albacore_program::{Channel, Ends, Guide, Param, ParamKind, SetpointKind};
+use albacore_wording::nearest;
 
 /// The enum of an override's ends, in the library's inputs.
 const OVERRIDE_END: &str = "OverrideEnd";
@@ -130,7 +130,7 @@ impl<'t> Checker<'t> {
         if self.local(name).is_some() || self.lookup(self.scope.module, name).is_some() {
             return false;
         }
-        let Some(near) = suggest::nearest(name, ["wait", "hold", "watch"]) else { return false };
+        let Some(near) = nearest(name, ["wait", "hold", "watch"]) else { return false };
         self.report(
             Diagnostic::error(Code::SyntaxClause, e.span, format!("`{name}` begins no statement"))
                 .help(format!("did you mean `{near}`?")),

@@ -7,9 +7,9 @@ use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval, TestNames, VarKind};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind, Item};
 use crate::types::Type;
+use albacore_wording::listed;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -101,7 +101,7 @@ impl<'t> Checker<'t> {
                     Diagnostic::error(Code::TestsTruth, member.span, format!("there is no `truth.{other}` to ask for"));
                 let finding = match self.nearest(other, TRUTHS) {
                     Some(near) => finding.help(format!("did you mean `truth.{near}`?")),
-                    None => finding.help(format!("there is {}", suggest::listed(&TRUTHS))),
+                    None => finding.help(format!("there is {}", listed(&TRUTHS))),
                 };
                 self.report(finding);
                 return Some(self.unknown(span));

@@ -5,9 +5,9 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::{self, Dimension, Unit};
 use crate::source::Span;
-use crate::suggest;
 use crate::syntax::tree::{self, Ty, TyKind};
 use crate::types::Type;
+use albacore_wording::nearest;
 
 /// Lists hold this many elements at most.
 const LIST_CAPACITY_MAX: f64 = 1024.0;
@@ -211,7 +211,7 @@ fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         "mps" => return Some("m/s"),
         "kmh" | "kph" | "kmph" => return Some("km/h"),
         "feet" | "foot" => "ft",
-        _ => return suggest::nearest(word, known.iter().copied()),
+        _ => return nearest(word, known.iter().copied()),
     };
     known.iter().copied().find(|k| *k == meant)
 }

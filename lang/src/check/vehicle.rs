@@ -8,10 +8,10 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse};
 use crate::source::{FileId, Source, Span};
-use crate::suggest;
 use crate::syntax;
 use crate::syntax::tree::{self, ExprKind, Item};
 use crate::types::Type;
+use albacore_wording::{listed, nearest};
 
 /// The clause with which a scenario names a vehicle.
 pub(super) const CLAUSE: &str = "vehicle";
@@ -134,8 +134,7 @@ impl<'t> Checker<'t> {
         let known: Vec<(String, String)> = own.chain(imported).collect();
         let library = if imports.contains_key(LIBRARY) { Vec::new() } else { self.library_vehicles() };
         let names = known.iter().map(|(_, name)| name.as_str());
-        let near =
-            suggest::nearest(written, hulls.iter().copied().chain(names).chain(library.iter().map(String::as_str)));
+        let near = nearest(written, hulls.iter().copied().chain(names).chain(library.iter().map(String::as_str)));
         let path = near.and_then(|near| known.iter().find(|(_, name)| name == near)).map(|(path, _)| path);
         Some(match (near, path) {
             (_, Some(path)) => format!("did you mean `{path}`?"),
@@ -148,12 +147,9 @@ impl<'t> Checker<'t> {
                 let all: Vec<&str> = hulls.iter().copied().chain(paths).collect();
                 let paths: Vec<String> = library.iter().map(|name| format!("{LIBRARY}.{name}")).collect();
                 let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
-                let more = if paths.is_empty() {
-                    ""
-                } else {
-                    &format!(", and with `use {LIBRARY}` {}", suggest::listed(&paths))
-                };
-                format!("there is {}{more}", suggest::listed(&all))
+                let more =
+                    if paths.is_empty() { "" } else { &format!(", and with `use {LIBRARY}` {}", listed(&paths)) };
+                format!("there is {}{more}", listed(&all))
             }
         })
     }

@@ -7,8 +7,8 @@ use crate::hir::{
     Action, Activity, Block, Body, Decl, Expr, ExprKind, Hir, InputPart, Mission, StmtKind, VarKind, With,
 };
 use crate::source::Span;
-use crate::suggest;
 use albacore_program::{Guide, Steering, senses};
+use albacore_wording::listed;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Inputs that the machine reads without being asked: to go over ground in moving water, and to hold a vertical limit.
@@ -102,19 +102,16 @@ fn missing(activity: &Activity, unrequired: &[(&str, Span)], requires_others: bo
         return None;
     }
     let names: Vec<&str> = unrequired.iter().map(|(name, _)| *name).collect();
-    let (reads, them) = (suggest::listed(&names), if names.len() == 1 { "it" } else { "them" });
+    let (reads, them) = (listed(&names), if names.len() == 1 { "it" } else { "them" });
     let message = format!("the mission `{}` reads {reads} and does not require {them}", activity.name);
     let help = match (requires_others, entries(&names).as_slice()) {
         (true, [entry]) => format!("add to its `requires {{ … }}`, on a line of its own: `{entry}`"),
         (false, [entry]) => format!("say it in the mission: `requires {{ {entry} }}`"),
         (true, several) => {
-            format!("add to its `requires {{ … }}`, each on a line of its own: {}", suggest::listed(several))
+            format!("add to its `requires {{ … }}`, each on a line of its own: {}", listed(several))
         }
         (false, several) => {
-            format!(
-                "give the mission `requires {{ … }}`, in it, each on a line of its own: {}",
-                suggest::listed(several)
-            )
+            format!("give the mission `requires {{ … }}`, in it, each on a line of its own: {}", listed(several))
         }
     };
     let finding = Diagnostic::error(Code::MissionsUnrequired, activity.span, message).help(help);

@@ -3,7 +3,7 @@
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Hir, Test};
-use crate::suggest;
+use albacore_wording::nearest;
 
 /// The names that a test asks for and its mission never reports.
 pub fn check(hir: &Hir, test: &Test) -> Vec<Diagnostic> {
@@ -14,7 +14,7 @@ pub fn check(hir: &Hir, test: &Test) -> Vec<Diagnostic> {
     let unknown = |(name, var): &(String, usize)| {
         let what = format!("nothing in `{mission}` reports \"{name}\"");
         let finding = Diagnostic::error(Code::TestsReport, test.vars[*var].span, what);
-        match suggest::nearest(name, names.iter().copied()) {
+        match nearest(name, names.iter().copied()) {
             Some(near) => finding.help(format!("did you mean \"{near}\"?")),
             None if names.is_empty() => finding.help("it reports nothing, nor does what it calls"),
             None => finding.help(format!("it reports {}", listed(&names))),

@@ -4,7 +4,7 @@ use crate::check::Override;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Expr, Hir};
-use crate::suggest;
+use albacore_wording::listed;
 use std::collections::BTreeSet;
 
 /// The scenario in which a script is run.
@@ -32,7 +32,7 @@ pub fn check(hir: &Hir, missions: &[usize], run_in: Option<RunIn>, overrides: &[
             continue;
         }
         let names: Vec<&str> = missions.iter().map(|&id| hir.activities[id].name.as_str()).collect();
-        let (declaration, missions) = (set.declarations.first().map_or("", String::as_str), suggest::listed(&names));
+        let (declaration, missions) = (set.declarations.first().map_or("", String::as_str), listed(&names));
         findings.push(
             Diagnostic::error(
                 Code::SetUnreached,

@@ -25,8 +25,8 @@ use crate::set_point::SetPoint;
 use crate::status::{Phase, Status};
 use albacore_geometry::TangentFrame;
 use albacore_navigation::Navigator;
-use albacore_vehicle::channels::{self, VEHICLE_MODE};
-use albacore_vehicle::{Channel, Control, Lag, Sample, Snapshot};
+use albacore_vehicle::measurements::{self, VEHICLE_MODE};
+use albacore_vehicle::{Control, Lag, Measurement, Sample, Snapshot};
 use allowance::Allowance;
 use goal::{Goal, Held};
 use late::Late;
@@ -80,7 +80,7 @@ struct Heard {
 /// The controller's end of a link.
 pub struct Controller {
     side: Box<dyn ControllerSide>,
-    channels: Vec<Channel>,
+    measurements: Vec<Measurement>,
     received: Received,
     heard: VecDeque<Heard>,
     /// Samples that belong to the next state.
@@ -98,6 +98,8 @@ pub struct Controller {
     /// States in which it has said that we drive it, since we asked or ask again.
     ours: u64,
     goals: [Goal; 3],
+    /// What has to be said before the first set-point may not have been sent.
+    begins_again: bool,
     /// Ticks whose commands came too late to be sent, since the last that was.
     late: Late,
     /// It was told that a tick takes longer to compute than it lasts.
@@ -135,7 +137,7 @@ impl Controller {
     pub fn new(side: Box<dyn ControllerSide>, frame: TangentFrame) -> Self {
         Controller {
             side,
-            channels: channels::all(),
+            measurements: measurements::all(),
             received: Received::new(frame),
             heard: VecDeque::new(),
             gathered: Vec::new(),
@@ -149,6 +151,7 @@ impl Controller {
             over: 0,
             ours: 0,
             goals: Default::default(),
+            begins_again: false,
             late: Late::default(),
             slow_warning: false,
             computed: Duration::ZERO,
@@ -188,8 +191,8 @@ impl Controller {
     }
 
     /// What the vehicle measures.
-    pub fn channels(&self) -> &[Channel] {
-        &self.channels
+    pub fn measurements(&self) -> &[Measurement] {
+        &self.measurements
     }
 
     /// Who drives.
@@ -291,7 +294,7 @@ impl Controller {
                 self.round_trip.reported(*heading, GoalSource::State, self.moment());
             }
         }
-        self.gather(Sample { channel: VEHICLE_MODE, reading: [f64::from(status.phase.number()), 0.0, 0.0, 0.0] });
+        self.gather(Sample { measurement: VEHICLE_MODE, reading: [f64::from(status.phase.number()), 0.0, 0.0, 0.0] });
         let samples = std::mem::take(&mut self.gathered);
         if self.heard.len() == WAITING_MAX {
             self.heard.pop_front();

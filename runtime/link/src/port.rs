@@ -7,7 +7,7 @@ use crate::error::LinkError;
 use crate::transport::Transport;
 use crate::url::{Place, Url};
 use albacore_geometry::TangentFrame;
-use albacore_vehicle::{Channel, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Control, Measurement, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 use clocks::Clocks;
 use std::time::Duration;
 
@@ -126,9 +126,18 @@ impl LinkVehicle {
         Ok(())
     }
 
+    /// Sends what is to be said. Who was stopped since the last look does not know whether the vehicle still listens: it is not
+    /// sent then, and said anew when that is known.
     fn send(&mut self) -> Result<(), VehicleError> {
         let out = self.controller.take_output();
-        if out.is_empty() { Ok(()) } else { self.transport.send(&out).or_else(|error| self.fail(error)) }
+        if out.is_empty() {
+            return Ok(());
+        }
+        if (self.clock)().saturating_sub(self.looked) >= PAUSE {
+            self.controller.take_back();
+            return Ok(());
+        }
+        self.transport.send(&out).or_else(|error| self.fail(error))
     }
 
     fn fail(&mut self, error: LinkError) -> Result<(), VehicleError> {
@@ -168,8 +177,8 @@ impl LinkVehicle {
 }
 
 impl Vehicle for LinkVehicle {
-    fn channels(&self) -> &[Channel] {
-        self.controller.channels()
+    fn measurements(&self) -> &[Measurement] {
+        self.controller.measurements()
     }
 
     fn ready(&mut self) -> Result<bool, VehicleError> {

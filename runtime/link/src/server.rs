@@ -16,7 +16,7 @@ use albacore_front_seat::{FrontSeat, Handover, Known, Milestone, OwnPlan};
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::Route;
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_vehicle::channels::{ALTITUDE, BATTERY, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED};
+use albacore_vehicle::measurements::{ALTITUDE, BATTERY, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED};
 use albacore_vehicle::{Beyond, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks without a message after which who serves faster than real time should wait for the guest.
@@ -338,7 +338,7 @@ impl<V: Vehicle> Server<V> {
         // A number that is none is as if it had not come.
         for sample in self.snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
             let [a, b, ..] = sample.reading;
-            match sample.channel {
+            match sample.measurement {
                 POSITION => self.senses.position = Point::new(a, b),
                 COURSE => self.senses.course = Heading::from_radians(a),
                 HEADING => self.senses.heading = Heading::from_radians(a),

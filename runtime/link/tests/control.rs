@@ -7,7 +7,7 @@ use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::Controller;
 use albacore_link::recon::{self, Adcp, FromVehicle, Mode, State, seal};
 use albacore_navigation::{DeadReckoning, Estimate, Fix, Navigator, Sensed};
-use albacore_vehicle::channels::{COURSE, POSITION};
+use albacore_vehicle::measurements::{COURSE, POSITION};
 use albacore_vehicle::{Command, Control, Snapshot, Vertical};
 use std::time::Duration;
 
@@ -74,7 +74,7 @@ impl Vehicle {
 
     /// The course of the last tick, in degrees.
     fn course(&self) -> Option<f64> {
-        let sample = self.snapshot.samples.iter().find(|sample| sample.channel == COURSE)?;
+        let sample = self.snapshot.samples.iter().find(|sample| sample.measurement == COURSE)?;
         Some((degrees(sample.reading[0]) * 10.0).round() / 10.0)
     }
 
@@ -446,7 +446,7 @@ fn a_navigator_of_ours_makes_the_position_of_what_the_vehicle_tells() {
             vehicle.profiles(2.0, 0.0);
             vehicle.says(0x01);
         }
-        vehicle.snapshot.samples.iter().find(|sample| sample.channel == POSITION).unwrap().reading[0]
+        vehicle.snapshot.samples.iter().find(|sample| sample.measurement == POSITION).unwrap().reading[0]
     };
     assert_eq!(north(None), 0.0, "the vehicle says that it stands at the origin");
     let reckoned = north(Some(Gated(DeadReckoning::new(Point::ORIGIN, 0.05))));

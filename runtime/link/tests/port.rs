@@ -4,9 +4,13 @@
 
 use albacore_front_seat::Handover;
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::{LinkError, LinkVehicle, Route, Server, Transport, Url, recon};
+use albacore_link::{
+    ControllerMessage, ControllerSide, Dialect, Framing, LinkError, LinkVehicle, Received, Route, Server, SetPoint, Settings,
+    Transport, Url, recon,
+};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -46,6 +50,8 @@ struct Wire {
     room: Shared<usize>,
     /// So long what the vehicle says is on its way.
     delay: Shared<Duration>,
+    /// So long the host is stopped while it says something next.
+    stop: Shared<Duration>,
     sent: Shared<String>,
 }
 
@@ -106,6 +112,43 @@ impl Transport for Desk {
     }
 }
 
+/// A dialect whose controller can be stopped between what it has heard and what it says.
+static STOPPING: Dialect = Dialect {
+    controller: stopping,
+    framing: Framing { ..recon::DIALECT.framing },
+    ..recon::DIALECT
+};
+
+thread_local! {
+    static STOPPED: RefCell<Arc<Wire>> = RefCell::default();
+}
+
+struct Stopping(Box<dyn ControllerSide>, Arc<Wire>);
+
+fn stopping(settings: &Settings) -> Result<Box<dyn ControllerSide>, LinkError> {
+    let wire = STOPPED.with_borrow(Arc::clone);
+    Ok(Box::new(Stopping((recon::DIALECT.controller)(settings)?, wire)))
+}
+
+impl ControllerSide for Stopping {
+    fn dialect(&self) -> &'static Dialect {
+        &STOPPING
+    }
+
+    fn hear(&mut self, bytes: &[u8], received: &mut Received) {
+        self.0.hear(bytes, received);
+    }
+
+    fn say(&mut self, what: &ControllerMessage, out: &mut Vec<u8>) {
+        self.0.say(what, out);
+        self.1.now.set(self.1.now.get() + self.1.stop.take());
+    }
+
+    fn text(&self, set_point: SetPoint) -> String {
+        self.0.text(set_point)
+    }
+}
+
 fn vehicle() -> (LinkVehicle, Arc<Wire>) {
     answering(Handover::default())
 }
@@ -127,7 +170,8 @@ fn answering(handover: Handover) -> (LinkVehicle, Arc<Wire>) {
         ticked: Duration::ZERO,
     };
     let clock = Arc::clone(&wire);
-    let url = Url::parse("serial:/dev/desk?dialect=recon").unwrap();
+    STOPPED.set(Arc::clone(&wire));
+    let url = Url { dialect: &STOPPING, ..Url::parse("serial:/dev/desk?dialect=recon").unwrap() };
     (LinkVehicle::new(url, Box::new(desk), frame, 1.0, Box::new(move || clock.now.get())).unwrap(), wire)
 }
 
@@ -427,6 +471,39 @@ fn a_pause_that_begins_with_the_question_for_control_is_a_pause() {
     }
     let said = asked(20, 9);
     assert!(said.iter().any(|(_, sent)| sent.contains("#C,Heading")), "a short one is got over: {said:?}");
+}
+
+/// A run under load was stopped between what it had heard and what it said of it: that was sent as soon as it went on.
+#[test]
+fn what_was_to_be_said_before_a_pause_is_not_said_after_it() {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    let mut headings = (0..).map(|degrees| Command { heading: Heading::from_degrees(f64::from(degrees)), ..AHEAD });
+    wire.stop.set(TICK * 60);
+    while wire.stop.get() > Duration::ZERO {
+        vehicle.sense(&mut snapshot).unwrap();
+        wire.sent.take();
+        vehicle.command(&headings.next().unwrap()).unwrap();
+    }
+    assert_eq!(wire.sent.take(), "");
+    while snapshot.control == Control::InControl {
+        vehicle.sense(&mut snapshot).unwrap();
+        vehicle.command(&headings.next().unwrap()).unwrap();
+    }
+    assert_eq!((snapshot.control, wire.sent.take().as_str()), (Control::Released, ""));
+}
+
+/// What was not said is said when it is known that the vehicle still hears us.
+#[test]
+fn a_pause_while_we_speak_costs_no_more_than_itself() {
+    let (mut vehicle, wire, mut snapshot) = driven();
+    let east = Command { heading: Heading::from_degrees(90.0), ..AHEAD };
+    wire.stop.set(TICK * 20);
+    for _ in 0..40 {
+        vehicle.sense(&mut snapshot).unwrap();
+        vehicle.command(&east).unwrap();
+    }
+    assert!(wire.sent.take().contains("#C,Heading,Goal,90"));
+    assert_eq!(snapshot.control, Control::InControl);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use crate::state::{Run, Senses};
 use albacore_arithmetic::{Age, Operation};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_program::{Input, Program, Slot, senses};
-use albacore_vehicle::channels::{ALTITUDE, POSITION};
-use albacore_vehicle::{Channel, Sample};
+use albacore_vehicle::measurements::{ALTITUDE, POSITION};
+use albacore_vehicle::{Measurement, Sample};
 
 /// An input that a mission requires and the vehicle does not deliver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,18 +29,19 @@ impl std::fmt::Display for MissingInput {
 
 impl std::error::Error for MissingInput {}
 
-/// For each channel of the vehicle the input that reads it.
-pub(crate) fn wiring(program: &Program, channels: &[Channel]) -> Result<Vec<Option<u32>>, MissingInput> {
+/// For each measurement of the vehicle the input that reads it.
+pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<Vec<Option<u32>>, MissingInput> {
     for require in &program.mission.requires {
         let name = &program.inputs[require.input as usize].name;
-        // Who drives is told with every snapshot, and by no channel.
-        if name != senses::CONTROL && !channels.iter().any(|c| c.name == *name) {
-            let delivered = channels.iter().map(|c| c.name.clone()).collect();
+        // Who drives is told with every snapshot, and by no measurement.
+        if name != senses::CONTROL && !measurements.iter().any(|c| c.name == *name) {
+            let delivered = measurements.iter().map(|c| c.name.clone()).collect();
             return Err(MissingInput { name: name.clone(), delivered });
         }
     }
-    let input = |channel: &Channel| program.inputs.iter().position(|i| i.name == channel.name).map(|i| i as u32);
-    Ok(channels.iter().map(input).collect())
+    let input =
+        |measurement: &Measurement| program.inputs.iter().position(|i| i.name == measurement.name).map(|i| i as u32);
+    Ok(measurements.iter().map(input).collect())
 }
 
 /// Where guidance finds what it reads.
@@ -73,10 +74,10 @@ impl Run {
                 self.doubt_sounding();
                 is_echo = false;
             }
-            if sample.input_channel() == POSITION || sample.is_doubted_of(POSITION) {
+            if sample.input_measurement() == POSITION || sample.is_doubted_of(POSITION) {
                 self.state.bottom.doubt_place(sample.is_doubted_of(POSITION));
             }
-            let Some(Some(index)) = wiring.get(sample.input_channel() as usize) else { continue };
+            let Some(Some(index)) = wiring.get(sample.input_measurement() as usize) else { continue };
             let input = &program.inputs[*index as usize];
             let width = (input.width as usize).min(sample.reading.len());
             let numbers = &sample.reading[..width];

@@ -11,7 +11,7 @@ use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
 use albacore_program::{Cause, Code, Input, Program, Slot, header};
-use albacore_vehicle::{Channel, Command, Control, Lag, Sample, Snapshot};
+use albacore_vehicle::{Command, Control, Lag, Measurement, Sample, Snapshot};
 use std::sync::Arc;
 
 /// Executes one mission.
@@ -77,9 +77,9 @@ impl Run {
 }
 
 impl Machine {
-    /// A machine for a mission on a vehicle that delivers these channels.
-    pub fn new(program: Arc<Program>, channels: &[Channel]) -> Result<Self, MissingInput> {
-        let wiring = wiring(&program, channels)?;
+    /// A machine for a mission on a vehicle that delivers these measurements.
+    pub fn new(program: Arc<Program>, measurements: &[Measurement]) -> Result<Self, MissingInput> {
+        let wiring = wiring(&program, measurements)?;
         let run = Run::new(&program);
         Ok(Machine { program, wiring, run })
     }

@@ -2,13 +2,13 @@
 //!
 //! A sample that cannot follow the last one that was believed, for its distance, its time and what is known of the errors of both,
 //! is withheld and told. It is believed when it persists: when samples that follow one another have said so for a while. So is all
-//! of a channel that is wrong more often than now and then, even where it happens to fit. What no sensor can measure is never
+//! of a measurement that is wrong more often than now and then, even where it happens to fit. What no sensor can measure is never
 //! believed. The limits are those of the watch ([`crate::HealthMonitor`]).
 
 use albacore_geometry::math::asin;
 use albacore_geometry::{Heading, Point};
-use albacore_vehicle::channels::{
-    self, ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, Measurement, POSITION, SPEED, measurement,
+use albacore_vehicle::measurements::{
+    self, ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, MeasurementInfo, POSITION, SPEED, info,
 };
 use albacore_vehicle::{Reading, TICK_S};
 use std::fmt;
@@ -37,13 +37,13 @@ const SWAY_MAX: f64 = 2.0;
 const DOUBT: u32 = 2;
 const DOUBTS_TRUSTED: u32 = 6;
 const DOUBTS_MAX: u32 = 20;
-/// That a channel was doubted is told again when it was not for so many ticks: 15 s.
+/// That a measurement was doubted is told again when it was not for so many ticks: 15 s.
 const AGAIN_TICKS: u64 = 150;
 
 /// What is told of a doubt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doubt {
-    channel: u16,
+    measurement: u16,
     change: Change,
 }
 
@@ -59,12 +59,12 @@ enum Change {
 
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Measurement { name, quantity, .. } = measurement(self.channel);
+        let MeasurementInfo { name, quantity, .. } = info(self.measurement);
         let by = |change: f64| quantity.show_difference(change);
         match self.change {
             Change::Rejected(change, time) => write!(f, "rejected: {name}, {} in {time:.1} s", by(change)),
             Change::Believed(change, time) => write!(f, "believed: {name}, {} for {time:.1} s", by(change)),
-            Change::Impossible(sigma) if self.channel == POSITION => {
+            Change::Impossible(sigma) if self.measurement == POSITION => {
                 write!(f, "rejected: {name}, a sigma of {sigma:.1} m cannot be")
             }
             Change::Impossible(value) => write!(f, "rejected: {name}, {value:.1} cannot be"),
@@ -81,9 +81,9 @@ struct Doubtful {
     samples: u32,
 }
 
-/// A channel and what is believed of it.
+/// A measurement and what is believed of it.
 #[derive(Clone, Copy, Debug)]
-struct Channel {
+struct Judged {
     number: u16,
     believed: Option<(Reading, u64)>,
     /// Whether a second sample has confirmed what is believed.
@@ -91,7 +91,7 @@ struct Channel {
     /// When a sample came last, whatever it said: what a vehicle may have done since grows with the time without any.
     came: u64,
     doubtful: Option<Doubtful>,
-    /// How much the channel is doubted.
+    /// How much the measurement is doubted.
     doubts: u32,
     /// When it was doubted last.
     doubted: Option<u64>,
@@ -101,7 +101,7 @@ struct Channel {
 #[derive(Clone, Debug)]
 pub struct Gate {
     /// Those that are judged.
-    channels: Vec<Channel>,
+    measurements: Vec<Judged>,
     /// The speed over ground that was believed last, m/s.
     speed: f64,
     events: Vec<Doubt>,
@@ -109,22 +109,22 @@ pub struct Gate {
 
 impl Default for Gate {
     fn default() -> Self {
-        let judged = (0..).zip(&channels::ALL).filter(|(_, row)| row.is_gated);
-        Gate { channels: judged.map(|(number, _)| Channel::new(number)).collect(), speed: 0.0, events: Vec::new() }
+        let judged = (0..).zip(&measurements::ALL).filter(|(_, row)| row.is_gated);
+        Gate { measurements: judged.map(|(number, _)| Judged::new(number)).collect(), speed: 0.0, events: Vec::new() }
     }
 }
 
 impl Gate {
     /// Whether a sample of a tick is believed.
-    pub fn believes(&mut self, tick: u64, channel: u16, reading: Reading) -> bool {
-        let Some(judge) = self.channels.iter_mut().find(|judged| judged.number == channel) else { return true };
-        if channel == COURSE && self.speed < HAS_COURSE && is_possible(COURSE, reading) {
+    pub fn believes(&mut self, tick: u64, measurement: u16, reading: Reading) -> bool {
+        let Some(judge) = self.measurements.iter_mut().find(|judged| judged.number == measurement) else { return true };
+        if measurement == COURSE && self.speed < HAS_COURSE && is_possible(COURSE, reading) {
             // What follows has nothing to follow.
-            *judge = Channel::new(COURSE);
+            *judge = Judged::new(COURSE);
             return true;
         }
         let believed = judge.judge(tick, reading, self.speed, &mut self.events);
-        if channel == SPEED && believed {
+        if measurement == SPEED && believed {
             self.speed = reading[0];
         }
         believed
@@ -136,9 +136,9 @@ impl Gate {
     }
 }
 
-impl Channel {
+impl Judged {
     fn new(number: u16) -> Self {
-        Channel { number, believed: None, confirmed: false, came: 0, doubtful: None, doubts: 0, doubted: None }
+        Judged { number, believed: None, confirmed: false, came: 0, doubtful: None, doubts: 0, doubted: None }
     }
 
     /// Judges a sample of a vehicle that makes a speed over ground, m/s.
@@ -165,7 +165,7 @@ impl Channel {
             return true;
         }
         let (before, at) = self.believed.unwrap_or((Reading::default(), 0));
-        let change = measurement(number).quantity.difference(reading, before);
+        let change = info(number).quantity.difference(reading, before);
         let first = Doubtful { reading, tick, since: tick, samples: 1 };
         let doubtful = match self.doubtful {
             Some(d) if follows(number, reading, self.held(d.reading), seconds(d.tick), speed) => {
@@ -183,8 +183,8 @@ impl Channel {
             doubtful.samples >= PERSISTS_SAMPLES && lasts >= PERSISTS_S
         };
         if persists {
-            events.push(Doubt { channel: number, change: Change::Believed(change, lasts) });
-            // A bottom that comes nearer is believed for itself; the channel is as doubtful as before.
+            events.push(Doubt { measurement: number, change: Change::Believed(change, lasts) });
+            // A bottom that comes nearer is believed for itself; the measurement is as doubtful as before.
             self.doubts = if nearer { self.doubts } else { 0 };
             self.believe(tick, reading);
             return true;
@@ -213,7 +213,7 @@ impl Channel {
     fn doubt(&mut self, tick: u64, change: Change, events: &mut Vec<Doubt>) {
         let again = self.doubted.is_some_and(|last| tick < last + AGAIN_TICKS);
         if !again {
-            events.push(Doubt { channel: self.number, change });
+            events.push(Doubt { measurement: self.number, change });
         }
         self.doubted = Some(tick);
         self.doubts = (self.doubts + DOUBT).min(DOUBTS_MAX);
@@ -222,21 +222,21 @@ impl Channel {
 
 /// Whether a reading can be. A position may be anywhere: where missions are is not known here; its standard deviation may not.
 fn is_possible(number: u16, reading: Reading) -> bool {
-    if number == POSITION { reading[2] >= 0.0 } else { measurement(number).quantity.can_be(reading) }
+    if number == POSITION { reading[2] >= 0.0 } else { info(number).quantity.can_be(reading) }
 }
 
 /// Whether a reading can follow another after some seconds, of a vehicle that makes a speed over ground, m/s. The gate judges a course
 /// of a vehicle under way alone.
 fn follows(number: u16, now: Reading, before: Reading, time: f64, speed: f64) -> bool {
     if number != COURSE {
-        return measurement(number).can_follow(now, before, time);
+        return info(number).can_follow(now, before, time);
     }
     let (now, before) = (Heading::from_radians(now[0]), Heading::from_radians(before[0]));
     let sway = asin(((SWAY * time).min(SWAY_MAX) / speed).min(1.0));
     let turn = now - before;
     // What waves add to a turn is to either side.
     let turned = before + turn.signum() * (turn.abs() - sway).max(0.0);
-    measurement(HEADING).can_follow([turned.radians(), 0.0, 0.0, 0.0], [before.radians(), 0.0, 0.0, 0.0], time)
+    info(HEADING).can_follow([turned.radians(), 0.0, 0.0, 0.0], [before.radians(), 0.0, 0.0, 0.0], time)
 }
 
 /// Whether a first reading is where missions begin.

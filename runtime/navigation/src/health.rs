@@ -4,21 +4,21 @@
 //! and once when it is over. It changes nothing: what a mission does about a bad sensor is the mission's to say. In simulation
 //! and on a link it is the same. What it cannot see is told in `docs/faults.md`.
 
-mod channel;
 mod commanded;
 mod mirrored;
 mod motion;
 mod noise;
+mod watched;
 
-use albacore_vehicle::channels::{
-    self, ALTITUDE, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH, measurement,
+use albacore_vehicle::measurements::{
+    self, ALTITUDE, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH, info,
 };
 use albacore_vehicle::{Command, Control, Reading, Snapshot, Vertical};
-use channel::Channel;
 use commanded::Commanded;
 use mirrored::Mirrored;
 use motion::Motion;
 use std::fmt;
+use watched::Watched;
 
 /// What was seen is over when it was not seen for so many ticks: 15 s.
 const WELL_AFTER_TICKS: u64 = 150;
@@ -72,11 +72,11 @@ pub struct AnomalyEvent {
 impl fmt::Display for Anomaly {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Anomaly::Silent(channel) => write!(f, "{} silent", measurement(*channel).name),
-            Anomaly::NotANumber(channel) => write!(f, "{} not a number", measurement(*channel).name),
-            Anomaly::OutOfRange(channel) => write!(f, "{} out of range", measurement(*channel).name),
-            Anomaly::Jumps(channel) => write!(f, "{} jumps", measurement(*channel).name),
-            Anomaly::Stuck(channel) => write!(f, "{} stuck", measurement(*channel).name),
+            Anomaly::Silent(measurement) => write!(f, "{} silent", info(*measurement).name),
+            Anomaly::NotANumber(measurement) => write!(f, "{} not a number", info(*measurement).name),
+            Anomaly::OutOfRange(measurement) => write!(f, "{} out of range", info(*measurement).name),
+            Anomaly::Jumps(measurement) => write!(f, "{} jumps", info(*measurement).name),
+            Anomaly::Stuck(measurement) => write!(f, "{} stuck", info(*measurement).name),
             Anomaly::SpeedAgainstPosition => f.write_str("speed and position disagree"),
             Anomaly::CourseAgainstPosition => f.write_str("course and position disagree"),
             Anomaly::HeadingAgainstMotion => f.write_str("heading and motion disagree"),
@@ -99,7 +99,7 @@ impl fmt::Display for AnomalyEvent {
 #[derive(Clone, Debug)]
 pub struct HealthMonitor {
     /// Those that are watched.
-    channels: Vec<Channel>,
+    measurements: Vec<Watched>,
     mirrored: Mirrored,
     motion: Motion,
     commanded: Commanded,
@@ -110,13 +110,13 @@ pub struct HealthMonitor {
     anomalies: Anomalies,
 }
 
-/// What was told by a channel in a tick, where it can be believed by itself.
+/// What was told by a measurement in a tick, where it can be believed by itself.
 #[derive(Clone, Copy, Debug)]
 struct Credible {
     reading: Reading,
     /// For how many ticks it has been exactly the same.
     same: u64,
-    /// Whether the channel has shown that it never stays the same for long.
+    /// Whether the measurement has shown that it never stays the same for long.
     lively: bool,
 }
 
@@ -144,9 +144,9 @@ struct Anomalies {
 
 impl Default for HealthMonitor {
     fn default() -> Self {
-        let watched = (0..).zip(&channels::ALL).filter(|(_, row)| row.is_watched);
+        let watched = (0..).zip(&measurements::ALL).filter(|(_, row)| row.is_watched);
         HealthMonitor {
-            channels: watched.map(|(number, _)| Channel::new(number)).collect(),
+            measurements: watched.map(|(number, _)| Watched::new(number)).collect(),
             mirrored: Mirrored::default(),
             motion: Motion::default(),
             commanded: Commanded::default(),
@@ -162,33 +162,33 @@ impl HealthMonitor {
     pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<AnomalyEvent> {
         self.anomalies.tick = tick;
         let is_steered = self.is_steered(tick, command);
-        let hides = |channel: &Channel| channel.is_of(DEPTH) && channel.rests(tick) > FOLLOWS_TICKS;
-        let is_blind = self.channels.iter().any(hides);
+        let hides = |measurement: &Watched| measurement.is_of(DEPTH) && measurement.rests(tick) > FOLLOWS_TICKS;
+        let is_blind = self.measurements.iter().any(hides);
         let mut heard = Heard { tick, ..Heard::default() };
         let mut water_depth = None;
         for sample in &snapshot.samples {
-            match self.channels.iter_mut().find(|channel| channel.is_of(sample.channel)) {
-                Some(channel) => {
-                    let credible = channel.hear(tick, sample.reading, &mut self.anomalies);
-                    heard.take(sample.channel, credible);
+            match self.measurements.iter_mut().find(|measurement| measurement.is_of(sample.measurement)) {
+                Some(measurement) => {
+                    let credible = measurement.hear(tick, sample.reading, &mut self.anomalies);
+                    heard.take(sample.measurement, credible);
                 }
-                None if sample.channel == WATER_DEPTH => water_depth = Some(sample.reading[0]),
+                None if sample.measurement == WATER_DEPTH => water_depth = Some(sample.reading[0]),
                 None => {}
             }
         }
         self.mirrored.look(&heard);
-        for channel in &mut self.channels {
-            if channel.is_of(DEPTH) {
-                channel.moves(self.mirrored.is_the_vehicles());
+        for measurement in &mut self.measurements {
+            if measurement.is_of(DEPTH) {
+                measurement.moves(self.mirrored.is_the_vehicles());
             }
-            if channel.is_of(ALTITUDE) {
-                channel.learns(!(is_steered && is_blind));
+            if measurement.is_of(ALTITUDE) {
+                measurement.learns(!(is_steered && is_blind));
             }
             // A vehicle that stands still has no course.
-            if channel.is_of(COURSE) && self.motion.speed() < AT_REST {
-                channel.excuse(tick);
+            if measurement.is_of(COURSE) && self.motion.speed() < AT_REST {
+                measurement.excuse(tick);
             }
-            channel.wait(tick, &mut self.anomalies);
+            measurement.wait(tick, &mut self.anomalies);
         }
         let command = command.filter(|_| snapshot.control == Control::InControl);
         self.motion.look(&heard, &mut self.anomalies);
@@ -225,8 +225,8 @@ impl HealthMonitor {
 }
 
 impl Heard {
-    fn take(&mut self, channel: u16, credible: Option<Credible>) {
-        let place = match channel {
+    fn take(&mut self, measurement: u16, credible: Option<Credible>) {
+        let place = match measurement {
             POSITION => &mut self.position,
             COURSE => &mut self.course,
             HEADING => &mut self.heading,

@@ -10,7 +10,7 @@
 use crate::gate::Gate;
 use crate::health::{Anomaly, HealthMonitor};
 use crate::sounding::Sounding;
-use albacore_vehicle::channels::{ALTITUDE, DEPTH, POSITION, measurement};
+use albacore_vehicle::measurements::{ALTITUDE, DEPTH, POSITION, info};
 use albacore_vehicle::{Command, Sample, Snapshot};
 
 /// What speaks against a position.
@@ -37,18 +37,18 @@ impl Trust {
         // What is made of others is doubtful with them, and so it is looked at after them.
         let altitude_is_stuck = self.health.sees(Anomaly::Stuck(ALTITUDE));
         let mut doubtful: Vec<u16> = altitude_is_stuck.then_some(ALTITUDE).into_iter().collect();
-        let sources = |sample: &Sample| measurement(sample.origin()).sources;
+        let sources = |sample: &Sample| info(sample.origin()).sources;
         for made in [false, true] {
             for sample in snapshot.samples.iter_mut().filter(|sample| sources(sample).is_empty() != made) {
                 let believed = !sources(sample).iter().any(|source| doubtful.contains(source))
-                    && (!altitude_is_stuck || sample.channel != ALTITUDE)
-                    && self.gate.believes(tick, sample.channel, sample.reading);
+                    && (!altitude_is_stuck || sample.measurement != ALTITUDE)
+                    && self.gate.believes(tick, sample.measurement, sample.reading);
                 if !believed {
-                    doubtful.push(sample.channel);
+                    doubtful.push(sample.measurement);
                     sample.withhold();
                 } else if !self.sounds(tick, sample, command, snapshot.aground)
-                    || depth_is_stuck && sample.channel == ALTITUDE
-                    || is_misplaced && sample.channel == POSITION
+                    || depth_is_stuck && sample.measurement == ALTITUDE
+                    || is_misplaced && sample.measurement == POSITION
                 {
                     sample.doubt();
                 }
@@ -62,7 +62,7 @@ impl Trust {
     /// Whether a sample that the gate believes can be what the sounder hears.
     fn sounds(&mut self, tick: u64, sample: &Sample, command: Option<&Command>, aground: bool) -> bool {
         let number = sample.reading[0];
-        match sample.channel {
+        match sample.measurement {
             DEPTH if number.is_finite() => self.sounding.dive(number),
             ALTITUDE => return self.sounding.believes(tick, number, command, aground),
             _ => {}

@@ -1,25 +1,25 @@
-//! Inputs that are read without a script's asking, by the names that the standard library declares them with: those of the channels
+//! Inputs that are read without a script's asking, by the names that the standard library declares them with: those of the measurements
 //! that bring them.
 
-use albacore_vehicle::channels;
+use albacore_vehicle::measurements;
 
 /// Where the vehicle believes to be.
-pub const POSITION: &str = channels::name(channels::POSITION);
+pub const POSITION: &str = measurements::name(measurements::POSITION);
 /// Its direction over ground.
-pub const COURSE: &str = channels::name(channels::COURSE);
+pub const COURSE: &str = measurements::name(measurements::COURSE);
 /// Where its nose points.
-pub const HEADING: &str = channels::name(channels::HEADING);
+pub const HEADING: &str = measurements::name(measurements::HEADING);
 /// Its depth.
-pub const DEPTH: &str = channels::name(channels::DEPTH);
+pub const DEPTH: &str = measurements::name(measurements::DEPTH);
 /// Its height above the bottom.
-pub const ALTITUDE: &str = channels::name(channels::ALTITUDE);
+pub const ALTITUDE: &str = measurements::name(measurements::ALTITUDE);
 /// The depth of the water.
-pub const WATER_DEPTH: &str = channels::name(channels::WATER_DEPTH);
+pub const WATER_DEPTH: &str = measurements::name(measurements::WATER_DEPTH);
 /// The current.
-pub const FLOW: &str = channels::name(channels::FLOW);
+pub const FLOW: &str = measurements::name(measurements::FLOW);
 /// What is left in the battery.
-pub const BATTERY: &str = channels::name(channels::BATTERY);
-/// Who drives: told with every snapshot, and by no channel.
+pub const BATTERY: &str = measurements::name(measurements::BATTERY);
+/// Who drives: told with every snapshot, and by no measurement.
 pub const CONTROL: &str = "control";
 /// What the vehicle's own mission is about.
-pub const VEHICLE_MODE: &str = channels::name(channels::VEHICLE_MODE);
+pub const VEHICLE_MODE: &str = measurements::name(measurements::VEHICLE_MODE);

@@ -8,7 +8,7 @@ use albacore_lang::source::Span;
 use albacore_lang::{FAR_M, SAME_PLANE_M, Script};
 use albacore_program::senses;
 use albacore_sim::{Ground, NoGo, Scenario};
-use albacore_vehicle::channels;
+use albacore_vehicle::measurements;
 use albacore_wording::distance;
 
 /// A world in which a mission is to run.
@@ -106,12 +106,12 @@ fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
 
 /// What the mission requires and the vehicle has no sensor for.
 fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
-    let told = world.channels();
-    // Who drives is told with every snapshot, and by no channel.
-    let is_told = |input: &str| input == senses::CONTROL || told.iter().any(|channel| channel.name == input);
+    let told = world.measurements();
+    // Who drives is told with every snapshot, and by no measurement.
+    let is_told = |input: &str| input == senses::CONTROL || told.iter().any(|measurement| measurement.name == input);
     let finding = |(input, span): (&str, Span)| {
         let message = format!("the vehicle of `{scenario}` has no sensor for `{input}`");
-        let help = match channels::all().iter().any(|channel| channel.name == input) {
+        let help = match measurements::all().iter().any(|measurement| measurement.name == input) {
             true => format!("let `{scenario}` have a `ctd()`, which measures temperature and salinity"),
             false => "no simulated vehicle has one: run the mission on a vehicle that tells it".to_string(),
         };

@@ -2,8 +2,10 @@
 
 use crate::bounded::{Unread, read_all, read_file};
 use crate::wanted::Wanted;
+use albacore_formats::FileFault;
 use albacore_lang::source::{SOURCE_BYTES_MAX, Source};
-use albacore_lang::{FileFault, Library, Script, nearest};
+use albacore_lang::{Library, Script};
+use albacore_wording::nearest;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 

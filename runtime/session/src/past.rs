@@ -22,7 +22,7 @@ impl PastRun {
     pub fn read(plan: &Plan, journal: &[u8]) -> Result<Self, Unreadable> {
         let mut reader = Reader::new(journal)?;
         let header = reader.header().clone();
-        let mut memory = InMemory::new(plan, header.seed, &header.channels, header.start);
+        let mut memory = InMemory::new(plan, header.seed, &header.measurements, header.start);
         let mut derived = Derived::new(plan, &header);
         let mut in_simulation = false;
         // Nobody knows of a tick that it was the last one before what follows it is read.
@@ -87,7 +87,7 @@ impl Derived {
     fn new(plan: &Plan, header: &JournalHeader) -> Self {
         Derived {
             program: Arc::clone(&plan.program),
-            position: header.channels.iter().position(|channel| channel.name == senses::POSITION),
+            position: header.measurements.iter().position(|measurement| measurement.name == senses::POSITION),
             active: Active::default(),
             believed: None,
         }
@@ -95,7 +95,7 @@ impl Derived {
 
     fn complete(&mut self, record: &mut TickRecord) {
         for sample in &record.snapshot.samples {
-            if Some(usize::from(sample.input_channel())) == self.position {
+            if Some(usize::from(sample.input_measurement())) == self.position {
                 self.believed = Some(Point::new(sample.reading[0], sample.reading[1]));
             }
         }

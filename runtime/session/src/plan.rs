@@ -5,9 +5,10 @@ use crate::faults::Faults;
 use crate::scenario;
 use crate::wanted::Wanted;
 use albacore_geometry::{Geodetic, TangentFrame};
+use albacore_lang::Script;
 use albacore_lang::diagnostic::{Diagnostic, Severity};
 use albacore_lang::source::{Source, Sources};
-use albacore_lang::{Script, suggestion};
+
 use albacore_link::Dialect;
 use albacore_machine::Chart;
 use albacore_program::Program;
@@ -201,7 +202,7 @@ fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String,
         Some(name) if names.contains(&name) => name.to_string(),
         Some(name) => {
             let message = format!("`{file}` has no mission `{name}`");
-            return Err(PlanError::Asked(message, suggestion(name, names.iter().copied())));
+            return Err(PlanError::Asked(message, albacore_wording::help(name, names.iter().copied())));
         }
         None if names.contains(&stem.as_str()) => stem,
         None => match names.as_slice() {

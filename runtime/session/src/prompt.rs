@@ -199,7 +199,8 @@ impl Prompt {
     }
 
     fn machine_for(&self, program: Arc<Program>) -> Result<Machine, String> {
-        let mut machine = Machine::new(program, self.now.vehicle.channels()).map_err(|missing| missing.to_string())?;
+        let mut machine =
+            Machine::new(program, self.now.vehicle.measurements()).map_err(|missing| missing.to_string())?;
         machine.begin_at(self.now.tick, self.now.recent());
         Ok(machine)
     }

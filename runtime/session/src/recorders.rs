@@ -13,7 +13,7 @@ use crate::picture;
 use crate::plan::Plan;
 use albacore_geometry::Point;
 use albacore_trace::TickRecord;
-use albacore_vehicle::{Channel, Snapshot};
+use albacore_vehicle::{Measurement, Snapshot};
 use notices::Notices;
 use results::Results;
 use trace::Trace;
@@ -89,12 +89,12 @@ pub(crate) struct InMemory {
 }
 
 impl InMemory {
-    /// Of a run with a seed, on a vehicle with these channels, that starts there if that is known.
-    pub fn new(plan: &Plan, seed: u64, channels: &[Channel], start: Option<Point>) -> Self {
+    /// Of a run with a seed, on a vehicle with these measurements, that starts there if that is known.
+    pub fn new(plan: &Plan, seed: u64, measurements: &[Measurement], start: Option<Point>) -> Self {
         InMemory {
             results: Results::new(plan, seed, start),
-            trace: Trace::new(plan, seed, channels),
-            track: Track::new(plan, channels),
+            trace: Trace::new(plan, seed, measurements),
+            track: Track::new(plan, measurements),
             notices: Notices::default(),
         }
     }
@@ -121,17 +121,17 @@ fn missed(steps: u64) -> String {
     format!("{steps} ticks before this are not in trace and picture: the host was too slow")
 }
 
-/// A channel of the vehicle by its name.
+/// A measurement of the vehicle by its name.
 struct Sensor(Option<usize>);
 
 impl Sensor {
-    fn new(channels: &[Channel], name: &str) -> Self {
-        Sensor(channels.iter().position(|channel| channel.name == name))
+    fn new(measurements: &[Measurement], name: &str) -> Self {
+        Sensor(measurements.iter().position(|measurement| measurement.name == name))
     }
 
     /// The latest number of it in a tick, believed or not.
     fn latest(&self, snapshot: &Snapshot) -> Option<f64> {
-        let is_ours = |sample: &&albacore_vehicle::Sample| Some(usize::from(sample.input_channel())) == self.0;
+        let is_ours = |sample: &&albacore_vehicle::Sample| Some(usize::from(sample.input_measurement())) == self.0;
         snapshot.samples.iter().rev().find(is_ours).map(|sample| sample.reading[0])
     }
 }

@@ -53,7 +53,7 @@ impl Run {
     }
 
     fn with(plan: &Plan, seed: u64, driver: Driver, start: Option<Point>) -> Self {
-        let memory = InMemory::new(plan, seed, driver.vehicle().channels(), start);
+        let memory = InMemory::new(plan, seed, driver.vehicle().measurements(), start);
         Run { driver, memory, journal: Journal::default(), record: TickRecord::default() }
     }
 
@@ -74,7 +74,7 @@ impl Run {
             tick_s: TICK_S,
             sources: plan.sources.clone(),
             set: set.to_vec(),
-            channels: self.driver.vehicle().channels().to_vec(),
+            measurements: self.driver.vehicle().measurements().to_vec(),
             start: self.memory.results.start,
         }
     }

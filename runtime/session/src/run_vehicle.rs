@@ -2,7 +2,7 @@
 
 use albacore_geometry::Point;
 use albacore_sim::Simulator;
-use albacore_vehicle::{Channel, Truth, Vehicle};
+use albacore_vehicle::{Measurement, Truth, Vehicle};
 
 /// A vehicle and what is known of it besides.
 pub(crate) enum RunVehicle {
@@ -22,10 +22,10 @@ impl RunVehicle {
     }
 
     /// What it measures.
-    pub fn channels(&self) -> &[Channel] {
+    pub fn measurements(&self) -> &[Measurement] {
         match self {
-            RunVehicle::Simulated(simulator) => simulator.channels(),
-            RunVehicle::Linked(vehicle) => vehicle.channels(),
+            RunVehicle::Simulated(simulator) => simulator.measurements(),
+            RunVehicle::Linked(vehicle) => vehicle.measurements(),
         }
     }
 

@@ -114,7 +114,7 @@ struct Judged {
 fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError> {
     let (mut driver, start) = Driver::simulated(plan, seed)?;
     let expectations = Expectations::new(plan, test, seed, start);
-    let trace = test.snapshots.contains(&seed).then(|| Trace::new(plan, seed, driver.vehicle().channels()));
+    let trace = test.snapshots.contains(&seed).then(|| Trace::new(plan, seed, driver.vehicle().measurements()));
     let mut recorders = (expectations, trace);
     driver.fold(&mut recorders, &AtomicBool::new(false));
     let (expectations, trace) = recorders;

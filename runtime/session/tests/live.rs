@@ -6,7 +6,7 @@ use albacore_machine::Machine;
 use albacore_session::{LiveOptions, LiveRun, LiveUpdate, Outcome, PICTURE, Plan, Run, Sink, WAITING_BYTES, load};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Ending, Journal};
-use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError};
+use albacore_vehicle::{Command, Measurement, Snapshot, Vehicle, VehicleError};
 use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -37,8 +37,8 @@ struct Paced {
 }
 
 impl Vehicle for Paced {
-    fn channels(&self) -> &[Channel] {
-        self.vehicle.channels()
+    fn measurements(&self) -> &[Measurement] {
+        self.vehicle.measurements()
     }
 
     fn ready(&mut self) -> Result<bool, VehicleError> {
@@ -189,7 +189,7 @@ fn a_stalled_disk_holds_no_command_and_leaves_a_gap_with_a_checkpoint() {
     assert_eq!(journal.ticks.len() as u64 + missing, end.tick);
 
     // A replay goes on from the checkpoint.
-    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.channels).unwrap();
+    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.measurements).unwrap();
     machine.restore((*gap.state).clone());
     let until = journal.gaps.get(1).map_or(u64::MAX, |next| next.first);
     let after: Vec<_> = journal.ticks.iter().filter(|r| r.tick > gap.last && r.tick < until).collect();

@@ -17,7 +17,7 @@ use crate::world::stratification::{self, Stratification};
 use crate::world::water::{self, Flow};
 use albacore_front_seat::Handover;
 use albacore_geometry::Area;
-use albacore_vehicle::{Channel, Limits};
+use albacore_vehicle::{Limits, Measurement};
 
 /// The most clauses of one name in a scenario.
 const CLAUSES_MAX: usize = 1024;
@@ -61,8 +61,8 @@ pub struct Scenario {
 
 impl Scenario {
     /// What its vehicle tells.
-    pub fn channels(&self) -> Vec<Channel> {
-        self.instruments.channels()
+    pub fn measurements(&self) -> Vec<Measurement> {
+        self.instruments.measurements()
     }
 
     /// What its vehicle makes of commands, whoever gives them: its own limits, and its hull's speed.

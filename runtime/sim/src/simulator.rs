@@ -9,9 +9,9 @@ use crate::world::World;
 use crate::world::survey::Survey;
 use albacore_front_seat::{FrontSeat, Known};
 use albacore_geometry::{Point, Vector};
-use albacore_vehicle::channels::VEHICLE_MODE;
+use albacore_vehicle::measurements::VEHICLE_MODE;
 use albacore_vehicle::{
-    Beyond, Channel, Command, Control, LimitWatch, Limits, Snapshot, TICK_S, Truth, Vehicle, VehicleError, Vertical,
+    Beyond, Command, Control, LimitWatch, Limits, Measurement, Snapshot, TICK_S, Truth, Vehicle, VehicleError, Vertical,
 };
 
 /// Ticks between what the vehicle tells of its own mission.
@@ -23,7 +23,7 @@ const DROP_WEIGHT_KG: f64 = 2.0;
 /// A simulated vehicle in a simulated world.
 #[derive(Clone, Debug)]
 pub struct Simulator {
-    channels: Vec<Channel>,
+    measurements: Vec<Measurement>,
     world: World,
     vehicle: Hull,
     instruments: Instruments,
@@ -54,7 +54,7 @@ impl Simulator {
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
         let mut simulator = Simulator {
-            channels: scenario.channels(),
+            measurements: scenario.measurements(),
             vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
             instruments: Instruments::new(&scenario.instruments, start, seed),
@@ -231,8 +231,8 @@ impl Simulator {
 }
 
 impl Vehicle for Simulator {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
+    fn measurements(&self) -> &[Measurement] {
+        &self.measurements
     }
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {

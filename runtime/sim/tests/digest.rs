@@ -27,7 +27,7 @@ fn digest(seed: u64) -> Result<u64, Box<dyn Error>> {
         simulator.command(&Command::new(heading, 2.0, Vertical::Altitude(2.0)))?;
         simulator.sense(&mut snapshot)?;
         for sample in &snapshot.samples {
-            digest = fold(digest, u64::from(sample.channel));
+            digest = fold(digest, u64::from(sample.measurement));
             digest = sample.reading.iter().fold(digest, |digest, number| fold(digest, number.to_bits()));
         }
         read += usize::from(simulator.truth().concentration > 0.0);

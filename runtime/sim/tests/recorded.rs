@@ -37,8 +37,8 @@ fn sensors_read_the_record() {
 
     simulator.take_over().unwrap();
     simulator.command(&Command::new(Heading::NORTH, 1.0, Vertical::Depth(5.0))).unwrap();
-    let channel = |name: &str| simulator.channels().iter().position(|c| c.name == name).unwrap() as u16;
-    let (flow, chemical) = (channel("flow"), channel("chemical"));
+    let measurement = |name: &str| simulator.measurements().iter().position(|c| c.name == name).unwrap() as u16;
+    let (flow, chemical) = (measurement("flow"), measurement("chemical"));
     let (mut flows, mut detections, mut saturated) = (Vec::new(), 0, 0);
     for _ in 0..400 {
         simulator.sense(&mut snapshot).unwrap();
@@ -47,10 +47,10 @@ fn sensors_read_the_record() {
         let wanted = 0.04 * record.concentration(Default::default(), nose, time);
         assert!((truth.concentration - wanted).abs() < 1e-9 * wanted.max(1.0), "{} not {wanted}", truth.concentration);
         for sample in &snapshot.samples {
-            if sample.channel == flow {
+            if sample.measurement == flow {
                 flows.push(Vector::new(sample.reading[0], sample.reading[1]));
             }
-            if sample.channel == chemical {
+            if sample.measurement == chemical {
                 detections += u32::from(sample.reading[0] > 0.04);
                 saturated += u32::from(sample.reading[0] >= 1.0);
                 assert!(sample.reading[0] <= 1.0);

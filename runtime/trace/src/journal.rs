@@ -22,7 +22,7 @@ pub use write::Writer;
 use crate::record::{Step, TickRecord};
 use albacore_geometry::Point;
 use albacore_machine::State;
-use albacore_vehicle::Channel;
+use albacore_vehicle::Measurement;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form: one more whenever a record, or what a record holds (such as a snapshot, an event or [`State`]),
@@ -55,8 +55,8 @@ pub struct JournalHeader {
     pub sources: Vec<SourceDigest>,
     /// The parameters changed for this run, as `NAME=VALUE`.
     pub set: Vec<String>,
-    /// What the vehicle measures: a sample's channel is an index into it.
-    pub channels: Vec<Channel>,
+    /// What the vehicle measures: a sample's measurement is an index into it.
+    pub measurements: Vec<Measurement>,
     /// Where the vehicle starts, where that is known.
     pub start: Option<Point>,
 }

@@ -7,7 +7,7 @@ use albacore_machine::{Event, Outcome};
 use albacore_program::Cause;
 use albacore_trace::journal::*;
 use albacore_trace::{Release, Step, TickRecord};
-use albacore_vehicle::{Channel, Command, Control, Snapshot, Truth, Vertical};
+use albacore_vehicle::{Command, Control, Measurement, Snapshot, Truth, Vertical};
 
 fn header() -> JournalHeader {
     JournalHeader {
@@ -18,7 +18,10 @@ fn header() -> JournalHeader {
         tick_s: 0.1,
         sources: vec![SourceDigest { name: "missions/box.alb".into(), digest: 0x1234_5678_9abc_def0 }],
         set: vec!["patience=3min".into()],
-        channels: vec![Channel { name: "position".into(), width: 2 }, Channel { name: "chemical".into(), width: 1 }],
+        measurements: vec![
+            Measurement { name: "position".into(), width: 2 },
+            Measurement { name: "chemical".into(), width: 1 },
+        ],
         start: Some(Point::new(3.0, -4.0)),
     }
 }
@@ -27,7 +30,7 @@ fn records() -> Vec<TickRecord> {
     let tick = |tick| TickRecord { tick, step: Step::Tick, ..TickRecord::default() };
     let snapshot = |readings: &[(u16, &[f64])]| {
         let mut snapshot = Snapshot { control: Control::InControl, ..Snapshot::default() };
-        readings.iter().for_each(|(channel, numbers)| snapshot.push(*channel, numbers));
+        readings.iter().for_each(|(measurement, numbers)| snapshot.push(*measurement, numbers));
         snapshot
     };
     let command = |speed| Command::new(Heading::from_degrees(270.0), speed, Vertical::Depth(3.0));

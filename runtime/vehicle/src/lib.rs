@@ -3,8 +3,8 @@
 //! The simulator, a vehicle at the end of a serial line and the replay of a journal are all a [`Vehicle`]. The machine that
 //! executes a program sees nothing else of them.
 
-pub mod channels;
 mod limits;
+pub mod measurements;
 mod quantity;
 mod truth;
 
@@ -18,12 +18,12 @@ use serde::{Deserialize, Serialize};
 /// The control period: one tick, in seconds.
 pub const TICK_S: f64 = 0.1;
 
-/// The numbers of one sample, in SI units; what each means is the channel's to say.
+/// The numbers of one sample, in SI units; what each means is the measurement's to say.
 pub type Reading = [f64; 4];
 
 /// A kind of measurement that a vehicle delivers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Channel {
+pub struct Measurement {
     /// Its name, which an `input` of the same name reads.
     pub name: String,
     /// How many numbers of a [`Reading`] it uses.
@@ -33,8 +33,8 @@ pub struct Channel {
 /// One measurement, taken since the last tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
-    /// Index into [`Vehicle::channels`]; of a sample that is withheld beyond its end.
-    pub channel: u16,
+    /// Index into [`Vehicle::measurements`]; of a sample that is withheld beyond its end.
+    pub measurement: u16,
     /// Its numbers; unused ones are zero.
     pub reading: Reading,
 }
@@ -72,46 +72,46 @@ pub struct Lag {
     pub host: Option<u64>,
 }
 
-/// Marks the channel of a sample that is not believed: it is kept for whoever reads the journal, and no input takes it.
+/// Marks the measurement of a sample that is not believed: it is kept for whoever reads the journal, and no input takes it.
 const WITHHELD: u16 = 0x8000;
-/// Marks the channel of an altitude that may be no echo of the bottom, or of a position that may be elsewhere: inputs take it, and no
+/// Marks the measurement of an altitude that may be no echo of the bottom, or of a position that may be elsewhere: inputs take it, and no
 /// limit goes by it.
 const DOUBTED: u16 = 0x4000;
 
 impl Sample {
     /// The same, not to be believed.
     pub fn withhold(&mut self) {
-        self.channel |= WITHHELD;
+        self.measurement |= WITHHELD;
     }
 
     /// The same, and no limit is to go by it.
     pub fn doubt(&mut self) {
-        self.channel |= DOUBTED;
+        self.measurement |= DOUBTED;
     }
 
-    /// Whether it is of a channel, and no limit is to go by it.
-    pub fn is_doubted_of(&self, channel: u16) -> bool {
-        self.channel == WITHHELD | channel || self.channel == DOUBTED | channel
+    /// Whether it is of a measurement, and no limit is to go by it.
+    pub fn is_doubted_of(&self, measurement: u16) -> bool {
+        self.measurement == WITHHELD | measurement || self.measurement == DOUBTED | measurement
     }
 
-    /// The channel that it came on, believed or not.
+    /// The measurement that it came on, believed or not.
     pub fn origin(&self) -> u16 {
-        self.channel & !(WITHHELD | DOUBTED)
+        self.measurement & !(WITHHELD | DOUBTED)
     }
 
-    /// The channel of one that inputs take.
-    pub fn input_channel(&self) -> u16 {
-        self.channel & !DOUBTED
+    /// The measurement of one that inputs take.
+    pub fn input_measurement(&self) -> u16 {
+        self.measurement & !DOUBTED
     }
 
-    /// Whether it is of a channel and not to be believed.
-    pub fn is_withheld_of(&self, channel: u16) -> bool {
-        self.channel == WITHHELD | channel
+    /// Whether it is of a measurement and not to be believed.
+    pub fn is_withheld_of(&self, measurement: u16) -> bool {
+        self.measurement == WITHHELD | measurement
     }
 
     /// Whether it is not to be believed.
     pub fn is_withheld(&self) -> bool {
-        self.channel & WITHHELD != 0
+        self.measurement & WITHHELD != 0
     }
 }
 
@@ -130,16 +130,16 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// Adds a sample; numbers beyond the fourth are not carried.
-    pub fn push(&mut self, channel: u16, numbers: &[f64]) {
+    pub fn push(&mut self, measurement: u16, numbers: &[f64]) {
         let mut reading = Reading::default();
         for (slot, number) in reading.iter_mut().zip(numbers) {
             *slot = *number;
         }
-        self.samples.push(Sample { channel, reading });
+        self.samples.push(Sample { measurement, reading });
     }
 }
 
-/// What the vertical channel is to hold.
+/// What the vertical measurement is to hold.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Vertical {
     /// Metres below the surface.
@@ -179,7 +179,7 @@ pub struct VehicleError(pub String);
 /// A vehicle, real or simulated, in steps of one tick.
 pub trait Vehicle {
     /// What it measures, in a fixed order.
-    fn channels(&self) -> &[Channel];
+    fn measurements(&self) -> &[Measurement];
 
     /// Whether the next tick has come. A simulated one always has; a vehicle that lives in time of its own may wait here for
     /// some hundredths of a second, and is asked again.

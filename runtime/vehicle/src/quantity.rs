@@ -4,7 +4,7 @@ use crate::Reading;
 use albacore_geometry::math::{PI, degrees};
 use albacore_geometry::{Heading, Point};
 
-/// What a channel measures.
+/// What a measurement measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// m north, m east, and the standard deviation of both in m.

@@ -11,7 +11,7 @@ use albacore_lang::hir::{Activity, ActivityId, Body, Decl, Expr, ExprKind, Hir, 
 use albacore_lang::source::Sources;
 use albacore_lang::types::TypeTable;
 use albacore_program::{Cause, Channel};
-use albacore_vehicle::{Channel as Sensor, Command, Control, Snapshot, TICK_S, Vertical};
+use albacore_vehicle::{Command, Control, Measurement, Snapshot, TICK_S, Vertical};
 
 /// Where a mission is in its life.
 #[derive(Clone, Copy, PartialEq)]
@@ -43,7 +43,7 @@ const TOUCHED_TICKS: u64 = 100;
 /// The naive evaluator of one mission.
 pub struct Evaluator<'p> {
     pub w: World<'p>,
-    sensors: &'p [Sensor],
+    sensors: &'p [Measurement],
     declared: &'p Mission,
     mission: Activation<'p>,
     recovery: Activation<'p>,
@@ -81,7 +81,7 @@ impl<'p> Evaluator<'p> {
         (hir, types, id): (&'p Hir, &'p TypeTable, ActivityId),
         sources: &'p Sources,
         recovery: &'p Activity,
-        sensors: &'p [Sensor],
+        sensors: &'p [Measurement],
     ) -> Option<Self> {
         let activity = &hir.activities[id];
         let declared = activity.mission.as_ref()?;

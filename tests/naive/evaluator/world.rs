@@ -9,7 +9,7 @@ use albacore_lang::source::Sources;
 use albacore_lang::types::{Type, TypeTable};
 use albacore_machine::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::{Shape, Text, TextPart};
-use albacore_vehicle::{Channel, Sample, TICK_S, Vertical};
+use albacore_vehicle::{Measurement, Sample, TICK_S, Vertical};
 
 /// What a statement asks for.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub struct World<'p> {
     pub fastest: f64,
     /// The fastest turn that is commanded, rad/s.
     pub turn_rate: f64,
-    /// What overlays that own a channel keep in this tick.
+    /// What overlays that own a measurement keep in this tick.
     pub kept: Setpoints,
     /// Rule 17: the recovery runs without aborts.
     pub is_recovering: bool,
@@ -153,9 +153,9 @@ impl<'p> World<'p> {
     }
 
     /// Rule 2: every input is sampled once a tick. A sample with something in it that cannot be counts as none.
-    pub fn sense(&mut self, channels: &[Channel], samples: &[Sample]) {
+    pub fn sense(&mut self, measurements: &[Measurement], samples: &[Sample]) {
         for (input, sensed) in self.hir.inputs.iter().zip(&mut self.inputs) {
-            let own = |sample: &&Sample| channels[sample.channel as usize].name == input.name;
+            let own = |sample: &&Sample| measurements[sample.measurement as usize].name == input.name;
             let width = sensed.latest.len().min(4);
             let valid = samples.iter().filter(own).map(|sample| &sample.reading[..width]);
             let types = std::iter::once(&input.ty).chain(input.fields.iter().map(|(_, ty)| ty));

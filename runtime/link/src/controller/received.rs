@@ -5,7 +5,7 @@ use crate::set_point::SetPoint;
 use crate::status::Status;
 use albacore_geometry::{Geodetic, Heading, TangentFrame};
 use albacore_navigation::{Estimate, Fix, Navigator, Reported, Sensed};
-use albacore_vehicle::channels::{COURSE, HEADING, POSITION, SPEED};
+use albacore_vehicle::measurements::{COURSE, HEADING, POSITION, SPEED};
 use albacore_vehicle::{Reading, Sample, TICK_S};
 
 /// How much came, and how much of it made sense.
@@ -113,19 +113,19 @@ impl Received {
         self.facts.push(Fact::State(status, holds.to_vec()));
     }
 
-    /// A measurement on a channel of ours. It belongs to the state under way, or to the next one.
-    pub fn sample(&mut self, channel: u16, numbers: &[f64]) {
+    /// A sample of one of our measurements. It belongs to the state under way, or to the next one.
+    pub fn sample(&mut self, measurement: u16, numbers: &[f64]) {
         let mut reading = Reading::default();
         for (slot, number) in reading.iter_mut().zip(numbers) {
             *slot = *number;
         }
-        match channel {
+        match measurement {
             HEADING => self.motion.heading = Heading::from_radians(reading[0]),
             COURSE => self.motion.course = Heading::from_radians(reading[0]),
             SPEED => self.motion.speed = reading[0],
             _ => {}
         }
-        self.facts.push(Fact::Sample(Sample { channel, reading }));
+        self.facts.push(Fact::Sample(Sample { measurement, reading }));
     }
 
     /// Where the vehicle believes to be, and the standard deviation of that, m an axis.

@@ -100,6 +100,9 @@ impl Controller {
                 self.notice_of_vehicle(ignored);
             }
         }
+        if std::mem::take(&mut self.begins_again) {
+            return self.say(&ControllerMessage::Begin);
+        }
         // Something else was said in this tick.
         if self.spoke + 1 == now || self.waits_for_answer(now - 1) {
             return;
@@ -114,6 +117,13 @@ impl Controller {
             self.round_trip.sent(heading, moment);
         }
         self.say(&ControllerMessage::SetPoint(asked, command));
+    }
+
+    /// What was said last was not sent.
+    pub fn take_back(&mut self) {
+        self.round_trip.pause();
+        self.begins_again = true;
+        self.goals.iter_mut().for_each(|goal| goal.sent = None);
     }
 
     /// Says that we are here, without asking for anything.

@@ -7,7 +7,7 @@ mod wire;
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::{Controller, Milestone, Rows, Server, ServerEvent, recon};
 use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
-use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
+use albacore_vehicle::measurements::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
 use wire::{Chance, Delay, Wire};
 
@@ -137,7 +137,7 @@ fn takes_control_drives_releases_and_the_vehicle_resumes_its_rows() {
     };
     assert!((20.0..35.0).contains(&break_off.north), "20 s at 1.5 m/s: {break_off:?}");
     assert!(pair.vehicle.position().distance(break_off) > 50.0);
-    let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
+    let depth = pair.snapshot.samples.iter().find(|s| s.measurement == 4).unwrap().reading[0];
     assert!((depth - 5.0).abs() < 0.011, "{depth}");
     assert!(pair.release(10));
     assert_eq!(pair.controller.control(), Control::Released);
@@ -151,7 +151,8 @@ fn takes_control_drives_releases_and_the_vehicle_resumes_its_rows() {
 #[test]
 fn the_controller_sees_what_the_vehicle_believes_as_fine_as_the_dialect_says() {
     let pair = excursion(2, 0.0);
-    let sample = |channel: u16| pair.snapshot.samples.iter().find(|s| s.channel == channel).unwrap().reading;
+    let sample =
+        |measurement: u16| pair.snapshot.samples.iter().find(|s| s.measurement == measurement).unwrap().reading;
     let [north, east, ..] = sample(0);
     assert!(Point::new(north, east).distance(pair.vehicle.position()) < 0.15, "half of 0.0001 minutes each way");
     assert!((sample(1)[0] - sample(2)[0]).abs() < 0.01, "no current: the course is the heading");
@@ -169,13 +170,14 @@ fn temperature_and_salinity_come_of_a_vehicle_that_has_a_ctd() {
     let mut came = Vec::new();
     for _ in 0..100 {
         pair.tick(None);
-        let of = |channel| pair.snapshot.samples.iter().find(|s| s.channel == channel).map(|s| s.reading[0]);
+        let of =
+            |measurement| pair.snapshot.samples.iter().find(|s| s.measurement == measurement).map(|s| s.reading[0]);
         came.extend(of(TEMPERATURE).zip(of(SALINITY)));
     }
     assert_eq!(came, [(13.0, 33.0); 10], "the middle of the thermocline, once a second");
     let mut without = Pair::new("100x30x2", 1, 0.0);
     without.ticks(100, None);
-    assert!(without.snapshot.samples.iter().all(|s| s.channel != TEMPERATURE && s.channel != SALINITY));
+    assert!(without.snapshot.samples.iter().all(|s| s.measurement != TEMPERATURE && s.measurement != SALINITY));
 }
 
 #[test]
@@ -243,7 +245,7 @@ fn commands_beyond_the_scenarios_limits_are_held_at_them_and_noticed() {
     assert!(notices.iter().any(|n| n.contains("error 2, is asked to go deeper than 6.00 m")), "{notices:?}");
     let ignored = "does not follow `#C,Depth,Depth,400.00` and says `#C,Depth,Depth,6.00`";
     assert!(notices.iter().any(|n| n.contains(ignored)), "{notices:?}");
-    let depth = pair.snapshot.samples.iter().find(|s| s.channel == 4).unwrap().reading[0];
+    let depth = pair.snapshot.samples.iter().find(|s| s.measurement == 4).unwrap().reading[0];
     assert!((depth - 6.0).abs() < 0.011, "it holds what it may: {depth}");
 }
 

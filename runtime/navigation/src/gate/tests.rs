@@ -1,11 +1,11 @@
 use super::*;
 
-/// Feeds one channel with readings, one a tick, and gives which ticks were withheld and what was told.
-fn judged(channel: u16, readings: impl IntoIterator<Item = (u64, [f64; 3])>) -> (Vec<u64>, Vec<(u64, String)>) {
+/// Feeds one measurement with readings, one a tick, and gives which ticks were withheld and what was told.
+fn judged(measurement: u16, readings: impl IntoIterator<Item = (u64, [f64; 3])>) -> (Vec<u64>, Vec<(u64, String)>) {
     let mut gate = Gate::default();
     let (mut withheld, mut told) = (Vec::new(), Vec::new());
     for (tick, [a, b, c]) in readings {
-        if !gate.believes(tick, channel, [a, b, c, 0.0]) {
+        if !gate.believes(tick, measurement, [a, b, c, 0.0]) {
             withheld.push(tick);
         }
         told.extend(gate.take_events().iter().map(|doubt| (tick, doubt.to_string())));

@@ -3,7 +3,7 @@
 use super::{Anomalies, Anomaly, Credible, Heard};
 use albacore_geometry::Heading;
 use albacore_geometry::math::PI;
-use albacore_vehicle::channels::{ALTITUDE, DEPTH, HEADING};
+use albacore_vehicle::measurements::{ALTITUDE, DEPTH, HEADING};
 use albacore_vehicle::{Command, Vertical};
 
 /// The heading may be so far from the one commanded, rad, and further for so many ticks, 20 s, in which it turns towards that by no

@@ -1,10 +1,10 @@
-//! The channels of motion against one another: positions against course and speed, heading against the way through the water.
+//! The measurements of motion against one another: positions against course and speed, heading against the way through the water.
 
 use super::{Anomalies, Anomaly, Heard};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::TICK_S;
-use albacore_vehicle::channels::{FLOW, POSITION};
+use albacore_vehicle::measurements::{FLOW, POSITION};
 
 /// Positions and velocities are compared over about so long, s.
 const WINDOW_S: f64 = 60.0;

@@ -1,6 +1,6 @@
 use super::*;
 use albacore_geometry::{Heading, Point};
-use albacore_vehicle::channels::CHEMICAL;
+use albacore_vehicle::measurements::CHEMICAL;
 use albacore_vehicle::{TICK_S, Vertical};
 
 /// What a healthy vehicle tells that swims a square at 2 m/s, 3 m deep, and what one of them makes of it.
@@ -34,11 +34,11 @@ fn watched(ticks: u64, mut spoil: impl FnMut(u64, &mut Snapshot)) -> Vec<(u64, S
     told
 }
 
-/// Spoils the readings of a channel from tick 1000 to 1999.
-fn spoilt(channel: u16, mut spoil: impl FnMut(u64, &mut Reading) -> bool) -> Vec<(u64, String)> {
+/// Spoils the readings of a measurement from tick 1000 to 1999.
+fn spoilt(measurement: u16, mut spoil: impl FnMut(u64, &mut Reading) -> bool) -> Vec<(u64, String)> {
     watched(4000, |tick, snapshot| {
         if (1000..2000).contains(&tick) {
-            snapshot.samples.retain_mut(|s| s.channel != channel || spoil(tick, &mut s.reading));
+            snapshot.samples.retain_mut(|s| s.measurement != measurement || spoil(tick, &mut s.reading));
         }
     })
 }
@@ -54,7 +54,7 @@ fn waves_are_no_fault() {
     let told = watched(20_000, |tick, snapshot| {
         let depth = 3.0 + 1.6 * albacore_geometry::math::sin(tick as f64 * TICK_S / 9.0 * 2.0 * std::f64::consts::PI);
         for sample in &mut snapshot.samples {
-            match sample.channel {
+            match sample.measurement {
                 DEPTH => sample.reading[0] = depth,
                 ALTITUDE => sample.reading[0] = 5.0,
                 WATER_DEPTH => sample.reading[0] = depth + 5.0,
@@ -76,8 +76,8 @@ fn silence_is_told_after_five_periods_and_two_seconds() {
 
 #[test]
 fn each_trouble_has_its_name() {
-    let first = |channel, spoil: &mut dyn FnMut(u64, &mut Reading) -> bool| {
-        let told = spoilt(channel, spoil);
+    let first = |measurement, spoil: &mut dyn FnMut(u64, &mut Reading) -> bool| {
+        let told = spoilt(measurement, spoil);
         let over = told.iter().filter(|(_, what)| what.starts_with("again well")).count();
         assert_eq!(2 * over, told.len(), "{told:?}");
         told.first().map(|(tick, what)| (*tick, what.clone()))
@@ -122,7 +122,7 @@ fn held_above_the_bottom(mut gauge: impl FnMut(u64, f64) -> f64) -> Vec<(u64, St
         depth += (goal - depth).clamp(-0.03, 0.03);
         noise = (tick * 7_919 % 101) as f64 / 500.0 - 0.1;
         for sample in &mut snapshot.samples {
-            match sample.channel {
+            match sample.measurement {
                 DEPTH => sample.reading[0] = gauge(tick, depth),
                 ALTITUDE => sample.reading[0] = 8.0 - depth + noise,
                 WATER_DEPTH => sample.reading[0] = 8.0 + noise,
@@ -151,10 +151,10 @@ fn a_noise_is_known_beside_a_motion_and_of_what_comes_seldom() {
         let bottom = albacore_geometry::math::sin(tick as f64 / 100.0);
         last = if tick < 500 { 8.0 + bottom + (tick * 7_919 % 97) as f64 / 1000.0 } else { last };
         snapshot.samples.retain_mut(|sample| {
-            if sample.channel == ALTITUDE {
+            if sample.measurement == ALTITUDE {
                 sample.reading[0] = last;
             }
-            sample.channel != WATER_DEPTH && (sample.channel != ALTITUDE || tick % 10 == 0)
+            sample.measurement != WATER_DEPTH && (sample.measurement != ALTITUDE || tick % 10 == 0)
         });
     });
     assert_eq!(told, [(550, "detected: altitude stuck".to_string())]);
@@ -170,8 +170,8 @@ fn a_wobble_that_rests_is_no_fault() {
         let step = (((drawn ^ (drawn >> 27)) >> 40) as f64 / (1 << 24) as f64 - 0.5) / 10.0;
         off = if tick % 400 < 340 { (off + step).clamp(-0.7, 0.7) } else { off };
         for sample in &mut snapshot.samples {
-            if [ALTITUDE, WATER_DEPTH].contains(&sample.channel) {
-                sample.reading[0] = if sample.channel == ALTITUDE { 5.0 } else { 8.0 } + off;
+            if [ALTITUDE, WATER_DEPTH].contains(&sample.measurement) {
+                sample.reading[0] = if sample.measurement == ALTITUDE { 5.0 } else { 8.0 } + off;
             }
         }
     });
@@ -184,7 +184,7 @@ fn a_flicker_between_two_steps_is_no_noise() {
     let told = watched(20_000, |tick, snapshot| {
         let flickers = tick < 12_000 && (tick * 7_919 % 101).is_multiple_of(2);
         for sample in &mut snapshot.samples {
-            if sample.channel == SPEED {
+            if sample.measurement == SPEED {
                 sample.reading[0] = if flickers { 2.01 } else { 2.0 };
             }
         }
@@ -198,7 +198,7 @@ fn rounding_is_no_noise() {
     let told = watched(20_000, |tick, snapshot| {
         let last_bits = if tick < 12_000 { (tick * 7_919 % 101) as f64 * 1e-15 } else { 0.0 };
         for sample in &mut snapshot.samples {
-            if sample.channel == COURSE {
+            if sample.measurement == COURSE {
                 sample.reading[0] += last_bits;
             }
         }
@@ -233,7 +233,7 @@ fn who_has_just_risen_is_not_rising() {
         let rise = (0.05 * tick.saturating_sub(1_000) as f64).min(7.0);
         let swell = 0.9 * albacore_geometry::math::sin(tick as f64 * TICK_S / 9.0 * 2.0 * std::f64::consts::PI);
         for sample in &mut snapshot.samples {
-            match sample.channel {
+            match sample.measurement {
                 DEPTH => sample.reading[0] = 8.0 - rise + swell,
                 ALTITUDE => sample.reading[0] = 5.0 + rise,
                 WATER_DEPTH => sample.reading[0] = 13.0 + swell,

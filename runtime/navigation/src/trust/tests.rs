@@ -1,17 +1,17 @@
 use super::*;
-use albacore_vehicle::channels::{BATTERY, COURSE, HEADING, SPEED, WATER_DEPTH};
+use albacore_vehicle::measurements::{BATTERY, COURSE, HEADING, SPEED, WATER_DEPTH};
 
-/// What is withheld of samples, by tick and channel, and what is told.
+/// What is withheld of samples, by tick and measurement, and what is told.
 fn withheld(samples: impl Fn(u64) -> Vec<(u16, f64)>) -> (Vec<(u64, u16)>, Vec<String>) {
     let mut trust = Trust::default();
     let (mut withheld, mut told) = (Vec::new(), Vec::new());
     for tick in 0..100 {
         let mut snapshot = Snapshot::default();
-        samples(tick).into_iter().for_each(|(channel, number)| snapshot.push(channel, &[number]));
+        samples(tick).into_iter().for_each(|(measurement, number)| snapshot.push(measurement, &[number]));
         told.extend(trust.look(tick, &mut snapshot, None).into_iter().filter(|line| !line.starts_with("detected")));
-        let channels = [ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, SPEED, WATER_DEPTH];
-        let of = |channel: &u16| snapshot.samples.iter().any(|sample| sample.is_withheld_of(*channel));
-        withheld.extend(channels.into_iter().filter(of).map(|channel| (tick, channel)));
+        let measurements = [ALTITUDE, BATTERY, COURSE, DEPTH, HEADING, SPEED, WATER_DEPTH];
+        let of = |measurement: &u16| snapshot.samples.iter().any(|sample| sample.is_withheld_of(*measurement));
+        withheld.extend(measurements.into_iter().filter(of).map(|measurement| (tick, measurement)));
     }
     (withheld, told)
 }

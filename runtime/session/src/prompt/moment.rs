@@ -223,8 +223,13 @@ impl Moment {
     /// Where the vehicle believes to be, and when: a line as in a trace.
     pub fn place(&self) -> String {
         let sensed = |name: &str| {
-            let channel = self.vehicle.channels().iter().position(|c| c.name == name)?;
-            self.snapshot.samples.iter().rev().find(|s| s.input_channel() as usize == channel).map(|s| s.reading)
+            let measurement = self.vehicle.measurements().iter().position(|c| c.name == name)?;
+            self.snapshot
+                .samples
+                .iter()
+                .rev()
+                .find(|s| s.input_measurement() as usize == measurement)
+                .map(|s| s.reading)
         };
         let [north, east, ..] = sensed(senses::POSITION).unwrap_or([f64::NAN; 4]);
         let heading = number::heading(sensed(senses::HEADING).map_or(f64::NAN, |r| r[0]));

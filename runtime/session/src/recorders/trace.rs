@@ -6,7 +6,7 @@ use albacore_geometry::Heading;
 use albacore_program::senses;
 use albacore_trace::{BehaviorTrace, Header};
 use albacore_trace::{Step, TickRecord};
-use albacore_vehicle::{Channel, TICK_S};
+use albacore_vehicle::{Measurement, TICK_S};
 
 /// Writes the trace.
 pub(crate) struct Trace {
@@ -16,7 +16,7 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    pub fn new(plan: &Plan, seed: u64, channels: &[Channel]) -> Self {
+    pub fn new(plan: &Plan, seed: u64, measurements: &[Measurement]) -> Self {
         let header = Header {
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
@@ -25,8 +25,8 @@ impl Trace {
         };
         Trace {
             lines: BehaviorTrace::new(&plan.program, &header),
-            heading: Sensor::new(channels, senses::HEADING),
-            depth: Sensor::new(channels, senses::DEPTH),
+            heading: Sensor::new(measurements, senses::HEADING),
+            depth: Sensor::new(measurements, senses::DEPTH),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use albacore_geometry::Point;
 use albacore_program::{ActivityId, Body, Program};
 use albacore_trace::{Step, TickRecord};
-use albacore_vehicle::{Channel, channels};
+use albacore_vehicle::{Measurement, measurements};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    pub fn new(plan: &Plan, delivered: &[Channel]) -> Self {
+    pub fn new(plan: &Plan, delivered: &[Measurement]) -> Self {
         let program = Arc::clone(&plan.program);
         let of_table = |body: &Body| match body {
             Body::Table(table) => table.behaviors.iter().map(|behavior| behavior.activity).collect(),
@@ -40,7 +40,9 @@ impl Track {
         Track {
             in_tables: program.activities.iter().flat_map(|activity| of_table(&activity.body)).collect(),
             program,
-            chemical: delivered.iter().position(|channel| channel.name == channels::name(channels::CHEMICAL)),
+            chemical: delivered
+                .iter()
+                .position(|measurement| measurement.name == measurements::name(measurements::CHEMICAL)),
             has_plume: plan.scenario.has_plume(),
             points: Vec::new(),
             behaviors: Vec::new(),
@@ -81,7 +83,7 @@ impl Recorder for Track {
             self.points.push((at, index));
         }
         let mut samples = record.snapshot.samples.iter();
-        let detected = samples.any(|s| Some(s.channel as usize) == self.chemical && s.reading[0] >= DETECTION);
+        let detected = samples.any(|s| Some(s.measurement as usize) == self.chemical && s.reading[0] >= DETECTION);
         if detected && (record.truth.is_none() || self.has_plume) {
             self.detections.push(at);
         }

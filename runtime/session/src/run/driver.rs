@@ -61,7 +61,7 @@ impl Cause {
 impl Driver {
     /// Before the first tick.
     pub fn new(plan: &Plan, vehicle: RunVehicle) -> Result<Self, PlanError> {
-        let machine = Machine::new(Arc::clone(&plan.program), vehicle.channels())
+        let machine = Machine::new(Arc::clone(&plan.program), vehicle.measurements())
             .map_err(|missing| PlanError::Asked(missing.to_string(), None))?
             .with_chart(plan.chart());
         Ok(Driver {

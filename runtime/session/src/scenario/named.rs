@@ -5,7 +5,8 @@ use crate::files::Files;
 use crate::plan::PlanError;
 use albacore_geometry::Geodetic;
 use albacore_lang::diagnostic::{Diagnostic, settle};
-use albacore_lang::{MissionInfo, ScenarioProgram, Script, suggestion};
+use albacore_lang::{MissionInfo, ScenarioProgram, Script};
+
 use albacore_sim::ScenarioError;
 
 /// Where the missions lie that run in a scenario.
@@ -35,7 +36,8 @@ pub(crate) fn named(
             let message = format!("there is no scenario `{wanted}`");
             let help = match wanted.ends_with(".alb") {
                 true => Some(format!("name one of the file: `{wanted}#NAME`")),
-                false => suggestion(wanted, known.iter().copied()).or_else(|| suggestion(wanted, own.iter().copied())),
+                false => albacore_wording::help(wanted, known.iter().copied())
+                    .or_else(|| albacore_wording::help(wanted, own.iter().copied())),
             };
             return Err(PlanError::Asked(message, help));
         }

@@ -76,7 +76,7 @@ fn a_machine_fed_with_the_journal_does_the_same_again() {
     assert_eq!((ending.outcome, end.tick), (Outcome::Completed, journal.ticks.len() as u64));
     assert_eq!(format!("{:016x}", ending.digest), summary.digest);
 
-    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.channels).unwrap();
+    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.measurements).unwrap();
     for record in &journal.ticks {
         assert_eq!(machine.step(&record.snapshot), record.command, "tick {}", record.tick);
         assert_eq!(machine.events(), record.events, "tick {}", record.tick);
@@ -101,7 +101,7 @@ fn a_machine_fed_with_a_wrong_sample_withholds_it_again() {
     let withheld = |record: &TickRecord| record.snapshot.samples.iter().any(Sample::is_withheld);
     let ticks: Vec<u64> = journal.ticks.iter().filter(|r| withheld(r)).map(|r| r.tick).collect();
     assert_eq!(ticks, [600]);
-    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.channels).unwrap();
+    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.measurements).unwrap();
     for record in &journal.ticks {
         assert_eq!(machine.step(&record.snapshot), record.command, "tick {}", record.tick);
         assert_eq!(machine.events(), record.events, "tick {}", record.tick);

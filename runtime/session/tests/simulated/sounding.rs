@@ -5,8 +5,8 @@
 
 use albacore_session::{Outcome, Plan, Run, Source, load_text};
 use albacore_sim::Simulator;
-use albacore_vehicle::channels::{ALTITUDE, WATER_DEPTH};
-use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError};
+use albacore_vehicle::measurements::{ALTITUDE, WATER_DEPTH};
+use albacore_vehicle::{Command, Measurement, Snapshot, Vehicle, VehicleError};
 use std::sync::{Arc, Mutex};
 
 /// What is asked of the vertical, over which bottom, with which sounder, and what a mission forbids.
@@ -45,8 +45,8 @@ struct Liar {
 }
 
 impl Vehicle for Liar {
-    fn channels(&self) -> &[Channel] {
-        self.vehicle.channels()
+    fn measurements(&self) -> &[Measurement] {
+        self.vehicle.measurements()
     }
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
@@ -55,8 +55,8 @@ impl Vehicle for Liar {
         let depth = self.vehicle.truth().depth;
         let mut deepest = self.deepest.lock().unwrap();
         *deepest = deepest.max(depth);
-        snapshot.samples.retain(|sample| sample.channel != WATER_DEPTH);
-        for sample in snapshot.samples.iter_mut().filter(|sample| sample.channel == ALTITUDE) {
+        snapshot.samples.retain(|sample| sample.measurement != WATER_DEPTH);
+        for sample in snapshot.samples.iter_mut().filter(|sample| sample.measurement == ALTITUDE) {
             sample.reading[0] = (self.tells)(self.tick, sample.reading[0]);
         }
         Ok(())

@@ -7,7 +7,7 @@ use albacore_geometry::{Geodetic, TangentFrame};
 use albacore_link::{Controller, Rows, Server, recon};
 use albacore_session::{Outcome, Plan, Run, load};
 use albacore_sim::Simulator;
-use albacore_vehicle::{Channel, Command, Snapshot, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Measurement, Snapshot, Vehicle, VehicleError, Vertical};
 use std::path::Path;
 
 /// Missions by their file, their name, and the scenario where it is not their own.
@@ -121,8 +121,8 @@ impl Pair {
 }
 
 impl Vehicle for Pair {
-    fn channels(&self) -> &[Channel] {
-        self.controller.channels()
+    fn measurements(&self) -> &[Measurement] {
+        self.controller.measurements()
     }
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {

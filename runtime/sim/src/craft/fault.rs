@@ -1,7 +1,7 @@
 //! What goes wrong: faults of sensors and of the vehicle, each for a while.
 //!
 //! A fault of a sensor changes its samples on their way to who drives, and nothing else: the vehicle's own autopilot keeps the
-//! sensors that it has. Which channels a sensor has, and what each disorder makes of them, is said at [`Sensor`] and
+//! sensors that it has. Which measurements a sensor has, and what each disorder makes of them, is said at [`Sensor`] and
 //! [`SensorFault`]. The kinds are those of PX4's failure injection.
 
 mod clause;

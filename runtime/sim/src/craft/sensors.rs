@@ -29,7 +29,7 @@ use crate::scenario::ScenarioIssues;
 use crate::world::World;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_vehicle::{Channel, Snapshot, TICK_S, Truth, channels};
+use albacore_vehicle::{Measurement, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use ctd::CtdProbe;
 use fluorometer::ChemicalSensor;
@@ -106,8 +106,8 @@ clauses! {
 
 impl InstrumentSetup {
     /// What a vehicle tells that has them.
-    pub fn channels(&self) -> Vec<Channel> {
-        if self.ctd.is_some() { channels::all() } else { channels::without_ctd() }
+    pub fn measurements(&self) -> Vec<Measurement> {
+        if self.ctd.is_some() { measurements::all() } else { measurements::without_ctd() }
     }
 
     /// What of them cannot be.

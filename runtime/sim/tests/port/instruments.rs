@@ -64,7 +64,7 @@ fn a_downward_look_is_not_deceived_by_a_low_boundary() {
 /// What a late instrument tells is what a prompt one told so much earlier.
 #[test]
 fn late_instruments_tell_what_was() {
-    let channels = ["heading", "speed", "course", "depth", "altitude", "flow"];
+    let measurements = ["heading", "speed", "course", "depth", "altitude", "flow"];
     let prompt = scenario();
     let (late, delay) = (15, 1.5);
     let mut tardy = prompt.clone();
@@ -73,17 +73,17 @@ fn late_instruments_tell_what_was() {
     tardy.instruments.pressure.delay = delay;
     tardy.instruments.sounder.delay = delay;
     tardy.instruments.adcp.delay = delay;
-    for channel in channels {
-        let [before, after] = [&prompt, &tardy].map(|scenario| driven(scenario, 60, channel).unwrap());
+    for measurement in measurements {
+        let [before, after] = [&prompt, &tardy].map(|scenario| driven(scenario, 60, measurement).unwrap());
         // The last flow of a minute is told at 58 s.
-        let fewer = if channel == "flow" { 0 } else { late };
+        let fewer = if measurement == "flow" { 0 } else { late };
         assert!(
             before.len() > 15 && before.len() - fewer == after.len(),
-            "{channel}: {} {}",
+            "{measurement}: {} {}",
             before.len(),
             after.len()
         );
-        assert_eq!(before[..after.len()], after[..], "{channel}");
+        assert_eq!(before[..after.len()], after[..], "{measurement}");
     }
 }
 

@@ -21,8 +21,8 @@ fn scenario() -> Scenario {
     }
 }
 
-/// The readings of a channel in some seconds of driving at 2 m/s and 2 m above the bottom.
-fn driven(scenario: &Scenario, seconds: u32, channel: &str) -> Result<Vec<[f64; 4]>, Box<dyn Error>> {
+/// The readings of a measurement in some seconds of driving at 2 m/s and 2 m above the bottom.
+fn driven(scenario: &Scenario, seconds: u32, measurement: &str) -> Result<Vec<[f64; 4]>, Box<dyn Error>> {
     let mut simulator = Simulator::new(scenario, 1)?;
     let mut snapshot = Snapshot::default();
     let mut readings = Vec::new();
@@ -30,14 +30,17 @@ fn driven(scenario: &Scenario, seconds: u32, channel: &str) -> Result<Vec<[f64; 
     simulator.command(&Command::new(Heading::NORTH, 2.0, Vertical::Altitude(2.0)))?;
     for _ in 0..seconds * 10 {
         simulator.sense(&mut snapshot)?;
-        let wanted = snapshot.samples.iter().filter(|s| simulator.channels()[usize::from(s.channel)].name == channel);
+        let wanted = snapshot
+            .samples
+            .iter()
+            .filter(|s| simulator.measurements()[usize::from(s.measurement)].name == measurement);
         readings.extend(wanted.map(|s| s.reading));
     }
     Ok(readings)
 }
 
 fn names(simulator: &Simulator, snapshot: &Snapshot) -> Vec<String> {
-    snapshot.samples.iter().map(|s| simulator.channels()[usize::from(s.channel)].name.clone()).collect()
+    snapshot.samples.iter().map(|s| simulator.measurements()[usize::from(s.measurement)].name.clone()).collect()
 }
 
 #[test]

@@ -25,21 +25,21 @@ impl Serialize for Samples<'_> {
 
 impl Serialize for Short<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Sample { channel, reading } = self.0;
+        let Sample { measurement, reading } = self.0;
         // By its bits: a negative zero is to come back as one.
         let used = reading.iter().rposition(|x| x.to_bits() != 0).map_or(0, |last| last + 1);
-        (channel, &reading[..used]).serialize(serializer)
+        (measurement, &reading[..used]).serialize(serializer)
     }
 }
 
 pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Snapshot, D::Error> {
     let (samples, control, lag, aground) = <(Vec<(u16, Vec<f64>)>, Control, Lag, bool)>::deserialize(deserializer)?;
     let mut snapshot = Snapshot { samples: Vec::with_capacity(samples.len()), control, lag, aground };
-    for (channel, numbers) in samples {
+    for (measurement, numbers) in samples {
         if numbers.len() > Reading::default().len() {
             return Err(D::Error::invalid_length(numbers.len(), &"a reading's numbers"));
         }
-        snapshot.push(channel, &numbers);
+        snapshot.push(measurement, &numbers);
     }
     Ok(snapshot)
 }

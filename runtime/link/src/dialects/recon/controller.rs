@@ -8,7 +8,7 @@ use crate::dialect::Dialect;
 use crate::set_point::SetPoint;
 use albacore_geometry::Vector;
 use albacore_geometry::math::atan2;
-use albacore_vehicle::channels::{
+use albacore_vehicle::measurements::{
     ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, SALINITY, SPEED, TEMPERATURE, WATER_DEPTH,
 };
 

@@ -10,7 +10,7 @@ use crate::server::{Goal, Refusal, Report, Request, Senses, ServerSide, StateRep
 use crate::set_point::SetPoint;
 use albacore_geometry::math::{cos, sin};
 use albacore_vehicle::Snapshot;
-use albacore_vehicle::channels::{BATTERY, CHEMICAL, SALINITY, TEMPERATURE};
+use albacore_vehicle::measurements::{BATTERY, CHEMICAL, SALINITY, TEMPERATURE};
 
 /// Ticks between messages of the profiler.
 const ADCP_TICKS: u64 = 10;
@@ -116,7 +116,7 @@ fn tell_samples(snapshot: &Snapshot, senses: &Senses, say: &mut impl FnMut(FromV
     // On the wire there is no number for what is none.
     for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
         let [a, ..] = sample.reading;
-        match sample.channel {
+        match sample.measurement {
             CHEMICAL => say(FromVehicle::Fluorometer { gain: 1.0, value: a * FULL_SCALE_VOLTS }),
             BATTERY => {
                 let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);

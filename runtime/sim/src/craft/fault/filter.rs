@@ -5,11 +5,11 @@ use super::{Sensor, SensorFault};
 use crate::noise::{Noise, Stream};
 use albacore_geometry::Heading;
 use albacore_geometry::math::{PI, ln};
-use albacore_vehicle::channels::HEADING;
+use albacore_vehicle::measurements::HEADING;
 use albacore_vehicle::{Reading, Sample, TICK_S};
 use std::collections::VecDeque;
 
-/// A sensor has this many channels at most.
+/// A sensor has this many measurements at most.
 const CHANNELS_MAX: usize = 2;
 
 /// A fault of a sensor, with what it must remember.
@@ -22,7 +22,7 @@ pub(crate) struct Filter {
     draws: u64,
     /// Where a wrong position or flow is off.
     toward: Heading,
-    /// The last sample of each channel from before.
+    /// The last sample of each measurement from before.
     last: Vec<Sample>,
     /// Samples on their way, and the tick at which each arrives.
     delayed: VecDeque<(u64, Sample)>,
@@ -57,10 +57,10 @@ impl Filter {
     pub fn watch(&mut self, tick: u64, samples: &[Sample]) {
         self.delayed.clear();
         (self.next, self.passes, self.missed) = (0, true, 0.0);
-        for sample in samples.iter().filter(|s| self.sensor.has(s.channel)) {
-            self.last.retain(|known| known.channel != sample.channel);
+        for sample in samples.iter().filter(|s| self.sensor.has(s.measurement)) {
+            self.last.retain(|known| known.measurement != sample.measurement);
             self.last.push(*sample);
-            if sample.channel == HEADING {
+            if sample.measurement == HEADING {
                 self.turned_to = Some((tick, sample.reading[0]));
             }
         }
@@ -75,7 +75,7 @@ impl Filter {
             self.turn(tick, rate, samples);
         }
         samples.retain_mut(|sample| {
-            if !sensor.has(sample.channel) {
+            if !sensor.has(sample.measurement) {
                 return true;
             }
             came = true;
@@ -97,7 +97,7 @@ impl Filter {
         let width = self.sensor.quantity().width();
         match self.disorder {
             SensorFault::Off => return false,
-            SensorFault::Stuck => match self.last.iter().find(|last| last.channel == sample.channel) {
+            SensorFault::Stuck => match self.last.iter().find(|last| last.measurement == sample.measurement) {
                 Some(last) => *sample = *last,
                 None => self.last.push(*sample),
             },
@@ -140,7 +140,7 @@ impl Filter {
 
     /// What the gyroscope misses of the turn since the last heading.
     fn turn(&mut self, tick: u64, rate: f64, samples: &[Sample]) {
-        let Some(heading) = samples.iter().find(|s| s.channel == HEADING).map(|s| s.reading[0]) else { return };
+        let Some(heading) = samples.iter().find(|s| s.measurement == HEADING).map(|s| s.reading[0]) else { return };
         if let Some((before, from)) = self.turned_to {
             let turn = Heading::from_radians(heading) - Heading::from_radians(from);
             let most = rate * (tick - before) as f64 * TICK_S;
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
     use albacore_geometry::Vector;
     use albacore_vehicle::Snapshot;
-    use albacore_vehicle::channels::{COURSE, DEPTH, POSITION};
+    use albacore_vehicle::measurements::{COURSE, DEPTH, POSITION};
 
     /// Depths 0, 1, 2 … a tick, faulty from tick 100 to 199: what came of each, by tick.
     fn depths(disorder: SensorFault) -> Vec<(u64, f64)> {
@@ -184,8 +184,8 @@ mod tests {
             } else {
                 filter.watch(tick, &snapshot.samples);
             }
-            assert_eq!(snapshot.samples.iter().filter(|s| s.channel == COURSE).count(), 1, "of another sensor");
-            let depth = snapshot.samples.iter().filter(|s| s.channel == DEPTH);
+            assert_eq!(snapshot.samples.iter().filter(|s| s.measurement == COURSE).count(), 1, "of another sensor");
+            let depth = snapshot.samples.iter().filter(|s| s.measurement == DEPTH);
             came.extend(depth.map(|s| (tick, s.reading[0])));
         }
         let outside = came.iter().filter(|(tick, _)| !(100..200).contains(tick));
@@ -253,7 +253,7 @@ mod tests {
             } else {
                 filter.watch(tick, &snapshot.samples);
             }
-            let of = |channel| snapshot.samples.iter().find(|s| s.channel == channel).unwrap().reading[0];
+            let of = |measurement| snapshot.samples.iter().find(|s| s.measurement == measurement).unwrap().reading[0];
             read = (of(HEADING), of(COURSE));
             if tick == 349 {
                 assert!((read.0 - 1.5).abs() < 1e-9 && (read.1 - 1.6).abs() < 1e-9, "{read:?}");

@@ -1,12 +1,12 @@
-//! Which channels each sensor has, what it can measure, and how wrong it is when it is plausibly wrong.
+//! Which measurements each sensor has, what it can measure, and how wrong it is when it is plausibly wrong.
 
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Vector};
-use albacore_vehicle::channels::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, measurement};
+use albacore_vehicle::measurements::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, info};
 use albacore_vehicle::{Quantity, Reading};
 use serde::Deserialize;
 
-/// A sensor that can fail, with the channels that come from it alone.
+/// A sensor that can fail, with the measurements that come from it alone.
 ///
 /// `water_depth` is the sum of depth and altitude: it fails with either, and stays away where one of them does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -41,8 +41,8 @@ impl Sensor {
         Sensor::Chemical,
     ];
 
-    /// The channel that it is named after.
-    pub(crate) fn channel(self) -> u16 {
+    /// The measurement that it is named after.
+    pub(crate) fn measurement(self) -> u16 {
         match self {
             Sensor::Position => POSITION,
             Sensor::Heading => HEADING,
@@ -56,17 +56,17 @@ impl Sensor {
 
     /// What a scenario calls it.
     pub fn name(self) -> &'static str {
-        measurement(self.channel()).name
+        info(self.measurement()).name
     }
 
-    /// Whether a channel comes from it.
-    pub(crate) fn has(self, channel: u16) -> bool {
-        channel == self.channel() || self == Sensor::Heading && channel == COURSE
+    /// Whether a measurement comes from it.
+    pub(crate) fn has(self, measurement: u16) -> bool {
+        measurement == self.measurement() || self == Sensor::Heading && measurement == COURSE
     }
 
     /// What it measures.
     pub(crate) fn quantity(self) -> Quantity {
-        measurement(self.channel()).quantity
+        info(self.measurement()).quantity
     }
 
     /// The greatest size of what comes as garbage: some times what can be.

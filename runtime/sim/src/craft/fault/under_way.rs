@@ -3,7 +3,7 @@
 use super::filter::Filter;
 use super::{Fault, FaultKind, Sensor, to_tick};
 use albacore_geometry::Vector;
-use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
+use albacore_vehicle::measurements::{ALTITUDE, DEPTH, WATER_DEPTH};
 use albacore_vehicle::{Sample, TICK_S};
 
 /// What the vehicle itself suffers from in a tick: all that a hull and a computer need to know of faults.
@@ -112,9 +112,9 @@ fn filled(after: f64, within: f64) -> f64 {
 
 /// The depth of the water is the sum of what is told of depth and altitude in the same tick, and not told without both.
 fn add_up(samples: &mut Vec<Sample>) {
-    let latest = |channel| samples.iter().rev().find(|s| s.channel == channel).map(|s| s.reading[0]);
+    let latest = |measurement| samples.iter().rev().find(|s| s.measurement == measurement).map(|s| s.reading[0]);
     let sum = latest(DEPTH).zip(latest(ALTITUDE)).map(|(depth, altitude)| depth + altitude);
-    samples.retain_mut(|sample| match (sample.channel, sum) {
+    samples.retain_mut(|sample| match (sample.measurement, sum) {
         (WATER_DEPTH, Some(sum)) => {
             sample.reading[0] = sum;
             true
@@ -192,11 +192,11 @@ mod tests {
             let mut faults = Faults::new(&[fault(FaultKind::Sensor(sensor, disorder), 0.0, None)], 1);
             faults.advance_to(0);
             let mut snapshot = Snapshot::default();
-            for (channel, metres) in [(DEPTH, 3.0), (ALTITUDE, 5.0), (WATER_DEPTH, 8.0)] {
-                snapshot.push(channel, &[metres]);
+            for (measurement, metres) in [(DEPTH, 3.0), (ALTITUDE, 5.0), (WATER_DEPTH, 8.0)] {
+                snapshot.push(measurement, &[metres]);
             }
             faults.filter(0, &mut snapshot.samples);
-            snapshot.samples.iter().find(|s| s.channel == WATER_DEPTH).map(|s| s.reading[0])
+            snapshot.samples.iter().find(|s| s.measurement == WATER_DEPTH).map(|s| s.reading[0])
         };
         assert_eq!(told(Sensor::Depth, SensorFault::Off), None);
         assert_eq!(told(Sensor::Altitude, SensorFault::Wrong(1.0)), Some(10.0));

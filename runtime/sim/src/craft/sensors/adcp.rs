@@ -7,7 +7,7 @@ use crate::noise::{Noise, Stream};
 use albacore_geometry::{Heading, Vector};
 use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates};
 use albacore_vehicle::Snapshot;
-use albacore_vehicle::channels::FLOW;
+use albacore_vehicle::measurements::FLOW;
 use serde::Deserialize;
 
 /// The flow sensor: an acoustic Doppler current profiler that looks up and down by turns. Its defaults are those of the

@@ -4,7 +4,7 @@ use super::rate::is_due;
 use super::{Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
 use albacore_vehicle::Snapshot;
-use albacore_vehicle::channels::BATTERY;
+use albacore_vehicle::measurements::BATTERY;
 use serde::Deserialize;
 
 /// The gauge of the battery's charge.

@@ -5,7 +5,7 @@ use super::rate::is_due;
 use super::{Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
 use albacore_vehicle::Snapshot;
-use albacore_vehicle::channels::{SALINITY, TEMPERATURE};
+use albacore_vehicle::measurements::{SALINITY, TEMPERATURE};
 use serde::Deserialize;
 
 /// The CTD: conductivity and temperature, and the practical salinity that is derived from them and the pressure.

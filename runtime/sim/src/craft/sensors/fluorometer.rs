@@ -8,7 +8,7 @@ use crate::world::World;
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::TICK_S;
-use albacore_vehicle::channels::CHEMICAL;
+use albacore_vehicle::measurements::CHEMICAL;
 use serde::Deserialize;
 
 /// The chemical sensor.

@@ -8,7 +8,7 @@ use crate::craft::hull::Motion;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::Estimate;
 use albacore_vehicle::Snapshot;
-use albacore_vehicle::channels::{COURSE, HEADING, POSITION, SPEED};
+use albacore_vehicle::measurements::{COURSE, HEADING, POSITION, SPEED};
 
 /// Compass, Doppler log and position, of which each needs another.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use super::delay::Delay;
 use super::rate::is_due;
 use super::{EVERY_TICK, Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
-use albacore_vehicle::channels::DEPTH;
+use albacore_vehicle::measurements::DEPTH;
 use albacore_vehicle::{Snapshot, Truth};
 use serde::Deserialize;
 

@@ -6,7 +6,7 @@ use super::{EVERY_TICK, Instrument, InstrumentSetup, Surroundings};
 use crate::noise::{Noise, Stream};
 use crate::scenario::{ScenarioIssues, number};
 use albacore_vehicle::Snapshot;
-use albacore_vehicle::channels::{ALTITUDE, DEPTH, WATER_DEPTH};
+use albacore_vehicle::measurements::{ALTITUDE, DEPTH, WATER_DEPTH};
 use serde::Deserialize;
 
 /// The echo sounder: the height above the bottom, and with the vehicle's depth that of the water.
@@ -74,7 +74,7 @@ impl Instrument for EchoSounder {
     fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
         let Some(echo) = self.sample(around.tick, around.truth.altitude) else { return };
         snapshot.push(ALTITUDE, &[echo]);
-        let depth = snapshot.samples.iter().find(|sample| sample.channel == DEPTH).map(|sample| sample.reading[0]);
+        let depth = snapshot.samples.iter().find(|sample| sample.measurement == DEPTH).map(|sample| sample.reading[0]);
         if let Some(depth) = depth {
             snapshot.push(WATER_DEPTH, &[depth + echo]);
         }

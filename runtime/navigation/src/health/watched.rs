@@ -1,8 +1,8 @@
-//! One channel by itself: silence, numbers that are none or cannot be, jumps, and a noisy value that stands still.
+//! One measurement by itself: silence, numbers that are none or cannot be, jumps, and a noisy value that stands still.
 
 use super::noise::Noise;
 use super::{Anomalies, Anomaly, Credible};
-use albacore_vehicle::channels::{Measurement, measurement};
+use albacore_vehicle::measurements::{MeasurementInfo, info};
 use albacore_vehicle::{Quantity, Reading, TICK_S};
 
 /// Samples from whose times the period is learnt.
@@ -10,7 +10,7 @@ const PERIOD_SAMPLES: u64 = 10;
 /// Silence is so many periods long, and at least so many ticks: 2 s.
 const SILENT_PERIODS: u64 = 5;
 const SILENT_TICKS: u64 = 20;
-/// A channel is noisy where it has never rested for more samples than this: a link may repeat what a slow sensor told.
+/// A measurement is noisy where it has never rested for more samples than this: a link may repeat what a slow sensor told.
 const NOISE_REST_MAX: u64 = 12;
 /// A noisy value stands still when it is the same for so many ticks, and in more samples than so many times what it has ever rested for. At
 /// an end of its scale a sensor may well rest for a while.
@@ -21,12 +21,12 @@ const STUCK_AT_END_SAMPLES: u64 = 200;
 const MEAN_SAMPLES: u64 = 60;
 const MEAN_SAME_MAX: u64 = 7;
 
-/// A channel and what is remembered of it.
+/// A measurement and what is remembered of it.
 #[derive(Clone, Debug)]
-pub(super) struct Channel {
+pub(super) struct Watched {
     /// Its number, and what it measures.
     number: u16,
-    of: &'static Measurement,
+    of: &'static MeasurementInfo,
     /// Samples so far, and the ticks of the first and of the last.
     samples: u64,
     first: u64,
@@ -45,11 +45,11 @@ pub(super) struct Channel {
     learns: bool,
 }
 
-impl Channel {
+impl Watched {
     pub fn new(number: u16) -> Self {
-        Channel {
+        Watched {
             number,
-            of: measurement(number),
+            of: info(number),
             samples: 0,
             first: 0,
             last: 0,
@@ -149,7 +149,7 @@ impl Channel {
         }
     }
 
-    /// Whether the channel has shown that it never stays the same for long.
+    /// Whether the measurement has shown that it never stays the same for long.
     fn is_lively(&self) -> bool {
         match self.of.quantity {
             // Whether it stands still under way is asked elsewhere; at rest it may.

@@ -1,12 +1,12 @@
-//! The channels of the vehicles that we know: simulated ones and those at the end of a link deliver the same, so that a mission
+//! The measurements of the vehicles that we know: simulated ones and those at the end of a link deliver the same, so that a mission
 //! runs on either. This is the one table of them: sensors, faults, the watch over samples, and links read it.
 
-use crate::{Channel, Quantity, Reading};
+use crate::{Measurement, Quantity, Reading};
 use albacore_geometry::math::PI;
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
-pub struct Measurement {
+pub struct MeasurementInfo {
     /// Its name, which an `input` of the same name reads.
     pub name: &'static str,
     /// What its numbers are.
@@ -28,25 +28,25 @@ struct Change {
     step: f64,
 }
 
-impl Measurement {
+impl MeasurementInfo {
     const fn of(name: &'static str, quantity: Quantity) -> Self {
-        Measurement { name, quantity, change_max: None, is_gated: false, is_watched: false, sources: &[] }
+        MeasurementInfo { name, quantity, change_max: None, is_gated: false, is_watched: false, sources: &[] }
     }
 
     const fn changes(self, rate: f64, step: f64) -> Self {
-        Measurement { change_max: Some(Change { rate, step }), ..self }
+        MeasurementInfo { change_max: Some(Change { rate, step }), ..self }
     }
 
     const fn gated(self) -> Self {
-        Measurement { is_gated: true, ..self }
+        MeasurementInfo { is_gated: true, ..self }
     }
 
     const fn watched(self) -> Self {
-        Measurement { is_watched: true, ..self }
+        MeasurementInfo { is_watched: true, ..self }
     }
 
     const fn made_of(self, sources: &'static [u16]) -> Self {
-        Measurement { sources, ..self }
+        MeasurementInfo { sources, ..self }
     }
 
     /// Whether one reading can follow another after some seconds.
@@ -64,68 +64,68 @@ impl Measurement {
     }
 }
 
-/// The rows, and each channel's number: its place among them.
-macro_rules! channels {
+/// The rows, and each measurement's number: its place among them.
+macro_rules! measurements {
     ($($(#[$doc:meta])* $number:ident: $row:expr;)*) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms, reason = "the constants that come of it are its names")]
         enum Number { $($number),* }
         $($(#[$doc])* pub const $number: u16 = Number::$number as u16;)*
         /// All of them, each at the place of its number.
-        pub const ALL: [Measurement; [$(Number::$number as u16),*].len()] = [$($row),*];
+        pub const ALL: [MeasurementInfo; [$(Number::$number as u16),*].len()] = [$($row),*];
     };
 }
 
-channels! {
+measurements! {
     /// Where the vehicle believes to be. A fix of who tells no sigma may correct 5 m.
-    POSITION: Measurement::of("position", Quantity::Position).changes(10.0, 5.0).gated().watched();
+    POSITION: MeasurementInfo::of("position", Quantity::Position).changes(10.0, 5.0).gated().watched();
     /// Its direction over ground, turned from its body's with the compass: at rest it is any, and the gate has a rule of its own.
-    COURSE: Measurement::of("course", Quantity::Direction).gated().watched().made_of(&[HEADING]);
+    COURSE: MeasurementInfo::of("course", Quantity::Direction).gated().watched().made_of(&[HEADING]);
     /// Where its nose points.
-    HEADING: Measurement::of("heading", Quantity::Direction).changes(PI / 3.0, PI / 12.0).gated().watched();
+    HEADING: MeasurementInfo::of("heading", Quantity::Direction).changes(PI / 3.0, PI / 12.0).gated().watched();
     /// Its speed over ground.
-    SPEED: Measurement::of("speed", Quantity::Speed).changes(2.0, 1.0).gated().watched();
+    SPEED: MeasurementInfo::of("speed", Quantity::Speed).changes(2.0, 1.0).gated().watched();
     /// Its depth.
-    DEPTH: Measurement::of("depth", Quantity::Height).changes(3.0, 1.0).gated().watched();
+    DEPTH: MeasurementInfo::of("depth", Quantity::Height).changes(3.0, 1.0).gated().watched();
     /// Its height above the bottom.
-    ALTITUDE: Measurement::of("altitude", Quantity::Height).changes(5.0, 1.2).gated().watched();
+    ALTITUDE: MeasurementInfo::of("altitude", Quantity::Height).changes(5.0, 1.2).gated().watched();
     /// The depth of the water.
-    WATER_DEPTH: Measurement::of("water_depth", Quantity::Height).made_of(&[DEPTH, ALTITUDE]);
+    WATER_DEPTH: MeasurementInfo::of("water_depth", Quantity::Height).made_of(&[DEPTH, ALTITUDE]);
     /// The current.
-    FLOW: Measurement::of("flow", Quantity::Flow).changes(0.0, 1.0).watched();
+    FLOW: MeasurementInfo::of("flow", Quantity::Flow).changes(0.0, 1.0).watched();
     /// The chemical sensor: the edge of a plume is sharp.
-    CHEMICAL: Measurement::of("chemical", Quantity::Ratio).watched();
+    CHEMICAL: MeasurementInfo::of("chemical", Quantity::Ratio).watched();
     /// What is left in the battery. A gauge is coarse; a battery that is empty in a quarter of an hour is none of ours.
-    BATTERY: Measurement::of("battery", Quantity::Ratio).changes(0.001, 0.1).gated();
+    BATTERY: MeasurementInfo::of("battery", Quantity::Ratio).changes(0.001, 0.1).gated();
     /// What the vehicle's own mission is about: the place in the library's `enum VehicleMode`.
-    VEHICLE_MODE: Measurement::of("vehicle_mode", Quantity::Word);
+    VEHICLE_MODE: MeasurementInfo::of("vehicle_mode", Quantity::Word);
     /// The temperature of the water.
-    TEMPERATURE: Measurement::of("temperature", Quantity::Temperature);
+    TEMPERATURE: MeasurementInfo::of("temperature", Quantity::Temperature);
     /// The practical salinity of the water.
-    SALINITY: Measurement::of("salinity", Quantity::Salinity);
+    SALINITY: MeasurementInfo::of("salinity", Quantity::Salinity);
 }
 
-/// A channel of ours by its number.
+/// A measurement of ours by its number.
 ///
 /// # Panics
 ///
 /// Where there is none of that number: numbers are the constants of this table.
-pub fn measurement(channel: u16) -> &'static Measurement {
-    &ALL[usize::from(channel)]
+pub fn info(measurement: u16) -> &'static MeasurementInfo {
+    &ALL[usize::from(measurement)]
 }
 
-/// The name of a channel of ours.
-pub const fn name(channel: u16) -> &'static str {
-    ALL[channel as usize].name
+/// The name of a measurement of ours.
+pub const fn name(measurement: u16) -> &'static str {
+    ALL[measurement as usize].name
 }
 
 /// All of them, as a vehicle delivers them.
-pub fn all() -> Vec<Channel> {
-    ALL.iter().map(|row| Channel { name: row.name.to_owned(), width: row.quantity.width() }).collect()
+pub fn all() -> Vec<Measurement> {
+    ALL.iter().map(|row| Measurement { name: row.name.to_owned(), width: row.quantity.width() }).collect()
 }
 
 /// Those of a vehicle without a CTD. A mission that requires what it does not measure is refused before it begins.
-pub fn without_ctd() -> Vec<Channel> {
-    let mut channels = all();
-    channels.truncate(usize::from(TEMPERATURE));
-    channels
+pub fn without_ctd() -> Vec<Measurement> {
+    let mut measurements = all();
+    measurements.truncate(usize::from(TEMPERATURE));
+    measurements
 }
