@@ -5,8 +5,8 @@
 use albacore_front_seat::Handover;
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::{
-    ControllerMessage, ControllerSide, Dialect, Framing, LinkError, LinkVehicle, Received, Route, Server, SetPoint, Settings,
-    Transport, Url, recon,
+    ControllerMessage, ControllerSide, Dialect, Framing, LinkError, LinkVehicle, Received, Route, Server, SetPoint,
+    Settings, Transport, Url, recon,
 };
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
@@ -113,11 +113,8 @@ impl Transport for Desk {
 }
 
 /// A dialect whose controller can be stopped between what it has heard and what it says.
-static STOPPING: Dialect = Dialect {
-    controller: stopping,
-    framing: Framing { ..recon::DIALECT.framing },
-    ..recon::DIALECT
-};
+static STOPPING: Dialect =
+    Dialect { controller: stopping, framing: Framing { ..recon::DIALECT.framing }, ..recon::DIALECT };
 
 thread_local! {
     static STOPPED: RefCell<Arc<Wire>> = RefCell::default();
