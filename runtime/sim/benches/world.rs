@@ -4,8 +4,10 @@
 #![expect(clippy::unwrap_used, reason = "a benchmark whose world cannot be has nothing to measure")]
 
 mod common;
+#[path = "../tests/world/mod.rs"]
+mod worlds;
 
-use albacore_sim::{Noise, Plume, Scenario, Simulator, Stream, presets};
+use albacore_sim::{Noise, Plume, Scenario, Simulator, Stream};
 use albacore_vehicle::{Command, Snapshot, TICK_S, Vehicle, Vertical};
 use common::{cost, stretches};
 use std::hint::black_box;
@@ -17,7 +19,7 @@ const PLACES_EVERY: usize = 9;
 /// Samples a second of the sensor whose samples are measured: so many that all else of a tick is little beside them.
 const FAST_HZ: f64 = 1000.0;
 
-/// The trial as published, with the same plume at every height and with one that rises.
+/// A plume that is the same at every height, and one that rises.
 #[derive(Clone, Copy, Debug)]
 enum Duck {
     Flat,
@@ -27,8 +29,8 @@ enum Duck {
 impl Duck {
     fn scenario(self) -> Scenario {
         let mut scenario = match self {
-            Duck::Flat => presets::duck_2003_flat(),
-            Duck::Layered => presets::duck_2003(),
+            Duck::Flat => worlds::flat(),
+            Duck::Layered => worlds::layered(),
         };
         scenario.sources[0].rate = RATE;
         scenario

@@ -7,7 +7,6 @@
 mod craft;
 mod noise;
 mod normal;
-pub mod presets;
 pub mod probe;
 mod scenario;
 mod simulator;

@@ -2,8 +2,10 @@
 //!
 //! Run it in all three: `cargo test -p albacore-sim --test digest`, with `--release`, with `--profile plain`.
 
+mod world;
+
 use albacore_geometry::Heading;
-use albacore_sim::{Simulator, presets};
+use albacore_sim::Simulator;
 use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 
@@ -14,7 +16,7 @@ fn fold(digest: u64, word: u64) -> u64 {
 
 /// All samples of five minutes on a zigzag through the plume, and all filaments at the end.
 fn digest(seed: u64) -> Result<u64, Box<dyn Error>> {
-    let mut scenario = presets::duck_2003();
+    let mut scenario = world::layered();
     scenario.vehicle.start = scenario.sources[0].at;
     scenario.instruments.fluorometer.false_alarms = 0.01;
     let mut simulator = Simulator::new(&scenario, seed)?;

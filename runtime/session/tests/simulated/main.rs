@@ -5,7 +5,10 @@ mod bottom;
 mod compatibility;
 mod delay;
 mod flood;
+mod intermittency;
 mod journal;
+#[path = "../library/mod.rs"]
+mod library;
 mod noise;
 mod profiler;
 mod recorded;

@@ -1,8 +1,9 @@
 //! What instruments tell.
 
 use super::{driven, names, scenario};
+use crate::world;
 use albacore_geometry::{Point, Vector};
-use albacore_sim::{Adcp, Bottom, Lbl, Looks, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow, presets};
+use albacore_sim::{Adcp, Bottom, Lbl, Looks, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow};
 use albacore_vehicle::{Snapshot, Vehicle};
 
 #[test]
@@ -116,7 +117,7 @@ fn a_fix_makes_the_position_jump() {
 
 #[test]
 fn a_fast_chemical_sensor_gives_several_samples_a_tick() {
-    let mut fast = presets::duck_2003_flat();
+    let mut fast = world::flat();
     fast.instruments.fluorometer.rate = 50.0;
     assert_eq!(driven(&fast, 10, "chemical").unwrap().len(), 496, "0 to 9.9 s");
 }

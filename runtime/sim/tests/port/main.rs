@@ -1,7 +1,10 @@
 //! The simulator as a machine sees it: through the port alone.
 
 mod instruments;
+mod recorded;
 mod refused;
+#[path = "../world/mod.rs"]
+mod world;
 
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;

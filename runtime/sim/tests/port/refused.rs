@@ -1,16 +1,17 @@
 //! What no simulator can be made of.
 
 use super::{scenario, shoal};
+use crate::world;
 use albacore_geometry::{Point, Vector};
 use albacore_sim::hull::Crossflow;
-use albacore_sim::{Bottom, Grid, Ground, HullSetup, Pit, Plane, Scenario, Source, SubmersibleHull, Times, presets};
+use albacore_sim::{Bottom, Grid, Ground, HullSetup, Pit, Plane, Scenario, Source, SubmersibleHull, Times};
 use albacore_vehicle::Limits;
 use std::sync::Arc;
 
 #[test]
 fn impossible_plumes_are_refused() {
     let fault = |change: &dyn Fn(&mut Scenario)| {
-        let mut scenario = presets::duck_2003();
+        let mut scenario = world::layered();
         change(&mut scenario);
         scenario.validate().unwrap_err().to_string()
     };
@@ -31,8 +32,8 @@ fn impossible_plumes_are_refused() {
     ] {
         assert!(fault.contains(expected), "{fault}");
     }
-    assert_eq!(presets::duck_2003().validate(), Ok(()));
-    assert_eq!(presets::duck_2003_flat().validate(), Ok(()));
+    assert_eq!(world::layered().validate(), Ok(()));
+    assert_eq!(world::flat().validate(), Ok(()));
 }
 
 /// The clauses and parameters that a scenario's objections name.
@@ -44,7 +45,7 @@ fn objected(scenario: &Scenario) -> Vec<(&'static str, usize, Option<&'static st
 #[test]
 fn chemical_where_there_is_no_water_is_refused() {
     let changed = |change: &dyn Fn(&mut Scenario)| {
-        let mut scenario = presets::duck_2003();
+        let mut scenario = world::layered();
         change(&mut scenario);
         objected(&scenario)
     };
@@ -64,7 +65,7 @@ fn chemical_where_there_is_no_water_is_refused() {
     assert_eq!(changed(&backward), [("source", 0, Some("ends"))]);
     let ashore = Scenario { limits: Some(Limits { altitude: 100.0, ..Limits::default() }), ..scenario() };
     assert_eq!(objected(&ashore), [("limits", 0, Some("altitude"))]);
-    let mut stepped = presets::duck_2003();
+    let mut stepped = world::layered();
     stepped.plume.as_mut().unwrap().step = 1000.0;
     assert_eq!(objected(&stepped), [("plume", 0, Some("step"))], "and nothing of a step that no script can say");
 }

@@ -1,7 +1,9 @@
 //! Measures the plumes, writes the figures into `docs/plume.md` and draws the pictures of `docs/plume/`:
-//! `cargo run --release -p albacore-sim --example plume_statistics`. Some minutes; the same bytes every time.
+//! `cargo run --release -p albacore-session --example plume_statistics`. Some minutes; the same bytes every time.
 
 mod chart;
+#[path = "../../tests/library/mod.rs"]
+mod library;
 mod measure;
 mod page;
 mod pictures;
@@ -9,7 +11,8 @@ mod pictures;
 use albacore_formats::recording::{RecordedKernel, Recording, RecordingHeader};
 use albacore_geometry::{Area, Heading, Point};
 use albacore_sim::probe::Band;
-use albacore_sim::{Flow, Meander, Plume, Scenario, Source, presets};
+use albacore_sim::{Flow, Meander, Plume, Scenario, Source};
+use library::scenario;
 use page::{Page, table};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -23,10 +26,13 @@ const STEP_SEEDS: u64 = 8;
 /// Steps of the plume, s.
 const STEPS: [f64; 5] = [0.1, 0.5, 1.0, 2.0, 5.0];
 
+/// Two more plumes that were measured independently: filaments as thin as they come, and few and large ones.
+const OTHERS: [&str; 2] = ["sparse", "farrell_scaled"];
+
 fn main() -> Result<(), Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let recording = record(&root)?;
-    let flat = presets::duck_2003_flat();
+    let flat = scenario("duck_2003_flat")?;
     let mut page = Page::new(root.join("docs/plume.md"));
     let draw = |name: &str, svg: String| -> Result<(), Box<dyn Error>> {
         let path: PathBuf = root.join("docs/plume").join(name);
@@ -44,14 +50,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("ours at half the rate", measure::bands(&half_rate(&recording), SEEDS)?),
         ("record, flat kernel", measure::recorded_bands(&recording, RecordedKernel::Flat)),
         ("record, its own kernel", measure::recorded_bands(&recording, RecordedKernel::Pompy)),
-        ("duck_2003", measure::bands(&presets::duck_2003(), SEEDS)?),
+        ("duck_2003", measure::bands(&scenario("duck_2003")?, SEEDS)?),
     ];
     page.put("wanted", wanted(&plumes[0].1));
     page.put("bands", by_band(plumes.iter().map(|(name, bands)| (String::from(*name), bands))));
     draw("bands.svg", pictures::bands(&plumes))?;
 
-    let others = others().into_iter().map(|(name, scenario)| Ok((name, measure::bands(&scenario, SEEDS)?)));
-    let others: Vec<(String, Vec<Band>)> = others.collect::<Result<_, Box<dyn Error>>>()?;
+    let others = OTHERS.map(|name| Ok((String::from(name), measure::bands(&scenario(name)?, SEEDS)?)));
+    let others: Vec<(String, Vec<Band>)> = others.into_iter().collect::<Result<_, Box<dyn Error>>>()?;
     page.put("others", by_band(others.iter().map(|(name, bands)| (name.clone(), bands))));
 
     let diffusivity = Plume::default().diffusivity;
@@ -97,16 +103,6 @@ fn half_rate(recording: &Recording) -> Scenario {
         sources: vec![Source { at: recording.source(), rate: 0.5, ..Source::default() }],
         ..Scenario::default()
     }
-}
-
-/// Two more plumes that were measured independently: filaments as thin as they come, and few and large ones.
-fn others() -> Vec<(String, Scenario)> {
-    let flat = presets::duck_2003_flat();
-    let sparse = Plume { growth: 3e-5, initial_radius: 0.1, ..Plume::default() };
-    let mut scaled = flat.clone();
-    (scaled.sources[0].rate, scaled.sources[0].peak) = (0.114, 0.12);
-    scaled.plume = Some(Plume { growth: 0.00137, ..Plume::default() });
-    vec![(String::from("sparse"), Scenario { plume: Some(sparse), ..flat }), (String::from("farrell_scaled"), scaled)]
 }
 
 /// The first plume against what is wanted of it.

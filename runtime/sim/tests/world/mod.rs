@@ -1,20 +1,16 @@
-//! Two worlds for tests and benchmarks: the June 2003 trial at Duck, with and without its vertical part.
+//! Worlds for tests and benchmarks: as large as the one of the 2005 paper's trial, of no script.
 
-use crate::craft::sensors::{InstrumentSetup, Lbl, Navigation};
-use crate::craft::setup::{HullSetup, KinematicHull, VehicleSetup};
-use crate::scenario::Scenario;
-use crate::world::bottom::{Bottom, Ground, Plane};
-use crate::world::plume::{Plume, Source};
-use crate::world::water::{Flow, Meander};
 use albacore_geometry::{Area, Heading, Point};
+use albacore_sim::{
+    Bottom, Flow, Ground, HullSetup, InstrumentSetup, KinematicHull, Lbl, Meander, Navigation, Plane, Plume, Scenario,
+    Source, VehicleSetup,
+};
 
-/// Where the mean flow of the trial goes, degrees.
+/// Where the mean flow goes, degrees.
 const FLOW_TOWARD_DEG: f64 = 140.0;
 
-/// The trial in two dimensions: 1094 m by 367 m along the flow, 12.5 cm/s, one source 120 m inside the up-flow edge, the
-/// vehicle at a down-flow corner. Numbers beyond the 2005 paper's are those that reproduce its intermittency: with a threshold
-/// of 4 % of full scale, a straight probe at 2 m/s reads above it two thirds of the time.
-pub fn duck_2003_flat() -> Scenario {
+/// A plume that is the same at every height, in a current that meanders over a slope; a vehicle at a down-flow corner of the region.
+pub fn flat() -> Scenario {
     let down_flow = Heading::from_degrees(FLOW_TOWARD_DEG);
     let across = down_flow + Heading::from_degrees(90.0).radians();
     let place = |x: f64, y: f64| Point::ORIGIN + x * down_flow.unit() + y * across.unit();
@@ -36,9 +32,9 @@ pub fn duck_2003_flat() -> Scenario {
     }
 }
 
-/// The trial: the plume rises slowly in a bottom layer, and the vehicle wobbles about its altitude.
-pub fn duck_2003() -> Scenario {
-    let flat = duck_2003_flat();
+/// The same with a plume that rises slowly in a bottom layer, and a vehicle that wobbles about its altitude.
+pub fn layered() -> Scenario {
+    let flat = flat();
     Scenario {
         plume: Some(Plume { vertical: 1e-3, layer: Some(3.5), ..Plume::default() }),
         vehicle: VehicleSetup {

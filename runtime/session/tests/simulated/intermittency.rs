@@ -1,7 +1,8 @@
 //! The plume as a 2 m/s probe meets it: how often above the threshold, and for how long not.
 
+use crate::library::scenario;
 use albacore_sim::probe::{Band, Probe};
-use albacore_sim::{Plume, Scenario, ScenarioError, Simulator, presets};
+use albacore_sim::{Scenario, ScenarioError, Simulator};
 
 const THRESHOLD: f64 = 0.04;
 
@@ -21,10 +22,10 @@ fn probe(scenario: &Scenario, seeds: u64) -> Result<Vec<Band>, ScenarioError> {
     Ok(probe.bands)
 }
 
-/// The preset against what an independent simulator measured with the same numbers (notes/plume-and-cpt.md, 1.3).
+/// `duck_2003_flat` against what an independent simulator measured with the same numbers (notes/plume-and-cpt.md, 1.3).
 #[test]
-fn the_preset_reads_what_it_promises() {
-    let met = probe(&presets::duck_2003_flat(), 12).unwrap();
+fn the_flat_plume_reads_what_it_promises() {
+    let met = probe(&scenario("duck_2003_flat").unwrap(), 12).unwrap();
     for (met, (on, gap)) in met.iter().zip([(0.68, 0.6), (0.66, 0.8), (0.67, 1.0), (0.65, 1.1)]) {
         assert!((met.on_fraction() - on).abs() < 0.07, "on {}, not {on}", met.on_fraction());
         assert!((met.gap(0.5) / gap - 1.0).abs() < 0.3, "median gap {} s, not {gap} s", met.gap(0.5));
@@ -34,13 +35,8 @@ fn the_preset_reads_what_it_promises() {
 /// Two other plumes of the same table: fewer and larger filaments, and filaments as thin as they come.
 #[test]
 fn other_plumes_read_what_they_should() {
-    let mut scaled = presets::duck_2003_flat();
-    (scaled.sources[0].rate, scaled.sources[0].peak) = (0.114, 0.12);
-    scaled.plume = Some(Plume { growth: 0.00137, ..Plume::default() });
-    let mut sparse = presets::duck_2003_flat();
-    sparse.plume = Some(Plume { growth: 3e-5, initial_radius: 0.1, ..Plume::default() });
-    for (scenario, expected) in [(scaled, [0.71, 0.79, 0.88, 0.88]), (sparse, [0.25, 0.25, 0.25, 0.22])] {
-        for (met, on) in probe(&scenario, 12).unwrap().iter().zip(expected) {
+    for (name, expected) in [("farrell_scaled", [0.71, 0.79, 0.88, 0.88]), ("sparse", [0.25, 0.25, 0.25, 0.22])] {
+        for (met, on) in probe(&scenario(name).unwrap(), 12).unwrap().iter().zip(expected) {
             assert!((met.on_fraction() - on).abs() < 0.09, "on {}, not {on}", met.on_fraction());
         }
     }

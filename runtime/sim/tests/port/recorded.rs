@@ -1,8 +1,9 @@
 //! A vehicle in a recorded plume, through the port alone.
 
+use crate::world;
 use albacore_formats::recording::{Recording, RecordingHeader};
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_sim::{RecordedPlume, Scenario, Simulator, Tide, presets};
+use albacore_sim::{RecordedPlume, Scenario, Simulator, Tide};
 use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 use std::sync::Arc;
@@ -82,7 +83,7 @@ fn impossible_playbacks_are_refused() {
         scenario.validate().map_or_else(|error| error.to_string(), |()| String::from("sound"))
     };
     assert_eq!(fault(&|_, _| ()), "sound");
-    let own = presets::duck_2003_flat();
+    let own = world::flat();
     for (said, expected) in [
         (fault(&|_, r| r.start = 5400.0), "that ends at 5400 s"),
         (fault(&|_, r| (r.start, r.start_spread) = (3000.0, 2500.0)), "the run begins up to 5500 s"),
