@@ -11,6 +11,7 @@ mod guard;
 mod page;
 
 use albacore_session::{Diagnostic, Faults, Outcome, Plan, PlanError, Run, Running, load, load_faults};
+use albacore_sim::Sensor;
 use guard::{Guard, Problems};
 use std::path::Path;
 
@@ -18,7 +19,6 @@ const SURVEY: &str = "tests/faults/survey.alb";
 /// A run that lasts longer hangs: the mission's limit of 10 min, its recovery of 3 min, and what a hold may add, in ticks.
 const TICKS_MAX: u64 = 9_000;
 
-const SENSORS: [&str; 7] = ["position", "heading", "speed", "depth", "altitude", "flow", "chemical"];
 const DISORDERS: [&str; 8] = ["off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent", "not_a_number"];
 /// What else can go wrong.
 const OTHERS: [&str; 9] = [
@@ -32,6 +32,11 @@ const OTHERS: [&str; 9] = [
     "strong_current(1.5 m/s toward 90 deg)",
     "strong_current(4 m/s toward 30 deg)",
 ];
+
+/// Those that can fail.
+fn sensors() -> impl Iterator<Item = &'static str> {
+    Sensor::ALL.into_iter().map(Sensor::name)
+}
 
 /// What came of a run.
 struct Told {
@@ -147,7 +152,7 @@ fn a_course_that_swings_in_waves_is_believed() {
 
 #[test]
 fn every_fault_is_survived_and_named() {
-    let matrix = SENSORS.iter().flat_map(|sensor| DISORDERS.map(|disorder| format!("{sensor}, {disorder}")));
+    let matrix = sensors().flat_map(|sensor| DISORDERS.map(|disorder| format!("{sensor}, {disorder}")));
     let all: Vec<String> = matrix.chain(OTHERS.map(String::from)).collect();
     let (mut rows, mut broken) = (Vec::new(), Vec::new());
     for fault in &all {
@@ -168,7 +173,7 @@ fn every_fault_is_survived_and_named() {
 /// it stays away for five of its periods.
 #[test]
 fn what_can_be_seen_is_detected() {
-    for sensor in SENSORS {
+    for sensor in sensors() {
         for disorder in ["off", "garbage", "slow", "delayed", "intermittent", "not_a_number"] {
             let fault = format!("{sensor}, {disorder}");
             for (told, seed) in all_seeds(&fault).iter().zip(1..) {

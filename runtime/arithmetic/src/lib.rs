@@ -12,7 +12,7 @@ mod angle;
 mod interval;
 mod numbers;
 mod operation;
-mod sensed;
+mod time_and_counts;
 mod vectors;
 mod whole;
 
@@ -20,7 +20,7 @@ pub use angle::{Cos, Sin, WrapAngle, WrapHeading};
 pub use interval::Interval;
 pub use numbers::{Abs, Add, Div, Max, Min, Mul, Neg, Pow, Sqrt, Sub};
 pub use operation::{Operation, Operator};
-pub use sensed::{Age, NEVER_S, Ticks, counted};
+pub use time_and_counts::{Age, NEVER_S, Ticks, counted};
 pub use vectors::{Dot, Length, Spread};
 pub use whole::{AddInt, Ceil, Floor, MulInt, Round, SubInt};
 

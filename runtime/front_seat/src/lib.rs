@@ -3,16 +3,16 @@
 //! A simulated vehicle has one, and one serves a vehicle at the far end of a link: both are this. Nothing here knows how
 //! commands come, nor how a hull moves. Positions are metres north and east, times seconds since tick 0.
 
-mod handover;
+mod control_arbiter;
 mod own_plan;
 
-pub use handover::Handover;
+pub use control_arbiter::Handover;
 pub use own_plan::{Milestone, OwnPlan};
 
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::{Route, through_water};
 use albacore_vehicle::{Command, Control, Vertical};
-use handover::ControlArbiter;
+use control_arbiter::ControlArbiter;
 
 /// What the computer knows of its vehicle.
 #[derive(Clone, Copy, Debug, Default)]

@@ -111,9 +111,14 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
     let is_told = |input: &str| input == senses::CONTROL || told.iter().any(|measurement| measurement.name == input);
     let finding = |(input, span): (&str, Span)| {
         let message = format!("the vehicle of `{scenario}` has no sensor for `{input}`");
-        let help = match measurements::all().iter().any(|measurement| measurement.name == input) {
-            true => format!("let `{scenario}` have a `ctd()`, which measures temperature and salinity"),
-            false => "no simulated vehicle has one: run the mission on a vehicle that tells it".to_string(),
+        let instrument = measurements::ALL.iter().find(|row| row.name == input).and_then(|row| row.instrument);
+        let help = match instrument {
+            Some(clause) => {
+                let of_clause = measurements::ALL.iter().filter(|row| row.instrument == Some(clause));
+                let brings: Vec<&str> = of_clause.map(|row| row.name).collect();
+                format!("let `{scenario}` have a `{clause}()`, which measures {}", brings.join(" and "))
+            }
+            None => "no simulated vehicle has one: run the mission on a vehicle that tells it".to_string(),
         };
         Diagnostic::error(Code::ScenariosWorld, span, message).help(help)
     };

@@ -19,6 +19,8 @@ pub struct MeasurementInfo {
     pub is_watched: bool,
     /// What the vehicle makes it of: doubtful with any of them.
     pub sources: &'static [u16],
+    /// The clause of the instrument that it comes from, where a vehicle may not have that one.
+    pub instrument: Option<&'static str>,
 }
 
 /// A greatest change: so much a second, and so much besides.
@@ -30,7 +32,15 @@ struct Change {
 
 impl MeasurementInfo {
     const fn of(name: &'static str, quantity: Quantity) -> Self {
-        MeasurementInfo { name, quantity, change_max: None, is_gated: false, is_watched: false, sources: &[] }
+        MeasurementInfo {
+            name,
+            quantity,
+            change_max: None,
+            is_gated: false,
+            is_watched: false,
+            sources: &[],
+            instrument: None,
+        }
     }
 
     const fn changes(self, rate: f64, step: f64) -> Self {
@@ -43,6 +53,10 @@ impl MeasurementInfo {
 
     const fn watched(self) -> Self {
         MeasurementInfo { is_watched: true, ..self }
+    }
+
+    const fn of_instrument(self, clause: &'static str) -> Self {
+        MeasurementInfo { instrument: Some(clause), ..self }
     }
 
     const fn made_of(self, sources: &'static [u16]) -> Self {
@@ -99,9 +113,9 @@ measurements! {
     /// What the vehicle's own mission is about: the place in the library's `enum VehicleMode`.
     VEHICLE_MODE: MeasurementInfo::of("vehicle_mode", Quantity::Word);
     /// The temperature of the water.
-    TEMPERATURE: MeasurementInfo::of("temperature", Quantity::Temperature);
+    TEMPERATURE: MeasurementInfo::of("temperature", Quantity::Temperature).of_instrument("ctd");
     /// The practical salinity of the water.
-    SALINITY: MeasurementInfo::of("salinity", Quantity::Salinity);
+    SALINITY: MeasurementInfo::of("salinity", Quantity::Salinity).of_instrument("ctd");
 }
 
 /// A measurement of ours by its number.
@@ -120,12 +134,14 @@ pub const fn name(measurement: u16) -> &'static str {
 
 /// All of them, as a vehicle delivers them.
 pub fn all() -> Vec<Measurement> {
-    ALL.iter().map(|row| Measurement { name: row.name.to_owned(), width: row.quantity.width() }).collect()
+    delivered(|_| true)
 }
 
-/// Those of a vehicle without a CTD. A mission that requires what it does not measure is refused before it begins.
-pub fn without_ctd() -> Vec<Measurement> {
-    let mut measurements = all();
-    measurements.truncate(usize::from(TEMPERATURE));
-    measurements
+/// Those of a vehicle that has some of the instruments which vehicles may lack. A number keeps its place: what is not delivered before
+/// others has no name there. A mission that requires what its vehicle does not measure is refused before it begins.
+pub fn delivered(has: impl Fn(&str) -> bool) -> Vec<Measurement> {
+    let is_there = |row: &MeasurementInfo| row.instrument.is_none_or(&has);
+    let count = ALL.iter().rposition(is_there).map_or(0, |last| last + 1);
+    let name = |row: &MeasurementInfo| if is_there(row) { row.name.to_owned() } else { String::new() };
+    ALL[..count].iter().map(|row| Measurement { name: name(row), width: row.quantity.width() }).collect()
 }

@@ -1,7 +1,7 @@
 //! What stands under one another: declarations that follow one another where the author has begun to align them, and the
 //! comments beside the lines.
 
-use super::doc::Clause;
+use super::document::Clause;
 use super::print::{Line, width};
 use std::collections::BTreeMap;
 

@@ -1,14 +1,14 @@
 //! One style for all scripts: text to text, with every comment kept and the tree as it was.
 //!
-//! `build` goes through what the grammar has read and makes documents: words, and where lines may end. `print` chooses where
+//! `to_document` goes through what the grammar has read and makes documents: words, and where lines may end. `print` chooses where
 //! they do end. `align` then puts into columns what stands under one another. Three things are the author's and stay:
 //! line ends where a line may end, blank lines, and whether declarations that follow one another are aligned.
 
 mod align;
-mod build;
-mod doc;
+mod document;
 mod print;
 mod table;
+mod to_document;
 
 use crate::Parsed;
 use crate::diagnostic::{Diagnostic, has_error};
@@ -41,7 +41,7 @@ fn lay_out(file: FileId, source: &str) -> Result<String, Vec<Diagnostic>> {
     if has_error(&parsed.findings) {
         return Err(parsed.findings);
     }
-    let mut lines = print::print(&build::file(source, &parsed.concrete));
+    let mut lines = print::print(&to_document::file(source, &parsed.concrete));
     table::align(&mut lines);
     align::declarations(&mut lines);
     align::comments(&mut lines);

@@ -1,6 +1,6 @@
 //! Chooses where lines end: what fits stays on one line, else the outermost bracket or operator is broken first.
 
-use super::doc::{Clause, Comment, Doc, Indent, Word};
+use super::document::{Clause, Comment, Doc, Indent, Word};
 use super::{INDENT, WIDTH};
 
 /// A line of the result.

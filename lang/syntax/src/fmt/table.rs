@@ -1,6 +1,6 @@
 //! Columns of a switching table: `->` under `->`, `on` under `on`, and `do` under `do` where the author has begun to.
 
-use super::doc::Column;
+use super::document::Column;
 use super::print::{Line, width};
 use std::collections::BTreeMap;
 

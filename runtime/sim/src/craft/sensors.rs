@@ -66,6 +66,16 @@ pub struct InstrumentSetup {
     pub battery: Battery,
 }
 
+/// Whether a vehicle has an instrument: one that it may lack is an `Option`.
+macro_rules! is_there {
+    ($field:expr) => {
+        true
+    };
+    ($field:expr, Some) => {
+        $field.is_some()
+    };
+}
+
 /// The clauses of instruments, by their names in a script, and where each goes.
 macro_rules! clauses {
     ($($name:literal $clause:ident => $field:ident $(in $wrap:ident)?;)*) => {
@@ -81,6 +91,14 @@ macro_rules! clauses {
         }
 
         impl InstrumentSetup {
+            /// Whether a vehicle has the instrument of a clause.
+            fn has(&self, clause: &str) -> bool {
+                match clause {
+                    $($name => is_there!(self.$field $(, $wrap)?),)*
+                    _ => false,
+                }
+            }
+
             /// Takes in a clause.
             pub(crate) fn set(&mut self, setting: InstrumentSetting) {
                 match setting {
@@ -107,7 +125,7 @@ clauses! {
 impl InstrumentSetup {
     /// What a vehicle tells that has them.
     pub fn measurements(&self) -> Vec<Measurement> {
-        if self.ctd.is_some() { measurements::all() } else { measurements::without_ctd() }
+        measurements::delivered(|clause| self.has(clause))
     }
 
     /// What of them cannot be.

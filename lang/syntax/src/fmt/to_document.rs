@@ -1,6 +1,6 @@
 //! From what the grammar has read to a document. The words are the source's own: nothing is spelt anew.
 
-use super::doc::{Clause, Column, Comment, Doc, Indent, Word};
+use super::document::{Clause, Column, Comment, Doc, Indent, Word};
 use crate::{ConcreteTree, Node, Rule};
 
 /// The document of a file.

@@ -2,149 +2,17 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose vehicle cannot be made has failed")]
 
+mod wire;
+
 use albacore_front_seat::Handover;
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
-use albacore_link::{
-    ControllerMessage, ControllerSide, Dialect, Framing, LinkError, LinkVehicle, Received, Route, Server, SetPoint,
-    Settings, Transport, Url, recon,
-};
+use albacore_link::{LinkVehicle, Route, Server, Url, recon};
 use albacore_sim::{Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::{Command, Control, Snapshot, Vehicle, Vertical};
-use std::cell::RefCell;
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::Arc;
 use std::time::Duration;
-
-/// What the test and the vehicle's driver both hold.
-#[derive(Default)]
-struct Shared<T>(Mutex<T>);
-
-impl<T: Default> Shared<T> {
-    fn borrow(&self) -> MutexGuard<'_, T> {
-        self.0.lock().unwrap()
-    }
-
-    fn set(&self, value: T) {
-        *self.borrow() = value;
-    }
-
-    fn take(&self) -> T {
-        std::mem::take(&mut self.borrow())
-    }
-}
-
-impl<T: Copy + Default> Shared<T> {
-    fn get(&self) -> T {
-        *self.borrow()
-    }
-}
-
-/// How the wire is, and what went over it.
-#[derive(Default)]
-struct Wire {
-    now: Shared<Duration>,
-    silent: Shared<bool>,
-    deaf: Shared<bool>,
-    cut: Shared<bool>,
-    /// The bytes for which there is room in the system: what comes then is lost. 0: as many as come.
-    room: Shared<usize>,
-    /// So long what the vehicle says is on its way.
-    delay: Shared<Duration>,
-    /// So long the host is stopped while it says something next.
-    stop: Shared<Duration>,
-    sent: Shared<String>,
-}
-
-/// The most that one look gives, as a terminal does: some states.
-const LOOK_BYTES: usize = 1000;
-/// A tick of the vehicle.
-const TICK: Duration = Duration::from_millis(100);
-
-/// A wire with a vehicle at its other end, whose time is that of who looks, and goes on while nobody does.
-struct Desk {
-    wire: Arc<Wire>,
-    far_end: Server<Simulator>,
-    to_vehicle: Vec<u8>,
-    under_way: VecDeque<(Duration, Vec<u8>)>,
-    from_vehicle: VecDeque<u8>,
-    ticked: Duration,
-}
-
-impl Desk {
-    fn live(&mut self) {
-        while self.ticked + TICK <= self.wire.now.get() {
-            self.ticked += TICK;
-            self.far_end.tick(&std::mem::take(&mut self.to_vehicle)).unwrap();
-            self.under_way.push_back((self.ticked + self.wire.delay.get(), self.far_end.take_output()));
-            if self.under_way.front().is_some_and(|(due, _)| *due > self.ticked) {
-                continue;
-            }
-            let Some((_, said)) = self.under_way.pop_front() else { continue };
-            let room = self.wire.room.get();
-            if !self.wire.silent.get() && (room == 0 || self.from_vehicle.len() + said.len() <= room) {
-                self.from_vehicle.extend(said);
-            }
-        }
-    }
-}
-
-impl Transport for Desk {
-    fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError> {
-        if self.wire.cut.get() {
-            return Err(LinkError::new("the line is gone", "plug it in"));
-        }
-        self.live();
-        if self.from_vehicle.is_empty() {
-            self.wire.now.set(self.wire.now.get() + wait);
-            self.live();
-        }
-        let most = self.from_vehicle.len().min(LOOK_BYTES);
-        into.extend(self.from_vehicle.drain(..most));
-        Ok(())
-    }
-
-    fn send(&mut self, lines: &[u8]) -> Result<(), LinkError> {
-        self.wire.sent.borrow().push_str(&String::from_utf8_lossy(lines));
-        if !self.wire.deaf.get() {
-            self.to_vehicle.extend_from_slice(lines);
-        }
-        Ok(())
-    }
-}
-
-/// A dialect whose controller can be stopped between what it has heard and what it says.
-static STOPPING: Dialect =
-    Dialect { controller: stopping, framing: Framing { ..recon::DIALECT.framing }, ..recon::DIALECT };
-
-thread_local! {
-    static STOPPED: RefCell<Arc<Wire>> = RefCell::default();
-}
-
-struct Stopping(Box<dyn ControllerSide>, Arc<Wire>);
-
-fn stopping(settings: &Settings) -> Result<Box<dyn ControllerSide>, LinkError> {
-    let wire = STOPPED.with_borrow(Arc::clone);
-    Ok(Box::new(Stopping((recon::DIALECT.controller)(settings)?, wire)))
-}
-
-impl ControllerSide for Stopping {
-    fn dialect(&self) -> &'static Dialect {
-        &STOPPING
-    }
-
-    fn hear(&mut self, bytes: &[u8], received: &mut Received) {
-        self.0.hear(bytes, received);
-    }
-
-    fn say(&mut self, what: &ControllerMessage, out: &mut Vec<u8>) {
-        self.0.say(what, out);
-        self.1.now.set(self.1.now.get() + self.1.stop.take());
-    }
-
-    fn text(&self, set_point: SetPoint) -> String {
-        self.0.text(set_point)
-    }
-}
+use wire::{Desk, STOPPED, STOPPING, TICK, Wire};
 
 fn vehicle() -> (LinkVehicle, Arc<Wire>) {
     answering(Handover::default())
