@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose mission cannot run, or never ends, has failed")]
 
 use albacore_machine::{Event, Machine, Outcome};
-use albacore_session::{Plan, load};
+use albacore_session::{Plan, Source, load, load_text};
 use albacore_vehicle::{Control, Lag, Measurement, Snapshot};
 use std::path::Path;
 
@@ -157,4 +157,41 @@ fn the_thermocline_is_found_over_a_link_too() {
         reported |= machine.events().iter().any(|event| format!("{event:?}").starts_with("Reported"));
     }
     assert!(reported && machine.outcome().is_none(), "{:?}", machine.outcome());
+}
+
+/// The attack: a recovery went on for minutes by the last position that had come, and over a link on which its commands were late.
+#[test]
+fn a_recovery_keeps_still_while_it_does_not_know_where_it_is() {
+    let text = "mission home in calm within 10 min {
+        area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+        limits { altitude >= 2 m, speed <= 2 m/s }
+        requires { position, course, heading fresh 5 s, else abort }
+        recovery within 5 min { goto op.center + 100 m toward south }
+        with depth 3 m, speed 1.5 m/s
+        goto op.center + 100 m toward north
+    }";
+    let script = load_text(Source { name: "home.alb".into(), text: text.into() });
+    let plan = Plan::new(&script, "home.alb", None, None).unwrap();
+    let names = ["course", "heading", "depth", "altitude", "position"];
+    let measurements =
+        names.map(|name| Measurement { name: name.into(), width: if name == "position" { 3 } else { 1 } });
+    let mut machine = Machine::new(plan.program, &measurements).unwrap();
+    let mut speed_after = |ticks: u32, is_placed: bool, round_trip: u64| {
+        let mut speed = None;
+        for _ in 0..ticks {
+            let lag = Lag { round_trip, host: None };
+            let mut snapshot = Snapshot { control: Control::InControl, lag, ..Snapshot::default() };
+            (0..).zip([0.0, 0.0, 3.0, 20.0]).for_each(|(measurement, sample)| snapshot.push(measurement, &[sample]));
+            if is_placed {
+                snapshot.push(4, &[0.0, 0.0, 1.0]);
+            }
+            speed = machine.step(&snapshot).map(|command| command.speed);
+        }
+        speed
+    };
+    assert_eq!(speed_after(20, true, 0), Some(1.5));
+    assert_eq!(speed_after(60, false, 0), Some(0.0), "it is aborted, and its recovery does not know where it is");
+    assert_eq!(speed_after(20, true, 0), Some(1.5), "it goes home");
+    assert_eq!(speed_after(20, true, 30), Some(0.0), "over a link that is too slow");
+    assert_eq!(speed_after(20, true, 0), Some(1.5));
 }

@@ -29,11 +29,21 @@ fn it_keeps_still_until_the_last_input_has_come_and_then_begins() {
     let (command, events) = tick(&[]);
     assert_eq!(command, None);
     assert!(events.iter().any(|e| matches!(e, Event::Awaited(_))));
+    // The first depth may be wrong: nothing is asked before a second one agrees.
+    assert_eq!(tick(&[(HEADING, &[1.5]), (DEPTH, &[11.0])]), (None, Vec::new()));
+    assert_eq!(tick(&[(DEPTH, &[4.0])]), (None, Vec::new()));
     // What it does already, at no speed.
-    let (command, events) = tick(&[(HEADING, &[1.5]), (DEPTH, &[4.0])]);
+    let (command, events) = tick(&[(DEPTH, &[4.0])]);
     let command = command.unwrap();
     assert_eq!((command.heading.radians(), command.speed, command.vertical), (1.5, 0.0, Vertical::Depth(4.0)));
     assert!(events.is_empty(), "{events:?}");
+    // What is asked is asked until then, though the vehicle sinks, and anew when its depth leaps.
+    let vertical = |depth: f64, (command, _): (Option<Command>, Vec<Event>)| {
+        assert_eq!(command.unwrap().vertical, Vertical::Depth(depth))
+    };
+    vertical(4.0, tick(&[(DEPTH, &[4.5])]));
+    assert_eq!(tick(&[(DEPTH, &[9.0])]), (None, Vec::new()));
+    vertical(9.0, tick(&[(DEPTH, &[9.0])]));
     // It begins on the tick of the sample.
     let (command, events) = tick(&[(FLOW, &[0.1, 0.0])]);
     assert!(command.is_some() && begun(&events), "{events:?}");

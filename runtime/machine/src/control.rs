@@ -24,6 +24,18 @@ impl Run {
         self.drives().then(|| self.give_command(p))
     }
 
+    /// The command with speed 0, for this tick alone.
+    pub fn still_command(&mut self, p: &Program) -> Command {
+        let overridden = std::mem::take(&mut self.state.overridden.speed);
+        self.state.asked.speed = overridden.unwrap_or(self.state.asked.speed);
+        self.state.way_back = None;
+        let before = self.state.asked;
+        self.state.asked.speed = 0.0;
+        let command = self.give_command(p);
+        self.state.asked = before;
+        command
+    }
+
     /// Whether the vehicle obeys the mission.
     pub fn drives(&self) -> bool {
         self.state.wish == ControlRequest::Drive && self.state.control == Control::InControl

@@ -50,6 +50,7 @@ impl Run {
                 let (position, course) = (self.position(), self.course());
                 let guidance = (law.step)(&mut self.state.words[state as usize..][..law.words], position, course);
                 self.ask(guidance.course, true, setpoints);
+                self.is_lost |= !self.in_overlay && self.known_position().is_none();
                 return guidance.arrived;
             }
             Steering::Along { over_ground } => {

@@ -46,6 +46,8 @@ impl Run {
             lift: Lift::default(),
             aground: Aground::default(),
             stands: false,
+            depth_before: None,
+            depth_agrees: false,
             limited: Default::default(),
             requires: Vec::new(),
             link: Requirement::LINK,
@@ -62,6 +64,7 @@ impl Run {
             state,
             events: Vec::new(),
             in_overlay: false,
+            is_lost: false,
             abort: None,
             deserted: None,
             senses: senses(p),
@@ -340,6 +343,8 @@ impl Run {
         self.execute(p, mission.refresh, base);
         self.step_overlays(p, mission, base);
         self.abort = None;
+        self.is_lost = false;
+        let is_lagging = self.lagging().is_some();
         let time_is_up = self.time_is_up();
         let status = self.step(p, recovery.activity, base);
         // Its own end on the very tick of the cut counts as such (rule 5). What it calls may say `abort`: that ends it too.
@@ -351,7 +356,8 @@ impl Run {
         if let Some(cause) = ended {
             return self.end_recovery(p, recovery.activity, outcome, cause);
         }
-        Some(self.give_command(p))
+        // Nothing aborts a recovery: it goes nowhere by what it does not know.
+        Some(if self.is_lost || is_lagging { self.still_command(p) } else { self.give_command(p) })
     }
 
     fn end_recovery(&mut self, p: &Program, recovery: u32, outcome: Outcome, cause: Cause) -> Option<Command> {

@@ -4,6 +4,7 @@ use crate::activity::Status;
 use crate::state::{Phase, Requirement, Run};
 use crate::{Event, Outcome};
 use albacore_program::{Input, LIMIT_FRESH_S, Program, Slot};
+use albacore_vehicle::measurements::{DEPTH, info};
 use albacore_vehicle::{Command, TICK_S};
 
 impl Run {
@@ -44,17 +45,40 @@ impl Run {
         }
         // Rule 6: at the very start the present heading and depth, speed 0, once they are known. What is present is taken once:
         // a depth that is told otherwise than it is held would lead further and further down.
+        self.compare_depth();
         if !self.state.stands {
             let knows = |at: Option<Slot>| at.is_some_and(|at| self.get(at + Input::STAMP) >= 0.0);
-            let knows_both = knows(self.senses.heading) && knows(self.senses.depth);
+            let is_late = lived * TICK_S > LIMIT_FRESH_S;
+            let knows_depth = knows(self.senses.depth) && (self.state.depth_agrees || is_late);
+            let knows_both = knows(self.senses.heading) && knows_depth;
             // Limits of depth and altitude do not wait for them: of what is not known it is north, and the surface.
-            let limits_wait = !self.bounds_vertical() || lived * TICK_S <= LIMIT_FRESH_S;
+            let limits_wait = !(self.bounds_vertical() && is_late);
             if !knows_both && limits_wait {
                 return None;
             }
             self.stand();
         }
         self.command_if_ours(p)
+    }
+
+    /// The first depth may be wrong, and nothing tells it but the next one: it is held once two agree, and anew where one contradicts it.
+    fn compare_depth(&mut self) {
+        let stamp = self.senses.depth.map_or(-1.0, |at| self.get(at + Input::STAMP));
+        if stamp < 0.0 {
+            return;
+        }
+        let now = self.depth();
+        match self.state.depth_before {
+            Some((_, then)) if stamp <= then => return,
+            Some((before, then)) => {
+                let reading = |depth| [depth, 0.0, 0.0, 0.0];
+                let time = (stamp - then) * TICK_S;
+                self.state.depth_agrees = info(DEPTH).can_follow(reading(now), reading(before), time);
+                self.state.stands &= self.state.depth_agrees;
+            }
+            None => {}
+        }
+        self.state.depth_before = Some((now, stamp));
     }
 
     /// The numbers of the requirements and of the time limit.
@@ -113,10 +137,6 @@ impl Run {
         if time_is_up {
             return Some(self.time_out(p));
         }
-        let before = self.state.asked;
-        self.state.asked.speed = 0.0;
-        let command = self.command_if_ours(p);
-        self.state.asked = before;
-        Some(command)
+        Some(self.drives().then(|| self.still_command(p)))
     }
 }

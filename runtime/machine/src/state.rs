@@ -41,6 +41,9 @@ pub struct State {
     pub(crate) aground: Aground,
     /// Whether the heading and the depth of the very start have been taken.
     pub(crate) stands: bool,
+    /// The depth that was sampled last while the mission waited, and in which tick; and whether it can have followed the one before.
+    pub(crate) depth_before: Option<(f64, f64)>,
+    pub(crate) depth_agrees: bool,
     /// For each channel whether a limit holds it back.
     pub(crate) limited: [bool; Channel::ALL.len()],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
@@ -202,6 +205,8 @@ pub(crate) struct Run {
     pub events: Vec<Event>,
     /// An overlay is being stepped: what it keeps is an override.
     pub in_overlay: bool,
+    /// In this tick a law went by a position that has not come for a while.
+    pub is_lost: bool,
     /// Why the mission is aborted, when it is.
     pub abort: Option<String>,
     /// The outcome of that, where it is another than that the script aborted it.

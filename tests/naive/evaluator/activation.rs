@@ -8,7 +8,7 @@ use super::value::Value;
 use super::watch::Watch;
 use super::world::World;
 use albacore_geometry::Heading;
-use albacore_lang::hir::{Activity, Block, Body, Decl, Kind, With};
+use albacore_lang::hir::{Activity, ActivityId, Block, Body, Decl, Hir, Kind, With};
 use albacore_lang::types::Type;
 use albacore_program::{Cause, TURN_RATE_MIN};
 
@@ -396,4 +396,11 @@ impl<'p> Activation<'p> {
 /// Why what is inside is left when something outside is left.
 pub fn inner_cause(cause: Cause) -> Cause {
     if cause == Cause::Aborted { Cause::Aborted } else { Cause::Preempted }
+}
+
+/// What a mission does after a time-out or an abort, as an activity of its own.
+pub fn recovery(hir: &Hir, mission: ActivityId) -> Activity {
+    let activity = &hir.activities[mission];
+    let block = activity.mission.as_ref().and_then(|m| m.recovery.as_ref()).map(|(_, block)| block.clone());
+    Activity { body: Body::Sequence(block.unwrap_or_default()), ..Activity::empty("recovery", activity.span) }
 }

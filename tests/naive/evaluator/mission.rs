@@ -4,10 +4,10 @@ use super::activation::{Aborted, Activation};
 use super::bottom::Bottom;
 use super::expr::{Frame, Scope, number, value};
 use super::timed::Setpoints;
-use super::world::{Asked, World, ticks};
+use super::world::{Asked, FirstDepths, World, ticks};
 use albacore_geometry::TangentFrame;
 use albacore_guidance::{CommandFilter, through_water};
-use albacore_lang::hir::{Activity, ActivityId, Body, Decl, Expr, ExprKind, Hir, Mission, children};
+use albacore_lang::hir::{Activity, ActivityId, Decl, Expr, ExprKind, Hir, Mission, children};
 use albacore_lang::source::Sources;
 use albacore_lang::types::TypeTable;
 use albacore_program::{Cause, Channel};
@@ -66,14 +66,8 @@ pub struct Evaluator<'p> {
     lain_at: Option<f64>,
     /// Rule 6: whether the heading and depth of the very start have been taken.
     stands: bool,
+    first_depths: FirstDepths,
     control: Control,
-}
-
-/// What a mission does after a time-out or an abort, as an activity of its own.
-pub fn recovery(hir: &Hir, mission: ActivityId) -> Activity {
-    let activity = &hir.activities[mission];
-    let block = activity.mission.as_ref().and_then(|m| m.recovery.as_ref()).map(|(_, block)| block.clone());
-    Activity { body: Body::Sequence(block.unwrap_or_default()), ..Activity::empty("recovery", activity.span) }
 }
 
 impl<'p> Evaluator<'p> {
@@ -106,6 +100,7 @@ impl<'p> Evaluator<'p> {
             lain_driven: 0,
             lain_at: None,
             stands: false,
+            first_depths: FirstDepths::default(),
             control: Control::Disconnected,
             w,
         })
@@ -262,12 +257,16 @@ impl<'p> Evaluator<'p> {
             self.w.say("abort aground for 30 s".into());
             return self.over("aground", Cause::Aborted);
         }
+        if self.first_depths.are_contradicted(&self.w) {
+            self.stands = false;
+        }
         if !self.stands {
             let [depth, altitude] = [Channel::Depth, Channel::Altitude].map(|channel| self.limits[channel as usize]);
             let is_bounded = altitude.0 > 0.0 || depth.1 < f64::MAX;
-            let knows_both = self.w.depth().is_some() && self.w.knows_heading();
+            let is_late = lived > 50;
+            let knows_both = self.first_depths.are_known(is_late) && self.w.knows_heading();
             // Limits do not wait for more than 5 s.
-            if !(knows_both || is_bounded && lived > 50) {
+            if !(knows_both || is_bounded && is_late) {
                 return None;
             }
             self.stand();
@@ -344,10 +343,17 @@ impl<'p> Evaluator<'p> {
         if time_is_up {
             return self.time_out();
         }
-        let speed = std::mem::replace(&mut self.w.asked.speed, 0.0);
+        Some(self.still())
+    }
+
+    /// The command with speed 0, for this tick alone.
+    fn still(&mut self) -> Command {
+        self.w.way_back = None;
+        let speed = self.w.kept.speed.take().unwrap_or(self.w.asked.speed);
+        self.w.asked.speed = 0.0;
         let command = self.command();
         self.w.asked.speed = speed;
-        Some(command)
+        command
     }
 
     fn time_out(&mut self) -> Option<Command> {
@@ -380,12 +386,14 @@ impl<'p> Evaluator<'p> {
     fn recover(&mut self, since: u64, outcome: &'static str) -> Option<Command> {
         self.mission.refresh(&mut self.w);
         let _ = self.mission.step_overlays(&mut self.w);
+        self.w.is_lost = false;
         let time_is_up = self.recovery_is_late(since);
         match self.recovery.step(&mut self.w) {
             // There is nothing left to abort but the recovery itself.
             Err(_) => self.end_recovery(outcome, Cause::Aborted),
             Ok(true) => self.end_recovery(outcome, Cause::Done),
             Ok(false) if time_is_up => self.end_recovery(outcome, Cause::TimedOut),
+            Ok(false) if self.w.is_lost => Some(self.still()),
             Ok(false) => Some(self.command()),
         }
     }

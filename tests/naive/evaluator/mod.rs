@@ -14,5 +14,6 @@ mod value;
 mod watch;
 mod world;
 
+pub use activation::recovery;
 pub use expr::exactly;
-pub use mission::{Evaluator, recovery};
+pub use mission::Evaluator;

@@ -166,6 +166,7 @@ impl<'p> Underway<'p> {
             },
         };
         ask(w, guidance.course, true, self.setpoints);
+        w.is_lost |= w.known_position().is_none();
         Ok(guidance.arrived)
     }
 

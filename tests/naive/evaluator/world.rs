@@ -40,6 +40,8 @@ pub struct World<'p> {
     pub asked: Asked,
     /// The way back to a place that is kept, of this tick.
     pub way_back: Option<(Heading, f64)>,
+    /// A law went by a position that has not come for a while.
+    pub is_lost: bool,
     /// The mission's limit of speed.
     pub fastest: f64,
     /// The fastest turn that is commanded, rad/s.
@@ -82,6 +84,7 @@ impl<'p> World<'p> {
             tick: 0,
             asked,
             way_back: None,
+            is_lost: false,
             fastest: f64::MAX,
             turn_rate: TURN_RATE_MAX,
             kept: Setpoints::default(),
@@ -255,5 +258,29 @@ impl<'p> World<'p> {
 
     pub fn written(&self, e: &Expr) -> String {
         self.sources.text(e.span).to_string()
+    }
+}
+
+/// The depths that come while a mission waits: the first may be wrong, and nothing tells it but the next one.
+#[derive(Default)]
+pub struct FirstDepths {
+    before: Option<(f64, u64)>,
+    agree: bool,
+}
+
+impl FirstDepths {
+    /// Takes in the latest depth; whether it is further than 1 m and 3 m/s from the one before.
+    pub fn are_contradicted(&mut self, w: &World) -> bool {
+        let Some(id) = w.hir.inputs.iter().position(|input| input.name == "depth") else { return false };
+        let (Some(stamp), now) = (w.inputs[id].stamp, w.depth().unwrap_or(0.0)) else { return false };
+        let before = self.before.replace((now, stamp));
+        let Some((before, then)) = before.filter(|(_, then)| *then != stamp) else { return false };
+        self.agree = (now - before).abs() <= 1.0 + 3.0 * (stamp - then) as f64 * TICK_S;
+        !self.agree
+    }
+
+    /// Whether two have agreed, or one came and no second one in time.
+    pub fn are_known(&self, is_late: bool) -> bool {
+        self.before.is_some() && (self.agree || is_late)
     }
 }

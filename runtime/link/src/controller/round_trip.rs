@@ -227,7 +227,15 @@ impl RoundTrip {
 
     /// For so many ticks the oldest mark that has not come back has waited.
     pub fn waits(&self, now: Moment) -> u64 {
-        self.since(self.heard(), now)
+        self.since(self.heard(), now).max(self.held_up(now))
+    }
+
+    /// For so many ticks a state tells an older mark than it was sent since: it has not heard that one, whatever an echo says, for that may
+    /// come from this end of the line. One that tells no mark of ours may protect itself.
+    fn held_up(&self, now: Moment) -> u64 {
+        let Back { last, heard, .. } = self.back[GoalSource::State as usize];
+        let told = heard.checked_sub(1).and_then(|newest| self.sent.get(newest));
+        if told.is_some_and(|(mark, _)| last == Some(*mark)) { self.since(heard, now) } else { 0 }
     }
 
     /// The ticks since one of the marks was sent, if it was.

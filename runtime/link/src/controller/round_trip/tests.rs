@@ -262,3 +262,24 @@ fn a_vehicle_that_protects_itself_or_stood_still_is_not_late() {
     let stood = of_late_states(|_| 1, |now| now > 600, |now| (300..330).contains(&now));
     assert!(stood[350..].iter().all(|measured| *measured <= 15), "{:?}", stood[350..].iter().max());
 }
+
+/// The attack: a modem at this end echoed what it was to send, and the way up grew to half a minute unseen.
+#[test]
+fn an_echo_at_this_end_of_the_line_hides_no_delay_of_it() {
+    let mut trip = RoundTrip::new(1.0);
+    let mut way_up = std::collections::VecDeque::new();
+    for tick in 0..400 {
+        let now = at(tick);
+        let heading = trip.marked(Heading::from_degrees(90.0), now);
+        trip.sent(heading, now);
+        trip.reported(heading, GoalSource::Echo, now);
+        way_up.push_back(heading);
+        // From tick 100 on each comes two ticks later than the one before.
+        if tick < 100 || tick % 3 == 0 {
+            trip.reported(way_up.pop_front().unwrap(), GoalSource::State, now);
+        }
+        let late = way_up.len() as u64;
+        assert!(trip.ticks(now) + 2 * MARK_TICKS >= late, "{} of {late} in tick {tick}", trip.ticks(now));
+    }
+    assert!(way_up.len() > 190);
+}
