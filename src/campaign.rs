@@ -159,6 +159,7 @@ impl Campaign {
     }
 
     fn sum_up(&self, plan: &Plan, tally: &Tally) {
+        interruption::nobody_looks();
         let told = CampaignSummary::new(plan, self.seeds, &self.out, tally);
         if self.json {
             output::print_json(&told);

@@ -93,6 +93,13 @@ pub fn flag() -> Arc<AtomicBool> {
     Arc::clone(&RAISED)
 }
 
+/// The work is done, and only its result is to be shown: who does not want to see it ends the program with the first request. One
+/// that came before is being seen to.
+pub fn nobody_looks() {
+    let mut heard = heard();
+    heard.is_looked_at &= heard.first.is_some();
+}
+
 /// While it lives, a temporary file is in the making: a request to end waits for it, and then does what it does without us, unless
 /// somebody looks at the flag.
 pub struct Held(());

@@ -231,6 +231,7 @@ impl ResultPrinter {
 
     /// Tells it.
     pub fn print(&self, told: &RunResult, outcome: Outcome, picture: Option<&Path>) {
+        interruption::nobody_looks();
         let summary = told.summary;
         let link_failed = self.on_link && outcome == Outcome::Failed;
         if link_failed {

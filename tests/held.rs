@@ -240,3 +240,21 @@ fn a_second_signal_ends_a_program_that_is_held() {
     });
     assert!(status.code() == Some(128 + 15) || status.signal() == Some(15), "{status:?}");
 }
+
+/// The attack: a campaign that had its table, and whose result nobody took, heard the first request to end and went on waiting.
+#[test]
+fn the_first_signal_ends_a_program_whose_result_nobody_takes() {
+    let mut terminal = Terminal::new();
+    let folder = empty("result-held");
+    let table = folder.join("t.csv");
+    terminal.ctrl_s();
+    let words = ["campaign", "missions/box.alb", "--seeds", "1..2", "--json", "--out"];
+    let mut campaign = albacore(&words);
+    let mut campaign = campaign.arg(&table).stdout(terminal.line()).stderr(Stdio::null()).spawn().unwrap();
+    eventually("a table", || std::fs::read_to_string(&table).ok().filter(|rows| rows.lines().count() == 3));
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    assert!(campaign.try_wait().unwrap().is_none(), "it waits for its terminal");
+    send("-TERM", &campaign);
+    let status = eventually("an end", || campaign.try_wait().unwrap());
+    assert!(status.code() == Some(128 + 15) || status.signal() == Some(15), "{status:?}");
+}

@@ -5,6 +5,7 @@
 use crate::examples::{Example, OF_A_FRAGMENT, examples, findings};
 use albacore_program::{Guide, Omitted, ParamKind};
 use albacore_session::{Faults, run_test};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 const REFERENCE: &str = "docs/language.md";
@@ -199,4 +200,42 @@ fn every_clause_is_linked() {
 fn the_protocols_of_the_standard_library_are_the_table_of_dialects() {
     let protocols = clauses("craft").into_iter().filter(|(_, kind)| kind.as_deref() == Some("protocol"));
     assert_eq!(protocols.map(|(name, _)| name).collect::<Vec<_>>(), albacore_link::Dialect::names());
+}
+
+/// The codes between backquotes in a stretch of the reference.
+fn quoted<'t>(page: &'t str, from: &str, to: &str) -> BTreeSet<&'t str> {
+    let stretch = page.split(from).nth(1).and_then(|rest| rest.split(to).next()).unwrap_or_default();
+    stretch.split('`').skip(1).step_by(2).collect()
+}
+
+/// The list of warnings is that of the warnings which some snapshot shows.
+#[test]
+fn every_warning_is_listed() {
+    let mut shown = BTreeSet::new();
+    for entry in std::fs::read_dir("tests/snapshots").unwrap() {
+        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        let code = |at: usize| at.checked_sub(2).and_then(|at| lines.get(at)).filter(|code| code.contains("::"));
+        shown.extend(
+            (0..lines.len()).filter(|at| lines[*at].starts_with('⚠')).filter_map(code).map(|code| code.to_string()),
+        );
+    }
+    let page = std::fs::read_to_string(REFERENCE).unwrap();
+    let listed: BTreeSet<String> = quoted(&page, "\nWarnings are ", ".\n").into_iter().map(str::to_string).collect();
+    assert_eq!(listed, shown);
+}
+
+/// Whoever adds a guidance law finds all places of the reference that name them.
+#[test]
+fn every_guidance_law_is_named_where_they_are() {
+    let page = std::fs::read_to_string(REFERENCE).unwrap();
+    let rule_3 = quoted(&page, "**Rule 3. ", "and calls of");
+    let verbs = page.split("\nVERB ").nth(1).and_then(|rest| rest.lines().next()).unwrap();
+    let reserved = page.split("**Reserved words**").nth(1).and_then(|rest| rest.split("\n\n").nth(1)).unwrap();
+    for guide in Guide::ALL {
+        let verb = guide.law().verb;
+        assert!(rule_3.contains(verb), "rule 3: {verb}");
+        assert!(reserved.split(|c: char| !c.is_alphabetic()).any(|word| word == verb), "reserved words: {verb}");
+        assert!(!Guide::takes_arguments(verb) || verbs.contains(&format!("\"{verb}\"")), "VERB: {verb}");
+    }
 }

@@ -16,6 +16,7 @@
     reason = "a test whose scripts cannot be read has failed; figures are printed"
 )]
 
+use albacore_lang::syntax::words::is_reserved;
 use albacore_session::{Diagnostic, FileId, Files, Script, Severity, Source};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -45,11 +46,6 @@ struct Token {
     kind: Kind,
 }
 
-/// Words that the grammar reserves; the rest are names, also where one of them means something.
-const KEYWORDS: &str = "abort after and any at becomes behavior by const do done dubins else enum false finish fn follow for \
-     goto hold if in keep let log loiter loop match memory mission no none not of on or overlay override record report \
-     scenario signal start steer strategy test then toward true until use var wait watch while with within";
-
 /// The tokens of a script; comments are none.
 fn tokens(text: &str) -> Vec<Token> {
     let mut tokens = Vec::new();
@@ -64,7 +60,7 @@ fn tokens(text: &str) -> Vec<Token> {
             '0'..='9' => (number_length(rest), Some(Kind::Number)),
             c if word(c) => {
                 let length = rest.find(|c| !word(c)).unwrap_or(rest.len());
-                let keyword = KEYWORDS.split(' ').any(|keyword| keyword == &rest[..length]);
+                let keyword = is_reserved(&rest[..length]);
                 (length, Some(if keyword { Kind::Keyword } else { Kind::Name }))
             }
             '(' | ')' | '[' | ']' | '{' | '}' => (1, Some(Kind::Bracket)),
