@@ -360,7 +360,7 @@ impl<'t> Checker<'t> {
                             kind: hir::VarKind::Param,
                             ty: info.ty.clone(),
                             span: info.span,
-                            range: info.range.unwrap_or_else(|| super::constant::of_type(&info.ty)),
+                            range: info.range.unwrap_or_else(|| super::result_range::of_type(&info.ty)),
                             walks_constants: false,
                             order: None,
                         });

@@ -1,7 +1,7 @@
 //! Expressions: names, literals, conversions, conditions.
 
-use super::constant::of_type;
 use super::facts::Place;
+use super::result_range::of_type;
 use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -22,7 +22,7 @@ impl<'t> Checker<'t> {
             ExprKind::Number(x) => Interval::exactly(*x),
             ExprKind::Do(op, operands) => {
                 let ranges: Vec<Interval> = operands.iter().map(|o| o.range).collect();
-                super::constant::range(*op, &ranges).unwrap_or_else(|| of_type(&ty))
+                super::result_range::range(*op, &ranges).unwrap_or_else(|| of_type(&ty))
             }
             ExprKind::Present(inner) => inner.range,
             ExprKind::If(_, a, b) => match (&a.value, &b.value) {

@@ -1,7 +1,7 @@
 //! Names: what each stands for, who may be declared, read and assigned.
 
-use super::constant::of_type;
 use super::facts::Place;
+use super::result_range::of_type;
 use super::{Checker, Def, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;

@@ -2,7 +2,7 @@
 //! What is known of a value is its range: one that is wholly senseless is refused, one that only may be is not.
 
 use super::Checker;
-use super::constant::of_type;
+use super::result_range::of_type;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;

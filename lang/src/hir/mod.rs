@@ -1,6 +1,7 @@
 //! The checked program: names resolved, types known, every conversion spelt out. What lowering reads.
 
 mod activity;
+mod operator;
 mod position;
 mod same;
 mod simulated;

@@ -249,16 +249,13 @@ impl<'a> Lowering<'a> {
             let words = self.words(&operands[0].ty);
             self.emit(Compute::Clear { to, words });
         }
-        if let Some(operator) = unary(op) {
-            self.emit(Compute::One { operator, to, a });
-            return;
-        }
         // `number(angle)` has one operand: it is the angle.
         if op == B::Add && operands.len() == 1 {
             return self.copy(to, a, 1);
         }
-        if let Some(operator) = binary(op) {
-            self.emit(Compute::two(operator, to, a, b));
+        if let Some(operator) = of_numbers(op) {
+            let one = Compute::One { operator, to, a };
+            self.emit(if operands.len() == 1 { one } else { Compute::two(operator, to, a, b) });
             return;
         }
         let op: Op = match op {
@@ -382,38 +379,9 @@ impl<'a> Lowering<'a> {
     }
 }
 
-/// The operator of one number that a function or an operator of the language is.
-fn unary(op: Builtin) -> Option<Operator> {
-    use Builtin as B;
-    Some(match op {
-        B::Neg => Operator::Neg,
-        B::Abs => Operator::Abs,
-        B::Sqrt => Operator::Sqrt,
-        B::Floor => Operator::Floor,
-        B::Ceil => Operator::Ceil,
-        B::Round => Operator::Round,
-        B::Sin => Operator::Sin,
-        B::Cos => Operator::Cos,
-        B::Heading => Operator::WrapHeading,
-        B::Angle => Operator::WrapAngle,
-        _ => return None,
-    })
-}
-
-/// The same of two numbers.
-fn binary(op: Builtin) -> Option<Operator> {
-    use Builtin as B;
-    Some(match op {
-        B::Add => Operator::Add,
-        B::Sub => Operator::Sub,
-        B::Mul => Operator::Mul,
-        B::AddInt => Operator::AddInt,
-        B::SubInt => Operator::SubInt,
-        B::MulInt => Operator::MulInt,
-        B::Div => Operator::Div,
-        B::Pow => Operator::Pow,
-        B::Min => Operator::Min,
-        B::Max => Operator::Max,
-        _ => return None,
-    })
+/// The arithmetic of an operation that is of one or two numbers, and always gives one.
+fn of_numbers(op: Builtin) -> Option<Operator> {
+    let is_of_others =
+        matches!(op, Builtin::Quotient | Builtin::Length | Builtin::Dot | Builtin::Along | Builtin::Spread);
+    op.operator().filter(|_| !is_of_others)
 }
