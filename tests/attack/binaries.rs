@@ -88,6 +88,8 @@ fn what_is_no_fault_of_a_link_is_told() {
         ("lost: 5 %", "`lost`"),
         ("delay: 200 m", "is a Duration, this is a Length"),
         ("link_fault(loss: 5)", "5 is outside the range of `loss`"),
+        ("", "nothing goes wrong here"),
+        ("from: 5 s", "nothing goes wrong here"),
         ("loss: 5 %, from: 60 s, to: 30 s", "make `to` later than `from`"),
         ("loss: 5 %)\n    flow(1 m/s toward 0 deg", "not `flow`"),
     ];

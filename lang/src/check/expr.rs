@@ -214,10 +214,21 @@ impl<'t> Checker<'t> {
             checked.push(value);
         }
         let ty = match common {
+            Some(Type::None) => self.untold(span, "what would these be if they were present?"),
+            None if checked.is_empty() => self.untold(span, "of what is this list empty?"),
             Some(inner) => Type::List(Box::new(inner), checked.len().max(1) as u32),
             None => Type::Unknown,
         };
         self.make(ExprKind::List(checked), ty, span)
+    }
+
+    /// The type of a list that says nothing of its elements, where nothing else does.
+    fn untold(&mut self, span: Span, question: &str) -> Type {
+        let finding = Diagnostic::error(Code::TypesEmpty, span, question);
+        self.report(finding.help(
+            "say it where the list is named: `let places: [Point; 6] = []`; whether a list is empty tells its `count`: `places.count == 0`",
+        ));
+        Type::Unknown
     }
 
     fn index(&mut self, base: &tree::Expr, index: &tree::Expr, span: Span) -> Expr {

@@ -39,7 +39,7 @@ mod value;
 mod vehicle;
 mod visible;
 
-pub(crate) use flow::{goes_round, takes_time};
+pub(crate) use flow::{goes_round, may_take_time, takes_time};
 pub use params::Override;
 pub(crate) use plausibility::range_of_var;
 pub use table::never_ends;

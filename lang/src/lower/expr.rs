@@ -51,6 +51,7 @@ impl<'a> Lowering<'a> {
 
     /// Code that leaves an expression's value in a slot.
     pub(super) fn expr_into(&mut self, e: &Expr, to: Slot) {
+        self.must_have_type(e);
         let words = self.words(&e.ty).max(1);
         match &e.kind {
             ExprKind::Number(value) => _ = self.emit(Compute::Const { to, value: *value }),

@@ -345,6 +345,14 @@ impl<'a> Lowering<'a> {
         self.emitted = mark.emitted;
     }
 
+    /// What has no type has been reported, and is not lowered. Where it was not, nothing that is known by types holds of the program.
+    fn must_have_type(&mut self, e: &hir::Expr) {
+        if e.ty == Type::Unknown {
+            let finding = Diagnostic::error(Code::TypesEmpty, e.span, "the type of this cannot be told");
+            self.findings.push(finding.help("give it a name with its type: `let x: TYPE = …`"));
+        }
+    }
+
     /// The frame's origin: the middle of the geodetic positions that the mission's area is made of.
     fn place(&mut self, span: Span, latitude_deg: f64, longitude_deg: f64) -> Point {
         let position = Geodetic::from_degrees(latitude_deg, longitude_deg);

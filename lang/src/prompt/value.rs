@@ -97,9 +97,6 @@ impl Left {
         }
         match &self.ty {
             Type::Unknown | Type::None => finding("the type of this cannot be told", "use it where a type is expected"),
-            Type::List(element, _) if **element == Type::Unknown => {
-                finding("of what is this a list?", "say it: `let list: [Point; 6] = []`")
-            }
             _ => Ok(()),
         }
     }

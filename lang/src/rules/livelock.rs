@@ -1,7 +1,7 @@
 //! Rules that undo each other: a table that switches to and fro, or round in a ring, on what goes on to hold gets nowhere.
 
 use super::levels::{Level, Signals, Way};
-use crate::check::never_ends;
+use crate::check::{may_take_time, never_ends};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Rule, Stmt, StmtKind, Target, VarId, leaving};
@@ -28,6 +28,8 @@ pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
         behaviors,
         rules,
         leaving: leaving(rules, behaviors.len()),
+        is_instant: behaviors.iter().map(|behavior| is_instant(hir, *behavior)).collect(),
+        at_once: [Level::default()],
         levels: rules.iter().map(|rule| levels(&rule.on)).collect(),
         aborts: strategy.aborts.iter().flat_map(|(_, on)| levels(on)).collect(),
         signals,
@@ -64,6 +66,14 @@ fn until(hir: &Hir, behavior: ActivityId) -> Option<&Expr> {
     }
 }
 
+/// Whether a behavior is done in the tick in which it is entered, and ends no mission.
+fn is_instant(hir: &Hir, behavior: ActivityId) -> bool {
+    let Body::Sequence(block) = &hir.activities[behavior].body else { return false };
+    let mut aborts = false;
+    block.each(&mut |stmt| aborts |= matches!(stmt.kind, StmtKind::Abort(_)));
+    !aborts && !may_take_time(block)
+}
+
 /// What is left of the work.
 struct Work(Cell<usize>);
 
@@ -91,6 +101,10 @@ struct Table<'h> {
     behaviors: &'h [ActivityId],
     rules: &'h [Rule],
     leaving: Vec<Vec<usize>>,
+    /// Of each behavior, whether it is done in the tick in which it is entered.
+    is_instant: Vec<bool>,
+    /// What `done` demands there: nothing.
+    at_once: [Level<'h>; 1],
     /// Of each rule, the ways in which its guard can go on to hold.
     levels: Vec<Vec<Level<'h>>>,
     /// The same of what aborts the strategy, which comes before its rules.
@@ -161,13 +175,19 @@ impl<'h> Table<'h> {
         blocks.into_iter().flat_map(Block::assignments).collect()
     }
 
+    /// The ways in which the guard of a rule can go on to hold where a behavior is left by it.
+    fn levels_from(&self, rule: usize, source: usize) -> &[Level<'h>] {
+        let is_done = matches!(self.rules[rule].on.kind, ExprKind::Done);
+        if is_done && self.is_instant[source] { &self.at_once } else { &self.levels[rule] }
+    }
+
     /// Rings of rules that hold at once and go on to hold, no rule in two of them: the shortest first.
     fn rings(&self) -> Vec<Ring> {
         let mut rings: Vec<Ring> = Vec::new();
         let mut told = BTreeSet::new();
         for (length, first) in (1..=RING_MAX).flat_map(|length| (0..self.rules.len()).map(move |rule| (length, rule))) {
             for &source in &self.rules[first].sources {
-                let ring = self.levels[first].iter().find_map(|level| {
+                let ring = self.levels_from(first, source).iter().find_map(|level| {
                     let mut ring = vec![(first, source)];
                     self.goes_round(level, level, &mut ring, length).then_some(ring)
                 });
@@ -199,7 +219,7 @@ impl<'h> Table<'h> {
             return false;
         }
         for &next in &self.leaving[to] {
-            for level in &self.levels[next] {
+            for level in self.levels_from(next, to) {
                 if !self.work.takes(first.work(level) + state.work(level)) {
                     return false;
                 }
@@ -228,8 +248,19 @@ impl<'h> Table<'h> {
     fn is_undisturbed(&self, ring: &Ring) -> bool {
         let mut read = BTreeSet::new();
         ring.iter().for_each(|(rule, _)| self.signals.reads(&self.rules[*rule].on, &mut read));
+        // What is counted where no time goes by is counted for whatever leads out.
+        if ring.iter().any(|step| self.is_at_once(step)) {
+            let out = ring.iter().flat_map(|(_, source)| &self.leaving[*source]).map(|&rule| &self.rules[rule].on);
+            let aborts = self.hir.activities[self.activity].aborts.iter().map(|(_, on)| on);
+            out.chain(aborts).for_each(|on| self.signals.reads(on, &mut read));
+        }
         let way = ring.iter().map(|&(rule, source)| (source, &self.rules[rule]));
         read.is_empty() || !self.assigned(way).iter().any(|(var, _)| read.contains(var))
+    }
+
+    /// Whether a behavior of a ring is left as soon as it was entered, because it takes no time.
+    fn is_at_once(&self, (rule, source): &(usize, usize)) -> bool {
+        matches!(self.rules[*rule].on.kind, ExprKind::Done) && self.is_instant[*source]
     }
 
     fn undoes(&self, ring: &Ring) -> Diagnostic {
@@ -238,13 +269,20 @@ impl<'h> Table<'h> {
             Some((last, others)) => (on(last), others),
             None => (self.hir.activities[self.activity].span, ring.as_slice()),
         };
+        let instant = ring.iter().find(|step| self.is_at_once(step));
         let message = match others.len() {
-            0 | 1 => "this rule undoes another at once".to_string(),
+            0 => "this rule leads back at once, again and again".to_string(),
+            1 => "this rule undoes another at once".to_string(),
             _ => format!("these {} rules lead round in as many ticks, again and again", ring.len()),
         };
         let finding = Diagnostic::warning(Code::RulesLivelock, last, message);
         let finding =
             others.iter().fold(finding, |finding, other| finding.label(on(other), "which can hold at the same time"));
+        if let Some((_, source)) = instant {
+            let name = &self.hir.activities[self.behaviors[*source]].name;
+            return finding
+                .help(format!("`{name}` is done as soon as it is entered: let it take time, such as `wait for 1 s`"));
+        }
         finding.help(if ring.iter().any(|(rule, _)| is_timed(&self.rules[*rule].on)) {
             "a time of one tick, 0.1 s, is over whenever a rule is tried: write a longer one"
         } else {

@@ -215,6 +215,7 @@ codes! {
         TypesComparison = "comparison",
         TypesCondition = "condition",
         TypesDifference = "difference",
+        TypesEmpty = "empty",
         TypesFor = "for",
         TypesHits = "hits",
         TypesIfLet = "if_let",

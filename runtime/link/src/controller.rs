@@ -102,8 +102,8 @@ pub struct Controller {
     begins_again: bool,
     /// Ticks whose commands came too late to be sent, since the last that was.
     late: Late,
-    /// It was told that a tick takes longer to compute than it lasts.
-    slow_warning: bool,
+    /// It has been said that a tick takes longer to compute than it lasts.
+    has_warned: bool,
     /// How long the command that comes next took to compute.
     computed: Duration,
     /// How long a tick of the vehicle lasts by the host's clock.
@@ -153,7 +153,7 @@ impl Controller {
             goals: Default::default(),
             begins_again: false,
             late: Late::default(),
-            slow_warning: false,
+            has_warned: false,
             computed: Duration::ZERO,
             tick: TICK,
             was_late: false,

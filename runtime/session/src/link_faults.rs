@@ -39,6 +39,10 @@ pub fn link_faults(script: &Script) -> Result<Vec<LinkFault>, PlanError> {
             return Err(vec![finding.help("write `loss: 5 %, delay: 200 ms`, for example")]);
         }
         let fault: LinkFault = c.read().map_err(|unread| unread.of(clause).collect::<Vec<_>>())?;
+        if fault == (LinkFault { from: fault.from, to: fault.to, ..LinkFault::default() }) {
+            let finding = Diagnostic::error(Code::ScenariosWorld, clause.span, "nothing goes wrong here");
+            return Err(vec![finding.help("write what does: `loss: 5 %, delay: 200 ms`, for example")]);
+        }
         if fault.to.is_some_and(|to| to <= fault.from) {
             let finding = Diagnostic::error(Code::ScenariosWorld, clause.span, "this is over before it begins");
             return Err(vec![finding.help("make `to` later than `from`, or leave it out for a fault that lasts")]);

@@ -77,8 +77,11 @@ fn align(run: &mut [Line], members: &[(usize, usize)]) {
     let within: Vec<usize> = (0..ends.len()).filter(|&i| ends[i] <= least + REACH).collect();
     let begin = within.iter().map(|&i| ends[i]).max().unwrap_or(0);
     for i in within {
-        let (line, word) = members[i];
-        run[line].words[word].blanks += begin - ends[i];
+        let ((line, word), blanks) = (members[i], begin - ends[i]);
+        // A line that would become too long stays as it is.
+        if run[line].width() + blanks <= super::WIDTH {
+            run[line].words[word].blanks += blanks;
+        }
     }
 }
 

@@ -76,13 +76,13 @@ impl Controller {
         let computed = std::mem::take(&mut self.computed);
         if self.is_late() {
             self.late.add(computed);
-            let told = if self.slow_warning {
+            let told = if self.has_warned {
                 None
             } else {
                 self.late.slow_warning(self.tick, self.side.dialect().timeout_ticks)
             };
             if let Some(told) = told {
-                self.slow_warning = true;
+                self.has_warned = true;
                 self.notice(told);
             }
             return;
