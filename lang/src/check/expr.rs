@@ -349,12 +349,13 @@ impl<'t> Checker<'t> {
                 let sign = if negative { "-" } else { "+" };
                 let finding =
                     Diagnostic::error(Code::TypesSign, operand.span, format!("{} has no `{sign}`", article(&name)));
-                let finding = if matches!(other, Type::Heading) {
-                    finding.help("for the opposite direction write `HEADING + 180 deg`")
-                } else {
-                    finding
-                };
-                self.report(finding);
+                self.report(match (&other, &value.kind) {
+                    (Type::Heading, _) => finding.help("for the opposite direction write `HEADING + 180 deg`"),
+                    (_, ExprKind::Geodetic { .. }) => {
+                        finding.help("south and west are written with a letter: `36.18°S 75.74°W`")
+                    }
+                    _ => finding,
+                });
                 return self.unknown(span);
             }
         };

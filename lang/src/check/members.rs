@@ -253,10 +253,20 @@ impl<'t> Checker<'t> {
         let finding =
             Diagnostic::error(Code::NamesMember, member.span, format!("{} has no `{}`", article(&ty), member.node))
                 .label(value.span, format!("`{ty}`"));
-        let finding = match self.suggestion(&member.node, names.iter().map(String::as_str)) {
-            Some(help) => finding.help(help),
-            None => finding,
+        let is_input = matches!(value.kind, ExprKind::Input(_, InputPart::Value));
+        let of_inputs: &[&str] = match is_input {
+            true if matches!(value.ty, Type::Quantity(_)) => &["age", "peak"],
+            true => &["age"],
+            false => &[],
         };
+        let finding =
+            match self.suggestion(&member.node, names.iter().map(String::as_str).chain(of_inputs.iter().copied())) {
+                _ if of_inputs.contains(&"peak") && member.node.starts_with("max") => {
+                    finding.help("the largest sample of a tick is its `.peak`; to keep the largest of all, a `memory`")
+                }
+                Some(help) => finding.help(help),
+                None => finding,
+            };
         self.report(finding);
     }
 

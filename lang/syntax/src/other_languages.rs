@@ -21,6 +21,7 @@ pub fn help(word: &str) -> Option<&'static str> {
         "import" | "include" | "from" => "write `use MODULE` at the top of the file",
         "use" => "`use` stands at the top of the file, at the left margin",
         "switch" | "case" => "write `match VALUE { NAME { … } else { … } }`",
+        "pass" => "leave it out: a block may be empty",
         "repeat" => "write `for n in 1..3 { … }`",
         "range" => "a range is written `1..10`, or `0..<10` without its last number: `for n in 1..10 { … }`",
         "mod" | "rem" | "fmod" => "for the remainder of whole numbers write `a - b * floor(a / b)`",
