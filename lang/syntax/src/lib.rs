@@ -1,6 +1,6 @@
 //! Source text to one tree. Parsing never fails: it gives the tree of what it could read and findings for the rest.
 //!
-//! A script is scanned (`scan`), mended where brackets are missing (`braces`), read by the grammar (`grammar.pest`) into a
+//! A script is scanned (`scan`), mended where brackets are missing (`braces`), read by the grammar (`albacore_grammar`) into a
 //! concrete tree (`concrete`), and built (`build`) into what the checker reads (`tree`). Layout (`fmt`) and the pages about
 //! scripts (`doc`) read the same tree. What is wrong is a [`Diagnostic`] with a [`Code`].
 
@@ -33,23 +33,14 @@ pub use scan::NESTING_MAX;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
+use albacore_grammar::Grammar;
+pub(crate) use albacore_grammar::Rule;
 use concrete::Planter;
-use grammar::Grammar;
-pub(crate) use grammar::Rule;
 use pest::Parser;
 use pest::iterators::Pair;
 use scan::Scanned;
 use std::collections::BTreeSet;
 use std::ops::Range;
-
-/// What the grammar's file becomes.
-mod grammar {
-    #![allow(missing_docs, reason = "made from grammar.pest, whose rules carry their own comments")]
-
-    #[derive(pest_derive::Parser)]
-    #[grammar = "grammar.pest"]
-    pub struct Grammar;
-}
 
 /// What a source says.
 #[derive(Clone, Debug)]
