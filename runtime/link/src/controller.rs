@@ -118,6 +118,8 @@ pub struct Controller {
     host: Duration,
     /// The tick in which something was said last.
     spoke: u64,
+    /// ... and in which nothing was said last, for a command to come first.
+    gave_way: u64,
     out: Vec<u8>,
     notices: Vec<String>,
     /// What the vehicle may still bring about of them.
@@ -162,6 +164,7 @@ impl Controller {
             host: Duration::ZERO,
             grounding: Grounding::default(),
             spoke: 0,
+            gave_way: 0,
             out: Vec::new(),
             notices: Vec::new(),
             allowance: Allowance::default(),
@@ -341,7 +344,7 @@ impl Controller {
             self.say(&ControllerMessage::Begin);
             self.goals = Default::default();
         } else if self.control != Control::InControl {
-            self.round_trip.pause();
+            self.round_trip.pause(self.moment());
         }
         snapshot.control = self.control;
         let round_trip = if self.drives() { self.round_trip.ticks(self.moment()) } else { 0 };
@@ -357,11 +360,8 @@ impl Controller {
             // Who asks again when it was given back has just asked.
             (Want::Drive { .. }, Control::Requesting) if self.spoke < tick => self.say(&ControllerMessage::TakeOver),
             (Want::GiveBack { .. }, _) => self.say(&ControllerMessage::GiveBack),
-            // After late ticks a command comes first.
-            (Want::Drive { .. }, Control::InControl | Control::Suspended)
-                if self.spoke < tick && !was_late && self.left == 0 =>
-            {
-                self.keep_alive(tick);
+            (Want::Drive { .. }, Control::InControl | Control::Suspended) if self.spoke < tick && self.left == 0 => {
+                self.keep_alive(tick, was_late);
             }
             _ => {}
         }
@@ -369,6 +369,11 @@ impl Controller {
 
     fn drives(&self) -> bool {
         matches!(self.control, Control::InControl | Control::Suspended)
+    }
+
+    /// Whether the vehicle has let us drive, now or before it left us.
+    fn has_driven(&self) -> bool {
+        self.drives() || self.control == Control::Released
     }
 
     fn moment(&self) -> Moment {

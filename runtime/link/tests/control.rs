@@ -121,6 +121,47 @@ fn a_vehicle_that_suspends_its_mission_is_waited_for_and_kept_alive() {
     assert_eq!(vehicle.says(0x0D).0, Control::InControl);
 }
 
+/// States that come five times a second, or once, or ten at once: every tick that speaks follows others that are late.
+#[test]
+fn a_vehicle_that_says_little_is_kept_alive_whether_it_suspends_us_or_we_wait() {
+    for mode in [0x02, 0x0D] {
+        for every in [2, 10, 20] {
+            let mut vehicle = Vehicle::driven();
+            let mut spoke = 0;
+            for tick in (0..300).step_by(every) {
+                vehicle.time_ms += 100 * (every as u32 - 1);
+                assert!(vehicle.hear(mode));
+                while vehicle.controller.is_due() {
+                    vehicle.controller.sense(&mut vehicle.snapshot);
+                }
+                let sent = String::from_utf8(vehicle.controller.take_output()).unwrap();
+                spoke = if sent.contains("#V,albacore") { tick } else { spoke };
+                assert!(tick - spoke < 45, "{mode:02X}, every {every} ticks: nothing for {} ticks", tick - spoke);
+            }
+        }
+    }
+}
+
+/// Who was left has driven: the vehicle's word that nobody drives it is no old one.
+#[test]
+fn a_vehicle_that_has_left_us_is_released_by_its_next_word() {
+    for every in [1, 8, 10] {
+        let mut vehicle = Vehicle::driven();
+        while vehicle.snapshot.control != Control::Released {
+            vehicle.time_ms += 100 * (every - 1);
+            assert!(vehicle.hear(0x01));
+            while vehicle.controller.is_due() {
+                vehicle.controller.sense(&mut vehicle.snapshot);
+                vehicle.controller.command(&Command::still(Heading::NORTH, 3.0));
+            }
+        }
+        assert_eq!(vehicle.controller.why(), "the vehicle has left override by itself", "every {every} ticks");
+        assert!(!vehicle.controller.release());
+        vehicle.hear(0x01);
+        assert!(vehicle.controller.release(), "every {every} ticks");
+    }
+}
+
 #[test]
 fn a_vehicle_that_takes_control_back_has_released_itself_from_us() {
     for mode in [0x01, 0x03, 0x00, 0x05] {

@@ -81,8 +81,10 @@ pub struct RoundTrip {
     rate: f64,
     /// The mark that is asked for.
     mark: Option<Mark>,
-    /// Each that was sent, and when first, oldest first.
+    /// Each that was sent, and when first, oldest first; later by all the time in which nothing was commanded since.
     sent: VecDeque<(Mark, Moment)>,
+    /// Since when nothing is commanded.
+    paused: Option<Moment>,
     /// What has come back, by where the vehicle told it: the one way may be ahead of the other.
     back: [Back; 2],
     /// The time that the newest took that has come back, ticks.
@@ -100,6 +102,7 @@ impl RoundTrip {
             rate,
             mark: None,
             sent: VecDeque::new(),
+            paused: None,
             back: Default::default(),
             last: 0,
             ahead: None,
@@ -109,20 +112,39 @@ impl RoundTrip {
 
     /// A new override: what was measured before it tells nothing.
     pub fn begin(&mut self) {
-        self.pause();
-        self.last = 0;
-        self.back.iter_mut().for_each(|back| back.took = 0);
+        (self.mark, self.paused, self.last) = (None, None, 0);
+        self.sent.clear();
+        self.back.iter_mut().for_each(|back| (back.heard, back.took) = (0, 0));
     }
 
-    /// Nothing is commanded for a while: what was sent may never come back.
-    pub fn pause(&mut self) {
+    /// Nothing is commanded for a while. What was sent may never come back, so that this time is not waited; but it goes on to wait
+    /// when commands go on, else a vehicle that stands us still now and then would hide how long it takes.
+    pub fn pause(&mut self, now: Moment) {
         self.mark = None;
-        self.sent.clear();
-        self.back.iter_mut().for_each(|back| back.heard = 0);
+        self.paused.get_or_insert(now);
+    }
+
+    /// Commands go on.
+    fn resume(&mut self, now: Moment) {
+        let Some(since) = self.paused.take() else { return };
+        for (_, when) in &mut self.sent {
+            when.tick += now.tick.saturating_sub(since.tick);
+            when.host += now.host.saturating_sub(since.host);
+        }
+    }
+
+    /// What was said in this moment was not sent.
+    pub fn take_back(&mut self, now: Moment) {
+        self.mark = None;
+        while self.sent.back().is_some_and(|(_, when)| when.tick >= now.tick) {
+            self.sent.pop_back();
+        }
+        self.back.iter_mut().for_each(|back| back.heard = back.heard.min(self.sent.len()));
     }
 
     /// The heading goal to send for a course.
     pub fn marked(&mut self, course: Heading, now: Moment) -> Heading {
+        self.resume(now);
         let beside = Mark::beside(course);
         if let Some(mark) = self.mark.filter(|mark| beside.contains(mark) && self.is_good(*mark, now)) {
             return mark.heading();
@@ -186,7 +208,7 @@ impl RoundTrip {
         }
         let waiting = self.sent.iter().enumerate().skip(back.heard);
         let Some((at, (_, when))) = { waiting }.find(|(_, (sent, _))| *sent == mark) else { return };
-        let took = self.between(*when, now);
+        let took = self.between(*when, self.paused.unwrap_or(now));
         self.back[by as usize] = Back { last: Some(mark), heard: at + 1, took };
         if at >= known {
             self.last = took;
@@ -240,7 +262,7 @@ impl RoundTrip {
 
     /// The ticks since one of the marks was sent, if it was.
     fn since(&self, mark: usize, now: Moment) -> u64 {
-        self.sent.get(mark).map_or(0, |(_, when)| self.between(*when, now))
+        self.sent.get(mark).map_or(0, |(_, when)| self.between(*when, self.paused.unwrap_or(now)))
     }
 
     /// The ticks from one moment to another, by the clock that counts more.

@@ -16,9 +16,17 @@ const UNANSWERED_TICKS: u64 = 50;
 const SELDOM_TICKS: u64 = KEEP_ALIVE_TICKS - 1;
 
 impl Controller {
-    /// Says now and then that we are here, where the mission stands still, or has not begun, and commands nothing.
-    pub(super) fn keep_alive(&mut self, tick: u64) {
-        if tick - self.spoke >= KEEP_ALIVE_TICKS {
+    /// Says now and then that we are here, where the mission stands still, or has not begun, and commands nothing. After late ticks
+    /// a command comes first, if one comes: where every tick that speaks follows late ones, states being rare, none has come by the
+    /// next.
+    pub(super) fn keep_alive(&mut self, tick: u64, was_late: bool) {
+        if tick.saturating_sub(self.spoke) < KEEP_ALIVE_TICKS {
+            return;
+        }
+        let gives_way = was_late && self.control == Control::InControl && self.gave_way <= self.spoke;
+        if gives_way {
+            self.gave_way = tick;
+        } else {
             self.hello();
         }
     }
@@ -55,8 +63,7 @@ impl Controller {
     pub fn give_back(&mut self) {
         match &mut self.want {
             Want::Drive { .. } => {
-                let driven = self.drives() || self.control == Control::Released;
-                let given = Given { since: self.moment(), driven };
+                let given = Given { since: self.moment(), driven: self.has_driven() };
                 self.want = Want::GiveBack { given, again: false };
                 self.control = Control::Monitoring;
                 self.say(&ControllerMessage::GiveBack);
@@ -75,7 +82,10 @@ impl Controller {
     pub fn command(&mut self, command: &Command) {
         let computed = std::mem::take(&mut self.computed);
         if self.is_late() {
-            self.late.add(computed);
+            // What the vehicle has left was not late for it.
+            if self.left == 0 {
+                self.late.add(computed);
+            }
             let told = if self.has_warned {
                 None
             } else {
@@ -121,7 +131,7 @@ impl Controller {
 
     /// What was said last was not sent.
     pub fn take_back(&mut self) {
-        self.round_trip.pause();
+        self.round_trip.take_back(self.moment());
         self.begins_again = true;
         self.goals.iter_mut().for_each(|goal| goal.sent = None);
     }
@@ -139,7 +149,7 @@ impl Controller {
         match self.want {
             Want::Listen => return true,
             // What was heard before we asked is no answer.
-            Want::Drive { .. } => self.want = Want::Leave(Given { since: self.moment(), driven: self.drives() }),
+            Want::Drive { .. } => self.want = Want::Leave(Given { since: self.moment(), driven: self.has_driven() }),
             Want::GiveBack { given, .. } => self.want = Want::Leave(given),
             Want::Leave(given) => {
                 if let Some(status) = heard {

@@ -283,3 +283,51 @@ fn an_echo_at_this_end_of_the_line_hides_no_delay_of_it() {
     }
     assert!(way_up.len() > 190);
 }
+
+/// The attack: one state in a second and a half said that the mission stands still, and each began the waiting anew.
+#[test]
+fn a_vehicle_that_stands_us_still_now_and_then_hides_no_delay() {
+    let mut trip = RoundTrip::new(1.0);
+    let mut way_there = VecDeque::new();
+    let mut held = mark(200.0);
+    for tick in 0..600 {
+        let now = at(tick);
+        let late = tick.saturating_sub(100) / 2;
+        while way_there.pop_front_if(|(due, _)| *due <= tick).is_some_and(|(_, heading)| {
+            held = heading;
+            true
+        }) {}
+        trip.reported(held, GoalSource::State, now);
+        if tick % 15 == 0 {
+            trip.pause(now);
+            continue;
+        }
+        let heading = trip.marked(Heading::from_degrees(90.0), now);
+        trip.sent(heading, now);
+        way_there.push_back((tick + late, heading));
+        // What is held now was said so long ago; nothing is waited while it stands still.
+        let so = late.min(tick.saturating_sub(100) / 3);
+        assert!(trip.ticks(now) * 15 / 14 + 2 * MARK_TICKS >= so, "{} of {so} in tick {tick}", trip.ticks(now));
+    }
+}
+
+/// What it was told before it stood still may never come back, and is not waited for all that time.
+#[test]
+fn a_vehicle_that_stood_still_is_not_late() {
+    let mut trip = RoundTrip::new(1.0);
+    for tick in 0..900 {
+        let now = at(tick);
+        if (300..600).contains(&tick) {
+            trip.reported(mark(200.0), GoalSource::State, now);
+            trip.pause(now);
+        } else {
+            let heading = trip.marked(Heading::from_degrees(90.0), now);
+            trip.sent(heading, now);
+            // The last before it stood still was not heard.
+            if tick != 299 {
+                trip.reported(heading, GoalSource::State, now);
+            }
+        }
+        assert!(trip.ticks(now) <= 2, "{} in tick {tick}", trip.ticks(now));
+    }
+}
