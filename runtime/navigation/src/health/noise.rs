@@ -15,8 +15,8 @@ const BEFORE_THIRD: u64 = 3;
 /// The variance of the third differences of what goes to and fro between two values, as a multiple of the square of its step.
 const FLICKER_GAIN: f64 = 16.0;
 /// First differences of white noise correlate by -1/2, and 2/3 of them alternate; those of a random walk, such as a vehicle that wobbles, by 0,
-/// which third differences do not tell from noise. They count for what comes in each tick, of which the motion is small beside them. What
-/// they are on the mean of so many, and as that changes, counts as no difference: a dive hides no noise, nor does its beginning or its end.
+/// which third differences do not tell from noise. They count for what comes in each tick, of which the motion is small beside them, and for
+/// what the vehicle steers, however seldom it comes: a course by positions that wander, or a speed against a flow that does. What they are on the mean of so many, and as that changes, counts as no difference: a dive hides no noise, nor does its beginning or its end.
 const FIRST: Bounds = Bounds { correlation: -0.25, alternates: 0.5 };
 const DRIFT_CHANGES: u64 = 20;
 /// A noise is larger than the rounding of the last bits, in SI units, and than the smallest change, which may be the step in which a link
@@ -94,13 +94,14 @@ impl Noise {
         }
     }
 
-    /// Whether it is noise by which the series never stays the same, where a sample comes in every so many ticks.
-    pub fn is_shown(&self, period_ticks: u64) -> bool {
+    /// Whether it is noise by which the series never stays the same, where a sample comes in every so many ticks, of what the vehicle
+    /// steers or not.
+    pub fn is_shown(&self, period_ticks: u64, is_steered: bool) -> bool {
         let least = SMALLEST.max(STEPS * self.step);
         let changes_min = if period_ticks >= SELDOM_TICKS { CHANGES_MIN_SELDOM } else { CHANGES_MIN };
         self.changes >= changes_min
             && self.third.is_white(&THIRD, FLICKER_GAIN * least * least)
-            && (period_ticks > 1 || self.first.is_white(&FIRST, least * least))
+            && (period_ticks > 1 && !is_steered || self.first.is_white(&FIRST, least * least))
     }
 }
 

@@ -160,6 +160,30 @@ fn a_noise_is_known_beside_a_motion_and_of_what_comes_seldom() {
     assert_eq!(told, [(550, "detected: altitude stuck".to_string())]);
 }
 
+/// A compass and a log of 1 Hz without noise, of a vehicle that steers by positions that wander, across north and back.
+#[test]
+fn what_a_vehicle_steers_is_no_noise_however_seldom_it_is_told() {
+    let (mut heading, mut speed) = (0.0, 1.5);
+    let told = watched(6000, |tick, snapshot| {
+        let mut drawn = (tick + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        drawn = (drawn ^ (drawn >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let step = ((drawn ^ (drawn >> 27)) >> 40) as f64 / (1 << 24) as f64 - 0.5;
+        if tick % 10 == 0 && tick % 1500 < 1000 {
+            heading += step / 10.0;
+            speed += step / 100.0;
+        }
+        snapshot.samples.retain_mut(|sample| {
+            match sample.measurement {
+                HEADING => sample.reading[0] = Heading::from_radians(heading).radians(),
+                SPEED => sample.reading[0] = speed,
+                _ => return sample.measurement != COURSE && sample.measurement != POSITION,
+            }
+            tick % 10 == 0
+        });
+    });
+    assert!(!told.iter().any(|(_, told)| told.contains("stuck")), "{told:?}");
+}
+
 /// A vehicle that wobbles, by no more than it may: where it rests at that, its sounder, which has no noise, does too.
 #[test]
 fn a_wobble_that_rests_is_no_fault() {
