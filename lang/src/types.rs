@@ -77,10 +77,10 @@ pub struct TypeTable {
 }
 
 impl Type {
-    /// `T?`; an optional of an optional is one.
+    /// `T?`; an optional of an optional is one, and what is always absent may be.
     pub fn optional(self) -> Type {
         match self {
-            Type::Optional(_) | Type::Unknown => self,
+            Type::Optional(_) | Type::None | Type::Unknown => self,
             other => Type::Optional(Box::new(other)),
         }
     }

@@ -171,7 +171,7 @@ impl<'t> Checker<'t> {
     }
 
     fn memory(&mut self, name: &tree::Name, ty: &tree::Ty, init: Option<&tree::Expr>) -> Decl {
-        let written = self.written_type(self.scope.module, ty);
+        let written = self.kept_type(self.scope.module, ty);
         let init = init.map(|e| {
             let what = format!("`{}`", name.node);
             self.instant(Temporal::No, |c| c.expr_as(e, &written, &what))

@@ -56,7 +56,6 @@ impl<'t> Checker<'t> {
             if let Some(range) = info.range {
                 self.scope.vars[id].range = range;
             }
-            self.list_order(id, &param.ty);
         }
     }
 
@@ -171,7 +170,7 @@ impl<'t> Checker<'t> {
     fn var_stmt(&mut self, name: &tree::Name, ty: Option<&tree::Ty>, value: &tree::Expr, span: Span) -> StmtKind {
         let value = match ty {
             Some(ty) => {
-                let ty = self.written_type(self.scope.module, ty);
+                let ty = self.kept_type(self.scope.module, ty);
                 self.expr_as(value, &ty, &format!("`{}`", name.node))
             }
             None => {

@@ -244,7 +244,8 @@ impl<'t> Checker<'t> {
 
 /// The type that the values of all blocks can have: that of the first, unless another says more.
 fn common_type<'e>(values: impl IntoIterator<Item = &'e Expr> + Clone) -> Type {
-    let is_sign = |v: &Expr| v.ty == Type::Int && v.range.constant().is_some_and(|n| n.abs() == 1.0);
+    let is_one = |v: &Expr| v.ty == Type::Int && v.range.constant().is_some_and(|n| n.abs() == 1.0);
+    let is_sign = |v: &Expr| v.ty == Type::Sign || is_one(v);
     if values.clone().into_iter().all(is_sign) {
         return Type::Sign;
     }

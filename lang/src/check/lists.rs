@@ -5,7 +5,7 @@ use super::expr::article;
 use super::operators::{TEXTS_DIFFER, TEXTS_HELP};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Order, Stmt, StmtKind, VarKind};
+use crate::hir::{ExprKind, Order, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, TyKind};
 use crate::types::Type;
@@ -33,6 +33,12 @@ impl<'t> Checker<'t> {
                 )
                 .help("for example `by most it.along(upflow)`"),
             );
+        }
+        let reads_itself = key.contains(|e| matches!(e.kind, ExprKind::Var(read) if read == id));
+        if reads_itself {
+            let message = "a list cannot be ordered by itself";
+            let finding = Diagnostic::error(Code::TypesKey, span, message);
+            self.report(finding.help("order it by the element, `it`, and by what is declared before the list"));
         }
         self.scope.vars[id].order = Some(Order { most: *most, it, key: Box::new(key) });
     }

@@ -72,8 +72,19 @@ impl<'t> Checker<'t> {
         found
     }
 
-    /// The type that is written.
+    /// The type that is written, of what is not kept in order.
     pub(super) fn written_type(&mut self, m: usize, ty: &Ty) -> Type {
+        if let TyKind::List { order: Some((_, key)), .. } = &ty.kind {
+            let message = "only a list that a `memory` or a `var` holds is kept in order";
+            self.report(Diagnostic::error(Code::TypesKey, key.span, message).help(
+                "leave `by …` out here; what is given such a list puts it in order itself: `var sorted: [Point; 6] by most KEY = places`",
+            ));
+        }
+        self.kept_type(m, ty)
+    }
+
+    /// The same of a `memory` or a `var`, whose list may be kept in order.
+    pub(super) fn kept_type(&mut self, m: usize, ty: &Ty) -> Type {
         let inner = match &ty.kind {
             TyKind::List { element, capacity, .. } => {
                 let element = self.written_type(m, element);

@@ -205,7 +205,9 @@ impl<'a> Work<'a> {
             StmtKind::Set(var, e) => sum([self.expr(e), self.sort(*var, vars)]),
             StmtKind::Insert(var, e) | StmtKind::Remove(var, e) => {
                 let list = vars.get(*var).map(|v| &v.ty);
-                sum([self.expr(e), capacity(list), list.map_or(0, |ty| self.moved(ty)), self.sort(*var, vars)])
+                // A list that is full is put in order before its last goes, and after.
+                let sorted = self.sort(*var, vars).saturating_mul(2);
+                sum([self.expr(e), capacity(list), list.map_or(0, |ty| self.moved(ty)), sorted])
             }
             StmtKind::Clear(_) => 0,
             StmtKind::If(condition, a, b) => {
@@ -309,8 +311,9 @@ impl<'a> Work<'a> {
                 }
                 Decl::Memory(var, init) => {
                     let init = init.as_ref().map_or(1, |e| self.expr(e).saturating_add(1));
-                    entry = sum([entry, init]);
-                    each_tick = sum([each_tick, self.sort(*var, vars)]);
+                    let sort = self.sort(*var, vars);
+                    entry = sum([entry, init, sort]);
+                    each_tick = sum([each_tick, sort]);
                 }
                 Decl::Area(_, e) => entry = sum([entry, 1, self.expr(e)]),
             }

@@ -272,6 +272,7 @@ impl<'a> Lowering<'a> {
                         self.emit(Compute::Clear { to, words });
                     }
                 }
+                self.sort(*var);
             }
         }
     }

@@ -295,12 +295,21 @@ impl<'a> Lowering<'a> {
             B::Exit => AreaOp::Exit { to, area: a, point: b, heading: c }.into(),
             B::Run => self.run(to, a, b, c),
             B::Top => ListOp::Top { to, list: a, count: b, words: element_words(self) }.into(),
-            B::At => ListOp::At { to, list: a, index: b, words: element_words(self) }.into(),
+            B::At => return self.element(to, a, b, &operands[0].ty),
             B::Spread => ListOp::Spread { to, list: a, heading: b }.into(),
         };
         self.emit(op);
-        if let (Op::List(ListOp::At { .. }), Type::List(inner, _)) = (op, &operands[0].ty) {
-            self.typed(to.saturating_add(1), inner);
+    }
+
+    /// An element of a list, or none. Of a list of optionals it is the element itself, which may be absent: an optional of an optional is one.
+    fn element(&mut self, to: Slot, list: Slot, index: Slot, ty: &Type) {
+        let Type::List(inner, _) = ty else { return };
+        let words = self.words(inner);
+        let found = if inner.is_optional() { self.temp(words.saturating_add(1)) } else { to };
+        self.emit(ListOp::At { to: found, list, index, words });
+        self.typed(found.saturating_add(1), inner);
+        if found != to {
+            self.copy(to, found.saturating_add(1), words);
         }
     }
 

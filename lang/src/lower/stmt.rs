@@ -130,7 +130,8 @@ impl<'a> Lowering<'a> {
         self.land(unless);
     }
 
-    fn sort(&mut self, var: usize) {
+    /// Puts a list in order whose variable has one.
+    pub(super) fn sort(&mut self, var: usize) {
         if let Some(sorter) = self.frame.sorters.get(&var).cloned() {
             self.sort_by(&sorter);
         }

@@ -56,10 +56,12 @@ impl Run {
             self.execute(program, sorter.0, sorter.1);
             return;
         }
-        // No room to sort one more: the new element takes the place of the last in order if it comes before it.
+        // No room to sort one more: the new element takes the place of the last in order, by the key as it is now, if it comes before it.
+        // Its words may be temporaries, which a key has too.
+        let added: Vec<f64> = self.slice(item, words).to_vec();
+        self.execute(program, sorter.0, sorter.1);
         let last = list + 1 + (count - 1) * words;
         let kept: Vec<f64> = self.slice(last, words).to_vec();
-        let added: Vec<f64> = self.slice(item, words).to_vec();
         let before = self.keys(program, sorter, &[&kept, &added]);
         if let Some((kept_key, added_key, most)) = before {
             let comes_first = if most { added_key > kept_key } else { added_key < kept_key };

@@ -84,7 +84,10 @@ impl<'p> Activation<'p> {
             match decl {
                 Decl::With(items) => self.put_on(w, items)?,
                 Decl::Signal(var, e) | Decl::Area(var, e) | Decl::Memory(var, Some(e)) => {
-                    let value = value(w, s, e);
+                    let value = match value(w, s, e) {
+                        Value::List(list) => Value::List(super::expr::sorted(w, &frame, *var, list)),
+                        other => other,
+                    };
                     frame.set(*var, value);
                 }
                 Decl::Memory(var, None) => {

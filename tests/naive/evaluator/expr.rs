@@ -308,7 +308,11 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         }
         B::At => {
             let element = if n(1) >= 0.0 { at(0).list().get(n(1) as usize) } else { None };
-            return Value::Maybe(element.cloned().map(Box::new));
+            // An optional of an optional is one.
+            return match element {
+                Some(Value::Maybe(inner)) => Value::Maybe(inner.clone()),
+                _ => Value::Maybe(element.cloned().map(Box::new)),
+            };
         }
         B::Spread => {
             let along: Vec<f64> = at(0).list().iter().map(|p| p.point().along(at(1).heading())).collect();

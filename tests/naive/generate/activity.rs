@@ -37,6 +37,8 @@ impl Generator {
         self.line("}");
         self.line("fn twice(far: Length, n: Int) -> Length { if n > 1 { 2 * far } else { far } }");
         self.line("fn near(p: Point, far: Length) -> Length? { if p.north < far { p.north } else { none } }");
+        self.line("fn one_of(some: [Length?; 3], n: Int) -> Length? { some[n] }");
+        self.line("fn place_of(some: [Point?; 3], n: Int) -> Point? { if n < 2 { some[n] } else { some.first } }");
         self.line("fn share(part: Length, whole: Length) -> Ratio { part / whole else 0.5 }");
         self.line("fn found_if(wanted: Bool, found: Found) -> Found? { if wanted { found } else { none } }");
         self.line("fn turned(h: Heading, mode: Mode) -> Heading {");
@@ -93,7 +95,9 @@ impl Generator {
                     self.count("ordered list");
                     let name = self.fresh("best");
                     let key = self.filled(self.random.clone().of(&["most it.along($H)", "least distance(it, $P)"]), 1);
-                    self.line(&format!("memory {name}: [Point; 3] by {key}"));
+                    let first = self.random.of(&["", " = [$P, $P, $P]"]);
+                    let first = self.filled(first, 1);
+                    self.line(&format!("memory {name}: [Point; 3] by {key}{first}"));
                     self.declare(&name, Ty::Points, true);
                 }
                 2 => {
