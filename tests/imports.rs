@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its scripts has failed")]
 
+use albacore_session::Source;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -71,6 +72,34 @@ fn the_standard_library_imports_its_own() {
     )
     .unwrap();
     assert!(told(&folder).contains("no errors"), "{}", told(&folder));
+}
+
+/// What every script knows is read before all scripts: it is listed where it was taken, and once.
+#[test]
+fn the_sources_of_a_script_are_listed_once() {
+    let listed = |name: &str, text: &str| {
+        let script = albacore_session::load_text(Source { name: name.into(), text: text.into() });
+        let names: Vec<String> = script.sources.iter().map(|source| source.name.to_string()).collect();
+        names.join(" ").replace("stdlib/", "").replace(".alb", "")
+    };
+    assert_eq!(listed("m.alb", "use search\n"), "m search inputs scenarios world craft instruments faults");
+    assert_eq!(listed("m.alb", "use faults, search\n"), "m faults search inputs scenarios world craft instruments");
+    let inputs = "inputs scenarios world craft instruments faults";
+    assert_eq!(listed("stdlib/inputs.alb", include_str!("../stdlib/inputs.alb")), inputs);
+    assert_eq!(listed("stdlib/inputs.alb", "const x = 1\n"), inputs);
+}
+
+/// A file of a project may be called like one that every script knows: what counts is what it says.
+#[test]
+fn a_file_called_like_one_of_the_standard_library_is_read() {
+    let folder = folder("namesake");
+    let project = folder.join("stdlib");
+    std::fs::create_dir(&project).unwrap();
+    std::fs::write(project.join("faults.alb"), "const ours = 1\n\nconst theirs = nothing\n").unwrap();
+    std::fs::write(project.join("main.alb"), "use faults\n\nconst x = faults.ours\n").unwrap();
+    let (code, told) = run(&folder, &["check", "stdlib/main.alb"]);
+    assert!(code == Some(3) && told.contains("stdlib/faults.alb:3:16"), "{told}");
+    assert!(told.contains("1 error") && !told.contains("main.alb:"), "{told}");
 }
 
 /// A script with scenarios in a module of its project: what it says of the bottom, and its vehicle.

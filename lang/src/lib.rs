@@ -13,6 +13,7 @@ pub mod hir;
 mod loader;
 mod lower;
 pub mod names;
+mod prelude;
 pub mod prompt;
 mod rules;
 pub mod types;
@@ -22,6 +23,7 @@ pub use albacore_syntax::{code, diagnostic, doc, fmt, source};
 pub use lower::{
     ExpectProgram, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram, TestSlots,
 };
+pub use prelude::Prelude;
 pub use rules::{FAR_M, hemisphere};
 
 use crate::code::Code;
@@ -42,7 +44,7 @@ use syntax::tree::{self, ActivityKind, Item};
 /// Where imported modules come from.
 pub trait Library {
     /// The modules whose names every script knows.
-    fn prelude(&self) -> Vec<Source>;
+    fn prelude(&self) -> &Prelude;
     /// The module that `use a.b` in a file means; else a message that names what exists.
     fn module(&self, importer: &Source, path: &[String]) -> Result<Source, String>;
     /// The bytes of a file of the project that holds data, `bytes_max` of them at most. Its path counts from the project's

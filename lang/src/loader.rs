@@ -4,9 +4,10 @@ use crate::Library;
 use crate::check::Module;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
+use crate::prelude::ReadSource;
 use crate::source::{Source, Sources};
+use crate::syntax::Unread;
 use crate::syntax::tree::{self, Item};
-use crate::syntax::{self, Unread};
 use std::collections::BTreeMap;
 
 /// A script imports this many modules at most, all in all.
@@ -31,33 +32,44 @@ impl<'a> Loader<'a> {
 
     /// Reads a script, all it imports, and what every script knows.
     pub fn read_all(&mut self, entry: Source) {
+        let prelude = self.library.prelude();
         // A file of the prelude is checked as what it is: what it declares is known everywhere.
-        let is_prelude = self.library.prelude().iter().any(|source| source.name == entry.name);
-        self.read(entry, String::new(), is_prelude, &mut Vec::new());
-        for source in self.library.prelude() {
-            if !self.known.contains_key(&*source.name) {
-                let name = module_name(&source.name);
-                self.read(source, name, true, &mut Vec::new());
+        let is_prelude = prelude.modules().any(|module| module.source.name == entry.name);
+        let entry = self.read(entry);
+        // Their ids are those with which they were read.
+        for module in prelude.modules() {
+            self.sources.reserve(module.source.clone());
+        }
+        self.take(entry, String::new(), is_prelude, &mut Vec::new());
+        for module in prelude.modules() {
+            if !self.known.contains_key(&*module.source.name) {
+                self.take(module.clone(), module_name(&module.source.name), true, &mut Vec::new());
             }
         }
     }
 
-    pub fn read(&mut self, source: Source, name: String, prelude: bool, path: &mut Vec<String>) -> usize {
-        let file = self.sources.add(source.clone());
+    /// Reads a source as one more file.
+    pub fn read(&mut self, source: Source) -> ReadSource {
+        let file = self.sources.reserve(source.clone());
+        ReadSource::new(file, source)
+    }
+
+    /// Takes what was read as a module, and all it imports.
+    pub fn take(&mut self, read: ReadSource, name: String, prelude: bool, path: &mut Vec<String>) -> usize {
+        let ReadSource { file, source, tree, findings, unread } = read;
+        self.sources.list(file);
         let index = self.modules.len();
         self.known.insert(source.name.to_string(), index);
-        let parsed = syntax::parse(file, &source.text);
-        self.findings.extend(parsed.findings);
-        self.unread.extend(parsed.unread);
-        self.modules.push(Module { name, tree: parsed.file, prelude, ..Module::default() });
+        self.findings.extend(findings);
+        self.unread.extend(unread);
         path.push(source.name.to_string());
-        let uses: Vec<tree::Path> = self.modules[index]
-            .tree
+        let uses: Vec<tree::Path> = tree
             .items
             .iter()
             .filter_map(|item| if let Item::Use(paths) = item { Some(paths.clone()) } else { None })
             .flatten()
             .collect();
+        self.modules.push(Module { name, tree, prelude, ..Module::default() });
         for wanted in uses {
             if let Some(imported) = self.import(&source, &wanted, path) {
                 let name = wanted.parts.last().map(|p| p.node.clone()).unwrap_or_default();
@@ -104,7 +116,8 @@ impl<'a> Loader<'a> {
             return None;
         }
         let name = parts.last().cloned().unwrap_or_default();
-        Some(self.read(source, name, false, path))
+        let read = self.library.prelude().module(&source).cloned().unwrap_or_else(|| self.read(source));
+        Some(self.take(read, name, false, path))
     }
 }
 

@@ -117,7 +117,7 @@ impl Prompt {
     /// A module that knows all that is known so far.
     fn module(&self, tree: tree::File) -> Module {
         let (top, module) = self.top();
-        Module { tree, imports: module.imports.clone(), extends: Some(top), ..Module::default() }
+        Module { tree: tree.into(), imports: module.imports.clone(), extends: Some(top), ..Module::default() }
     }
 
     /// The module of the latest line that declared something, else the script's.
@@ -135,11 +135,13 @@ impl Prompt {
         loader.sources = std::mem::take(&mut self.sources);
         loader.modules = std::mem::take(&mut self.modules);
         loader.known = std::mem::take(&mut self.known);
-        let module = loader.read(source, String::new(), false, &mut Vec::new());
+        let read = loader.read(source);
+        let file = read.file;
+        let module = loader.take(read, String::new(), false, &mut Vec::new());
         let mut findings = std::mem::take(&mut loader.findings);
         (self.sources, self.modules, self.known) = (loader.sources, loader.modules, loader.known);
         if self.modules.iter().filter(|m| m.extends.is_some()).count() >= DECLARING_LINES_MAX {
-            let span = Span { file: FileId(self.sources.iter().count() as u32 - 1), start: 0, end: text.len() as u32 };
+            let span = Span { file, start: 0, end: text.len() as u32 };
             let message = format!("more than {DECLARING_LINES_MAX} lines of this session declare something");
             let finding = Diagnostic::error(Code::ImportsMany, span, message);
             findings.push(finding.help("write the declarations into a file, and open it: `albacore repl FILE.alb`"));

@@ -16,11 +16,12 @@ mod generate;
 mod random;
 mod vehicle;
 
-use albacore_lang::{FileFault, Library};
+use albacore_lang::{FileFault, Library, Prelude};
 use albacore_session::{Plan, Severity, Source, load};
 use albacore_sim::Simulator;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use vehicle::Chance;
 
 /// No rule needs more ticks than this to be shown.
@@ -35,9 +36,12 @@ const FEW: u64 = 100;
 struct Inputs;
 
 impl Library for Inputs {
-    fn prelude(&self) -> Vec<Source> {
-        let text = include_str!("../../stdlib/inputs.alb");
-        vec![Source { name: "stdlib/inputs.alb".into(), text: text.into() }]
+    fn prelude(&self) -> &Prelude {
+        static INPUTS: LazyLock<Prelude> = LazyLock::new(|| {
+            let text = include_str!("../../stdlib/inputs.alb");
+            Prelude::read(vec![Source { name: "stdlib/inputs.alb".into(), text: text.into() }])
+        });
+        &INPUTS
     }
 
     fn module(&self, _: &Source, _: &[String]) -> Result<Source, String> {

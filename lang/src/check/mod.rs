@@ -57,6 +57,7 @@ use albacore_formats::FileFault;
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
+use std::sync::Arc;
 use visible::Visible;
 
 /// Beyond this many findings no name is searched for what it may have meant: each search looks at all names, and nobody
@@ -69,7 +70,7 @@ pub struct Module {
     /// `cpt`, or empty for the file that is run.
     pub name: String,
     /// Its tree.
-    pub tree: tree::File,
+    pub tree: Arc<tree::File>,
     /// Where each imported name leads: index into the modules.
     pub imports: BTreeMap<String, usize>,
     /// Its names are known everywhere without being imported.

@@ -51,10 +51,12 @@ pub struct Source {
     pub text: Arc<str>,
 }
 
-/// All sources of a program, in the order in which they were read.
+/// All sources of a program.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     files: Vec<Source>,
+    /// Those that make the program, in the order in which they were taken.
+    listed: Vec<FileId>,
     /// Where the lines of each file begin: a place is looked up, for there may be as many as there are lines.
     lines: Vec<Arc<[u32]>>,
 }
@@ -62,10 +64,22 @@ pub struct Sources {
 impl Sources {
     /// Adds a file.
     pub fn add(&mut self, source: Source) -> FileId {
+        let file = self.reserve(source);
+        self.list(file);
+        file
+    }
+
+    /// Gives a file its id, before it is known whether it is part of the program, and after which others.
+    pub fn reserve(&mut self, source: Source) -> FileId {
         let ends = source.text.match_indices('\n').map(|(at, _)| at as u32 + 1);
         self.lines.push(std::iter::once(0).chain(ends).collect());
         self.files.push(source);
         FileId((self.files.len() - 1) as u32)
+    }
+
+    /// Takes a file into the program that has its id already.
+    pub fn list(&mut self, file: FileId) {
+        self.listed.push(file);
     }
 
     /// The file of an id.
@@ -73,9 +87,9 @@ impl Sources {
         &self.files[id.0 as usize]
     }
 
-    /// All files.
+    /// All files of the program, in the order in which they were taken into it.
     pub fn iter(&self) -> impl Iterator<Item = &Source> {
-        self.files.iter()
+        self.listed.iter().map(|file| self.get(*file))
     }
 
     /// The text of a span.

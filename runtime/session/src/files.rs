@@ -4,10 +4,11 @@ use crate::bounded::{Unread, read_all, read_file};
 use crate::wanted::Wanted;
 use albacore_formats::FileFault;
 use albacore_lang::source::{SOURCE_BYTES_MAX, Source};
-use albacore_lang::{Library, Script};
+use albacore_lang::{Library, Prelude, Script};
 use albacore_wording::nearest;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
+use std::sync::LazyLock;
 
 /// The standard library, compiled in: an installed binary needs no checkout.
 const STDLIB: [(&str, &str); 13] = [
@@ -295,8 +296,10 @@ fn is_standard(source: &Source) -> bool {
 }
 
 impl Library for Files {
-    fn prelude(&self) -> Vec<Source> {
-        PRELUDE.iter().filter_map(|name| stdlib(name)).collect()
+    fn prelude(&self) -> &Prelude {
+        static READ: LazyLock<Prelude> =
+            LazyLock::new(|| Prelude::read(PRELUDE.into_iter().filter_map(stdlib).collect()));
+        &READ
     }
 
     fn module(&self, importer: &Source, path: &[String]) -> Result<Source, String> {
