@@ -8,6 +8,7 @@ use albacore_link::{Controller, Rows, Server, recon};
 use albacore_session::{Outcome, Plan, Run, load};
 use albacore_sim::Simulator;
 use albacore_vehicle::{Command, Measurement, Snapshot, Vehicle, VehicleError, Vertical};
+use rayon::prelude::*;
 use std::path::Path;
 
 /// Missions by their file, their name, and the scenario where it is not their own.
@@ -53,18 +54,15 @@ fn plan((file, mission, scenario): (&str, &str, Option<&str>)) -> Plan {
     Plan::new(&script, file, Some(mission), scenario).unwrap()
 }
 
-fn told(run: impl Fn(&Plan, u64) -> Run, seeds: u64) -> Vec<String> {
-    let mut told = Vec::new();
-    for of in MISSIONS {
-        let plan = plan(of);
-        for seed in 1..=seeds {
-            let (outcome, lines) = doubts(run(&plan, seed));
-            if outcome != Outcome::Completed || !lines.is_empty() {
-                told.push(format!("{of:?}, seed {seed}, {}: {}", outcome.name(), lines.join("\n")));
-            }
-        }
-    }
-    told
+/// What is told of runs, which share the processors, in the order of missions and seeds.
+fn told(run: impl Fn(&Plan, u64) -> Run + Sync, seeds: u64) -> Vec<String> {
+    let runs: Vec<_> = MISSIONS.into_iter().flat_map(|of| (1..=seeds).map(move |seed| (of, seed))).collect();
+    let told = runs.into_par_iter().with_max_len(1).filter_map(|(of, seed)| {
+        let (outcome, lines) = doubts(run(&plan(of), seed));
+        let is_told = outcome != Outcome::Completed || !lines.is_empty();
+        is_told.then(|| format!("{of:?}, seed {seed}, {}: {}", outcome.name(), lines.join("\n")))
+    });
+    told.collect()
 }
 
 /// More of them by `WATCH_SEEDS=20 cargo test --release -p albacore-session --test simulated watch::`.
