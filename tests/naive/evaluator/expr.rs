@@ -307,12 +307,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
             return Value::List(list[..n(1).clamp(0.0, list.len() as f64) as usize].to_vec());
         }
         B::At => {
-            let element = if n(1) >= 0.0 { at(0).list().get(n(1) as usize) } else { None };
-            // An optional of an optional is one.
-            return match element {
-                Some(Value::Maybe(inner)) => Value::Maybe(inner.clone()),
-                _ => Value::Maybe(element.cloned().map(Box::new)),
-            };
+            return element(at(0).list(), n(1));
         }
         B::Spread => {
             let along: Vec<f64> = at(0).list().iter().map(|p| p.point().along(at(1).heading())).collect();
@@ -321,6 +316,15 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         }
     };
     Value::Number(number)
+}
+
+/// An element, or none; an optional of an optional is one.
+fn element(list: &[Value], index: f64) -> Value {
+    let found = if index >= 0.0 { list.get(index as usize) } else { None };
+    match found {
+        Some(Value::Maybe(inner)) => Value::Maybe(inner.clone()),
+        found => Value::Maybe(found.cloned().map(Box::new)),
+    }
 }
 
 fn center(edges: &[Edge]) -> Point {
