@@ -310,9 +310,9 @@ impl<'a> Work<'a> {
                     each_tick = sum([each_tick, steps]);
                 }
                 Decl::Memory(var, init) => {
-                    let init = init.as_ref().map_or(1, |e| self.expr(e).saturating_add(1));
                     let sort = self.sort(*var, vars);
-                    entry = sum([entry, init, sort]);
+                    let init = init.as_ref().map_or(1, |e| sum([self.expr(e), 1, sort]));
+                    entry = sum([entry, init]);
                     each_tick = sum([each_tick, sort]);
                 }
                 Decl::Area(_, e) => entry = sum([entry, 1, self.expr(e)]),

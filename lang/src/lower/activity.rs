@@ -266,13 +266,15 @@ impl<'a> Lowering<'a> {
                     self.emit(Compute::Const { to: by.then, value: f64::MAX });
                 }
                 match init {
-                    Some(e) => self.scratch(|l| l.expr_into(e, to)),
+                    Some(e) => {
+                        self.scratch(|l| l.expr_into(e, to));
+                        self.sort(*var);
+                    }
                     None => {
                         let words = self.words(&self.vars[*var].ty);
                         self.emit(Compute::Clear { to, words });
                     }
                 }
-                self.sort(*var);
             }
         }
     }
