@@ -72,8 +72,8 @@ impl Live {
             let (left, failed) = files.unwrap_or_else(|| {
                 let seconds = FILES.as_secs();
                 message::error(
-                    &format!("trace and picture are not on the disk after {seconds} s: it is stalled"),
-                    None,
+                    &format!("`run.json`, trace and picture are not on the disk after {seconds} s: it is stalled"),
+                    Some("`run.json` may say for ever that the run goes on; how it ended is said here alone"),
                 );
                 (Left { folder, picture: None }, true)
             });

@@ -199,7 +199,7 @@ impl<'t> Checker<'t> {
         let facts = self.shown(&condition, true);
         let block = self.with_setting(Setting::Instant, |c| {
             c.in_block(|c| {
-                c.scope.facts.learn(facts);
+                c.learn(facts);
                 c.block(block)
             })
         });

@@ -27,7 +27,7 @@ impl<'t> Checker<'t> {
                 let known = |c: &mut Self, holds: bool, block: &tree::Block| {
                     let facts = c.shown(&condition, holds);
                     c.in_block(|c| {
-                        c.scope.facts.learn(facts);
+                        c.learn(facts);
                         c.block(block)
                     })
                 };
@@ -35,10 +35,10 @@ impl<'t> Checker<'t> {
                 let otherwise = otherwise.map(|b| known(self, false, b)).unwrap_or_default();
                 // After `if not x { finish }` x is known, unless the way that goes on changes it.
                 if flow::leaves(&then) {
-                    self.scope.facts.learn(self.shown(&condition, false));
+                    self.learn(self.shown(&condition, false));
                     self.changes(&otherwise);
                 } else if flow::leaves(&otherwise) {
-                    self.scope.facts.learn(self.shown(&condition, true));
+                    self.learn(self.shown(&condition, true));
                     self.changes(&then);
                 }
                 Some(Stmt { kind: StmtKind::If(condition, then, otherwise), span })
@@ -125,7 +125,7 @@ impl<'t> Checker<'t> {
     /// A block as a value, with what its condition has shown.
     pub(super) fn block_knowing(&mut self, facts: Vec<Fact>, block: &tree::Block, expected: Option<&Type>) -> Block {
         self.in_block(|c| {
-            c.scope.facts.learn(facts);
+            c.learn(facts);
             c.value_block(block, expected)
         })
     }

@@ -6,9 +6,11 @@
 
 use crate::hir::{Builtin, Expr, ExprKind, InputId, InputPart, Interval, Var, VarId, VarKind};
 use crate::types::Type;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Something of which facts can be known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Place {
     Var(VarId),
     Input(InputId),
@@ -36,43 +38,85 @@ enum Change {
     Time,
 }
 
+/// What is known of a place.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    is_present: bool,
+    range: Interval,
+}
+
+const NOTHING: Known = Known { is_present: false, range: Interval::ANY };
+
+/// What is known in a block beside what is known outside it. Blocks are entered and left by the thousand, and what is known outside
+/// is not copied for them.
+#[derive(Clone, Debug, Default)]
+struct Layer {
+    outside: Option<Rc<Layer>>,
+    /// Of what cannot change, and of what can as time goes by or by an assignment.
+    fixed: BTreeMap<Place, Known>,
+    changeable: BTreeMap<Place, Known>,
+    /// Of what is known outside, nothing is known any more that can change.
+    time_went_by: bool,
+}
+
+impl Layer {
+    fn get(&self, place: Place) -> Known {
+        let (mut layer, mut changeable_too) = (Some(self), true);
+        while let Some(Layer { outside, fixed, changeable, time_went_by }) = layer {
+            let known = fixed.get(&place).or_else(|| changeable.get(&place).filter(|_| changeable_too));
+            if let Some(known) = known {
+                return *known;
+            }
+            changeable_too &= !time_went_by;
+            layer = outside.as_deref();
+        }
+        NOTHING
+    }
+}
+
 /// What is known here.
 #[derive(Debug, Default)]
 pub(super) struct Facts {
-    known: Vec<Fact>,
+    known: Rc<Layer>,
     /// What has changed since the block began that is being looked at.
     changes: Vec<Change>,
 }
 
 impl Facts {
-    pub fn learn(&mut self, facts: Vec<Fact>) {
-        self.known.extend(facts);
+    pub fn learn(&mut self, facts: Vec<Fact>, vars: &[Var]) {
+        for fact in facts {
+            let place = fact.place();
+            let before = self.known.get(place);
+            let known = match fact {
+                Fact::Present(_) => Known { is_present: true, ..before },
+                Fact::Within(_, range) => Known { range: before.range.and(range), ..before },
+            };
+            let is_fixed = matches!(place, Place::Var(v) if vars[v].kind.is_fixed());
+            let layer = Rc::make_mut(&mut self.known);
+            if is_fixed { &mut layer.fixed } else { &mut layer.changeable }.insert(place, known);
+        }
     }
 
     pub fn is_present(&self, place: Place) -> bool {
-        self.known.iter().any(|f| matches!(f, Fact::Present(p) if *p == place))
+        self.known.get(place).is_present
     }
 
     /// A known range, made narrower by what tests have shown.
     pub fn narrowed(&self, place: Place, range: Interval) -> Interval {
-        self.known.iter().fold(range, |range, fact| match fact {
-            Fact::Within(p, shown) if *p == place => range.and(*shown),
-            _ => range,
-        })
+        range.and(self.known.get(place).range)
     }
 
     /// An assignment: nothing is known of the variable any more.
     pub fn forget(&mut self, var: VarId) {
-        self.known.retain(|f| f.place() != Place::Var(var));
+        Rc::make_mut(&mut self.known).changeable.insert(Place::Var(var), NOTHING);
         self.changes.push(Change::Assigned(var));
     }
 
     /// Time goes by: only what cannot change is known still.
-    pub fn forget_changeable(&mut self, vars: &[Var]) {
-        self.known.retain(|f| match f.place() {
-            Place::Var(v) => vars[v].kind.is_fixed(),
-            Place::Input(_) => false,
-        });
+    pub fn forget_changeable(&mut self) {
+        let layer = Rc::make_mut(&mut self.known);
+        layer.changeable.clear();
+        layer.time_went_by = true;
         if !matches!(self.changes.last(), Some(Change::Time)) {
             self.changes.push(Change::Time);
         }
@@ -80,20 +124,26 @@ impl Facts {
 
     /// The same knowledge, for another place.
     pub fn known(&self) -> Facts {
-        Facts { known: self.known.clone(), changes: Vec::new() }
+        Facts { known: Rc::clone(&self.known), changes: Vec::new() }
     }
 
     /// Begins a block; gives what is known outside it.
     pub fn enter(&mut self) -> Facts {
-        Facts { known: self.known.clone(), changes: std::mem::take(&mut self.changes) }
+        let outside = Rc::clone(&self.known);
+        let inside = Layer { outside: Some(Rc::clone(&outside)), ..Layer::default() };
+        self.known = Rc::new(inside);
+        Facts { known: outside, changes: std::mem::take(&mut self.changes) }
     }
 
     /// Ends a block: of what is known outside it, all stays known that did not change in it.
-    pub fn leave(&mut self, outside: Facts, vars: &[Var]) {
-        for change in std::mem::replace(self, outside).changes {
+    pub fn leave(&mut self, outside: Facts) {
+        let Facts { known, changes } = std::mem::replace(self, outside);
+        // What is known outside is held by nobody else then, and changed where it stands.
+        drop(known);
+        for change in changes {
             match change {
                 Change::Assigned(var) => self.forget(var),
-                Change::Time => self.forget_changeable(vars),
+                Change::Time => self.forget_changeable(),
             }
         }
     }

@@ -170,7 +170,7 @@ impl<'t> Checker<'t> {
                 let condition = self.with_temporal(Temporal::No, |c| c.condition(e));
                 let facts = self.shown(&condition, true);
                 let body = self.in_block(|c| {
-                    c.scope.facts.learn(facts);
+                    c.learn(facts);
                     c.block(block)
                 });
                 (condition, None, body)
@@ -190,9 +190,7 @@ impl<'t> Checker<'t> {
 
     /// In a loop nothing holds of what its body may change.
     pub(super) fn enter_loop(&mut self) {
-        let vars = std::mem::take(&mut self.scope.vars);
-        self.scope.facts.forget_changeable(&vars);
-        self.scope.vars = vars;
+        self.scope.facts.forget_changeable();
     }
 
     /// Time goes by: memory, signals and inputs may have changed.

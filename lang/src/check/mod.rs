@@ -378,7 +378,7 @@ impl<'t> Checker<'t> {
         let (visible, outside) = (self.scope.visible.len(), self.scope.facts.enter());
         let result = work(self);
         self.scope.visible.truncate(visible);
-        self.scope.facts.leave(outside, &self.scope.vars);
+        self.scope.facts.leave(outside);
         result
     }
 
@@ -389,6 +389,11 @@ impl<'t> Checker<'t> {
         let result = work(self);
         self.scope.facts = before;
         result
+    }
+
+    /// Takes in what a test has shown.
+    fn learn(&mut self, facts: Vec<facts::Fact>) {
+        self.scope.facts.learn(facts, &self.scope.vars);
     }
 
     /// What is known when a condition holds, or when it does not.

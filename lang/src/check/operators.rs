@@ -114,7 +114,7 @@ impl<'t> Checker<'t> {
         let a = self.condition(left);
         let shown = self.shown(&a, op.node == Binary::And);
         let b = self.in_block(|c| {
-            c.scope.facts.learn(shown);
+            c.learn(shown);
             c.condition(right)
         });
         let builtin = if op.node == Binary::And { Builtin::And } else { Builtin::Or };

@@ -186,7 +186,7 @@ impl<'t> Checker<'t> {
         let facts = self.shown(&on, true);
         let (target, effect) = self.with_setting(Setting::Instant, |c| {
             c.in_block(|c| {
-                c.scope.facts.learn(facts);
+                c.learn(facts);
                 // The result is computed before `do` runs: what the guard has shown holds.
                 let target = match &rule.target {
                     tree::Target::Behavior(_) => to.flatten().map(Target::Behavior),
