@@ -82,8 +82,9 @@ impl Controller {
     pub fn command(&mut self, command: &Command) {
         let computed = std::mem::take(&mut self.computed);
         if self.is_late() {
-            // What the vehicle has left was not late for it.
-            if self.left == 0 {
+            // Nobody is late in a tick of which the vehicle said nothing, its next state being the last that came.
+            let is_gap = self.heard.len() == 1 && self.heard.front().is_some_and(|next| next.tick > self.next_tick);
+            if !is_gap {
                 self.late.add(computed);
             }
             let told = if self.has_warned {
