@@ -59,8 +59,15 @@ impl Quantity {
             Quantity::Position | Quantity::Flow => {
                 Point::new(now[0], now[1]).distance(Point::new(before[0], before[1]))
             }
-            Quantity::Direction => (Heading::from_radians(now[0]) - Heading::from_radians(before[0])).abs(),
-            _ => (now[0] - before[0]).abs(),
+            _ => self.step(now, before).abs(),
+        }
+    }
+
+    /// The way from a reading to the next, of what is one number: a direction turns to the nearer side, clockwise positive.
+    pub fn step(self, now: Reading, before: Reading) -> f64 {
+        match self {
+            Quantity::Direction => Heading::from_radians(now[0]) - Heading::from_radians(before[0]),
+            _ => now[0] - before[0],
         }
     }
 

@@ -16,7 +16,8 @@ const BEFORE_THIRD: u64 = 3;
 const FLICKER_GAIN: f64 = 16.0;
 /// First differences of white noise correlate by -1/2, and 2/3 of them alternate; those of a random walk, such as a vehicle that wobbles, by 0,
 /// which third differences do not tell from noise. They count for what comes in each tick, of which the motion is small beside them, and for
-/// what the vehicle steers, however seldom it comes: a course by positions that wander, or a speed against a flow that does. What they are on the mean of so many, and as that changes, counts as no difference: a dive hides no noise, nor does its beginning or its end.
+/// what the vehicle steers, however seldom it comes: a course by positions that wander, or a speed against a flow that does. What they are on
+/// the mean of so many, and as that changes, counts as no difference: a dive hides no noise, nor does its beginning or its end.
 const FIRST: Bounds = Bounds { correlation: -0.25, alternates: 0.5 };
 const DRIFT_CHANGES: u64 = 20;
 /// A noise is larger than the rounding of the last bits, in SI units, and than the smallest change, which may be the step in which a link

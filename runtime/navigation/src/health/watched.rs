@@ -2,7 +2,6 @@
 
 use super::noise::Noise;
 use super::{Anomalies, Anomaly, Credible};
-use albacore_geometry::Heading;
 use albacore_vehicle::measurements::{MeasurementInfo, info};
 use albacore_vehicle::{Quantity, Reading, TICK_S};
 
@@ -100,7 +99,7 @@ impl Watched {
             if !anomalies.sees(Anomaly::Stuck(self.number)) {
                 self.same_most = self.same_most.max(self.same);
                 if follows && self.learns {
-                    self.noise.learn(self.step(reading, before));
+                    self.noise.learn(self.of.quantity.step(reading, before));
                 }
             }
             self.same = 0;
@@ -160,14 +159,6 @@ impl Watched {
                 let is_steered = matches!(quantity, Quantity::Direction | Quantity::Speed);
                 !self.moves && self.same_most <= NOISE_REST_MAX && self.noise.is_shown(self.period_ticks(), is_steered)
             }
-        }
-    }
-
-    /// The way from a reading to the next: a heading turns to the nearer side.
-    fn step(&self, now: Reading, before: Reading) -> f64 {
-        match self.of.quantity {
-            Quantity::Direction => Heading::from_radians(now[0]) - Heading::from_radians(before[0]),
-            _ => now[0] - before[0],
         }
     }
 
