@@ -370,7 +370,8 @@ fn only_one_place_writes() {
     let raw = ["fs::write", "File::create", "File::options", "OpenOptions", "rename(", "fs::copy", "hard_link"];
     let removers = ["remove_file", "remove_dir"];
     let mut scripts = Vec::new();
-    let mut folders: Vec<PathBuf> = vec!["src".into(), "lang/src".into(), "lang/syntax/src".into()];
+    let mut folders: Vec<PathBuf> =
+        ["src", "lang/src", "lang/grammar/src", "lang/syntax/src"].map(PathBuf::from).into();
     folders.extend(std::fs::read_dir("runtime").unwrap().map(|e| e.unwrap().path().join("src")));
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {

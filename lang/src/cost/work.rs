@@ -206,7 +206,8 @@ impl<'a> Work<'a> {
             StmtKind::Insert(var, e) | StmtKind::Remove(var, e) => {
                 let list = vars.get(*var).map(|v| &v.ty);
                 // A list that is full is put in order before its last goes, and after.
-                let sorted = self.sort(*var, vars).saturating_mul(2);
+                let times = if matches!(stmt.kind, StmtKind::Insert(..)) { 2 } else { 1 };
+                let sorted = self.sort(*var, vars).saturating_mul(times);
                 sum([self.expr(e), capacity(list), list.map_or(0, |ty| self.moved(ty)), sorted])
             }
             StmtKind::Clear(_) => 0,
