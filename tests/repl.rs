@@ -67,6 +67,13 @@ fn several_statements_of_a_line_are_done_in_order() {
 }
 
 #[test]
+fn what_is_put_in_force_is_computed_once() {
+    let (code, answers) = answers("in_force", &[]);
+    insta::assert_snapshot!(answers);
+    assert_eq!(code, Some(3));
+}
+
+#[test]
 fn edges_belong_to_their_area() {
     let (code, answers) = answers("edges", &[]);
     insta::assert_snapshot!(answers);

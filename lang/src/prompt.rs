@@ -4,8 +4,10 @@
 //! expression, become the body of a mission that is driven once: so whatever a script can say, a line can say, and means the
 //! same. The values that earlier lines have named, and those that the running mission knows, are put in place before it begins.
 
+mod in_force;
 mod value;
 
+pub use in_force::{InForce, is_hidden};
 pub(crate) use value::{Held, Known};
 pub use value::{Left, Named};
 
@@ -19,7 +21,7 @@ use crate::syntax::{self, tree};
 use crate::types::TypeTable;
 use crate::{Library, Script, Wanted, lower, rules};
 use albacore_geometry::Geodetic;
-use albacore_program::{Channel, Program, Slot};
+use albacore_program::{Program, Slot};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use value::slots;
@@ -48,8 +50,9 @@ pub struct Prompt {
 pub enum Line {
     /// Nothing more: its declarations are known from here on, and these are their names.
     Declared(Vec<String>),
-    /// Nothing more: its setpoints and overlays are in force from here on.
-    With,
+    /// Its setpoints and overlays: drive each of its values as that of an expression, keep them, and [put it in
+    /// force](Prompt::put_in_force).
+    With(InForce),
     /// An expression: drive it for one tick, without sending the command, and read its value.
     Value(Drive),
     /// Statements: drive them.
@@ -180,7 +183,7 @@ impl Prompt {
         let span = block.span;
         let mut clauses = block.clauses;
         if let [tree::Clause { kind: tree::ClauseKind::With(items), .. }] = clauses.as_slice() {
-            return self.with(library, items.clone(), span, known, origin);
+            return self.with(library, items, span, known, origin);
         }
         if let Some(place) = clauses.iter().find(|c| needs_a_table(&c.kind)) {
             let finding =
@@ -244,37 +247,6 @@ impl Prompt {
         }
     }
 
-    /// Setpoints and overlays for all lines that follow: a channel's new setpoint replaces the one before.
-    fn with(
-        &mut self,
-        library: &dyn Library,
-        items: Vec<tree::WithItem>,
-        span: Span,
-        known: &[Named],
-        origin: Option<Geodetic>,
-    ) -> Read {
-        let channel = |item: &tree::WithItem| match item {
-            tree::WithItem::Setpoint(setpoint) => {
-                Channel::named(&setpoint.channel.node).map(|channel| channel.row().axis)
-            }
-            tree::WithItem::Overlay(_) => None,
-        };
-        let mut with = self.with.clone();
-        with.retain(|old| channel(old).is_none_or(|c| !items.iter().any(|new| channel(new) == Some(c))));
-        with.extend(items);
-        let before = std::mem::replace(&mut self.with, with);
-        let checked = self.checked(library, Vec::new(), span, known);
-        let read =
-            checked.and_then(|checked| self.drive(&checked, span.file, known, None, origin).map(|_| checked.findings));
-        match read {
-            Ok(findings) => Read { line: Some(Line::With), findings },
-            Err(findings) => {
-                self.with = before;
-                Read { line: None, findings }
-            }
-        }
-    }
-
     /// Whether a statement is an expression, not a call that takes time.
     fn is_expression(&self, timed: &tree::Timed) -> bool {
         let tree::Action::Expr(e) = &timed.action else { return false };
@@ -325,7 +297,19 @@ impl Prompt {
         span: Span,
         known: &[Named],
     ) -> Result<Checked, Vec<Diagnostic>> {
-        let with = tree::Clause { kind: tree::ClauseKind::With(self.with.clone()), span };
+        self.checked_with(library, self.with.clone(), clauses, span, known)
+    }
+
+    /// The same with other setpoints and overlays in force.
+    fn checked_with(
+        &self,
+        library: &dyn Library,
+        with: Vec<tree::WithItem>,
+        clauses: Vec<tree::Clause>,
+        span: Span,
+        known: &[Named],
+    ) -> Result<Checked, Vec<Diagnostic>> {
+        let with = tree::Clause { kind: tree::ClauseKind::With(with), span };
         let body = tree::Block { clauses: std::iter::once(with).chain(clauses).collect(), span };
         let mission = tree::Activity {
             kind: tree::ActivityKind::Mission { scenario: None, within: None },

@@ -12,7 +12,7 @@ pub use opening::{OpenError, Opening};
 use crate::Script;
 use crate::files::Files;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::prompt::{Drive, Left, Line, Named, Prompt as Lines};
+use albacore_lang::prompt::{Drive, Left, Line, Named, Prompt as Lines, is_hidden};
 use albacore_lang::source::Sources;
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_program::{Program, number};
@@ -135,7 +135,15 @@ impl Prompt {
         match read.line {
             None => return Answer::Wrong,
             Some(Line::Declared(names)) => say(Say::Text(&format!("declared {}", names.join(", ")))),
-            Some(Line::With) => {}
+            Some(Line::With(in_force)) => {
+                let values: Result<Vec<_>, _> = in_force.values.iter().map(|drive| self.value(drive, &known)).collect();
+                match values {
+                    Ok(values) => values.into_iter().for_each(|(_, value)| self.now.name(value)),
+                    Err(what) => return wrong(&what, say),
+                }
+                self.lines.put_in_force(in_force);
+                self.past.pin(&self.now);
+            }
             Some(Line::Value(drive)) => match self.value(&drive, &known) {
                 Ok((program, value)) => {
                     let text = number::brief(&program.texts, &value.shape, &value.words);
@@ -370,6 +378,7 @@ impl Prompt {
 
     fn tell_names(&self, say: &mut Listener) {
         let known = self.known();
+        let known: Vec<_> = known.iter().filter(|named| !is_hidden(&named.name)).collect();
         let texts = self.now.task.as_ref().map_or(&[][..], |task| &task.machine.program().texts);
         for named in &known {
             say(Say::Text(&format!("{} = {}", named.name, number::brief(texts, &named.shape, &named.words))));

@@ -1,0 +1,94 @@
+//! `with` at the prompt: what is in force for all lines that follow, computed once.
+
+use super::{Drive, Held, Line, Named, Prompt, Read, instant};
+use crate::Library;
+use crate::source::Span;
+use crate::syntax::tree;
+use albacore_geometry::Geodetic;
+use albacore_program::Channel;
+
+/// Setpoints and overlays that are to be in force.
+pub struct InForce {
+    /// The values that they are made of, each under a name that nobody can type.
+    pub values: Vec<Drive>,
+    /// With those names in place of what was written.
+    items: Vec<tree::WithItem>,
+}
+
+/// Whether a name holds a value of a `with`: no name that is written has a blank.
+pub fn is_hidden(name: &str) -> bool {
+    name.contains(' ')
+}
+
+impl Prompt {
+    /// Setpoints and overlays for all lines that follow: a channel's new setpoint replaces the one before. Their values are computed
+    /// now, and stay (section 7).
+    pub(super) fn with(
+        &self,
+        library: &dyn Library,
+        items: &[tree::WithItem],
+        span: Span,
+        known: &[Named],
+        origin: Option<Geodetic>,
+    ) -> Read {
+        let with = self.with_also(items.to_vec());
+        let checked = self.checked_with(library, with, Vec::new(), span, known);
+        let read = checked.and_then(|checked| {
+            self.drive(&checked, span.file, known, None, origin)?;
+            let mut values = Vec::new();
+            let mut items = items.to_vec();
+            for written in items.iter_mut().flat_map(values_of).filter(|e| !is_plain(e)) {
+                let name = format!("with {} {}", self.lines, values.len());
+                let node = tree::Name { node: name.clone(), span: written.span };
+                let kind = tree::ClauseKind::Let { name: node, ty: None, value: instant(written.clone()) };
+                let line = vec![tree::Clause { kind, span: written.span }];
+                let left = Some((name.clone(), Some(name.clone()), Held::Fixed));
+                let value = self.checked(library, line, span, known);
+                // What the prompt cannot keep is a constant of the script.
+                if let Ok(value) = value.and_then(|line| self.drive(&line, span.file, known, left, origin)) {
+                    written.kind = tree::ExprKind::Name(name);
+                    values.push(value);
+                }
+            }
+            Ok((checked.findings, InForce { values, items }))
+        });
+        match read {
+            Ok((findings, in_force)) => Read { line: Some(Line::With(in_force)), findings },
+            Err(findings) => Read { line: None, findings },
+        }
+    }
+
+    /// From here on setpoints and overlays are in force; what they are made of has been kept.
+    pub fn put_in_force(&mut self, with: InForce) {
+        self.with = self.with_also(with.items);
+    }
+
+    fn with_also(&self, items: Vec<tree::WithItem>) -> Vec<tree::WithItem> {
+        let axis = |item: &tree::WithItem| match item {
+            tree::WithItem::Setpoint(setpoint) => {
+                Channel::named(&setpoint.channel.node).map(|channel| channel.row().axis)
+            }
+            tree::WithItem::Overlay(_) => None,
+        };
+        let mut with = self.with.clone();
+        with.retain(|old| axis(old).is_none_or(|a| !items.iter().any(|new| axis(new) == Some(a))));
+        with.extend(items);
+        with
+    }
+}
+
+/// What a setpoint or an overlay is made of.
+fn values_of(item: &mut tree::WithItem) -> Vec<&mut tree::Expr> {
+    match item {
+        tree::WithItem::Setpoint(setpoint) => vec![&mut setpoint.value],
+        tree::WithItem::Overlay(overlay) => match &mut overlay.kind {
+            tree::ExprKind::Call(_, args) => args.iter_mut().map(|arg| &mut arg.value).collect(),
+            _ => Vec::new(),
+        },
+    }
+}
+
+/// Whether a value is the same whenever it is computed, as it is written.
+fn is_plain(e: &tree::Expr) -> bool {
+    matches!(e.kind, tree::ExprKind::Number { .. } | tree::ExprKind::Bool(_) | tree::ExprKind::None)
+}
