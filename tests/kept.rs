@@ -83,6 +83,18 @@ fn a_run_leaves_journal_trace_and_picture() {
 }
 
 #[test]
+fn equal_runs_leave_equal_journals_however_the_script_is_named() {
+    let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(BOX).display().to_string();
+    let journals = [BOX, "./missions/box.alb", "missions/../missions/box.alb", &whole].map(|script| {
+        let out = empty("named");
+        let output = albacore(script, &out).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{script}: {}", stderr(&output));
+        std::fs::read(out.join("journal")).unwrap()
+    });
+    assert!(journals.iter().all(|journal| *journal == journals[0]));
+}
+
+#[test]
 fn who_interrupts_a_run_has_all_of_it_up_to_there() {
     for signal in ["-INT", "-TERM"] {
         let out = empty(&format!("interrupted{signal}"));

@@ -56,6 +56,15 @@ impl PlanError {
 }
 
 impl Plan {
+    /// What both were made from, by names as seen from the folder of the script: equal runs leave equal journals, wherever the files
+    /// lie and however their paths were written.
+    pub(crate) fn sources_from_script(&self) -> Vec<SourceDigest> {
+        let script = self.sources.first().map_or("", |source| source.name.as_str());
+        let folder = Path::new(script).parent().unwrap_or(Path::new(""));
+        let named = |source: &SourceDigest| SourceDigest { name: seen_from(folder, &source.name), ..source.clone() };
+        self.sources.iter().map(named).collect()
+    }
+
     /// Chooses the mission (by name, else the one named like the file, else the only one) and the scenario (by name, or as
     /// `file.alb#name`, else the mission's own).
     pub fn new(script: &Script, file: &str, mission: Option<&str>, scenario: Option<&str>) -> Result<Self, PlanError> {
@@ -225,6 +234,13 @@ fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String,
         Some(Err(findings)) => Err(PlanError::script(findings, script)),
         None => Err(PlanError::Asked(format!("`{file}` has no mission `{name}`"), None)),
     }
+}
+
+/// What a file is called, seen from a folder: by its name alone where it lies elsewhere.
+fn seen_from(folder: &Path, name: &str) -> String {
+    let path = Path::new(name);
+    let inside = path.strip_prefix(folder).ok().or(path.file_name().map(Path::new));
+    inside.map_or_else(|| name.to_string(), |inside| inside.display().to_string())
 }
 
 /// The bottom of a scenario without its pits, if it was surveyed.

@@ -72,7 +72,7 @@ impl Run {
             scenario: plan.scenario_name.clone(),
             seed: self.memory.results.seed,
             tick_s: TICK_S,
-            sources: plan.sources.clone(),
+            sources: plan.sources_from_script(),
             set: set.to_vec(),
             measurements: self.driver.vehicle().measurements().to_vec(),
             start: self.memory.results.start,
