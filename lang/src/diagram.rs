@@ -119,7 +119,7 @@ fn diagram(activity: &Activity, hir: &Hir, sources: &Sources) -> Option<Diagram>
         let target = match &rule.target {
             hir::Target::Behavior(to) => Target::Behavior(*to),
             hir::Target::Finish(result) => Target::Finish(result.as_ref().map(|e| written(e.span, sources))),
-            hir::Target::Abort(why) => Target::Abort(literal(why)),
+            hir::Target::Abort(why) => Target::Abort(text(why, sources)),
         };
         let effect = rule.effect.as_ref().map(|block| statements(block, sources)).filter(|text| !text.is_empty());
         let guard = Guard { rule: i + 1, on: written(rule.on_span, sources), effect };
@@ -153,7 +153,11 @@ fn statements(block: &Block, sources: &Sources) -> String {
     texts.join("; ")
 }
 
-fn literal(parts: &[TextPart]) -> String {
-    let literal = |part: &TextPart| if let TextPart::Literal(text) = part { text.clone() } else { String::new() };
-    parts.iter().map(literal).collect()
+/// A text as the script has it, with what stands in its holes.
+fn text(parts: &[TextPart], sources: &Sources) -> String {
+    let part = |part: &TextPart| match part {
+        TextPart::Literal(text) => text.clone(),
+        TextPart::Hole(e) => format!("{{{}}}", written(e.span, sources)),
+    };
+    parts.iter().map(part).collect()
 }
