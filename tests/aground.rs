@@ -20,6 +20,7 @@ const ALTITUDES: [&str; 8] = [
 ];
 /// A depth that is told wrong, while the vehicle holds the true one that it is told: the altitude alone can lead up.
 const DEPTHS: [&str; 5] = ["stuck", "garbage", "wrong", "wrong(size: 3)", "wrong(size: 20)"];
+const MISSIONS: [&str; 2] = ["deep", "by_altitude"];
 const FROM: [&str; 4] = ["0 s", "12 s", "25 s", "60 s"];
 
 fn run(mission: &str, scenario: &str, faults: &[String]) -> (Outcome, String) {
@@ -34,9 +35,9 @@ fn run(mission: &str, scenario: &str, faults: &[String]) -> (Outcome, String) {
 }
 
 /// Runs each mission over each bottom with each fault of a sensor, and gives what touched the bottom.
-fn aground(sensor: &str, disorders: &[&str]) -> Vec<String> {
+fn aground(missions: [&str; 2], sensor: &str, disorders: &[&str]) -> Vec<String> {
     let mut aground = Vec::new();
-    for mission in ["deep", "by_altitude"] {
+    for mission in missions {
         for scenario in ["level", "shallow", "rising"] {
             for disorder in disorders {
                 for from in FROM {
@@ -54,14 +55,28 @@ fn aground(sensor: &str, disorders: &[&str]) -> Vec<String> {
 
 #[test]
 fn no_altitude_leads_aground() {
-    let aground = aground("altitude", &ALTITUDES);
+    let aground = aground(MISSIONS, "altitude", &ALTITUDES);
     assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
 }
 
 #[test]
 fn no_depth_leads_aground_while_the_altitude_is_true() {
-    let aground = aground("depth", &DEPTHS);
+    let aground = aground(MISSIONS, "depth", &DEPTHS);
     assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+}
+
+/// An attack: with `depth >= D` a low altitude led down to D, through the bottom where the water had less.
+#[test]
+fn no_least_depth_leads_aground() {
+    let missions = ["deep_at_least", "by_altitude_at_least"];
+    let aground = [aground(missions, "depth", &DEPTHS), aground(missions, "altitude", &["wrong(size: 60 %)"])].concat();
+    assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+    for mission in missions {
+        for scenario in ["level", "shallow", "rising"] {
+            let (_, trace) = run(mission, scenario, &[]);
+            assert!(!trace.contains("grounded at"), "{mission} in {scenario}:\n{trace}");
+        }
+    }
 }
 
 /// An attack: an altitude was held within `depth <= D` by the altitude that was told alone, and a vehicle that measured another went to

@@ -202,17 +202,18 @@ impl Run {
         let floor = self.floor(p, altitude.0).min(deepest);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
         let is_low = self.is_low();
+        let up = self.leads_up(floor);
         match (asked, known) {
             (Vertical::Depth(metres), _) if is_low => {
                 self.limit(Channel::Depth, metres);
-                Vertical::Depth(depth.0)
+                Vertical::Depth(up)
             }
             (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
                 let given = self.limit(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
                 let given = given.max(self.ahead(altitude.0)).min(highest);
                 match self.may_lead_too_deep(given, water, deepest) {
-                    true if is_low => Vertical::Depth(depth.0),
+                    true if is_low => Vertical::Depth(up),
                     true => Vertical::Depth((water - given).min(floor).max(0.0)),
                     false => Vertical::Altitude(given),
                 }
@@ -220,7 +221,7 @@ impl Run {
             // An altitude that nobody measures cannot be held within anything.
             (Vertical::Altitude(metres), None) if bounded => {
                 self.limit(Channel::Altitude, metres);
-                Vertical::Depth(if is_low { depth.0 } else { floor })
+                Vertical::Depth(if is_low { up } else { floor })
             }
             (Vertical::Altitude(metres), None) => Vertical::Altitude(self.limit(Channel::Altitude, metres)),
             (Vertical::Depth(metres), _) => {
@@ -229,6 +230,12 @@ impl Run {
                 Vertical::Depth(given.max(shallowest).min(floor).max(0.0))
             }
         }
+    }
+
+    /// The depth, m, that a vehicle is told whose altitude is low: the least, or less where the water allows no more. How deep it is may
+    /// be told wrong, and the floor with it: one that does not rise is told to surface.
+    fn leads_up(&self, floor: f64) -> f64 {
+        if self.state.lift.is_patient() { self.state.limits.depth.0.min(floor) } else { 0.0 }
     }
 
     /// Whether an altitude may lead deeper than the vehicle may be, in water of a depth, m: then it is held by the depth that it comes to.

@@ -59,6 +59,11 @@ impl Run {
 }
 
 impl Lift {
+    /// Whether there is nothing to be done, or not yet.
+    pub fn is_patient(self) -> bool {
+        matches!(self, Lift::Clear | Lift::Deep { .. })
+    }
+
     fn is_lifted(self) -> bool {
         matches!(self, Lift::Lifted { .. })
     }

@@ -87,7 +87,7 @@ impl Evaluator<'_> {
         match asked {
             Vertical::Depth(asked) if is_low => {
                 self.limit(Channel::Depth, asked);
-                Vertical::Depth(low)
+                Vertical::Depth(low.min(deepest))
             }
             Vertical::Altitude(asked) => {
                 let given = self.limit(Channel::Altitude, asked);
@@ -102,13 +102,15 @@ impl Evaluator<'_> {
                         if self.bottom.deep.max(echo.sum) + self.bottom.hidden(&self.w) - given + self.bottom.below
                             > high
                         {
-                            Vertical::Depth(if is_low { low } else { goal.min(deepest).max(0.0) })
+                            Vertical::Depth(if is_low { low.min(deepest) } else { goal.min(deepest).max(0.0) })
                         } else {
                             self.bottom.below = 0.0;
                             Vertical::Altitude(given)
                         }
                     }
-                    None if lowest > 0.0 || high < f64::MAX => Vertical::Depth(if is_low { low } else { deepest }),
+                    None if lowest > 0.0 || high < f64::MAX => {
+                        Vertical::Depth(if is_low { low.min(deepest) } else { deepest })
+                    }
                     None => Vertical::Altitude(given),
                 }
             }
