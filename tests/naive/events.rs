@@ -60,6 +60,8 @@ fn line(p: &Program, event: &Event) -> String {
         Event::LiftedInVain => "lifted in vain".to_string(),
         Event::Risen => "risen".to_string(),
         Event::BottomFound => "bottom found".to_string(),
+        Event::Restless(rule) => format!("restless {}", p.rules[*rule as usize].place),
+        Event::Settled => "settled".to_string(),
         Event::Ended(outcome) => format!("end {}", outcome.name()),
     }
 }

@@ -45,12 +45,16 @@ impl Run {
             }
         }
         self.events.push(Event::Entered(id));
-        let declared = self.execute(p, activity.entry, base);
+        let mut declared = self.execute(p, activity.entry, base);
+        // An overlay may abort the mission as soon as it is put on: what else is declared, the recovery reads.
+        while let Stop::Abort(next) = declared {
+            declared = self.execute(p, next, base);
+        }
         if activity.kind == ActivityKind::Mission {
             self.remember_declared(p, activity, base);
             self.compute_turn_rate(p, base);
         }
-        if declared == Stop::Abort {
+        if self.abort.is_some() {
             return;
         }
         self.execute(p, activity.reactions, base);
@@ -66,7 +70,7 @@ impl Run {
     fn run_body(&mut self, p: &Program, activity: &Activity, base: Slot, from: Addr) -> Status {
         let (pc, status) = match self.execute(p, from, base) {
             Stop::Yield(pc) => (f64::from(pc), Status::Running),
-            Stop::Abort => return Status::Running,
+            Stop::Abort(_) => return Status::Running,
             Stop::End | Stop::Return => (header::ENDED, Status::Ended),
         };
         self.set_head(activity, base, header::PC, pc);
@@ -76,9 +80,7 @@ impl Run {
     /// Rule 2: signals and timers; aborts; rules; reactions; body.
     pub fn step(&mut self, p: &Program, id: ActivityId, base: Slot) -> Status {
         let activity = &p.activities[id as usize];
-        let age = self.head(activity, base, header::AGE);
-        self.set_head(activity, base, header::AGE, age + 1.0);
-        self.execute(p, activity.refresh, base);
+        self.live_a_tick(p, activity, base);
         if self.aborts(p, activity, base) {
             return Status::Running;
         }
@@ -107,6 +109,13 @@ impl Run {
             Body::Table(table) => self.step_table(p, activity, table, base),
             Body::Amend { .. } => Status::Running,
         }
+    }
+
+    /// A tick older, with signals and timers of this tick.
+    pub fn live_a_tick(&mut self, p: &Program, activity: &Activity, base: Slot) {
+        let age = self.head(activity, base, header::AGE);
+        self.set_head(activity, base, header::AGE, age + 1.0);
+        self.execute(p, activity.refresh, base);
     }
 
     fn aborts(&mut self, p: &Program, activity: &Activity, base: Slot) -> bool {
@@ -161,6 +170,8 @@ impl Run {
         self.set_head(&p.activities[id as usize], base, header::STATE, header::ACTIVE);
         self.set_head(activity, base, header::CHILD, f64::from(waiting + 1));
         self.events.push(Event::Resumed(id));
+        // It lives this tick, and so do the timers of its rules: it may be done in it.
+        self.watch(p, &table.behaviors[waiting as usize], base);
         true
     }
 
@@ -168,14 +179,8 @@ impl Run {
     fn try_rules(&mut self, p: &Program, activity: &Activity, table: &Table, base: Slot, done: bool) -> Switch {
         let Some(active) = self.active_behavior(activity, base) else { return Switch::None };
         let entry = &table.behaviors[active as usize];
-        // Only timers need it.
-        if !done && !matches!(p.ops.get(entry.watch as usize), Some(Op::Return)) {
-            // The rules of a behavior come before its own step, and count by the age that it will have in this tick.
-            let behavior = &p.activities[entry.activity as usize];
-            let age = self.head(behavior, base, header::AGE);
-            self.set_head(behavior, base, header::AGE, age + 1.0);
-            self.execute(p, entry.watch, base);
-            self.set_head(behavior, base, header::AGE, age);
+        if !done {
+            self.watch(p, entry, base);
         }
         for (i, exit) in entry.exits.iter().enumerate() {
             let guard = if done { exit.guard_done } else { Some(exit.guard) };
@@ -186,6 +191,19 @@ impl Run {
             }
         }
         Switch::None
+    }
+
+    /// The timers of the rules that may leave a behavior live a tick. They come before its own step, and count by the age that it
+    /// will have in this tick.
+    fn watch(&mut self, p: &Program, entry: &Entry, base: Slot) {
+        if matches!(p.ops.get(entry.watch as usize), Some(Op::Return)) {
+            return;
+        }
+        let behavior = &p.activities[entry.activity as usize];
+        let age = self.head(behavior, base, header::AGE);
+        self.set_head(behavior, base, header::AGE, age + 1.0);
+        self.execute(p, entry.watch, base);
+        self.set_head(behavior, base, header::AGE, age);
     }
 
     #[allow(
@@ -400,7 +418,7 @@ impl Run {
 
     pub fn take_off(&mut self, p: &Program, overlay: u32, base: Slot, cause: Cause) {
         let site = &p.overlays[overlay as usize];
-        self.end_amending(p, overlay, base);
+        self.fall_silent(p, overlay, base);
         self.leave(p, site.activity, base + site.base, cause);
     }
 

@@ -71,13 +71,24 @@ impl Run {
     pub fn pause_overlays(&mut self, p: &Program, chain: &[(u32, Slot)]) {
         for (id, base) in chain.iter().rev() {
             for &overlay in &p.activities[*id as usize].overlays {
-                self.end_amending(p, overlay, *base);
+                self.fall_silent(p, overlay, *base);
             }
         }
     }
 
+    /// An overlay is left or paused: it leaves the course alone, and keeps nothing in this tick.
+    pub fn fall_silent(&mut self, p: &Program, overlay: u32, base: Slot) {
+        self.end_amending(p, overlay, base);
+        let site = &p.overlays[overlay as usize];
+        let overlay = &p.activities[site.activity as usize];
+        let state = self.get(base + site.base + overlay.header + header::STATE);
+        if let (ActivityKind::Sets(axis), true) = (overlay.kind, state == header::ACTIVE) {
+            self.state.overridden.clear(axis);
+        }
+    }
+
     /// An overlay leaves the course alone; told when the trace has heard that it does not.
-    pub fn end_amending(&mut self, p: &Program, overlay: u32, base: Slot) {
+    fn end_amending(&mut self, p: &Program, overlay: u32, base: Slot) {
         let site = &p.overlays[overlay as usize];
         let told = base + site.base + p.activities[site.activity as usize].header + header::AMENDING;
         if self.get(told) != 0.0 {
@@ -97,7 +108,7 @@ impl Run {
             return asked;
         };
         self.set(at + slot, asked.radians());
-        if self.execute(p, amended.entry, at) == Stop::Abort {
+        if let Stop::Abort(_) = self.execute(p, amended.entry, at) {
             return asked;
         }
         let given = Heading::from_radians(self.get(at + amended.value));

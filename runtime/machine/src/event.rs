@@ -76,6 +76,10 @@ pub enum Event {
     Risen,
     /// It has not risen, and makes no more way for it.
     LiftedInVain,
+    /// Rules fire in more than every fourth tick, for seconds now: index into the program's rules, of the last.
+    Restless(u32),
+    /// They no longer do.
+    Settled,
 }
 
 /// How a mission ended.

@@ -17,8 +17,8 @@ pub(crate) enum Stop {
     Yield(Addr),
     /// The body came to its end, or finished.
     End,
-    /// The mission is aborted: [`Run::abort`] says why.
-    Abort,
+    /// The mission is aborted: [`Run::abort`] says why. The code would have gone on at this address.
+    Abort(Addr),
 }
 
 /// Code that needs no vehicle, such as that of a scenario or of a test's expectations, with the words it works on.
@@ -83,7 +83,7 @@ impl Run {
                 Op::End | Op::Finish => return Stop::End,
                 Op::Abort { why } => {
                     self.abort = Some(self.filled(&p.texts[why as usize], base, p));
-                    return Stop::Abort;
+                    return Stop::Abort(pc as Addr);
                 }
 
                 Op::Begin { guide, args, state, setpoints } => self.begin(guide, b(args), b(state), b(setpoints)),
@@ -95,13 +95,13 @@ impl Run {
                 Op::Enter { call } => {
                     self.enter_call(p, call, base);
                     if self.abort.is_some() {
-                        return Stop::Abort;
+                        return Stop::Abort(pc as Addr);
                     }
                 }
                 Op::Step { call, ended } => {
                     let over = self.step_call(p, call, base);
                     if self.abort.is_some() {
-                        return Stop::Abort;
+                        return Stop::Abort(pc as Addr);
                     }
                     self.set(b(ended), truth(over));
                 }
@@ -109,7 +109,7 @@ impl Run {
                 Op::PutOn { overlay } => {
                     self.put_on(p, overlay, base);
                     if self.abort.is_some() {
-                        return Stop::Abort;
+                        return Stop::Abort(pc as Addr);
                     }
                 }
                 Op::TakeOff { overlay } => self.take_off(p, overlay, base, albacore_program::Cause::Done),
@@ -128,7 +128,7 @@ impl Run {
                 }
                 Op::Desert { end } => {
                     if self.desert(OverrideEnd::from_number(self.get(b(end)))) {
-                        return Stop::Abort;
+                        return Stop::Abort(pc as Addr);
                     }
                 }
 

@@ -20,6 +20,7 @@ mod lift;
 mod lists;
 mod mission;
 mod requirements;
+mod rest;
 mod slope;
 mod state;
 mod trig;

@@ -6,6 +6,7 @@ use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::inputs::{MissingInput, senses, wiring};
 use crate::lift::Lift;
+use crate::rest::Rest;
 use crate::state::{Asked, ControlRequest, Declared, Limits, Overridden, Phase, Requirement, Run, State};
 use crate::trig::Trig;
 use crate::{Event, Outcome};
@@ -59,6 +60,7 @@ impl Run {
             overridden: Overridden::default(),
             way_back: None,
             allowance: Allowance::new(p.reports.len()),
+            rest: Rest::default(),
         };
         Run {
             state,
@@ -184,6 +186,9 @@ impl Machine {
         run.hear_control(snapshot.control);
         run.feel_bottom(snapshot.aground);
         let command = run.live(p);
+        if !matches!(run.state.phase, Phase::Over(_)) {
+            run.events.extend(run.state.rest.tick(&run.events));
+        }
         run.state.tick += 1;
         command
     }
@@ -339,8 +344,8 @@ impl Run {
         let Some(recovery) = p.mission.recovery else { return self.over(p, outcome) };
         let base = p.mission.base;
         let mission = &p.activities[p.mission.activity as usize];
-        // Overlays stay in force; their aborts do not: there is nothing left to abort.
-        self.execute(p, mission.refresh, base);
+        // The mission lives on around it, and the time that its signals count by. Overlays stay in force; their aborts do not: there is nothing left to abort.
+        self.live_a_tick(p, mission, base);
         self.step_overlays(p, mission, base);
         self.abort = None;
         self.is_lost = false;

@@ -5,10 +5,11 @@ use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::lift::Lift;
+use crate::rest::Rest;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MAX;
-use albacore_program::{Channel, LATENCY_MAX_S, LATENCY_PATIENCE_S, Slot, setpoints};
+use albacore_program::{Axis, Channel, LATENCY_MAX_S, LATENCY_PATIENCE_S, Slot, setpoints};
 use albacore_vehicle::{Command, Control, Lag, TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 
@@ -68,6 +69,8 @@ pub struct State {
     pub(crate) way_back: Option<(Heading, f64)>,
     /// What may still be written by `log` and `report`.
     pub(crate) allowance: Allowance,
+    /// How often rules have fired of late.
+    pub(crate) rest: Rest,
 }
 
 /// Where a mission is in its life.
@@ -188,6 +191,13 @@ impl Overridden {
             Channel::Depth => self.vertical = Some(Vertical::Depth(value)),
             Channel::Altitude => self.vertical = Some(Vertical::Altitude(value)),
             Channel::Speed => self.speed = Some(value),
+        }
+    }
+
+    pub fn clear(&mut self, axis: Axis) {
+        match axis {
+            Axis::Vertical => self.vertical = None,
+            Axis::Speed => self.speed = None,
         }
     }
 

@@ -83,29 +83,36 @@ impl Wording {
                 ("amend", format!("{}  course {asked} -> {given}", self.names.name(*id)))
             }
             Event::AmendingEnded(id) => ("amend", format!("{}  no more", self.names.name(*id))),
-            Event::Limited(channel, asked, given) => {
-                let Setpoint { name, print, .. } = channel.row();
-                ("limit", format!("{name}  {} -> {}", print(*asked), print(*given)))
-            }
-            Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel.row().name)),
             Event::Awaited(input) => ("wait", format!("for the first {}", self.names.input(*input))),
             Event::Stale(input) => ("stale", self.names.input(*input).to_string()),
             Event::Fresh(input) => ("fresh", self.names.input(*input).to_string()),
             Event::Aborted(why) => ("abort", self.columns(&one_line(why), Some(position), "", "")),
-            Event::Lagging(takes, may_take) => ("link", format!("round trip {takes:.1} s, more than {may_take:.1} s")),
-            Event::LaggingEnded => ("link", "round trip within its limit again".to_string()),
-            Event::HostTimeUp(host, vehicle) => {
-                let what = format!("by the host's clock: {host:.0} s of it, {vehicle:.0} s of the vehicle's");
-                ("timeout", what)
-            }
             Event::TimedOut => ("timeout", self.columns("the mission's time is up", Some(position), "", "")),
-            Event::Adrift(true) => ("hold", "adrift: carried off although it goes back to its place".to_string()),
-            Event::Adrift(false) => ("hold", "adrift no more".to_string()),
             Event::Silenced => {
                 let (once, second) = (LINES_AT_ONCE_MAX, LINES_A_TICK_MAX as f64 / TICK_S);
                 ("limit", format!("log and report  more than {once} lines at once and {second:.0} a second"))
             }
             Event::Unwritten(lines) => ("limit", format!("log and report  {lines} more not written")),
+            Event::Restless(rule) => {
+                let place = self.names.program.rules.get(*rule as usize).map_or("?", |rule| rule.place.as_str());
+                ("rules", format!("switch without rest, the last at {place}: do they undo each other?"))
+            }
+            Event::Settled => ("rules", "no longer switch without rest".to_string()),
+            Event::Ended(outcome) => ("end", outcome.name().to_string()),
+            of_vehicle => return Self::of_vehicle(of_vehicle),
+        })
+    }
+
+    /// What is held back, and what became of the vehicle and its link.
+    fn of_vehicle(event: &Event) -> Option<(&'static str, String)> {
+        Some(match event {
+            Event::Limited(channel, asked, given) => {
+                let Setpoint { name, print, .. } = channel.row();
+                ("limit", format!("{name}  {} -> {}", print(*asked), print(*given)))
+            }
+            Event::LimitedEnded(channel) => ("limit", format!("{}  no more", channel.row().name)),
+            Event::Adrift(true) => ("hold", "adrift: carried off although it goes back to its place".to_string()),
+            Event::Adrift(false) => ("hold", "adrift no more".to_string()),
             Event::BottomLost(deepest) => {
                 ("limit", format!("altitude unknown: no deeper than {}", number::metres(*deepest)))
             }
@@ -115,7 +122,13 @@ impl Wording {
             Event::Risen => ("limit", "no longer too deep".to_string()),
             Event::LiftedInVain => ("limit", "does not rise by way: makes no more".to_string()),
             Event::BottomFound => ("limit", "altitude known again".to_string()),
-            Event::Ended(outcome) => ("end", outcome.name().to_string()),
+            Event::Lagging(takes, may_take) => ("link", format!("round trip {takes:.1} s, more than {may_take:.1} s")),
+            Event::LaggingEnded => ("link", "round trip within its limit again".to_string()),
+            Event::HostTimeUp(host, vehicle) => {
+                let what = format!("by the host's clock: {host:.0} s of it, {vehicle:.0} s of the vehicle's");
+                ("timeout", what)
+            }
+            _ => return None,
         })
     }
 

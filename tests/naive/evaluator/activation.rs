@@ -10,7 +10,7 @@ use super::world::World;
 use albacore_geometry::Heading;
 use albacore_lang::hir::{Activity, ActivityId, Block, Body, Decl, Hir, Kind, With};
 use albacore_lang::types::Type;
-use albacore_program::{Cause, TURN_RATE_MIN};
+use albacore_program::{Axis, Cause, TURN_RATE_MIN};
 
 /// Why the mission is aborted.
 pub struct Aborted(pub String);
@@ -77,12 +77,20 @@ impl<'p> Activation<'p> {
         self.is_active = true;
         self.worn.push((Vec::new(), self.setpoints));
         let frame = self.frame.clone();
+        let mut aborted = None;
         for decl in &activity.decls {
             let condition = if let Decl::Signal(_, e) = decl { vec![e] } else { Vec::new() };
             let watch = Watch::begin(w, &frame, &condition, self.age);
             let s = Scope { frame: &frame, watch: Some(&watch), done: false };
             match decl {
-                Decl::With(items) => self.put_on(w, items)?,
+                // What is declared after an overlay that aborts at once is there for the recovery.
+                Decl::With(items) => items.iter().for_each(|item| {
+                    let put_on = self.put_on(w, std::slice::from_ref(item));
+                    w.is_aborting |= put_on.is_err();
+                    if let (Err(why), None) = (put_on, &aborted) {
+                        aborted = Some(why);
+                    }
+                }),
                 Decl::Signal(var, e) | Decl::Area(var, e) | Decl::Memory(var, Some(e)) => {
                     let value = match value(w, s, e) {
                         Value::List(list) => Value::List(super::expr::sorted(w, &frame, *var, list)),
@@ -100,6 +108,12 @@ impl<'p> Activation<'p> {
         if let Some(limit) = activity.mission.as_ref().and_then(|mission| mission.turn_rate.as_ref()) {
             let rate = super::expr::number(w, Scope::of(&frame), limit);
             w.turn_rate = rate.max(TURN_RATE_MIN);
+        }
+        if let Some(why) = aborted {
+            return Err(why);
+        }
+        if w.is_aborting {
+            return Ok(());
         }
         let aborts = activity.aborts.iter().map(|(_, condition)| condition);
         let conditions: Vec<_> = aborts.chain(activity.reactions.iter().map(|(condition, _)| condition)).collect();
@@ -293,8 +307,19 @@ impl<'p> Activation<'p> {
     }
 
     fn take_off(&mut self, w: &mut World<'p>, cause: Cause) {
-        self.end_amending(w);
+        self.fall_silent(w);
         self.leave(w, cause);
+    }
+
+    /// It leaves the course alone, and keeps nothing in this tick.
+    fn fall_silent(&mut self, w: &mut World<'p>) {
+        self.end_amending(w);
+        if let (Kind::Sets(axis), true) = (self.activity.kind, self.is_active) {
+            match axis {
+                Axis::Vertical => w.kept.vertical = None,
+                Axis::Speed => w.kept.speed = None,
+            }
+        }
     }
 
     fn end_amending(&mut self, w: &mut World<'p>) {
@@ -376,7 +401,7 @@ impl<'p> Activation<'p> {
             called.pause_overlays(w);
         }
         for overlay in self.overlays() {
-            overlay.end_amending(w);
+            overlay.fall_silent(w);
         }
     }
 

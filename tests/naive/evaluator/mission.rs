@@ -3,11 +3,12 @@
 use super::activation::{Aborted, Activation};
 use super::bottom::Bottom;
 use super::expr::{Frame, Scope, number, value};
+use super::origin;
+use super::rest::Rest;
 use super::timed::Setpoints;
 use super::world::{Asked, FirstDepths, World, ticks};
-use albacore_geometry::TangentFrame;
 use albacore_guidance::{CommandFilter, through_water};
-use albacore_lang::hir::{Activity, ActivityId, Decl, Expr, ExprKind, Hir, Mission, children};
+use albacore_lang::hir::{Activity, ActivityId, Expr, Hir, Mission};
 use albacore_lang::source::Sources;
 use albacore_lang::types::TypeTable;
 use albacore_program::{Cause, Channel};
@@ -68,6 +69,7 @@ pub struct Evaluator<'p> {
     stands: bool,
     first_depths: FirstDepths,
     control: Control,
+    rest: Rest,
 }
 
 impl<'p> Evaluator<'p> {
@@ -79,7 +81,7 @@ impl<'p> Evaluator<'p> {
     ) -> Option<Self> {
         let activity = &hir.activities[id];
         let declared = activity.mission.as_ref()?;
-        let w = World::new(hir, types, sources, origin(activity));
+        let w = World::new(hir, types, sources, origin::of(activity));
         let frame = Frame::new(&w, &activity.vars, Vec::new());
         Some(Evaluator {
             sensors,
@@ -102,6 +104,7 @@ impl<'p> Evaluator<'p> {
             stands: false,
             first_depths: FirstDepths::default(),
             control: Control::Disconnected,
+            rest: Rest::default(),
             w,
         })
     }
@@ -131,6 +134,9 @@ impl<'p> Evaluator<'p> {
             self.w.say(format!("control {:?}", self.control));
         }
         let command = self.live();
+        if !self.is_over() {
+            self.rest.tick(&mut self.w);
+        }
         self.w.tick += 1;
         command
     }
@@ -363,6 +369,7 @@ impl<'p> Evaluator<'p> {
 
     fn abort(&mut self, Aborted(why): Aborted) -> Option<Command> {
         self.w.say(format!("abort {why}"));
+        self.w.is_aborting = false;
         self.begin_recovery("aborted", Cause::Aborted)
     }
 
@@ -384,6 +391,7 @@ impl<'p> Evaluator<'p> {
     }
 
     fn recover(&mut self, since: u64, outcome: &'static str) -> Option<Command> {
+        self.mission.age += 1;
         self.mission.refresh(&mut self.w);
         let _ = self.mission.step_overlays(&mut self.w);
         self.w.is_lost = false;
@@ -458,40 +466,4 @@ impl<'p> Evaluator<'p> {
 
 fn outcome_cause(outcome: &str) -> Cause {
     if outcome == "timed_out" { Cause::TimedOut } else { Cause::Aborted }
-}
-
-/// The local frame lies about the mean of the positions that the mission's area is made of.
-fn origin(mission: &Activity) -> Option<TangentFrame> {
-    fn positions(e: &Expr, found: &mut Vec<(f64, f64)>) {
-        if let ExprKind::Geodetic { latitude_deg, longitude_deg } = e.kind {
-            found.push((latitude_deg, longitude_deg));
-        }
-        children(e, &mut |child| positions(child, found));
-    }
-    let mut found = Vec::new();
-    for decl in &mission.decls {
-        if let Decl::Area(_, e) = decl {
-            positions(e, &mut found);
-        }
-    }
-    let n = found.len() as f64;
-    // By the turn of longitude that is nearest to the first: some may lie beyond the 180th meridian.
-    let (_, first) = *found.first()?;
-    let beside = |lon: f64| {
-        if lon - first > 180.0 {
-            lon - 360.0
-        } else if lon - first < -180.0 {
-            lon + 360.0
-        } else {
-            lon
-        }
-    };
-    let (latitude, mut longitude) = found.iter().fold((0.0, 0.0), |(a, b), (lat, lon)| (a + lat, b + beside(*lon)));
-    if longitude / n > 180.0 {
-        longitude -= 360.0 * n;
-    } else if longitude / n <= -180.0 {
-        longitude += 360.0 * n;
-    }
-    let origin = albacore_geometry::Geodetic::from_degrees(latitude / n, longitude / n);
-    Some(TangentFrame { origin })
 }

@@ -8,6 +8,8 @@ mod body;
 mod bottom;
 mod expr;
 mod mission;
+mod origin;
+mod rest;
 mod table;
 mod timed;
 mod value;

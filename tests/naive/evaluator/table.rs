@@ -129,8 +129,10 @@ impl<'p> Table<'p> {
             if let Some(mut done) = self.row.pop() {
                 done.activation.leave(w, Cause::Done);
             }
-            if let Some(seat) = self.row.last() {
+            if let Some(seat) = self.row.last_mut() {
                 w.say(format!("resume {}", seat.activation.activity.name));
+                // It lives this tick, and with it the timers of its rules.
+                seat.rules.update(w, &owner.frame, seat.activation.age + 1);
             }
         }
         Ok(false)
