@@ -273,9 +273,6 @@ impl<'t> Checker<'t> {
                 .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
             );
         }
-        if let Kind::Sets(axis) = kind {
-            self.sets_only(axis, block);
-        }
         if matches!(kind, Kind::Sets(_)) && !flow::leaves(block) {
             self.report(
                 Diagnostic::error(

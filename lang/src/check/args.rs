@@ -222,7 +222,11 @@ impl<'t> Checker<'t> {
     pub(super) fn call_def(&mut self, def: &Def, callee: &tree::Expr, args: &[tree::Arg], span: Span) -> Expr {
         match def {
             Def::Fn(id) => {
-                let signature = self.fn_signatures[*id].clone();
+                let signature = self.fn_signature(*id);
+                // That its defaults lead back to it has been told.
+                if signature.result.is_none() {
+                    return self.unknown(span);
+                }
                 match self.arguments(&signature.name, &signature.params, args, span, Some(signature.span)) {
                     Some(values) => {
                         let ty = signature.result.unwrap_or(Type::Unknown);

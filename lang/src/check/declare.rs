@@ -63,20 +63,18 @@ impl<'t> Checker<'t> {
             }
         }
         self.records_are_small(modules);
-        let signatures = |c: &mut Self, of_functions: bool| {
-            for (m, module) in modules.iter().enumerate() {
-                let items = module.tree.items.iter().filter(|item| matches!(item, Item::Fn(_)) == of_functions);
-                items.for_each(|item| c.declare_signature(m, item));
-            }
-        };
         // Constants call functions, and the defaults and ranges of all else read constants: in their order, none waits for another
         // because a parameter asks for it first.
         let ranks = imported_first(modules);
-        signatures(self, true);
+        for id in 0..self.fn_signatures.len() {
+            self.fn_signature(id);
+        }
         for i in in_order(&self.consts, &ranks) {
             self.constant(i);
         }
-        signatures(self, false);
+        for (m, module) in modules.iter().enumerate() {
+            module.tree.items.iter().for_each(|item| self.declare_signature(m, item));
+        }
         for unused in self.overrides.clone().into_iter().filter(|o| o.found.is_none()) {
             self.unknown_override(&unused);
         }
@@ -101,8 +99,11 @@ impl<'t> Checker<'t> {
         if self.recursion() || self.calls_too_deep() {
             return;
         }
-        // Whether a behavior can end depends on what it calls: tables come when all bodies are known.
+        // Whether a behavior can end depends on what it calls, and so does what an overlay does: these come when all bodies are known.
         let hir = std::mem::take(&mut self.hir);
+        for &id in &self.overlay_ids.clone() {
+            self.overlay_does_one_thing(&hir, id);
+        }
         for activity in &hir.activities {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
                 self.check_table(&hir, behaviors, *start, rules);
@@ -196,8 +197,10 @@ impl<'t> Checker<'t> {
                 self.define(m, name, Def::Clause(self.clauses.len() - 1));
             }
             Item::Fn(f) => {
+                let id = self.fn_signatures.len();
                 self.fn_signatures.push(Signature::named(&f.name));
-                self.define(m, &f.name, Def::Fn(self.fn_signatures.len() - 1));
+                self.fns_ahead.insert(id, (m, f));
+                self.define(m, &f.name, Def::Fn(id));
             }
             Item::Signal { name, ty, value } => {
                 self.signals.push(Lazy::Unchecked { module: m, name, ty: ty.as_ref(), value });
@@ -322,14 +325,6 @@ impl<'t> Checker<'t> {
 
     fn declare_signature(&mut self, m: usize, item: &'t Item) {
         match item {
-            Item::Fn(f) => {
-                if let Some(&Def::Fn(id)) = self.names[m].get(&f.name.node) {
-                    let params = self.params(m, &f.params, None);
-                    let result = Some(self.written_type(m, &f.result));
-                    self.fn_signatures[id].params = params;
-                    self.fn_signatures[id].result = result;
-                }
-            }
             Item::Activity(a) => {
                 if let Some(&Def::Activity(id)) = self.names[m].get(&a.name.node) {
                     let params = self.params(m, &a.params, Some(&a.name.node));

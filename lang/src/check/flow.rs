@@ -28,7 +28,7 @@ pub(crate) fn goes_round(first: &Expr, last: &Expr, inclusive: bool) -> bool {
 }
 
 /// Whether some path through a block takes time.
-pub(crate) fn may_take_time(block: &Block) -> bool {
+pub(super) fn may_take_time(block: &Block) -> bool {
     block.stmts.iter().any(|stmt| {
         matches!(stmt.kind, StmtKind::Timed(_) | StmtKind::Loop(_)) || stmt.blocks().into_iter().any(may_take_time)
     })

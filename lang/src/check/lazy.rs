@@ -1,6 +1,6 @@
 //! Constants and signals of files: each is checked when it is first read, and stands wherever it is read.
 
-use super::{Checker, Lazy, Scope, Setting};
+use super::{Checker, Lazy, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir;
@@ -16,7 +16,39 @@ const CONSTANT_PARTS_MAX: usize = 4096;
 /// Parts of constants that are read, each counted wherever it is: a constant stands for its value there.
 const PARTS_READ_MAX: usize = 1 << 20;
 
-impl Checker<'_> {
+impl<'t> Checker<'t> {
+    /// The signature of a function, read when first needed: defaults and ranges of parameters may call other functions. It has
+    /// no result where that leads back to it.
+    pub(super) fn fn_signature(&mut self, id: usize) -> Signature {
+        if let Some((m, function)) = self.fns_ahead.remove(&id) {
+            self.read_signature(id, m, function);
+        } else if self.fn_signatures[id].result.is_none() {
+            let Signature { name, span, .. } = &self.fn_signatures[id];
+            let message = format!("`{name}` is called where its own parameters are declared");
+            let finding = Diagnostic::error(Code::NamesRecursive, *span, message);
+            self.report(finding.help("give the parameter a default and a range that do not lead back to the function"));
+        }
+        self.fn_signatures[id].clone()
+    }
+
+    fn read_signature(&mut self, id: usize, m: usize, function: &'t tree::Function) {
+        if self.waiting == WAITING_MAX {
+            let message = format!(
+                "the parameters of `{}` call more than {WAITING_MAX} functions, one in another",
+                function.name.node
+            );
+            let finding = Diagnostic::error(Code::LimitsConstants, function.name.span, message);
+            return self.report(finding.help("declare first what others call"));
+        }
+        self.waiting += 1;
+        let params = self.params(m, &function.params, None);
+        self.waiting -= 1;
+        let result = self.written_type(m, &function.result);
+        let signature = &mut self.fn_signatures[id];
+        signature.params = params;
+        signature.result = Some(result);
+    }
+
     /// The value of a constant, checked when first needed.
     pub(super) fn constant(&mut self, id: usize) -> hir::Expr {
         let value = self.lazy(id, true);

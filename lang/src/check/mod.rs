@@ -10,6 +10,7 @@ mod clause;
 mod convert;
 mod declare;
 mod depth;
+mod ends;
 mod expr;
 mod facts;
 mod flow;
@@ -39,10 +40,10 @@ mod value;
 mod vehicle;
 mod visible;
 
-pub(crate) use flow::{goes_round, may_take_time, takes_time};
+pub use ends::never_ends;
+pub(crate) use flow::{goes_round, takes_time};
 pub use params::Override;
 pub(crate) use plausibility::range_of_var;
-pub use table::never_ends;
 
 use crate::Library;
 use crate::diagnostic::Diagnostic;
@@ -266,6 +267,8 @@ pub struct Checker<'t> {
     /// What vehicles bring into the scenario that is being checked.
     fitted: Vec<hir::ClauseUse>,
     fn_signatures: Vec<Signature>,
+    /// The functions whose signatures are not read yet.
+    fns_ahead: BTreeMap<usize, (usize, &'t tree::Function)>,
     activity_signatures: Vec<Signature>,
     overlay_ids: BTreeSet<usize>,
     mission_ids: BTreeSet<usize>,
@@ -320,6 +323,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         vehicles: Vec::new(),
         fitted: Vec::new(),
         fn_signatures: Vec::new(),
+        fns_ahead: BTreeMap::new(),
         activity_signatures: Vec::new(),
         overlay_ids: BTreeSet::new(),
         mission_ids: BTreeSet::new(),

@@ -1,7 +1,8 @@
 //! The switching table: which behavior follows which, and that none is forgotten.
 
+use super::ends::can_end;
 use super::expr::article;
-use super::{Checker, Setting, flow};
+use super::{Checker, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
@@ -275,7 +276,7 @@ impl<'t> Checker<'t> {
             }
             let only_back = !entered[i] && i != start;
             let ends = match &hir.activities[behaviors[i]].body {
-                Body::Sequence(block) => can_end(block, hir, &mut BTreeMap::new()),
+                Body::Sequence(block) => can_end(block, hir),
                 _ => false,
             };
             let leaving: Vec<&Rule> = leaving[i].iter().map(|&rule| &rules[rule]).collect();
@@ -395,66 +396,6 @@ impl Room {
         }
         self.all += sources.len();
         (self.all > EXITS_MAX).then(|| format!("the behaviors of this table have more than {EXITS_MAX} rules together"))
-    }
-}
-
-/// Whether a mission's statements never come to their end by themselves.
-pub fn never_ends(hir: &hir::Hir, mission: usize) -> bool {
-    match &hir.activities[mission].body {
-        Body::Sequence(block) => !can_end(block, hir, &mut BTreeMap::new()),
-        _ => false,
-    }
-}
-
-/// The activities of which is known whether they never end, those that are being asked among them: recursion is an error of
-/// its own.
-type Known = BTreeMap<usize, bool>;
-
-/// Whether a body can come to its end.
-fn can_end(block: &hir::Block, hir: &hir::Hir, known: &mut Known) -> bool {
-    if flow::leaves(block) {
-        return finishes(block);
-    }
-    !block.stmts.iter().any(|stmt| match &stmt.kind {
-        // A statement that never ends by itself and is not bounded.
-        hir::StmtKind::Timed(timed) => endless(timed, hir, known),
-        hir::StmtKind::With(_, body) => !can_end(body, hir, known),
-        hir::StmtKind::Loop(_) => true,
-        _ => false,
-    })
-}
-
-fn finishes(block: &hir::Block) -> bool {
-    block.stmts.iter().any(|stmt| match &stmt.kind {
-        hir::StmtKind::Finish(_) => true,
-        hir::StmtKind::If(_, a, b) => finishes(a) || finishes(b),
-        hir::StmtKind::With(_, b) | hir::StmtKind::Loop(b) => finishes(b),
-        _ => false,
-    })
-}
-
-fn endless(timed: &hir::Timed, hir: &hir::Hir, known: &mut Known) -> bool {
-    match &timed.action {
-        _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
-        hir::Action::Guide(..) | hir::Action::Keep(..) | hir::Action::Watch | hir::Action::Override(_) => {
-            flow::endless(timed)
-        }
-        hir::Action::Call(id, _) => match &hir.activities[*id].body {
-            Body::Sequence(block) => match known.get(id) {
-                Some(endless) => *endless,
-                None => {
-                    known.insert(*id, false);
-                    let endless = !can_end(block, hir, known);
-                    known.insert(*id, endless);
-                    endless
-                }
-            },
-            // A strategy ends by a rule alone.
-            Body::Table { behaviors, rules, .. } => {
-                !behaviors.is_empty() && !rules.iter().any(|rule| matches!(rule.target, Target::Finish(_)))
-            }
-            _ => false,
-        },
     }
 }
 

@@ -214,8 +214,22 @@ impl<'t> Checker<'t> {
             guide.law().params.iter().map(|param| param_info(param, verb.span, span)).collect();
         let read = |c: &mut Self| c.arguments(&verb.node, &params, args, span, None);
         let values = if guide.law().reads_arguments_anew() { self.on_later_ticks(read) } else { read(self) }?;
+        self.ends_or_not(guide, &values);
         let ends = guidance_ends(guide, &values);
         Some((Action::Guide(guide, values), ends, None))
+    }
+
+    /// A number of turns that may be 0 would make guidance that comes to an end, or none, as it happens.
+    fn ends_or_not(&mut self, guide: Guide, args: &[hir::Expr]) {
+        let Some(turns) = turns(guide, args) else { return };
+        // What may be negative has been told.
+        if turns.ty == Type::Unknown || turns.range.constant().is_some() || turns.range.low != 0.0 {
+            return;
+        }
+        let message = "this may be 0, and then it goes on without end";
+        self.report(Diagnostic::error(Code::RangesUnproved, turns.span, message).help(
+            "give what it is computed from a range above 0, such as `turns: Ratio = 1 in 0.5..10`, or hold it with `max(x, 0.5)`",
+        ));
     }
 
     pub(super) fn setpoints(&mut self, written: &[tree::Setpoint]) -> Vec<(Channel, hir::Expr)> {
@@ -326,15 +340,18 @@ fn param_info(param: &Param, place: Span, statement: Span) -> ParamInfo {
 
 /// Whether guidance comes to an end of its own.
 pub(super) fn guidance_ends(guide: Guide, args: &[hir::Expr]) -> bool {
-    let law = guide.law();
-    match law.ends {
+    match guide.law().ends {
         Ends::Arrives => true,
-        Ends::Turns(param) => {
-            let turns = law.params.iter().zip(args).find(|(p, _)| p.name == param);
-            turns.is_none_or(|(_, turns)| turns.range.constant() != Some(0.0))
-        }
+        Ends::Turns(_) => turns(guide, args).is_none_or(|turns| turns.range.constant() != Some(0.0)),
         Ends::Never => false,
     }
+}
+
+/// How many turns guidance makes, where it ends after so many; after 0 it does not.
+fn turns(guide: Guide, args: &[hir::Expr]) -> Option<&hir::Expr> {
+    let law = guide.law();
+    let Ends::Turns(name) = law.ends else { return None };
+    law.params.iter().zip(args).find(|(param, _)| param.name == name).map(|(_, turns)| turns)
 }
 
 /// The type of a setpoint.

@@ -33,6 +33,8 @@ struct Walk<'a> {
     /// The mission's limits.
     limits: Vec<Limit>,
     seen: BTreeSet<Way>,
+    /// Overlays and what they call, with the bounds of what the call gives.
+    overlays_seen: BTreeSet<(usize, Vec<(u64, u64)>)>,
     /// What is known of the parameters of the activity that is walked, from the call that leads to it.
     given: Vec<Interval>,
     findings: Findings,
@@ -41,7 +43,14 @@ struct Walk<'a> {
 /// Walks all ways from a mission to its statements.
 pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let limits = limits::of(hir, mission);
-    let mut walk = Walk { hir, limits, seen: BTreeSet::new(), given: Vec::new(), findings: Findings::default() };
+    let mut walk = Walk {
+        hir,
+        limits,
+        seen: BTreeSet::new(),
+        overlays_seen: BTreeSet::new(),
+        given: Vec::new(),
+        findings: Findings::default(),
+    };
     walk.activity(mission, [Owner::Nobody; Axis::ALL.len()]);
     walk.findings.into_vec()
 }
@@ -134,19 +143,35 @@ impl Walk<'_> {
         self.given = outer;
     }
 
-    /// What an overlay keeps is limited too; that nothing else is set in it is right.
+    /// What an overlay keeps is limited too, and what it calls; that nothing else is set in it is right.
     fn overlay(&mut self, id: usize) {
-        let mut kept = Vec::new();
-        if let Body::Sequence(block) = &self.hir.activities[id].body {
-            block.each(&mut |stmt| {
-                if let StmtKind::Timed(timed) = &stmt.kind
-                    && let Action::Keep(channel, e) = &timed.action
-                {
-                    kept.push((*channel, e));
-                }
-            });
+        let given = self.given.iter().map(|range| (range.low.to_bits(), range.high.to_bits())).collect();
+        if !self.overlays_seen.insert((id, given)) {
+            return;
         }
-        kept.into_iter().for_each(|(channel, e)| self.limited(channel, e));
+        match &self.hir.activities[id].body {
+            Body::Sequence(block) => {
+                let mut timed = Vec::new();
+                block.each(&mut |stmt| {
+                    if let StmtKind::Timed(inner) = &stmt.kind {
+                        timed.push((&inner.action, stmt.span));
+                    }
+                });
+                for (action, span) in timed {
+                    match action {
+                        Action::Keep(channel, e) => self.limited(*channel, e),
+                        Action::Call(id, args) => {
+                            self.findings.called(self.hir, *id, span);
+                            self.called(args, |walk| walk.overlay(*id));
+                            self.findings.back();
+                        }
+                        _ => {}
+                    }
+                }
+            }
+            Body::Table { behaviors, .. } => behaviors.iter().for_each(|&b| self.overlay(b)),
+            Body::Amend { .. } => {}
+        }
     }
 
     fn block(&mut self, block: &Block, owners: Owners) {

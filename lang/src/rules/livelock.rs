@@ -1,10 +1,12 @@
 //! Rules that undo each other: a table that switches to and fro, or round in a ring, on what goes on to hold gets nowhere.
 
 use super::levels::{Level, Signals, Way};
-use crate::check::{may_take_time, never_ends};
+use crate::check::{never_ends, takes_time};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Rule, Stmt, StmtKind, Target, VarId, leaving};
+use crate::hir::{
+    Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Rule, Stmt, StmtKind, Target, VarId, leaving, mentions_done,
+};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
@@ -66,12 +68,12 @@ fn until(hir: &Hir, behavior: ActivityId) -> Option<&Expr> {
     }
 }
 
-/// Whether a behavior is done in the tick in which it is entered, and ends no mission.
+/// Whether a behavior may be done in the tick in which it is entered, and ends no mission.
 fn is_instant(hir: &Hir, behavior: ActivityId) -> bool {
     let Body::Sequence(block) = &hir.activities[behavior].body else { return false };
     let mut aborts = false;
     block.each(&mut |stmt| aborts |= matches!(stmt.kind, StmtKind::Abort(_)));
-    !aborts && !may_take_time(block)
+    !aborts && !takes_time(block)
 }
 
 /// What is left of the work.
@@ -101,7 +103,7 @@ struct Table<'h> {
     behaviors: &'h [ActivityId],
     rules: &'h [Rule],
     leaving: Vec<Vec<usize>>,
-    /// Of each behavior, whether it is done in the tick in which it is entered.
+    /// Of each behavior, whether it may be done in the tick in which it is entered.
     is_instant: Vec<bool>,
     /// What `done` demands there: nothing.
     at_once: [Level<'h>; 1],
@@ -128,7 +130,10 @@ impl<'h> Table<'h> {
         let name = &self.hir.activities[behavior].name;
         let message = format!("this may hold again as soon as `{name}` is done, and switch on every other tick");
         let finding = Diagnostic::warning(Code::RulesLivelock, rule.on_span, message);
-        Some(finding.help(if mentions_after(&rule.on) {
+        Some(finding.help(if mentions_done(&rule.on) {
+            "what was done when it was suspended is done at once when it goes on: leave out `then back`, or let `do { … }` change what is \
+             asked beside `done`"
+        } else if mentions_after(&rule.on) {
             "time goes on counting from the entry: write `becomes after T` for once in each stay. To begin anew each time, leave out \
              `then back` and come back with a rule `on done`"
         } else {
@@ -258,7 +263,7 @@ impl<'h> Table<'h> {
         read.is_empty() || !self.assigned(way).iter().any(|(var, _)| read.contains(var))
     }
 
-    /// Whether a behavior of a ring is left as soon as it was entered, because it takes no time.
+    /// Whether a behavior of a ring may be left as soon as it was entered, because it may take no time.
     fn is_at_once(&self, (rule, source): &(usize, usize)) -> bool {
         matches!(self.rules[*rule].on.kind, ExprKind::Done) && self.is_instant[*source]
     }
@@ -280,8 +285,9 @@ impl<'h> Table<'h> {
             others.iter().fold(finding, |finding, other| finding.label(on(other), "which can hold at the same time"));
         if let Some((_, source)) = instant {
             let name = &self.hir.activities[self.behaviors[*source]].name;
-            return finding
-                .help(format!("`{name}` is done as soon as it is entered: let it take time, such as `wait for 1 s`"));
+            return finding.help(format!(
+                "`{name}` may be done as soon as it is entered: let it take time on every path, such as `wait for 1 s`"
+            ));
         }
         finding.help(if ring.iter().any(|(rule, _)| is_timed(&self.rules[*rule].on)) {
             "a time of one tick, 0.1 s, is over whenever a rule is tried: write a longer one"

@@ -1,0 +1,83 @@
+//! What comes to its end by itself, through all that it calls: known when all bodies are.
+
+use super::flow;
+use crate::hir::{Action, Block, Body, Hir, Stmt, StmtKind, Target, Timed};
+use std::collections::BTreeMap;
+
+/// Whether a mission's statements never come to their end by themselves.
+pub fn never_ends(hir: &Hir, mission: usize) -> bool {
+    match &hir.activities[mission].body {
+        Body::Sequence(block) => !can_end(block, hir),
+        _ => false,
+    }
+}
+
+/// The activities of which is known whether they never end, those that are being asked among them: recursion is an error of
+/// its own.
+type Known = BTreeMap<usize, bool>;
+
+/// Whether a body can end: come to its last statement's end, or finish.
+pub(super) fn can_end(block: &Block, hir: &Hir) -> bool {
+    ends(block, hir, &mut Known::new())
+}
+
+fn ends(block: &Block, hir: &Hir, known: &mut Known) -> bool {
+    completes(block, hir, known) || finishes(block, hir, known)
+}
+
+/// Whether a block can come to the end of its last statement.
+fn completes(block: &Block, hir: &Hir, known: &mut Known) -> bool {
+    block.stmts.iter().all(|stmt| goes_on(stmt, hir, known))
+}
+
+fn goes_on(stmt: &Stmt, hir: &Hir, known: &mut Known) -> bool {
+    match &stmt.kind {
+        StmtKind::Finish(_) | StmtKind::Abort(_) | StmtKind::Loop(_) => false,
+        // A statement that never ends by itself and is not bounded.
+        StmtKind::Timed(timed) => !endless(timed, hir, known),
+        StmtKind::With(_, body) => completes(body, hir, known),
+        StmtKind::If(_, a, b) => completes(a, hir, known) || completes(b, hir, known),
+        StmtKind::Match(_, arms, otherwise) => {
+            let mut blocks = arms.iter().map(|(_, block)| block).chain(otherwise);
+            arms.is_empty() || blocks.any(|block| completes(block, hir, known))
+        }
+        _ => true,
+    }
+}
+
+/// Whether a `finish` can be reached in a block.
+fn finishes(block: &Block, hir: &Hir, known: &mut Known) -> bool {
+    for stmt in &block.stmts {
+        let is_finish = matches!(stmt.kind, StmtKind::Finish(_));
+        if is_finish || stmt.blocks().into_iter().any(|block| finishes(block, hir, known)) {
+            return true;
+        }
+        if !goes_on(stmt, hir, known) {
+            return false;
+        }
+    }
+    false
+}
+
+fn endless(timed: &Timed, hir: &Hir, known: &mut Known) -> bool {
+    match &timed.action {
+        _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
+        Action::Guide(..) | Action::Keep(..) | Action::Watch | Action::Override(_) => flow::endless(timed),
+        Action::Call(id, _) => match &hir.activities[*id].body {
+            Body::Sequence(block) => match known.get(id) {
+                Some(endless) => *endless,
+                None => {
+                    known.insert(*id, false);
+                    let endless = !ends(block, hir, known);
+                    known.insert(*id, endless);
+                    endless
+                }
+            },
+            // A strategy ends by a rule alone.
+            Body::Table { behaviors, rules, .. } => {
+                !behaviors.is_empty() && !rules.iter().any(|rule| matches!(rule.target, Target::Finish(_)))
+            }
+            _ => false,
+        },
+    }
+}
