@@ -1,6 +1,7 @@
 //! The same script, scenario and seed give the same bytes: in every build profile, again, and among others.
 //!
-//! Run under `cargo test`, `--release` and `--profile plain`: the pinned value is one for all of them.
+//! Run under `cargo test`, with `--config .ci/plain.toml`, `--config .ci/optimised.toml` and `--release`: the pinned value is one for all
+//! of them.
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 

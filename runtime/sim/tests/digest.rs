@@ -1,6 +1,7 @@
 //! The same scenario and seed give the same bits: in every build, on every machine.
 //!
-//! Run it in all three: `cargo test -p albacore-sim --test digest`, with `--release`, with `--profile plain`.
+//! Run it in all: `cargo test -p albacore-sim --test digest`, with `--config .ci/plain.toml`, with `--config .ci/optimised.toml`, with
+//! `--release`.
 
 mod world;
 
