@@ -8,6 +8,9 @@ const LINES: usize = 8;
 
 /// Tells what the missions of a script cost, but for those with other mistakes than their cost.
 pub fn print(script: &Script) {
+    if script.missions().next().is_none() && script.is_sound() {
+        output::print("no mission stands here: what a mission costs is told with the script that it stands in\n");
+    }
     for mission in script.missions().filter(|mission| script.mission_is_sound(&mission.name)) {
         if let Some(Ok(cost)) = script.cost(&mission.name) {
             output::print(&table(&mission.name, &cost));

@@ -416,6 +416,9 @@ impl<'t> Checker<'t> {
                 "a heading is turned by an angle: `HEADING + ANGLE`; the angle between two is `HEADING - HEADING`"
                     .into()
             }
+            (Binary::Mul, Heading, Quantity(d)) | (Binary::Mul, Quantity(d), Heading) if *d == Dimension::LENGTH => {
+                "so far in a direction is `LENGTH toward HEADING`".into()
+            }
             (Binary::Mul | Binary::Div, Heading, _) | (Binary::Mul, _, Heading) => {
                 "a heading is turned by an angle: `HEADING + ANGLE`".into()
             }

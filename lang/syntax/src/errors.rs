@@ -1,7 +1,7 @@
 //! What to say of text that the grammar cannot read: what was found, what was expected, in the language's own terms.
 
 use super::build::{Bad, Place};
-use super::habits::{self, habit, line_end, untyped_memory, valueless};
+use super::habits::{self, habit, line_end, nothing_inside, untyped_memory, valueless};
 use super::words::{self, begins_item};
 use super::{Grammar, Rule, elsewhere, places, slips};
 use crate::code::Code;
@@ -148,6 +148,9 @@ pub(super) fn unexpected(file: FileId, text: &str, start: usize, offset: usize, 
         let at = start + offset - before.len() + begins;
         let span = Span { file, start: at as u32, end: (at + length) as u32 };
         return places::finding(span, &ours);
+    }
+    if let Some(help) = nothing_inside(&text[..offset], rest) {
+        return Diagnostic::error(Code::SyntaxExpected, span, message).help(help);
     }
     match habit(before, rest, expected) {
         Some(habit) => Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or(message)).help(habit.help),

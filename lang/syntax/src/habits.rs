@@ -53,7 +53,7 @@ pub(super) fn habit(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     if let Some((_, help)) = signs.iter().find(|(sign, _)| rest.starts_with(sign)) {
         return only(help);
     }
-    if let Some(habit) = sentence(before, rest) {
+    if let Some(habit) = sentence(before, rest).or_else(|| unfinished(before, rest)) {
         return Some(habit);
     }
     if rest.starts_with('=') {
@@ -118,6 +118,41 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
         return only("write `run MISSION in SCENARIO seeds 1..20`");
     }
     None
+}
+
+/// `record NAME { }`: how it is written with something in it.
+pub(super) fn nothing_inside(before: &str, rest: &str) -> Option<&'static str> {
+    let (head, _) = before.rsplit_once('{').filter(|(_, inside)| inside.trim().is_empty() && rest.starts_with('}'))?;
+    match word(head.rsplit('\n').next()?.trim_start()) {
+        "record" => Some("a record has a field at least: `record NAME { field: TYPE }`"),
+        "enum" => Some("an enum has a word at least: `enum NAME { ONE, OTHER }`"),
+        _ => None,
+    }
+}
+
+/// A statement of ours that goes on as another language's, or not at all.
+fn unfinished(before: &str, rest: &str) -> Option<Habit> {
+    let (first, last) = (word(before.trim_start()), before.split_whitespace().next_back().unwrap_or(""));
+    let help = match (first, last, word(rest)) {
+        ("finish", "finish", "mission" | "behavior" | "strategy") => {
+            "`finish` stands alone: in a behavior it ends that, in the body of a mission the mission"
+        }
+        ("let" | "var", _, "") if rest.starts_with('=') && last.ends_with(':') => "a value follows `=`: `let x = 5 m`",
+        ("after", _, "") if rest.starts_with('{') => {
+            "let time go by with `wait for 5 s`, and write what comes then after it; on a rule or a reaction it is `on after 5 s`"
+        }
+        ("for", _, "") if rest.starts_with(',') => "a loop names one value: `for x in LIST { … }`",
+        ("wait" | "hold" | "keep" | "steer" | "goto" | "loiter", _, "while") => {
+            "what lasts while X holds ends when it does not: `until not (X)`"
+        }
+        (_, "and" | "or", "for") => "what has to hold for so long stands in parentheses: `(X for 5 s)`",
+        (_, _, "between") => "write both bounds: `x > 3 m and x < 5 m`",
+        ("hold", "hold", next) if !next.is_empty() && !super::words::is_reserved(next) => {
+            "`hold` keeps the place where it begins: go there first, `goto POINT`"
+        }
+        _ => return None,
+    };
+    Some(Habit { message: None, help: help.to_string() })
 }
 
 /// `memory q = 3`: where its name ends, and what to say.
