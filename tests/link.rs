@@ -198,14 +198,21 @@ fn against(line: Option<&str>) -> Output {
 
 #[test]
 fn silence_another_dialect_and_a_stopped_clock_are_told_apart() {
-    let silent = against(None);
+    // Each takes 5 s of silence: all at once.
+    let told = [
+        None,
+        Some("$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"),
+        Some("#V,Sep 14 2011, 13:17:09,*81\n"),
+    ];
+    let [silent, other, version] =
+        std::thread::scope(|scope| told.map(|told| scope.spawn(move || against(told))).map(|run| run.join().unwrap()));
     assert!(silent.stdout.is_empty(), "there is no result: {}", String::from_utf8_lossy(&silent.stdout));
     let silent = stderr(&silent);
     assert!(silent.contains("nothing came from `udp:127.0.0.1:"), "{silent}");
     assert_eq!(silent.matches("check that the vehicle is on").count(), 1, "{silent}");
-    let other = stderr(&against(Some("$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n")));
+    let other = stderr(&other);
     assert!(other.contains("none of them can be read as `recon`"), "{other}");
-    let version = stderr(&against(Some("#V,Sep 14 2011, 13:17:09,*81\n")));
+    let version = stderr(&version);
     assert!(version.contains("no state (`#S`)"), "{version}");
 }
 
