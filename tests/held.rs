@@ -210,20 +210,26 @@ fn ctrl_z_leaves_no_vehicle_without_commands() {
 
 #[test]
 fn after_a_pause_nothing_is_sent_to_a_vehicle_that_has_left() {
-    for (name, link) in [("pause-pty", "pty:?dialect=recon"), ("pause-udp", "udp:127.0.0.1:0?dialect=recon")] {
-        let folder = empty(name);
-        let vehicle = Vehicle::serve(link, &folder);
-        let mut run = vehicle.driven(&["--no-out"]);
-        send("-STOP", &run);
-        vehicle.says("override timed out");
-        vehicle.says("returns");
-        send("-CONT", &run);
-        let code = ended(&mut run).code();
-        let said = vehicle.said();
-        // A line may be full meanwhile, and the vehicle's last word lost: then it is silent, and lost.
-        assert!(matches!(code, Some(1 | 4)), "{name}: {code:?} {said}");
-        assert!(!said.contains("refused"), "a command to a vehicle that nobody drives: {said}");
-    }
+    std::thread::scope(|scope| {
+        for (name, link) in [("pause-pty", "pty:?dialect=recon"), ("pause-udp", "udp:127.0.0.1:0?dialect=recon")] {
+            scope.spawn(move || after_a_pause(name, link));
+        }
+    });
+}
+
+fn after_a_pause(name: &str, link: &str) {
+    let folder = empty(name);
+    let vehicle = Vehicle::serve(link, &folder);
+    let mut run = vehicle.driven(&["--no-out"]);
+    send("-STOP", &run);
+    vehicle.says("override timed out");
+    vehicle.says("returns");
+    send("-CONT", &run);
+    let code = ended(&mut run).code();
+    let said = vehicle.said();
+    // A line may be full meanwhile, and the vehicle's last word lost: then it is silent, and lost.
+    assert!(matches!(code, Some(1 | 4)), "{name}: {code:?} {said}");
+    assert!(!said.contains("refused"), "a command to a vehicle that nobody drives: {said}");
 }
 
 #[test]
