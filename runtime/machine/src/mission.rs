@@ -344,7 +344,8 @@ impl Run {
         let Some(recovery) = p.mission.recovery else { return self.over(p, outcome) };
         let base = p.mission.base;
         let mission = &p.activities[p.mission.activity as usize];
-        // The mission lives on around it, and the time that its signals count by. Overlays stay in force; their aborts do not: there is nothing left to abort.
+        // The mission lives on around it, and the time that its signals count by. Overlays stay in force; their aborts do not: there
+        // is nothing left to abort.
         self.live_a_tick(p, mission, base);
         self.step_overlays(p, mission, base);
         self.abort = None;

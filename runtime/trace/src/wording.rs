@@ -128,7 +128,28 @@ impl Wording {
                 let what = format!("by the host's clock: {host:.0} s of it, {vehicle:.0} s of the vehicle's");
                 ("timeout", what)
             }
-            _ => return None,
+            // The others are worded in `line`. Named one by one: an event that is added has to be worded somewhere.
+            Event::Control(_)
+            | Event::Entered(_)
+            | Event::Left(..)
+            | Event::Suspended(_)
+            | Event::Resumed(_)
+            | Event::Switched { .. }
+            | Event::Remembered(..)
+            | Event::Reported(..)
+            | Event::Logged(_)
+            | Event::Amending(..)
+            | Event::AmendingEnded(_)
+            | Event::Stale(_)
+            | Event::Fresh(_)
+            | Event::Aborted(_)
+            | Event::TimedOut
+            | Event::Ended(_)
+            | Event::Awaited(_)
+            | Event::Silenced
+            | Event::Unwritten(_)
+            | Event::Restless(_)
+            | Event::Settled => return None,
         })
     }
 
