@@ -2,6 +2,8 @@
 
 use super::{Drive, Held, Line, Named, Prompt, Read, instant};
 use crate::Library;
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::tree;
 use albacore_geometry::Geodetic;
@@ -44,10 +46,14 @@ impl Prompt {
                 let line = vec![tree::Clause { kind, span: written.span }];
                 let left = Some((name.clone(), Some(name.clone()), Held::Fixed));
                 let value = self.checked(library, line, span, known);
-                // What the prompt cannot keep is a constant of the script.
-                if let Ok(value) = value.and_then(|line| self.drive(&line, span.file, known, left, origin)) {
-                    written.kind = tree::ExprKind::Name(name);
-                    values.push(value);
+                match value.and_then(|line| self.drive(&line, span.file, known, left, origin)) {
+                    Ok(value) => {
+                        written.kind = tree::ExprKind::Name(name);
+                        values.push(value);
+                    }
+                    Err(findings) if self.can_change(written, known, &findings) => return Err(findings),
+                    // Its type is known only where it stands, as that of `vector(…)`, and no line changes it.
+                    Err(_) => {}
                 }
             }
             Ok((checked.findings, InForce { values, items }))
@@ -61,6 +67,14 @@ impl Prompt {
     /// From here on setpoints and overlays are in force; what they are made of has been kept.
     pub fn put_in_force(&mut self, with: InForce) {
         self.with = self.with_also(with.items);
+    }
+
+    /// Whether what cannot be kept would be another value, or of another type, when it is computed for a later line: a text, and what a
+    /// name of the prompt is in.
+    fn can_change(&self, written: &tree::Expr, known: &[Named], findings: &[Diagnostic]) -> bool {
+        let words = self.sources.text(written.span).split(|c: char| !c.is_alphanumeric() && c != '_');
+        let is_text = findings.iter().any(|finding| finding.code == Code::PromptValue);
+        is_text || words.into_iter().any(|word| known.iter().any(|named| named.name == word))
     }
 
     fn with_also(&self, items: Vec<tree::WithItem>) -> Vec<tree::WithItem> {
@@ -90,5 +104,9 @@ fn values_of(item: &mut tree::WithItem) -> Vec<&mut tree::Expr> {
 
 /// Whether a value is the same whenever it is computed, as it is written.
 fn is_plain(e: &tree::Expr) -> bool {
-    matches!(e.kind, tree::ExprKind::Number { .. } | tree::ExprKind::Bool(_) | tree::ExprKind::None)
+    match &e.kind {
+        tree::ExprKind::Number { .. } | tree::ExprKind::Bool(_) | tree::ExprKind::None => true,
+        tree::ExprKind::Text(parts) => parts.iter().all(|part| matches!(part, tree::TextPart::Literal(_))),
+        _ => false,
+    }
 }
