@@ -43,6 +43,8 @@ pub struct Prompt {
     overrides: Vec<Override>,
     /// The setpoints and overlays that `with` has put in force.
     with: Vec<tree::WithItem>,
+    /// The modules that declare those overlays, by names that nobody can type.
+    with_modules: BTreeMap<String, usize>,
     lines: usize,
 }
 
@@ -90,8 +92,8 @@ impl Prompt {
         loader.read_all(entry);
         let script = crate::finish(&mut loader, wanted);
         let Loader { sources, modules, known, .. } = loader;
-        let mut prompt =
-            Prompt { sources, modules, known, overrides: script.overrides.clone(), with: Vec::new(), lines: 0 };
+        let (overrides, with_modules) = (script.overrides.clone(), BTreeMap::new());
+        let mut prompt = Prompt { sources, modules, known, overrides, with: Vec::new(), with_modules, lines: 0 };
         let file = prompt.sources.add(Source { name: "<prompt>".into(), text: SETPOINTS_AT_FIRST.into() });
         for clause in syntax::parse_lines(file, SETPOINTS_AT_FIRST).0.clauses {
             if let tree::ClauseKind::With(items) = clause.kind {
@@ -120,7 +122,8 @@ impl Prompt {
     /// A module that knows all that is known so far.
     fn module(&self, tree: tree::File) -> Module {
         let (top, module) = self.top();
-        Module { tree: tree.into(), imports: module.imports.clone(), extends: Some(top), ..Module::default() }
+        let imports = module.imports.iter().chain(&self.with_modules).map(|(name, leads)| (name.clone(), *leads));
+        Module { tree: tree.into(), imports: imports.collect(), extends: Some(top), ..Module::default() }
     }
 
     /// The module of the latest line that declared something, else the script's.
@@ -262,25 +265,32 @@ impl Prompt {
         if e.list_changed().is_some() {
             return false;
         }
-        let is_activity = |module: usize, name: &str| {
-            self.modules[module]
-                .tree
-                .items
-                .iter()
-                .any(|item| matches!(item, tree::Item::Activity(a) if a.name.node == name))
+        self.activity(callee).is_none() && !timed.is_modified()
+    }
+
+    /// The activity that a name or a path calls here, with the module that declares it.
+    fn activity(&self, callee: &tree::Expr) -> Option<(usize, &tree::Activity)> {
+        let declared = |module: usize, name: &str| {
+            let activities = self.modules[module].tree.items.iter().filter_map(|item| match item {
+                tree::Item::Activity(activity) => Some(activity),
+                _ => None,
+            });
+            activities.into_iter().find(|activity| activity.name.node == name).map(|activity| (module, activity))
         };
         let (top, module) = self.top();
-        let called = match &callee.kind {
+        match &callee.kind {
             tree::ExprKind::Name(name) => std::iter::successors(Some(top), |&m| self.modules[m].extends)
                 .chain((0..self.modules.len()).filter(|&m| self.modules[m].prelude))
-                .any(|m| is_activity(m, name)),
+                .find_map(|m| declared(m, name)),
             tree::ExprKind::Member(base, member) => match &base.kind {
-                tree::ExprKind::Name(name) => module.imports.get(name).is_some_and(|&m| is_activity(m, &member.node)),
-                _ => false,
+                tree::ExprKind::Name(name) => {
+                    let module = self.with_modules.get(name).or_else(|| module.imports.get(name))?;
+                    declared(*module, &member.node)
+                }
+                _ => None,
             },
-            _ => false,
-        };
-        !called && !timed.is_modified()
+            _ => None,
+        }
     }
 
     /// Whether a block ends in an expression.

@@ -65,7 +65,7 @@ impl<'t> Checker<'t> {
             _ if is_table => self.table(id, a, result.as_ref(), &statements),
             _ => {
                 let block = self.in_block(|c| hir::Block { stmts: c.stmts(&statements), value: None });
-                self.sequence_ends(a, kind, result.as_ref(), &block);
+                self.sequence_ends(a, result.as_ref(), &block);
                 Body::Sequence(block)
             }
         };
@@ -258,8 +258,8 @@ impl<'t> Checker<'t> {
         self.with_setting(Setting::Instant, |c| c.with_temporal(temporal, work))
     }
 
-    /// A body's end: what must finish does, and what ends says so.
-    fn sequence_ends(&mut self, a: &tree::Activity, kind: Kind, result: Option<&Type>, block: &hir::Block) {
+    /// A body's end: what must finish does.
+    fn sequence_ends(&mut self, a: &tree::Activity, result: Option<&Type>, block: &hir::Block) {
         if let Some(result) = result
             && !flow::leaves(block)
         {
@@ -271,16 +271,6 @@ impl<'t> Checker<'t> {
                     format!("`{}` can end without its result, {}", a.name.node, article(&ty)),
                 )
                 .help("end every path with `finish VALUE`; for a result that may be absent declare it with `?`"),
-            );
-        }
-        if matches!(kind, Kind::Sets(_)) && !flow::leaves(block) {
-            self.report(
-                Diagnostic::error(
-                    Code::ChannelsEnds,
-                    a.name.span,
-                    format!("`{}` ends and leaves its channel to nobody", a.name.node),
-                )
-                .help("write its statements in a `loop { … }`"),
             );
         }
     }

@@ -71,7 +71,7 @@ impl<'t> Checker<'t> {
                     }
                     values.push(value);
                 }
-                (None, Some(default)) => values.push(default.clone()),
+                (None, Some(default)) => values.push(self.default(default)),
                 (None, None) if failed => {}
                 (None, None) => {
                     failed = true;

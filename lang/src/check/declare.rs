@@ -1,6 +1,6 @@
 //! The first pass: what every module declares, before any body is looked at.
 
-use super::{Checker, ClauseInfo, Def, Lazy, Module, Signature};
+use super::{Checker, ClauseInfo, Def, Lazy, Module, Signature, ends};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir;
@@ -101,12 +101,11 @@ impl<'t> Checker<'t> {
         }
         // Whether a behavior can end depends on what it calls, and so does what an overlay does: these come when all bodies are known.
         let hir = std::mem::take(&mut self.hir);
-        for &id in &self.overlay_ids.clone() {
-            self.overlay_does_one_thing(&hir, id);
-        }
+        let mut known_ends = ends::Known::new();
+        self.overlays_do_one_thing(&hir, &mut known_ends);
         for activity in &hir.activities {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
-                self.check_table(&hir, behaviors, *start, rules);
+                self.check_table(&hir, &mut known_ends, (behaviors, *start, rules));
             }
         }
         self.hir = hir;

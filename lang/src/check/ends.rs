@@ -1,28 +1,35 @@
 //! What comes to its end by itself, through all that it calls: known when all bodies are.
 
 use super::flow;
-use crate::hir::{Action, Block, Body, Hir, Stmt, StmtKind, Target, Timed};
+use crate::hir::{Action, ActivityId, Block, Body, Hir, Stmt, StmtKind, Target, Timed};
 use std::collections::BTreeMap;
 
 /// Whether a mission's statements never come to their end by themselves.
 pub fn never_ends(hir: &Hir, mission: usize) -> bool {
-    match &hir.activities[mission].body {
-        Body::Sequence(block) => !can_end(block, hir),
-        _ => false,
-    }
+    matches!(hir.activities[mission].body, Body::Sequence(_)) && !can_end(mission, hir, &mut Known::new())
 }
 
-/// The activities of which is known whether they never end, those that are being asked among them: recursion is an error of
+/// The activities of which is known whether they can end, those that are being asked among them: recursion is an error of
 /// its own.
-type Known = BTreeMap<usize, bool>;
+pub(super) type Known = BTreeMap<ActivityId, bool>;
 
-/// Whether a body can end: come to its last statement's end, or finish.
-pub(super) fn can_end(block: &Block, hir: &Hir) -> bool {
-    ends(block, hir, &mut Known::new())
-}
-
-fn ends(block: &Block, hir: &Hir, known: &mut Known) -> bool {
-    completes(block, hir, known) || finishes(block, hir, known)
+/// Whether an activity can end by itself: come to its last statement's end, or finish, by a rule if it is a table.
+pub(super) fn can_end(id: ActivityId, hir: &Hir, known: &mut Known) -> bool {
+    let block = match &hir.activities[id].body {
+        Body::Sequence(block) => block,
+        // One that is wrong in itself has no behaviors.
+        Body::Table { behaviors, rules, .. } => {
+            return behaviors.is_empty() || rules.iter().any(|rule| matches!(rule.target, Target::Finish(_)));
+        }
+        Body::Amend { .. } => return true,
+    };
+    if let Some(ends) = known.get(&id) {
+        return *ends;
+    }
+    known.insert(id, true);
+    let ends = completes(block, hir, known) || finishes(block, hir, known);
+    known.insert(id, ends);
+    ends
 }
 
 /// Whether a block can come to the end of its last statement.
@@ -63,21 +70,6 @@ fn endless(timed: &Timed, hir: &Hir, known: &mut Known) -> bool {
     match &timed.action {
         _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
         Action::Guide(..) | Action::Keep(..) | Action::Watch | Action::Override(_) => flow::endless(timed),
-        Action::Call(id, _) => match &hir.activities[*id].body {
-            Body::Sequence(block) => match known.get(id) {
-                Some(endless) => *endless,
-                None => {
-                    known.insert(*id, false);
-                    let endless = !ends(block, hir, known);
-                    known.insert(*id, endless);
-                    endless
-                }
-            },
-            // A strategy ends by a rule alone.
-            Body::Table { behaviors, rules, .. } => {
-                !behaviors.is_empty() && !rules.iter().any(|rule| matches!(rule.target, Target::Finish(_)))
-            }
-            _ => false,
-        },
+        Action::Call(id, _) => !can_end(*id, hir, known),
     }
 }

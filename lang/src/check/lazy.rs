@@ -11,16 +11,16 @@ const SIGNAL_PARTS_MAX: usize = 256;
 /// A constant waits for so many others at most that are declared after it.
 const WAITING_MAX: usize = 16;
 
-/// Parts of a constant at most, but for those that its own text spells out.
+/// Parts of a constant or a default at most, but for those that its own text spells out.
 const CONSTANT_PARTS_MAX: usize = 4096;
-/// Parts of constants that are read, each counted wherever it is: a constant stands for its value there.
+/// Parts of constants and defaults that are read, each counted wherever it is: they stand for their values there.
 const PARTS_READ_MAX: usize = 1 << 20;
 
 impl<'t> Checker<'t> {
     /// The signature of a function, read when first needed: defaults and ranges of parameters may call other functions. It has
     /// no result where that leads back to it.
     pub(super) fn fn_signature(&mut self, id: usize) -> Signature {
-        if let Some((m, function)) = self.fns_ahead.remove(&id) {
+        if let Some(&(m, function)) = self.fns_ahead.get(&id) {
             self.read_signature(id, m, function);
         } else if self.fn_signatures[id].result.is_none() {
             let Signature { name, span, .. } = &self.fn_signatures[id];
@@ -38,8 +38,10 @@ impl<'t> Checker<'t> {
                 function.name.node
             );
             let finding = Diagnostic::error(Code::LimitsConstants, function.name.span, message);
+            // Its turn comes yet.
             return self.report(finding.help("declare first what others call"));
         }
+        self.fns_ahead.remove(&id);
         self.waiting += 1;
         let params = self.params(m, &function.params, None);
         self.waiting -= 1;
@@ -52,6 +54,16 @@ impl<'t> Checker<'t> {
     /// The value of a constant, checked when first needed.
     pub(super) fn constant(&mut self, id: usize) -> hir::Expr {
         let value = self.lazy(id, true);
+        self.stands_here(value)
+    }
+
+    /// The default of a parameter for which no argument is given.
+    pub(super) fn default(&mut self, default: &hir::Expr) -> hir::Expr {
+        self.stands_here(default.clone())
+    }
+
+    /// A constant or a default where it is read: it stands there with all its parts.
+    fn stands_here(&mut self, value: hir::Expr) -> hir::Expr {
         if matches!(value.kind, hir::ExprKind::Number(_)) {
             return value;
         }
@@ -61,7 +73,7 @@ impl<'t> Checker<'t> {
             return value;
         }
         if !is_told {
-            let message = format!("with this constant more than {PARTS_READ_MAX} parts of constants are read");
+            let message = format!("with this more than {PARTS_READ_MAX} parts of constants and defaults are read");
             let finding = Diagnostic::error(Code::LimitsConstants, value.span, message);
             self.report(finding.help("name it once with `let` where it is read, or make lists of constants shorter"));
         }
@@ -128,19 +140,21 @@ impl<'t> Checker<'t> {
         self.unknown(name.span)
     }
 
-    /// The value of a constant, which stands wherever it is read: of lists that hold others twice, each would otherwise be
-    /// twice as long.
-    fn small_constant(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
+    /// The value of a constant or a default, which stands wherever it is read: of those that hold others twice, each would otherwise
+    /// be twice as long.
+    pub(super) fn small_constant(&mut self, name: &tree::Name, value: hir::Expr) -> hir::Expr {
         // No part is written with less than a byte.
         let written = (value.span.end - value.span.start) as usize;
         if value.is_within(CONSTANT_PARTS_MAX.max(written)) {
             return value;
         }
-        let message =
-            format!("`{}` has more than {CONSTANT_PARTS_MAX} parts, with those of the constants in it", name.node);
+        let message = format!(
+            "`{}` has more than {CONSTANT_PARTS_MAX} parts, with those of constants and defaults in it",
+            name.node
+        );
         let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
         self.report(finding.help(
-            "hold fewer constants in one another: each stands for all that it is made of, wherever it is read; write the number \
+            "hold fewer of them in one another: each stands for all that it is made of, wherever it is read; write the number \
              that it comes to, or declare it with `let` in a mission or a behavior",
         ));
         self.unknown(name.span)

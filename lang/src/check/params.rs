@@ -67,7 +67,7 @@ impl<'t> Checker<'t> {
             let default = replaced.as_ref().or(param.default.as_ref()).map(|written| {
                 let scope = Scope::new(m, Setting::Constant);
                 let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, what));
-                value
+                self.small_constant(&param.name, value)
             });
             // A function may well be given the negative difference of two times; what takes time may not.
             let range = written.or_else(|| owner.and_then(|_| Self::implied_range(&ty)));

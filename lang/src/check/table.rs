@@ -1,6 +1,6 @@
 //! The switching table: which behavior follows which, and that none is forgotten.
 
-use super::ends::can_end;
+use super::ends::{Known, can_end};
 use super::expr::article;
 use super::{Checker, Setting};
 use crate::code::Code;
@@ -248,7 +248,12 @@ impl<'t> Checker<'t> {
     }
 
     /// What the table promises: every behavior reachable, every ending answered, every rule alive.
-    pub(super) fn check_table(&mut self, hir: &hir::Hir, behaviors: &[usize], start: usize, rules: &[Rule]) {
+    pub(super) fn check_table(
+        &mut self,
+        hir: &hir::Hir,
+        known_ends: &mut Known,
+        (behaviors, start, rules): (&[usize], usize, &[Rule]),
+    ) {
         let names: Vec<tree::Name> = behaviors
             .iter()
             .map(|&b| tree::Name { node: hir.activities[b].name.clone(), span: hir.activities[b].span })
@@ -275,10 +280,7 @@ impl<'t> Checker<'t> {
                 continue;
             }
             let only_back = !entered[i] && i != start;
-            let ends = match &hir.activities[behaviors[i]].body {
-                Body::Sequence(block) => can_end(block, hir),
-                _ => false,
-            };
+            let ends = can_end(behaviors[i], hir, known_ends);
             let leaving: Vec<&Rule> = leaving[i].iter().map(|&rule| &rules[rule]).collect();
             let answered = leaving.iter().any(|r| Self::is_just_done(&r.on));
             if ends && !answered && !only_back {

@@ -6,7 +6,7 @@ use crate::types::Type;
 use albacore_program::{Axis, Channel};
 
 /// What kind of activity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs, reason = "each variant is the kind of its name")]
 pub enum Kind {
     Behavior,

@@ -1,6 +1,7 @@
 //! The checked program: names resolved, types known, every conversion spelt out. What lowering reads.
 
 mod activity;
+mod first;
 mod operator;
 mod position;
 mod same;
@@ -9,6 +10,7 @@ mod walk;
 
 pub use activity::{Activity, Body, Decl, Kind, Mission, Require, Rule, Target, leaving};
 pub use albacore_arithmetic::Interval;
+pub use first::{First, is_control};
 pub use position::middle;
 pub use same::{mentions_done, same_condition, same_value};
 pub use simulated::{ClauseArg, ClauseUse, Expect, Scenario, Test, TestNames, When, test_file_name};

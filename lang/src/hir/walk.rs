@@ -4,7 +4,6 @@ use super::{
     Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Stmt, StmtKind, Target,
     TextPart, With,
 };
-use crate::source::Span;
 use crate::types::Type;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,23 +18,6 @@ impl Hir {
             }
         }
         called
-    }
-
-    /// Where a mission watches or overrides, if it does: then it is a guest of its vehicle.
-    pub fn first_watch(&self, mission: ActivityId) -> Option<Span> {
-        self.called_from(mission).into_iter().find_map(|id| {
-            let mut found = None;
-            if let Body::Sequence(block) = &self.activities[id].body {
-                block.each(&mut |stmt| {
-                    if let StmtKind::Timed(timed) = &stmt.kind
-                        && matches!(timed.action, Action::Watch | Action::Override(_))
-                    {
-                        found.get_or_insert(stmt.span);
-                    }
-                });
-            }
-            found
-        })
     }
 
     /// The types of what a mission and all that it calls report, by name.

@@ -3,7 +3,7 @@
 use super::findings::Findings;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, ActivityId, Block, Body, Hir, Rule, StmtKind, Target};
+use crate::hir::{Action, Activity, ActivityId, Block, Body, First, Hir, Rule, StmtKind, Target, is_control, leaving};
 use crate::source::Span;
 use albacore_program::Steering;
 use std::collections::BTreeSet;
@@ -13,13 +13,25 @@ struct Walk<'a> {
     /// Why the mission drives only in its overrides.
     guest: Span,
     seen: BTreeSet<(ActivityId, bool)>,
+    /// The first `override` of each activity and all that it calls, and the first `override` or `watch`.
+    overrides: FirstAction<'a>,
+    controls: FirstAction<'a>,
     findings: Findings,
 }
+
+type FirstAction<'a> = First<'a, fn(&Activity) -> Option<Span>>;
 
 /// The statements of a guest that command outside of an override, and the overrides inside another.
 pub(super) fn check(hir: &Hir, mission: ActivityId) -> Vec<Diagnostic> {
     let Some(guest) = hir.first_watch(mission) else { return Vec::new() };
-    let mut walk = Walk { hir, guest, seen: BTreeSet::new(), findings: Findings::default() };
+    let mut walk = Walk {
+        hir,
+        guest,
+        seen: BTreeSet::new(),
+        overrides: First::new(hir, |activity| activity.first_action(|action| matches!(action, Action::Override(_)))),
+        controls: First::new(hir, |activity| activity.first_action(is_control)),
+        findings: Findings::default(),
+    };
     walk.activity(mission, false);
     if let Some((_, recovery)) = hir.activities[mission].mission.as_ref().and_then(|m| m.recovery.as_ref()) {
         walk.block(recovery, true);
@@ -47,38 +59,22 @@ impl Walk<'_> {
     /// A behavior that is suspended in its override still drives: what it waits for can neither watch nor take over, nor can what
     /// that waits for.
     fn drives_on_while_suspended(&mut self, behaviors: &[ActivityId], rules: &[Rule]) {
-        let is_override = |action: &Action| matches!(action, Action::Override(_));
-        let is_control = |action: &Action| matches!(action, Action::Override(_) | Action::Watch);
-        let taken: Vec<Option<Span>> = behaviors.iter().map(|id| self.first(*id, is_override)).collect();
-        let controls: Vec<Option<Span>> = behaviors.iter().map(|id| self.first(*id, is_control)).collect();
-        for (from, taken) in taken.into_iter().enumerate().filter_map(|(from, taken)| Some((from, taken?))) {
-            let mut waits = BTreeSet::from([from]);
-            let mut ahead = vec![from];
-            while let Some(at) = ahead.pop() {
-                for rule in rules.iter().filter(|rule| rule.back && rule.sources.contains(&at)) {
-                    let Target::Behavior(to) = rule.target else { continue };
-                    if let Some(place) = controls[to] {
-                        self.findings.report(driven_already(place, taken, rule.on_span));
-                    } else if waits.insert(to) {
-                        ahead.push(to);
-                    }
+        let leaving = leaving(rules, behaviors.len());
+        // Where each behavior that may wait still drives, or what waits for it does: the first that is found is as good as any.
+        let mut driven: Vec<Option<Span>> = behaviors.iter().map(|id| self.overrides.of(*id)).collect();
+        let mut ahead: Vec<usize> = (0..behaviors.len()).filter(|&behavior| driven[behavior].is_some()).collect();
+        while let Some(at) = ahead.pop() {
+            let Some(taken) = driven[at] else { continue };
+            for rule in leaving[at].iter().map(|&rule| &rules[rule]).filter(|rule| rule.back) {
+                let Target::Behavior(to) = rule.target else { continue };
+                if let Some(place) = self.controls.of(behaviors[to]) {
+                    self.findings.report(driven_already(place, taken, rule.on_span));
+                } else if driven[to].is_none() {
+                    driven[to] = Some(taken);
+                    ahead.push(to);
                 }
             }
         }
-    }
-
-    /// The first statement of an activity, and of what it calls, that does something.
-    fn first(&self, activity: ActivityId, does: impl Fn(&Action) -> bool) -> Option<Span> {
-        self.hir.called_from(activity).into_iter().find_map(|id| {
-            let mut found = None;
-            if let Body::Sequence(block) = &self.hir.activities[id].body {
-                block.each(&mut |stmt| match &stmt.kind {
-                    StmtKind::Timed(timed) if does(&timed.action) => _ = found.get_or_insert(stmt.span),
-                    _ => {}
-                });
-            }
-            found
-        })
     }
 
     fn block(&mut self, block: &Block, driving: bool) {

@@ -45,17 +45,10 @@ impl Run {
             }
         }
         self.events.push(Event::Entered(id));
-        let mut declared = self.execute(p, activity.entry, base);
-        // An overlay may abort the mission as soon as it is put on: what else is declared, the recovery reads.
-        while let Stop::Abort(next) = declared {
-            declared = self.execute(p, next, base);
-        }
+        self.execute(p, activity.entry, base);
         if activity.kind == ActivityKind::Mission {
             self.remember_declared(p, activity, base);
             self.compute_turn_rate(p, base);
-        }
-        if self.abort.is_some() {
-            return;
         }
         self.execute(p, activity.reactions, base);
         match &activity.body {
@@ -70,7 +63,7 @@ impl Run {
     fn run_body(&mut self, p: &Program, activity: &Activity, base: Slot, from: Addr) -> Status {
         let (pc, status) = match self.execute(p, from, base) {
             Stop::Yield(pc) => (f64::from(pc), Status::Running),
-            Stop::Abort(_) => return Status::Running,
+            Stop::Abort => return Status::Running,
             Stop::End | Stop::Return => (header::ENDED, Status::Ended),
         };
         self.set_head(activity, base, header::PC, pc);

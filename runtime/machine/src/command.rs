@@ -1,7 +1,7 @@
 //! From what a statement asks to what the vehicle is told: amendments, limits, command filter, flow compensation.
 
+use crate::Event;
 use crate::state::{Asked, Limits, Run};
-use crate::{Event, execute::Stop};
 use albacore_geometry::Heading;
 use albacore_guidance::{CommandFilter, through_water};
 use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, TURN_RATE_MIN, header};
@@ -108,9 +108,7 @@ impl Run {
             return asked;
         };
         self.set(at + slot, asked.radians());
-        if let Stop::Abort(_) = self.execute(p, amended.entry, at) {
-            return asked;
-        }
+        self.execute(p, amended.entry, at);
         let given = Heading::from_radians(self.get(at + amended.value));
         let change = (given - asked).abs();
         let told = at + activity.header + header::AMENDING;

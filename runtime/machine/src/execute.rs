@@ -17,8 +17,8 @@ pub(crate) enum Stop {
     Yield(Addr),
     /// The body came to its end, or finished.
     End,
-    /// The mission is aborted: [`Run::abort`] says why. The code would have gone on at this address.
-    Abort(Addr),
+    /// The mission is aborted: [`Run::abort`] says why.
+    Abort,
 }
 
 /// Code that needs no vehicle, such as that of a scenario or of a test's expectations, with the words it works on.
@@ -83,7 +83,7 @@ impl Run {
                 Op::End | Op::Finish => return Stop::End,
                 Op::Abort { why } => {
                     self.abort = Some(self.filled(&p.texts[why as usize], base, p));
-                    return Stop::Abort(pc as Addr);
+                    return Stop::Abort;
                 }
 
                 Op::Begin { guide, args, state, setpoints } => self.begin(guide, b(args), b(state), b(setpoints)),
@@ -95,23 +95,18 @@ impl Run {
                 Op::Enter { call } => {
                     self.enter_call(p, call, base);
                     if self.abort.is_some() {
-                        return Stop::Abort(pc as Addr);
+                        return Stop::Abort;
                     }
                 }
                 Op::Step { call, ended } => {
                     let over = self.step_call(p, call, base);
                     if self.abort.is_some() {
-                        return Stop::Abort(pc as Addr);
+                        return Stop::Abort;
                     }
                     self.set(b(ended), truth(over));
                 }
                 Op::Cut { call, cause } => self.cut_call(p, call, base, cause),
-                Op::PutOn { overlay } => {
-                    self.put_on(p, overlay, base);
-                    if self.abort.is_some() {
-                        return Stop::Abort(pc as Addr);
-                    }
-                }
+                Op::PutOn { overlay } => self.put_on(p, overlay, base),
                 Op::TakeOff { overlay } => self.take_off(p, overlay, base, albacore_program::Cause::Done),
 
                 Op::Ask { offered } => self.ask_for_control(offered),
@@ -128,7 +123,7 @@ impl Run {
                 }
                 Op::Desert { end } => {
                     if self.desert(OverrideEnd::from_number(self.get(b(end)))) {
-                        return Stop::Abort(pc as Addr);
+                        return Stop::Abort;
                     }
                 }
 

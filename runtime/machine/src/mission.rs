@@ -348,7 +348,6 @@ impl Run {
         // is nothing left to abort.
         self.live_a_tick(p, mission, base);
         self.step_overlays(p, mission, base);
-        self.abort = None;
         self.is_lost = false;
         let is_lagging = self.lagging().is_some();
         let time_is_up = self.time_is_up();

@@ -77,20 +77,12 @@ impl<'p> Activation<'p> {
         self.is_active = true;
         self.worn.push((Vec::new(), self.setpoints));
         let frame = self.frame.clone();
-        let mut aborted = None;
         for decl in &activity.decls {
             let condition = if let Decl::Signal(_, e) = decl { vec![e] } else { Vec::new() };
             let watch = Watch::begin(w, &frame, &condition, self.age);
             let s = Scope { frame: &frame, watch: Some(&watch), done: false };
             match decl {
-                // What is declared after an overlay that aborts at once is there for the recovery.
-                Decl::With(items) => items.iter().for_each(|item| {
-                    let put_on = self.put_on(w, std::slice::from_ref(item));
-                    w.is_aborting |= put_on.is_err();
-                    if let (Err(why), None) = (put_on, &aborted) {
-                        aborted = Some(why);
-                    }
-                }),
+                Decl::With(items) => self.put_on(w, items)?,
                 Decl::Signal(var, e) | Decl::Area(var, e) | Decl::Memory(var, Some(e)) => {
                     let value = match value(w, s, e) {
                         Value::List(list) => Value::List(super::expr::sorted(w, &frame, *var, list)),
@@ -108,12 +100,6 @@ impl<'p> Activation<'p> {
         if let Some(limit) = activity.mission.as_ref().and_then(|mission| mission.turn_rate.as_ref()) {
             let rate = super::expr::number(w, Scope::of(&frame), limit);
             w.turn_rate = rate.max(TURN_RATE_MIN);
-        }
-        if let Some(why) = aborted {
-            return Err(why);
-        }
-        if w.is_aborting {
-            return Ok(());
         }
         let aborts = activity.aborts.iter().map(|(_, condition)| condition);
         let conditions: Vec<_> = aborts.chain(activity.reactions.iter().map(|(condition, _)| condition)).collect();

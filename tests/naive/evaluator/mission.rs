@@ -369,7 +369,6 @@ impl<'p> Evaluator<'p> {
 
     fn abort(&mut self, Aborted(why): Aborted) -> Option<Command> {
         self.w.say(format!("abort {why}"));
-        self.w.is_aborting = false;
         self.begin_recovery("aborted", Cause::Aborted)
     }
 

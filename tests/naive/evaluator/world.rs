@@ -48,8 +48,6 @@ pub struct World<'p> {
     pub turn_rate: f64,
     /// What overlays that own a measurement keep in this tick.
     pub kept: Setpoints,
-    /// An overlay has aborted the mission while it was put on by a declaration.
-    pub is_aborting: bool,
     /// Rule 17: the recovery runs without aborts.
     pub is_recovering: bool,
     /// What was computed and done in this tick, as `check --cost` counts it.
@@ -90,7 +88,6 @@ impl<'p> World<'p> {
             fastest: f64::MAX,
             turn_rate: TURN_RATE_MAX,
             kept: Setpoints::default(),
-            is_aborting: false,
             is_recovering: false,
             steps: 0,
             texts: Vec::new(),
