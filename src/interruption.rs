@@ -4,7 +4,7 @@ use crate::clock::now;
 use signal_hook::consts as signal;
 use signal_hook::iterator::Signals;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, mpsc};
 use std::thread::Builder;
 use std::time::Duration;
 
@@ -181,18 +181,16 @@ fn is_heard(request: i32, ignored: u64) -> bool {
 fn listen() {
     static LISTENING: OnceLock<()> = OnceLock::new();
     LISTENING.get_or_init(|| {
-        let ignored = ignored();
-        // Without handlers a signal ends the program at once, as it does any other.
-        let Ok(mut signals) = Signals::new([0; 0]) else { return };
-        let handle = signals.handle();
+        // No handler is there before who waits for it: without handlers a signal ends the program at once, as it does any other.
+        let (give, given) = mpsc::sync_channel::<Signals>(1);
+        let waiting = Builder::new().name("signals".into()).spawn(move || {
+            given.into_iter().for_each(|mut signals| signals.forever().for_each(hear));
+        });
+        let (Ok(_), Ok(signals)) = (waiting, Signals::new([0; 0])) else { return };
+        let (handle, ignored) = (signals.handle(), ignored());
         // One that the system does not have is none.
         requests().filter(|request| is_heard(*request, ignored)).for_each(|request| _ = handle.add_signal(request));
-        let listening = Builder::new().name("signals".into()).spawn(move || {
-            signals.forever().for_each(hear);
-        });
-        if listening.is_err() {
-            handle.close();
-        }
+        let _ = give.send(signals);
     });
 }
 

@@ -57,7 +57,10 @@ impl Live {
         let lived = run.live(LiveOptions { journal, interrupted, report: &mut report, waiting_bytes: WAITING_BYTES });
         let LiveRun { run, outcome, journal_stalled } = match lived {
             Ok(lived) => lived,
-            Err(error) => return no_thread(&error),
+            Err(error) => {
+                kept.never_began(&format!("no thread can be started: {error}"));
+                return no_thread(&error);
+            }
         };
         drop(watch);
         if journal_stalled {

@@ -109,6 +109,16 @@ impl RunFolder {
         }
     }
 
+    /// The run could not be begun, for a reason. It leaves an empty journal, and its record, which says so.
+    pub fn never_began(&mut self, why: &str) {
+        let Some((folder, record)) = self.files.as_mut() else { return };
+        record.fails(why);
+        let ended = record.json(folder.record.room()).map_err(io::Error::from);
+        if let Err(error) = ended.and_then(|text| folder.record.finish(&text)) {
+            message::error(&disk::not_written(&folder.path.join(RECORD), &error), None);
+        }
+    }
+
     /// Writes how it ended, trace and picture. The record is the first, and has room on a disk that is full: how a mission ended is
     /// told, whatever becomes of the others. What became of them is told in it last.
     pub fn finish(&mut self, run: &Run, summary: &Summary) -> Left {
@@ -136,10 +146,25 @@ impl RunFolder {
             }
         }
         // One that the disk has cut may have been written into besides.
-        if is_there && !record.has_lost_by(JOURNAL, WRITTEN_INTO) && !folder.is_journal_whole() {
-            record.also_loses(JOURNAL, WRITTEN_INTO);
-            let what = format!("`{}` is not as this run wrote it: {WRITTEN_INTO}", path.join(JOURNAL).display());
-            troubles.push((what, Some("it is left as it is; what was overwritten is lost".to_string())));
+        if is_there && !record.has_lost_by(JOURNAL, WRITTEN_INTO) {
+            let journal = path.join(JOURNAL);
+            let (why, what, help) = match folder.is_journal_whole() {
+                Ok(true) => (None, String::new(), ""),
+                Ok(false) => (
+                    Some(WRITTEN_INTO.to_string()),
+                    format!("`{}` is not as this run wrote it: {WRITTEN_INTO}", journal.display()),
+                    "it is left as it is; what was overwritten is lost",
+                ),
+                Err(error) => (
+                    Some(format!("it could not be read back: {error}")),
+                    format!("`{}` could not be read back: {error}", journal.display()),
+                    "it was written, and is left as it is",
+                ),
+            };
+            if let Some(why) = why {
+                record.also_loses(JOURNAL, &why);
+                troubles.push((what, Some(help.to_string())));
+            }
         }
         let ended = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.finish(&text));
         if let Err(error) = begun.and(ended) {
@@ -188,4 +213,27 @@ const GONE: &str = "it was removed or replaced";
 
 fn not_ours(path: &Path) -> String {
     format!("`{}` is not this run's any more: {GONE}", path.display())
+}
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+
+    use super::*;
+    use albacore_session::{Plan, load};
+
+    #[test]
+    fn a_run_that_could_not_be_begun_is_recorded_as_that() {
+        let folder = std::env::temp_dir().join(format!("albacore-never-began-{}", std::process::id()));
+        let script = load(Path::new("missions/box.alb"), None, &[]).unwrap();
+        let plan = Plan::new(&script, "box.alb", None, None).unwrap();
+        let asked = RunRequest { seed: 1, link: None, rate: None, set: &[], fault: &[] };
+        let place = Place::Named { folder: folder.clone(), replace: false };
+        let record = Record::new(&plan, &asked, Utc::now());
+        let mut kept = RunFolder::begin(&place, Utc::now(), record).unwrap_or_else(|_| unreachable!());
+        kept.never_began("no thread can be started");
+        let told = std::fs::read_to_string(folder.join(RECORD)).unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(told.contains(r#""outcome": "failed""#) && told.contains("no thread can be started"), "{told}");
+    }
 }

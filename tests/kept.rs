@@ -5,6 +5,7 @@
 
 use crate::shell::behind;
 use albacore_trace::journal::{Ending, Journal};
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
@@ -53,9 +54,13 @@ fn journal(out: &Path) -> Journal {
 
 /// Starts the long mission, and comes back when its journal has some bytes.
 fn long_run(out: &Path, bytes: u64) -> Child {
+    long_run_in(&[], out, bytes)
+}
+
+fn long_run_in(env: &[(&str, &str)], out: &Path, bytes: u64) -> Child {
     let script = out.with_extension("alb");
     std::fs::write(&script, LONG).unwrap();
-    let child = albacore(&script.display().to_string(), out).spawn().unwrap();
+    let child = albacore(&script.display().to_string(), out).envs(env.iter().copied()).spawn().unwrap();
     for _ in 0..20_000 {
         if std::fs::metadata(out.join("journal")).is_ok_and(|m| m.len() >= bytes) {
             return child;
@@ -63,6 +68,17 @@ fn long_run(out: &Path, bytes: u64) -> Child {
         std::thread::sleep(Duration::from_millis(1));
     }
     panic!("the journal does not grow: {}", stderr(&child.wait_with_output().unwrap()));
+}
+
+/// A program that can begin no thread cannot be asked to end in good order: a signal ends it as it does any other.
+#[test]
+fn a_run_without_threads_is_ended_by_a_signal() {
+    let out = empty("no-threads");
+    // More stack for each thread than any machine has.
+    let child = long_run_in(&[("RUST_MIN_STACK", "1000000000000000")], &out, 10_000);
+    send("-TERM", &child);
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(ended.status.signal(), Some(15), "{}", stderr(&ended));
 }
 
 fn send(signal: &str, child: &Child) {

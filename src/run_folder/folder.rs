@@ -101,12 +101,10 @@ impl Folder {
         disk::is_at(&self.journal, &self.path.join(JOURNAL)).unwrap_or(false)
     }
 
-    /// Whether the journal holds what the run wrote, as far as it was written.
-    pub fn is_journal_whole(&self) -> bool {
-        let read = |look: &dyn Fn(&mut File) -> bool| {
-            File::open(self.path.join(JOURNAL)).is_ok_and(|mut file| look(&mut file))
-        };
-        read(&|file| is_journal(file)) && read(&|file| is_journal_as_left(file))
+    /// Whether the journal holds what the run wrote, as far as it was written. An error where it cannot be read.
+    pub fn is_journal_whole(&self) -> io::Result<bool> {
+        let open = || File::open(self.path.join(JOURNAL));
+        Ok(is_journal(open()?)? && is_journal_as_left(open()?)?)
     }
 
     /// The files that are written as the run goes on, and where they should be.
@@ -137,14 +135,15 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
         journal => journal.map_err(|error| unwritable(&path, &error))?,
     };
-    if !is_journal(&mut journal) {
+    let unread = |error| unreadable(&path, &error);
+    if !is_journal(&mut journal).map_err(unread)? {
         return Err(foreign(&path));
     }
     if !replace {
         return Err(taken(folder));
     }
     own(&journal, folder)?;
-    if journal.rewind().is_err() || !is_journal_as_left(&journal) {
+    if !journal.rewind().and_then(|()| is_journal_as_left(&journal)).map_err(unread)? {
         return Err(foreign(&path));
     }
     // What is not to be removed is said before anything is.
@@ -212,6 +211,11 @@ fn alone(path: &Path) -> Refusal {
 pub fn unwritable(path: &Path, error: &io::Error) -> Refusal {
     let message = disk::not_written(path, error);
     Refusal(message, "choose another folder with `--out`, or run without files with `--no-out`", Exit::Failed)
+}
+
+/// Nobody knows whose it is.
+fn unreadable(path: &Path, error: &io::Error) -> Refusal {
+    Refusal(format!("`{}` is there already, and cannot be read: {error}", path.display()), ELSEWHERE, Exit::Failed)
 }
 
 #[cfg(test)]

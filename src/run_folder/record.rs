@@ -5,7 +5,7 @@ use crate::clock::Utc;
 use crate::made::{is_as_summed, summed};
 use crate::output;
 use crate::plan::{ScriptDigest, scripts, world_script};
-use albacore_session::{Plan, SOURCE_BYTES_MAX, Summary, read_file};
+use albacore_session::{Outcome, Plan, SOURCE_BYTES_MAX, Summary, read_file};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -114,6 +114,13 @@ impl Record {
         self.reason.clone_from(&summary.reason);
         self.ticks = Some(summary.ticks);
         self.digest = Some(summary.digest.clone());
+    }
+
+    /// The run could not be begun.
+    pub fn fails(&mut self, why: &str) {
+        self.ended = Some(Utc::now());
+        self.outcome = Outcome::Failed.name();
+        self.reason = why.to_string();
     }
 
     /// A file is not whole, or not there.

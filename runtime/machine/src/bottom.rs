@@ -263,7 +263,7 @@ impl Run {
     }
 
     /// The altitude that was told last, m, unless it is too old to count.
-    fn sounded(&self) -> Option<f64> {
+    pub fn sounded(&self) -> Option<f64> {
         let fresh = |tick: u64| (self.state.tick - tick) as f64 * TICK_S <= LIMIT_FRESH_S;
         self.state.bottom.sounded.filter(|(tick, _)| fresh(*tick)).map(|(_, altitude)| altitude)
     }
@@ -324,11 +324,14 @@ impl Run {
         }
         let by_altitude = match (self.heard_before(), self.heard_lately(p)) {
             (_, Some(heard)) => heard.water - self.ahead(least),
-            (Some(heard), None) if least > 0.0 && self.risen(heard, least) < heard.depth => self.risen(heard, least),
+            (Some(heard), None) if least > 0.0 => self.risen(heard, least),
             (None, None) if least > 0.0 => self.charted().map_or(self.unheard(), |water| water - least),
             _ => f64::MAX,
         };
-        Some(self.depth() - by_altitude.min(self.deepest()).max(0.0))
+        let by = self.depth() - by_altitude.min(self.deepest()).max(0.0);
+        // What is low leads up though it is not believed: a depth that is stuck disproves every altitude.
+        let low = self.sounded().filter(|_| self.is_low()).map(|altitude| least - altitude);
+        Some(low.map_or(by, |low| by.max(low)))
     }
 
     /// How deep the vehicle may go if the bottom has risen on the way since an echo, m.

@@ -25,12 +25,24 @@ pub(crate) enum Lift {
     /// It is not, or not by much.
     #[default]
     Clear,
-    /// By how much it is too deep, m, and the tick from which that has to become less.
-    Deep { by: f64, since: u64 },
-    /// It did not: it makes way, and has to rise from there, or from the depth at which it was, m.
-    Lifted { by: f64, depth: f64, since: u64 },
-    /// It made way in vain, so much too deep, m.
-    InVain { by: f64 },
+    /// It is so deep, which has to become less from a tick on.
+    Deep(Deep, u64),
+    /// It did not: it makes way, and has to rise from there from a tick on.
+    Lifted(Deep, u64),
+    /// It made way in vain, when it was so deep.
+    InVain(Deep),
+}
+
+/// How deep a vehicle is, as far as it is told.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Deep {
+    /// By so much deeper than it may be, m.
+    by: f64,
+    /// The depth, m, which may be stuck.
+    depth: f64,
+    /// The altitude, m, if it is told.
+    altitude: Option<f64>,
+    is_low: bool,
 }
 
 impl Run {
@@ -39,17 +51,14 @@ impl Run {
     pub fn lift(&mut self, asked: f64, p: &Program) -> f64 {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
-        if let Some(too_deep) = self.too_deep(p).filter(|_| speed > 0.0) {
-            let patience = match (self.is_low(), too_deep > SUNK_M) {
-                (true, _) => Some(PATIENCE_LOW_S),
-                (false, sunk) => sunk.then_some(PATIENCE_S),
-            };
-            self.state.lift = before.after(self.state.tick, too_deep, self.depth(), patience);
+        if let Some(by) = self.too_deep(p).filter(|_| speed > 0.0) {
+            let now = Deep { by, depth: self.depth(), altitude: self.sounded(), is_low: self.is_low() };
+            self.state.lift = before.after(self.state.tick, now);
         }
         let lifted = self.state.lift.is_lifted();
         if lifted != before.is_lifted() {
             self.events.push(match self.state.lift {
-                Lift::InVain { .. } => Event::LiftedInVain,
+                Lift::InVain(_) => Event::LiftedInVain,
                 _ if lifted => Event::Lifted(speed),
                 _ => Event::Risen,
             });
@@ -58,36 +67,61 @@ impl Run {
     }
 }
 
+impl Deep {
+    /// How long it may stay as it is before the vehicle makes way, s; for ever, if it is not deep enough for that.
+    fn patience(&self) -> Option<f64> {
+        match (self.is_low, self.by > SUNK_M) {
+            (true, _) => Some(PATIENCE_LOW_S),
+            (false, sunk) => sunk.then_some(PATIENCE_S),
+        }
+    }
+
+    /// Whether it has risen since. Where it may be rises with the bottom: who rises more slowly than that rises, too.
+    fn has_risen_since(&self, before: Deep) -> bool {
+        let by_altitude = self.climbed_since(before).is_some_and(|climbed| climbed >= RISEN_M);
+        self.by <= before.by - RISEN_M || self.depth <= before.depth - RISEN_M || by_altitude
+    }
+
+    /// Whether it has sunk further since.
+    fn has_sunk_since(&self, before: Deep) -> bool {
+        let by_altitude = self.climbed_since(before).is_some_and(|climbed| climbed <= -SUNK_M);
+        self.by > before.by + SUNK_M || by_altitude || self.is_low && !before.is_low
+    }
+
+    /// How much the altitude has grown, m. Only that tells of a vehicle whose depth is exactly the same: it is stuck, perhaps.
+    fn climbed_since(&self, before: Deep) -> Option<f64> {
+        let altitudes = self.altitude.zip(before.altitude).filter(|_| self.depth == before.depth);
+        altitudes.map(|(now, before)| now - before)
+    }
+}
+
 impl Lift {
     /// Whether there is nothing to be done, or not yet.
     pub fn is_patient(self) -> bool {
-        matches!(self, Lift::Clear | Lift::Deep { .. })
+        matches!(self, Lift::Clear | Lift::Deep(..))
     }
 
     fn is_lifted(self) -> bool {
-        matches!(self, Lift::Lifted { .. })
+        matches!(self, Lift::Lifted(..))
     }
 
-    /// Where it may be rises with the bottom: who rises more slowly than that makes no way in vain.
-    fn after(self, tick: u64, too_deep: f64, depth: f64, patience: Option<f64>) -> Lift {
+    fn after(self, tick: u64, now: Deep) -> Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
-        match self {
-            Lift::Lifted { .. } | Lift::InVain { .. } if too_deep <= LIFTED_M => Lift::Clear,
-            Lift::Lifted { by, depth: before, .. } if too_deep <= by - RISEN_M || depth <= before - RISEN_M => {
-                Lift::Lifted { by: too_deep, depth, since: tick }
-            }
-            Lift::Lifted { since, .. } if lasts(since) > IN_VAIN_S => Lift::InVain { by: too_deep },
-            Lift::Lifted { .. } => self,
-            Lift::InVain { by } if too_deep <= by + SUNK_M => self,
-            Lift::Deep { by, since } if patience.is_some() && too_deep > by - RISEN_M => {
-                if patience.is_some_and(|patience| lasts(since) > patience) {
-                    Lift::Lifted { by: too_deep, depth, since: tick }
+        match (self, now.patience()) {
+            (Lift::Lifted(..) | Lift::InVain(_), _) if now.by <= LIFTED_M => Lift::Clear,
+            (Lift::Lifted(before, _), _) if now.has_risen_since(before) => Lift::Lifted(now, tick),
+            (Lift::Lifted(_, since), _) if lasts(since) > IN_VAIN_S => Lift::InVain(now),
+            (Lift::Lifted(..), _) => self,
+            (Lift::InVain(before), _) if !now.has_sunk_since(before) => self,
+            (Lift::Deep(before, since), Some(patience)) if now.by > before.by - RISEN_M => {
+                if lasts(since) > patience {
+                    Lift::Lifted(now, tick)
                 } else {
                     self
                 }
             }
-            _ if patience.is_some() => Lift::Deep { by: too_deep, since: tick },
-            _ => Lift::Clear,
+            (_, Some(_)) => Lift::Deep(now, tick),
+            (_, None) => Lift::Clear,
         }
     }
 }

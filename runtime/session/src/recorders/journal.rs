@@ -9,22 +9,21 @@ use std::io::{self, Read};
 pub type Sink = Box<dyn io::Write + Send>;
 
 /// Whether a file is a journal: one that has just been created is empty.
-pub fn is_journal(file: impl Read) -> bool {
+pub fn is_journal(file: impl Read) -> io::Result<bool> {
     let mut bytes = Vec::new();
-    file.take(16).read_to_end(&mut bytes).is_ok() && is_beginning(&bytes)
+    file.take(16).read_to_end(&mut bytes)?;
+    Ok(is_beginning(&bytes))
 }
 
 /// Whether it is one as a run leaves it, whole or cut short: nobody else has written into it. One of another version is taken for that.
-pub fn is_journal_as_left(mut file: impl Read) -> bool {
+pub fn is_journal_as_left(mut file: impl Read) -> io::Result<bool> {
     let mut bytes = Vec::new();
-    if file.read_to_end(&mut bytes).is_err() {
-        return false;
-    }
-    bytes.is_empty()
+    file.read_to_end(&mut bytes)?;
+    Ok(bytes.is_empty()
         || match Reader::new(&bytes) {
             Ok(reader) => !matches!(reader.into_ending(), journal::Ending::Damaged(_)),
             Err(unreadable) => !matches!(unreadable, Unreadable::Damaged(_)),
-        }
+        })
 }
 
 /// A journal, or what became of it.
