@@ -217,8 +217,6 @@ fn not_ours(path: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
-
     use super::*;
     use albacore_session::{Plan, load};
 
