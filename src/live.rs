@@ -72,15 +72,9 @@ impl Live {
         let result = summary.clone();
         let files = within(FILES, move || (kept.finish(&run, &result), kept.has_failed()));
         let told = within(RESULT, move || {
-            let (left, failed) = files.unwrap_or_else(|| {
-                let seconds = FILES.as_secs();
-                message::error(
-                    &format!("`run.json`, trace and picture are not on the disk after {seconds} s: it is stalled"),
-                    Some("`run.json` may say for ever that the run goes on; how it ended is said here alone"),
-                );
-                (Left { folder, picture: None }, true)
-            });
-            let told = run::RunResult { summary: &summary, folder: left.folder.as_deref() };
+            let (left, failed) = files.unwrap_or_else(|| (Left::unknown(folder, FILES), true));
+            left.tell_troubles();
+            let told = run::RunResult::new(&summary, left.folder.as_deref());
             printer.print(&told, outcome, left.picture.as_deref());
             failed
         });

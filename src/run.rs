@@ -13,6 +13,7 @@ use crate::vehicle::told;
 use crate::{interruption, message, output};
 use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Sink, Summary, WrittenUrl};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::borrow::Cow;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -111,11 +112,8 @@ impl Run {
         let summary = run.summary(printer.wall_s());
         warn_of_faults_after(&plan, summary.sim_time_s);
         let left = kept.finish(&run, &summary);
-        printer.print(
-            &RunResult { summary: &summary, folder: left.folder.as_deref() },
-            outcome,
-            left.picture.as_deref(),
-        );
+        left.tell_troubles();
+        printer.print(&RunResult::new(&summary, left.folder.as_deref()), outcome, left.picture.as_deref());
         ResultPrinter::exit(outcome, kept.has_failed() || run.release_failed())
     }
 
@@ -262,9 +260,16 @@ pub struct RunResult<'a> {
     /// The result.
     #[serde(flatten)]
     pub summary: &'a Summary,
-    /// Where the run's files are, if it has any.
+    /// Where the run's files are, if it has any. A name need not be a text: what is none in it is U+FFFD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub folder: Option<&'a Path>,
+    pub folder: Option<Cow<'a, str>>,
+}
+
+impl<'a> RunResult<'a> {
+    /// The result of a run whose files are in this folder.
+    pub fn new(summary: &'a Summary, folder: Option<&'a Path>) -> Self {
+        RunResult { summary, folder: folder.map(Path::to_string_lossy) }
+    }
 }
 
 /// The result as a person reads it.

@@ -18,6 +18,7 @@ use std::fmt::Display;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use watch::Watch;
 
 /// The files of a run.
@@ -34,6 +35,26 @@ pub struct Left {
     pub folder: Option<PathBuf>,
     /// Its picture.
     pub picture: Option<PathBuf>,
+    /// What could not be written.
+    troubles: Vec<Trouble>,
+}
+
+/// What went wrong with a file, and what to do.
+type Trouble = (String, Option<String>);
+
+impl Left {
+    /// What nobody knows of: the disk holds whoever writes.
+    pub fn unknown(folder: Option<PathBuf>, waited: Duration) -> Self {
+        let seconds = waited.as_secs();
+        let what = format!("`run.json`, trace and picture are not on the disk after {seconds} s: it is stalled");
+        let help = "`run.json` may say for ever that the run goes on; how it ended is said here alone";
+        Left { folder, picture: None, troubles: vec![(what, Some(help.into()))] }
+    }
+
+    /// Tells what could not be written. Apart from the writing: a terminal that is held is no disk that is stalled.
+    pub fn tell_troubles(&self) {
+        self.troubles.iter().for_each(|(what, help)| message::error(what, help.as_deref()));
+    }
 }
 
 impl RunFolder {
@@ -192,9 +213,8 @@ impl RunFolder {
             }
         }
         self.failed |= !troubles.is_empty();
-        troubles.iter().for_each(|(what, help)| message::error(what, help.as_deref()));
         let picture = troubles.is_empty().then(|| path.join(PICTURE.name));
-        Left { folder: is_there.then_some(path), picture }
+        Left { folder: is_there.then_some(path), picture, troubles }
     }
 
     /// The run's folder, if it has one.

@@ -6,6 +6,8 @@
 use albacore_trace::journal::{Ending, Journal};
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -407,6 +409,16 @@ fn a_run_says_what_it_was_and_when() {
 }
 
 /// A vehicle that is never heard: the run that was made before stays.
+/// A name of a file is bytes, and need be no text.
+#[test]
+fn a_run_in_a_folder_without_a_readable_name_is_told() {
+    let project = project("unreadable-name");
+    let mut run = run(&project, "box.alb --json --out");
+    let output = run.arg(OsStr::from_bytes(b"a\xff")).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(folder_of(&String::from_utf8_lossy(&output.stdout)), "a\u{fffd}");
+}
+
 #[test]
 fn a_run_that_hears_nothing_costs_no_other_run() {
     let project = project("silent");

@@ -143,6 +143,9 @@ impl<'t> Checker<'t> {
         }
         self.names_used.define(name, def.what());
         self.places[module].insert(name.node.clone(), name.span);
+        if self.modules[module].prelude {
+            self.preludes_with.entry(name.node.clone()).or_default().push(module);
+        }
         self.names[module].insert(name.node.clone(), def);
     }
 
@@ -374,8 +377,8 @@ impl<'t> Checker<'t> {
 
     /// The simulator goes by the ranges of the clauses that every script knows: none can be declared anew, with others.
     fn clause_is_new(&mut self, m: usize, name: &tree::Name) {
-        let mut preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
-        let is_known = preludes.any(|m| matches!(self.names[m].get(&name.node), Some(Def::Clause(_))));
+        let mut preludes = self.preludes_with.get(&name.node).into_iter().flatten();
+        let is_known = preludes.any(|&m| matches!(self.names[m].get(&name.node), Some(Def::Clause(_))));
         if is_known && !self.modules[m].prelude {
             let message = format!("`{}` is the name of a clause already", name.node);
             let finding = Diagnostic::error(Code::NamesShadowed, name.span, message);

@@ -50,8 +50,8 @@ impl<'t> Checker<'t> {
     }
 
     fn hides_no_value(&mut self, name: &Name) {
-        let preludes = self.names.iter().zip(self.modules).filter(|(_, module)| module.prelude);
-        let known = preludes.filter_map(|(names, _)| names.get(&name.node)).find_map(|def| match def {
+        let preludes = self.preludes_with.get(&name.node).into_iter().flatten();
+        let known = preludes.filter_map(|&m| self.names[m].get(&name.node)).find_map(|def| match def {
             Def::Const(_) | Def::Variant(..) | Def::Unit(_) | Def::Input(_) | Def::Signal(_) => Some(def.what()),
             _ => None,
         });

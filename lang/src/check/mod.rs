@@ -253,6 +253,8 @@ pub struct Checker<'t> {
     files: BTreeMap<String, Result<Vec<u8>, FileFault>>,
     holed: area_file::Holed,
     names: Vec<BTreeMap<String, Def>>,
+    /// The preludes that define a name. Most names of a script are of a prelude, and there are many.
+    preludes_with: BTreeMap<String, Vec<usize>>,
     /// Where each module declares what it does, and its imports, by their names.
     places: Vec<BTreeMap<String, Span>>,
     import_places: Vec<BTreeMap<String, Span>>,
@@ -313,6 +315,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         files: BTreeMap::new(),
         holed: area_file::Holed::default(),
         names: modules.iter().map(|_| BTreeMap::new()).collect(),
+        preludes_with: BTreeMap::new(),
         places: modules.iter().map(|_| BTreeMap::new()).collect(),
         import_places: modules.iter().map(|_| BTreeMap::new()).collect(),
         consts: Vec::new(),

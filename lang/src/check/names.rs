@@ -28,16 +28,18 @@ impl<'t> Checker<'t> {
 
     /// The same among the definitions of some kind: a name before `(` is looked up among what can be called.
     pub(super) fn lookup_if(&self, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) -> Option<&Def> {
-        let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
+        self.known_in(module, name).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
+    }
+
+    /// The modules in which a name of a module is looked up: itself, what it extends, and the preludes that define it.
+    fn known_in(&self, module: usize, name: &str) -> impl Iterator<Item = usize> {
         let own = std::iter::successors(Some(module), |&m| self.modules[m].extends);
-        own.chain(preludes).filter_map(|m| self.names[m].get(name)).find(|def| wanted(def))
+        own.chain(self.preludes_with.get(name).into_iter().flatten().copied())
     }
 
     /// The name at a place is one of those among which [`Checker::lookup_if`] looks.
     pub(super) fn refer_to(&self, at: Span, module: usize, name: &str, wanted: impl Fn(&Def) -> bool) {
-        let preludes = (0..self.modules.len()).filter(|&m| self.modules[m].prelude);
-        let own = std::iter::successors(Some(module), |&m| self.modules[m].extends);
-        let of = own.chain(preludes).find(|&m| self.names[m].get(name).is_some_and(&wanted));
+        let of = self.known_in(module, name).find(|&m| self.names[m].get(name).is_some_and(&wanted));
         if let Some(place) = of.and_then(|m| self.places[m].get(name)) {
             self.names_used.refer(at, *place);
         }

@@ -56,8 +56,6 @@ pub struct LinkVehicle {
     round_trip: u64,
     clocks: Clocks,
     notices: Vec<String>,
-    /// The transport has failed: nothing more can be said.
-    broken: bool,
 }
 
 impl LinkVehicle {
@@ -89,7 +87,6 @@ impl LinkVehicle {
             round_trip: 0,
             clocks: Clocks::new(rate),
             notices: Vec::new(),
-            broken: false,
         })
     }
 
@@ -106,7 +103,7 @@ impl LinkVehicle {
         self.looked = now;
         self.controller.tell_time(now);
         self.controller.hear(&bytes);
-        received.or_else(|error| self.fail(error))?;
+        received?;
         Ok(!bytes.is_empty())
     }
 
@@ -137,12 +134,13 @@ impl LinkVehicle {
             self.controller.take_back();
             return Ok(());
         }
-        self.transport.send(&out).or_else(|error| self.fail(error))
+        Ok(self.transport.send(&out)?)
     }
 
-    fn fail(&mut self, error: LinkError) -> Result<(), VehicleError> {
-        self.broken = true;
-        Err(error.into())
+    /// What the system said of what we sent last, for whoever looks for the reason of a silence.
+    fn trouble(&self) -> String {
+        let told = |why| format!("; the system did not send what we said last: {why}");
+        self.transport.trouble().map(told).unwrap_or_default()
     }
 
     /// Why nothing was heard, as far as it can be told from here, and what to look at.
@@ -158,7 +156,7 @@ impl LinkVehicle {
             _ => "the cable and the device",
         };
         let dialect = url.dialect;
-        VehicleError(if count.bytes == 0 {
+        let what = if count.bytes == 0 {
             format!("nothing came from `{url}` in {seconds} s: check that the vehicle is on, {baud}and {place}")
         } else if count.messages == 0 {
             format!(
@@ -172,7 +170,8 @@ impl LinkVehicle {
                  the vehicle sends it",
                 count.messages, dialect.state
             )
-        })
+        };
+        VehicleError(what + &self.trouble())
     }
 }
 
@@ -215,10 +214,11 @@ impl Vehicle for LinkVehicle {
         }
         self.controller.lose(format!(
             "no state (`{}`) with a running clock came from `{}` for {} s; a vehicle that hears nothing of us leaves override \
-             by itself",
+             by itself{}",
             self.url.dialect.state,
             self.url,
-            self.silence.as_secs_f64()
+            self.silence.as_secs_f64(),
+            self.trouble()
         ));
         Ok(true)
     }
@@ -261,12 +261,9 @@ impl Vehicle for LinkVehicle {
         self.send()
     }
 
-    /// Waits until the vehicle's status says that it has control, a few seconds at most. It leaves override by itself when
-    /// nothing is heard of us, so that a failure here is told, and no more can be done.
+    /// Waits until the vehicle's status says that it has control, a few seconds at most, on a line that failed too: it may come
+    /// back. It leaves override by itself when nothing is heard of us, so that a failure here is told, and no more can be done.
     fn release(&mut self) -> Result<(), VehicleError> {
-        if self.broken {
-            return Ok(());
-        }
         let begun = (self.clock)();
         let under_way = TICK_S * (2 * self.round_trip).min(RELEASE_TICKS_MAX) as f64 / self.rate.clamp(0.01, 1.0);
         let patience = RELEASE + Duration::from_secs_f64(under_way);
@@ -286,8 +283,9 @@ impl Vehicle for LinkVehicle {
                      heard for {timeout} s"
                 )));
             }
-            self.send()?;
-            self.look(LOOK)?;
+            if self.send().and_then(|()| self.look(LOOK)).is_err() {
+                std::thread::sleep(LOOK);
+            }
         }
     }
 

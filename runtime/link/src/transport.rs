@@ -20,8 +20,13 @@ pub trait Transport {
     /// Adds the bytes that have come to `into`; when there are none, waits for some, at most for `wait`.
     fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError>;
 
-    /// Sends whole messages.
+    /// Sends whole messages. An error is for ever: what only gets lost is none.
     fn send(&mut self, messages: &[u8]) -> Result<(), LinkError>;
+
+    /// Why what was sent last was not even taken, if the system said so.
+    fn trouble(&self) -> Option<&str> {
+        None
+    }
 
     /// From here on, and until it is let go, nobody is heard but who was heard last. A line has one other end anyway.
     fn hold(&mut self, _held: bool) {}
@@ -34,6 +39,10 @@ impl<T: Transport + ?Sized> Transport for Box<T> {
 
     fn send(&mut self, messages: &[u8]) -> Result<(), LinkError> {
         (**self).send(messages)
+    }
+
+    fn trouble(&self) -> Option<&str> {
+        (**self).trouble()
     }
 
     fn hold(&mut self, held: bool) {

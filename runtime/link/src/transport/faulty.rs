@@ -100,6 +100,10 @@ impl<T: Transport> Transport for Faulty<T> {
         if gone.is_empty() { Ok(()) } else { self.inner.send(&gone) }
     }
 
+    fn trouble(&self) -> Option<&str> {
+        self.inner.trouble()
+    }
+
     fn hold(&mut self, held: bool) {
         self.inner.hold(held);
     }

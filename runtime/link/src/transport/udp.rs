@@ -20,6 +20,8 @@ pub struct Udp {
     serves: bool,
     /// The peer drives: nobody else is heard.
     held: bool,
+    /// Why the system did not take what was sent last.
+    trouble: Option<String>,
     framing: &'static Framing,
 }
 
@@ -28,14 +30,18 @@ impl Udp {
     pub fn call(host: &str, port: u16, local: u16, framing: &'static Framing) -> Result<Self, LinkError> {
         let peer = resolved(host, port)?;
         let any: SocketAddr = if peer.is_ipv4() { ([0, 0, 0, 0], local).into() } else { ([0_u16; 8], local).into() };
-        Ok(Udp { socket: bound(any)?, peer: Some(peer), serves: false, held: false, framing })
+        Ok(Udp { peer: Some(peer), ..Udp::new(bound(any)?, false, framing) })
     }
 
     /// For controllers, at an address and port of ours; gives where they find us.
     pub fn serve(host: &str, port: u16, framing: &'static Framing) -> Result<(Self, SocketAddr), LinkError> {
         let socket = bound(resolved(host, port)?)?;
         let at = socket.local_addr().map_err(|error| unusable(&error.to_string()))?;
-        Ok((Udp { socket, peer: None, serves: true, held: false, framing }, at))
+        Ok((Udp::new(socket, true, framing), at))
+    }
+
+    fn new(socket: UdpSocket, serves: bool, framing: &'static Framing) -> Self {
+        Udp { socket, peer: None, serves, held: false, trouble: None, framing }
     }
 }
 
@@ -71,10 +77,9 @@ impl Transport for Udp {
                         into.extend_from_slice(self.framing.end);
                     }
                 }
-                // Nobody listens yet at the other end: that is no more than silence.
-                Err(error) if error.kind() == ErrorKind::ConnectionRefused => stray += 1,
                 Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => return Ok(()),
-                Err(error) => return Err(unusable(&error.to_string())),
+                // Nobody listens yet at the other end, or the network is down: that is no more than silence.
+                Err(_) => stray += 1,
             }
         }
         Ok(())
@@ -83,15 +88,19 @@ impl Transport for Udp {
     fn send(&mut self, messages: &[u8]) -> Result<(), LinkError> {
         let Some(peer) = self.peer else { return Ok(()) };
         for message in self.framing.messages(messages) {
+            // What does not get out is lost, like what gets lost on its way: a network may refuse a datagram and take the next,
+            // while a firewall is loaded or an interface comes up.
             match self.socket.send_to(message, peer) {
-                // A datagram that does not get out is lost, like one that gets lost on its way.
-                Err(error) if matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::AddrNotAvailable) => {
-                    return Err(unusable(&error.to_string()));
-                }
-                _ => {}
+                Ok(_) => self.trouble = None,
+                Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::ConnectionRefused) => {}
+                Err(error) => self.trouble = Some(error.to_string()),
             }
         }
         Ok(())
+    }
+
+    fn trouble(&self) -> Option<&str> {
+        self.trouble.as_deref()
     }
 
     fn hold(&mut self, held: bool) {
@@ -190,6 +199,18 @@ mod tests {
             controller.receive(&mut answer, Duration::from_millis(100)).unwrap();
         }
         assert_eq!(answer, b"three\n");
+    }
+
+    #[test]
+    fn what_the_system_refuses_is_lost_and_remembered() {
+        // No socket may speak to everyone unless it asked for that.
+        let mut controller = Udp::call("255.255.255.255", 23456, 0, FRAMING).unwrap();
+        controller.send(b"to all\n").unwrap();
+        assert!(controller.trouble().is_some());
+        let (_vehicle, at) = Udp::serve("127.0.0.1", 0, FRAMING).unwrap();
+        controller.peer = Some(at);
+        controller.send(b"to one\n").unwrap();
+        assert_eq!(controller.trouble(), None);
     }
 
     #[test]

@@ -162,12 +162,13 @@ fn a_vehicle_that_does_not_hear_us_refuses() {
 }
 
 #[test]
-fn a_line_that_is_cut_is_an_error_and_nothing_more_is_tried() {
+fn a_line_that_is_cut_is_an_error_and_who_comes_back_is_given_back() {
     let (mut vehicle, wire, mut snapshot) = driven();
-    wire.cut.set(true);
+    wire.cut.set(5);
     let error = vehicle.sense(&mut snapshot).unwrap_err().to_string();
     assert_eq!(error, "the line is gone: plug it in");
-    assert!(vehicle.release().is_ok());
+    vehicle.release().unwrap();
+    assert!(wire.sent.borrow().ends_with("#E,0,*1A\n"));
 }
 
 #[test]

@@ -40,7 +40,8 @@ pub struct Wire {
     pub now: Shared<Duration>,
     pub silent: Shared<bool>,
     pub deaf: Shared<bool>,
-    pub cut: Shared<bool>,
+    /// In so many looks the line is gone.
+    pub cut: Shared<u32>,
     /// The bytes for which there is room in the system: what comes then is lost. 0: as many as come.
     pub room: Shared<usize>,
     /// So long what the vehicle says is on its way.
@@ -85,7 +86,8 @@ impl Desk {
 
 impl Transport for Desk {
     fn receive(&mut self, into: &mut Vec<u8>, wait: Duration) -> Result<(), LinkError> {
-        if self.wire.cut.get() {
+        if self.wire.cut.get() > 0 {
+            self.wire.cut.set(self.wire.cut.get() - 1);
             return Err(LinkError::new("the line is gone", "plug it in"));
         }
         self.live();
