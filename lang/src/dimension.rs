@@ -3,13 +3,15 @@
 
 use albacore_program::Display;
 use std::fmt;
-use std::ops::{Div, Mul};
 
 /// Powers of length, time, angle, mass, temperature and salinity, in halves: `m/s^0.5` has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dimension {
     halves: [i8; 6],
 }
+
+/// No power of a dimension is above this, in halves, nor below its negative.
+const HALVES_MAX: i8 = 100;
 
 const SYMBOLS: [&str; 6] = ["m", "s", "rad", "kg", "degC", "psu"];
 
@@ -30,18 +32,36 @@ impl Dimension {
     pub const SALINITY: Dimension = Dimension { halves: [0, 0, 0, 0, 0, 2] };
     /// Metres per second.
     pub const SPEED: Dimension = Dimension { halves: [2, -2, 0, 0, 0, 0] };
+    /// Radians per second.
+    pub const TURN_RATE: Dimension = Dimension { halves: [0, -2, 2, 0, 0, 0] };
+    /// Hertz.
+    pub const FREQUENCY: Dimension = Dimension { halves: [0, -2, 0, 0, 0, 0] };
 
-    /// This dimension to a power, when its halves stay whole.
+    /// This dimension to a power, when its halves stay whole and are not too many.
     pub fn power(self, power: f64) -> Option<Dimension> {
         let mut halves = [0; 6];
         for (to, from) in halves.iter_mut().zip(self.halves) {
             let raised = f64::from(from) * power;
-            if raised.fract() != 0.0 || raised.abs() > 100.0 {
+            if raised.fract() != 0.0 || raised.abs() > f64::from(HALVES_MAX) {
                 return None;
             }
             *to = raised as i8;
         }
         Some(Dimension { halves })
+    }
+
+    /// The dimension of a product, unless a power in it is too high.
+    pub fn times(self, other: Dimension) -> Option<Dimension> {
+        let mut halves = self.halves;
+        for (to, by) in halves.iter_mut().zip(other.halves) {
+            *to = to.checked_add(by).filter(|sum| (-HALVES_MAX..=HALVES_MAX).contains(sum))?;
+        }
+        Some(Dimension { halves })
+    }
+
+    /// The dimension of a quotient, unless a power in it is too high.
+    pub fn over(self, other: Dimension) -> Option<Dimension> {
+        self.times(other.power(-1.0)?)
     }
 
     /// Whether it has no dimension.
@@ -70,8 +90,8 @@ impl Dimension {
             d if d == Self::SPEED => shown("m/s", 1.0, 2),
             d if d == Self::TEMPERATURE => shown("degC", 1.0, 2),
             d if d == Self::SALINITY => shown("psu", 1.0, 2),
-            d if d == Self::ANGLE / Self::TIME => shown("deg/s", std::f64::consts::PI / 180.0, 1),
-            d if d == Self::NONE / Self::TIME => shown("Hz", 1.0, 4),
+            d if d == Self::TURN_RATE => shown("deg/s", std::f64::consts::PI / 180.0, 1),
+            d if d == Self::FREQUENCY => shown("Hz", 1.0, 4),
             d => shown(&d.symbol(), 1.0, 4),
         }
     }
@@ -99,28 +119,6 @@ impl Dimension {
     }
 }
 
-impl Mul for Dimension {
-    type Output = Dimension;
-    fn mul(self, other: Dimension) -> Dimension {
-        let mut halves = self.halves;
-        for (to, by) in halves.iter_mut().zip(other.halves) {
-            *to = to.saturating_add(by);
-        }
-        Dimension { halves }
-    }
-}
-
-impl Div for Dimension {
-    type Output = Dimension;
-    fn div(self, other: Dimension) -> Dimension {
-        let mut halves = self.halves;
-        for (to, by) in halves.iter_mut().zip(other.halves) {
-            *to = to.saturating_sub(by);
-        }
-        Dimension { halves }
-    }
-}
-
 /// The type's name where it has one, else its units.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -143,8 +141,8 @@ pub const NAMED: [(&str, Dimension); 15] = [
     ("Salinity", Dimension::SALINITY),
     ("Speed", Dimension::SPEED),
     ("Acceleration", Dimension { halves: [2, -4, 0, 0, 0, 0] }),
-    ("TurnRate", Dimension { halves: [0, -2, 2, 0, 0, 0] }),
-    ("Frequency", Dimension { halves: [0, -2, 0, 0, 0, 0] }),
+    ("TurnRate", Dimension::TURN_RATE),
+    ("Frequency", Dimension::FREQUENCY),
     ("Surface", Dimension { halves: [4, 0, 0, 0, 0, 0] }),
     ("Diffusivity", Dimension { halves: [4, -2, 0, 0, 0, 0] }),
     ("RandomWalk", Dimension { halves: [2, -1, 0, 0, 0, 0] }),
@@ -181,9 +179,9 @@ pub const UNITS: [(&str, Dimension, f64); 26] = [
     ("kn", Dimension::SPEED, 1852.0 / 3600.0),
     ("knot", Dimension::SPEED, 1852.0 / 3600.0),
     ("knots", Dimension::SPEED, 1852.0 / 3600.0),
-    ("Hz", Dimension { halves: [0, -2, 0, 0, 0, 0] }, 1.0),
-    ("kHz", Dimension { halves: [0, -2, 0, 0, 0, 0] }, 1000.0),
-    ("mHz", Dimension { halves: [0, -2, 0, 0, 0, 0] }, 0.001),
+    ("Hz", Dimension::FREQUENCY, 1.0),
+    ("kHz", Dimension::FREQUENCY, 1000.0),
+    ("mHz", Dimension::FREQUENCY, 0.001),
     ("kg", Dimension::MASS, 1.0),
     ("g", Dimension::MASS, 0.001),
     ("mg", Dimension::MASS, 1e-6),
@@ -213,7 +211,7 @@ pub fn unit(text: &str, own: &dyn Fn(&str) -> Option<Unit>) -> Option<Unit> {
     let mut product = word(words.next()?, &known)?;
     for below in words {
         let below = word(below, &known)?;
-        product = Unit { dimension: product.dimension / below.dimension, scale: product.scale / below.scale };
+        product = Unit { dimension: product.dimension.over(below.dimension)?, scale: product.scale / below.scale };
     }
     Some(product)
 }

@@ -104,6 +104,7 @@ impl<'a> Loader<'a> {
                 Diagnostic::error(Code::ImportsCycle, wanted.span, message)
                     .help("move what both need into a module that neither of them imports from"),
             );
+            self.unread.push(Unread { span: wanted.span, item: None });
             return None;
         }
         if let Some(&index) = self.known.get(&*source.name) {
@@ -113,11 +114,15 @@ impl<'a> Loader<'a> {
             let message = format!("more than {MODULES_MAX} modules are imported");
             let finding = Diagnostic::error(Code::ImportsMany, wanted.span, message);
             self.findings.push(finding.help("declare in one module what several of them hold"));
+            self.unread.push(Unread { span: wanted.span, item: None });
             return None;
         }
         let name = parts.last().cloned().unwrap_or_default();
-        let read = self.library.prelude().module(&source).cloned().unwrap_or_else(|| self.read(source));
-        Some(self.take(read, name, false, path))
+        // Who imports what every script knows has it once.
+        let prelude = self.library.prelude().module(&source).cloned();
+        let is_prelude = prelude.is_some();
+        let read = prelude.unwrap_or_else(|| self.read(source));
+        Some(self.take(read, name, is_prelude, path))
     }
 }
 

@@ -36,11 +36,11 @@ struct Scaling {
 
 /// By what a quantity must be multiplied or divided, when that has a name. A time is said as a time, not as its inverse.
 fn scaling(has: Dimension, wants: Dimension) -> Option<Scaling> {
-    let named = |d: Dimension| {
-        let name = d.type_name().filter(|name| *name != "Frequency")?;
+    let named = |d: Option<Dimension>| {
+        let name = d?.type_name().filter(|name| *name != "Frequency")?;
         Some(format!("{} `{name}`", article(name).split(' ').next().unwrap_or_default()))
     };
-    let (factor, divisor) = (named(wants / has), named(has / wants));
+    let (factor, divisor) = (named(wants.over(has)), named(has.over(wants)));
     match (divisor, factor) {
         (Some(by), _) => Some(Scaling { verb: "divide", by }),
         (None, Some(by)) => Some(Scaling { verb: "multiply", by }),

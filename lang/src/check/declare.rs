@@ -102,6 +102,7 @@ impl<'t> Checker<'t> {
         // Whether a behavior can end depends on what it calls, and so does what an overlay does: these come when all bodies are known.
         let hir = std::mem::take(&mut self.hir);
         let mut known_ends = ends::Known::new();
+        self.calls_go_on(&hir, &mut known_ends);
         self.overlays_do_one_thing(&hir, &mut known_ends);
         for activity in &hir.activities {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
@@ -179,7 +180,7 @@ impl<'t> Checker<'t> {
                 self.define(m, name, Def::Record(self.types.records.len() - 1));
             }
             Item::Unit { name, value } => {
-                if let Some(unit) = self.declared_unit(m, value) {
+                if let Some(unit) = self.declared_unit(m, name, value) {
                     self.define(m, name, Def::Unit(unit));
                 }
             }

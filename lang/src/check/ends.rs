@@ -1,7 +1,10 @@
 //! What comes to its end by itself, through all that it calls: known when all bodies are.
 
-use super::flow;
+use super::{Checker, flow};
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
 use crate::hir::{Action, ActivityId, Block, Body, Hir, Stmt, StmtKind, Target, Timed};
+use crate::source::Span;
 use std::collections::BTreeMap;
 
 /// Whether a mission's statements never come to their end by themselves.
@@ -35,6 +38,40 @@ pub(super) fn can_end(id: ActivityId, hir: &Hir, known: &mut Known) -> bool {
 /// Whether a block can come to the end of its last statement.
 fn completes(block: &Block, hir: &Hir, known: &mut Known) -> bool {
     block.stmts.iter().all(|stmt| goes_on(stmt, hir, known))
+}
+
+/// What stands after a call that never ends, behind that call.
+fn after_endless_calls(block: &Block, hir: &Hir, known: &mut Known, unreached: &mut Vec<(Span, Span)>) {
+    for (stmt, next) in block.stmts.iter().zip(block.stmts.iter().skip(1)) {
+        // What the statement itself tells was told where it stands.
+        let is_told = match &stmt.kind {
+            StmtKind::Timed(timed) => !matches!(timed.action, Action::Call(..)),
+            _ => flow::never_goes_on(stmt),
+        };
+        if !is_told && !goes_on(stmt, hir, known) {
+            unreached.push((stmt.span, next.span));
+        }
+    }
+    for block in block.stmts.iter().flat_map(Stmt::blocks) {
+        after_endless_calls(block, hir, known, unreached);
+    }
+}
+
+impl Checker<'_> {
+    /// Nothing stands after a call that never ends.
+    pub(super) fn calls_go_on(&mut self, hir: &Hir, known: &mut Known) {
+        let mut unreached = Vec::new();
+        for activity in &hir.activities {
+            if let Body::Sequence(block) = &activity.body {
+                after_endless_calls(block, hir, known, &mut unreached);
+            }
+        }
+        for (call, next) in unreached {
+            let finding = Diagnostic::error(Code::FlowUnreachable, next, "this is never reached")
+                .label(call, "what this calls never ends by itself");
+            self.report(finding.help("bound the call with `for T` or `until X`, or let what it calls end"));
+        }
+    }
 }
 
 fn goes_on(stmt: &Stmt, hir: &Hir, known: &mut Known) -> bool {

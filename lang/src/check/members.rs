@@ -376,7 +376,10 @@ impl<'t> Checker<'t> {
         let Some([arg]) = self.positional::<1>("dot", args, span) else { return self.unknown(span) };
         let other = self.expr(&arg, None);
         match other.ty {
-            Type::Vector(e) => self.operation(Builtin::Dot, vec![vector, other], Type::Quantity(dimension * e), span),
+            Type::Vector(e) => match self.writable(dimension.times(e), "product", span) {
+                Some(d) => self.operation(Builtin::Dot, vec![vector, other], Type::Quantity(d), span),
+                None => self.unknown(span),
+            },
             Type::Unknown => other,
             _ => {
                 let message = format!("`dot` takes another vector, this is {}", article(&self.type_name(&other.ty)));

@@ -66,6 +66,22 @@ impl Checker<'_> {
             );
             self.report(finding.help("give what it is computed from a range of its own: `in 1 m..30 m`"));
         }
+        if let Some((_, _, other)) = mission.limits.iter().find(|(c, l, _)| *c == channel && *l != least) {
+            let (low, high) = if least { (&value, other) } else { (other, &value) };
+            if low.range.high > high.range.low && low.ty != Type::Unknown && high.ty != Type::Unknown {
+                let is_so = low.range.low > high.range.high;
+                let verb = if is_so { "is" } else { "may be" };
+                let message = format!("the least `{}` {verb} more than the greatest", channel.row().name);
+                let finding =
+                    Diagnostic::error(Code::MissionsLimit, value.span, message).label(other.span, "the other limit");
+                let help = if is_so {
+                    "write a least value that is below the greatest"
+                } else {
+                    "give what they are computed from ranges of their own that do not overlap: `in 0.5 m/s..1 m/s`"
+                };
+                self.report(finding.help(help));
+            }
+        }
         if let Some((_, _, first)) = mission.limits.iter().find(|(c, l, _)| *c == channel && *l == least) {
             let finding = Diagnostic::error(Code::MissionsTwice, limit.span, "this limit is set twice")
                 .label(first.span, "the first")
@@ -82,7 +98,7 @@ impl Checker<'_> {
             self.report(Diagnostic::error(Code::MissionsLimit, op.span, message).help("write `turn_rate <= 6 deg/s`"));
             return;
         }
-        let rate = Type::Quantity(Dimension::ANGLE / Dimension::TIME);
+        let rate = Type::Quantity(Dimension::TURN_RATE);
         let value = self.instant(Temporal::No, |c| c.expr_as(right, &rate, "the limit"));
         if value.range.high <= 0.0 {
             let finding = Diagnostic::error(Code::MissionsLimit, value.span, "a vehicle with this limit never turns");

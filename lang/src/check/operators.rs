@@ -196,23 +196,30 @@ impl<'t> Checker<'t> {
     }
 
     fn product(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
-        match (&a.ty, &b.ty) {
-            (Type::Int | Type::Sign, Type::Int | Type::Sign) => {
-                self.operation(Builtin::MulInt, vec![a, b], Type::Int, span)
-            }
-            (Type::Vector(v), t) if t.dimension().is_some() => {
-                let ty = Type::Vector(*v * t.dimension().unwrap_or_default());
-                self.operation(Builtin::Scale, vec![a, b], ty, span)
-            }
-            (t, Type::Vector(v)) if t.dimension().is_some() => {
-                let ty = Type::Vector(*v * t.dimension().unwrap_or_default());
-                self.operation(Builtin::Scale, vec![b, a], ty, span)
-            }
-            (x, y) => match (x.dimension(), y.dimension()) {
-                (Some(d), Some(e)) => self.operation(Builtin::Mul, vec![a, b], Type::Quantity(d * e), span),
-                _ => self.no_such(op, &a, &b, span),
-            },
+        if let (Type::Int | Type::Sign, Type::Int | Type::Sign) = (&a.ty, &b.ty) {
+            return self.operation(Builtin::MulInt, vec![a, b], Type::Int, span);
         }
+        let (of_vectors, dimensions) = match (&a.ty, &b.ty) {
+            (Type::Vector(v), t) | (t, Type::Vector(v)) => (true, t.dimension().map(|d| (*v, d))),
+            (x, y) => (false, x.dimension().zip(y.dimension())),
+        };
+        let Some((d, e)) = dimensions else { return self.no_such(op, &a, &b, span) };
+        let Some(d) = self.writable(d.times(e), "product", span) else { return self.unknown(span) };
+        match (of_vectors, matches!(a.ty, Type::Vector(_))) {
+            (false, _) => self.operation(Builtin::Mul, vec![a, b], Type::Quantity(d), span),
+            (true, true) => self.operation(Builtin::Scale, vec![a, b], Type::Vector(d), span),
+            (true, false) => self.operation(Builtin::Scale, vec![b, a], Type::Vector(d), span),
+        }
+    }
+
+    /// A dimension that a value can have, or an error.
+    pub(super) fn writable(&mut self, dimension: Option<Dimension>, of: &str, span: Span) -> Option<Dimension> {
+        if dimension.is_none() {
+            let message = format!("the dimension of this {of} cannot be written");
+            let finding = Diagnostic::error(Code::TypesPower, span, message);
+            self.report(finding.help("powers of units are whole or halves, such as `m/s^0.5`, and no higher than 50"));
+        }
+        dimension
     }
 
     /// Division: by what may be zero it may have no result.
@@ -225,14 +232,13 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         }
-        let ty = match &a.ty {
-            Type::Vector(v) => Type::Vector(*v / divisor),
-            t => match t.dimension() {
-                Some(d) => Type::Quantity(d / divisor),
-                None => return self.no_such(op, &a, &b, span),
-            },
+        let (of_vector, dividend) = match &a.ty {
+            Type::Vector(v) => (true, Some(*v)),
+            t => (false, t.dimension()),
         };
-        let of_vector = matches!(ty, Type::Vector(_));
+        let Some(dividend) = dividend else { return self.no_such(op, &a, &b, span) };
+        let Some(d) = self.writable(dividend.over(divisor), "quotient", span) else { return self.unknown(span) };
+        let ty = if of_vector { Type::Vector(d) } else { Type::Quantity(d) };
         if !Div::is_defined([a.range, b.range]) {
             let quotient = if of_vector { Builtin::VectorQuotient } else { Builtin::Quotient };
             return self.operation(quotient, vec![a, b], ty.optional(), span);
@@ -263,12 +269,9 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         }
-        match d.power(power) {
+        match self.writable(d.power(power), "power", span) {
             Some(d) => self.operation(Builtin::Pow, vec![a, b], Type::Quantity(d), span),
-            None => {
-                self.report(Diagnostic::error(Code::TypesPower, span, "the dimension of this power cannot be written"));
-                self.unknown(span)
-            }
+            None => self.unknown(span),
         }
     }
 

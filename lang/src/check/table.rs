@@ -310,7 +310,7 @@ impl<'t> Checker<'t> {
                         );
                     }
                 }
-                if leaving.is_empty() && !only_back {
+                if leaving.is_empty() {
                     self.report(
                         Diagnostic::error(Code::RulesForever, name.span, format!("`{}` is never left", name.node))
                             .help(format!("add `{} -> … on …`", name.node)),

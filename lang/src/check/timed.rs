@@ -285,6 +285,15 @@ impl<'t> Checker<'t> {
                 }
                 WithItem::Overlay(e) => {
                     let Some(id) = self.called_activity(e) else {
+                        if let Found::Def(Def::Activity(id)) = self.find(e)
+                            && self.overlay_ids.contains(&id)
+                        {
+                            let name = &self.activity_signatures[id].name;
+                            let message = format!("the arguments of `{name}` are missing");
+                            let help = format!("write them behind it, `{name}(…)`, or `{name}()` if there are none");
+                            self.report(Diagnostic::error(Code::TypesOverlay, e.span, message).help(help));
+                            continue;
+                        }
                         // A wrong name is reported where it is looked up.
                         let value = self.expr(e, None);
                         if value.ty != Type::Unknown {

@@ -13,7 +13,14 @@ use albacore_wording::nearest;
 const LIST_CAPACITY_MAX: f64 = 1024.0;
 
 impl<'t> Checker<'t> {
-    pub(super) fn declared_unit(&mut self, m: usize, value: &tree::Expr) -> Option<Unit> {
+    pub(super) fn declared_unit(&mut self, m: usize, name: &tree::Name, value: &tree::Expr) -> Option<Unit> {
+        if name.node.contains('_') {
+            // Behind a number a unit ends there.
+            let message = "the name of a unit is letters and digits alone";
+            let help = format!("write `{}`", name.node.split('_').collect::<String>());
+            self.report(Diagnostic::error(Code::UnitsDeclaration, name.span, message).help(help));
+            return None;
+        }
         let tree::ExprKind::Number { value: number, unit: Some(unit), .. } = &value.kind else {
             self.report(
                 Diagnostic::error(Code::UnitsDeclaration, value.span, "a unit is declared by a quantity")
@@ -117,8 +124,10 @@ impl<'t> Checker<'t> {
         if !factors.is_empty() {
             let mut dimension = self.dimension_of(&path.parts[0]).unwrap_or(Dimension::NONE);
             for (factor, power) in factors {
-                let raised = self.dimension_of(factor).and_then(|d| d.power(*power));
-                dimension = dimension * raised.unwrap_or(Dimension::NONE);
+                let Some(d) = self.dimension_of(factor) else { continue };
+                let raised = d.power(*power).and_then(|d| dimension.times(d));
+                let Some(raised) = self.writable(raised, "type", factor.span) else { return Type::Unknown };
+                dimension = raised;
             }
             return Type::Quantity(dimension);
         }

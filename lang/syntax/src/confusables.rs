@@ -54,6 +54,11 @@ pub(super) fn meant(c: char) -> Option<char> {
         .map(|(_, as_that)| as_that)
 }
 
+/// A mark that is drawn on the letter before it.
+pub(super) fn combines(c: char) -> bool {
+    matches!(c, '\u{300}'..='\u{36f}')
+}
+
 pub(super) fn invisible(c: char, span: Span) -> Diagnostic {
     let message = format!("the invisible character U+{:04X} stands here", c as u32);
     Diagnostic::error(Code::SyntaxDeceptive, span, message)

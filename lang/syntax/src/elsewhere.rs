@@ -32,7 +32,6 @@ pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habi
         .or_else(|| head(before, rest, expected))
         .or_else(|| valueless(before, rest))
         .or_else(|| texts::empty_hole(before, rest))
-        .or_else(|| letters(rest, expected))
         .or_else(|| operator(before, rest))
 }
 
@@ -216,15 +215,6 @@ fn lambda(before: &str, rest: &str) -> Option<Habit> {
     (is_value && (is_arrow || is_bar || is_word)).then(|| Habit {
         message: Some("no function is a value".to_string()),
         help: "declare it with its name, `fn NAME(x: TYPE) -> TYPE { … }`, and call it: `NAME(3 m)`".to_string(),
-    })
-}
-
-/// `let σ = 3`.
-fn letters(rest: &str, expected: &str) -> Option<Habit> {
-    let is_other = |c: char| c.is_alphabetic() && !c.is_ascii();
-    (expected == "a name" && rest.starts_with(is_other)).then(|| Habit {
-        message: None,
-        help: "a name is made of the letters a to z, of digits and of `_`".to_string(),
     })
 }
 

@@ -13,6 +13,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 use nesting::{Brackets, Open};
+use std::collections::BTreeSet;
 
 /// Brackets, blocks and `else if` may be nested this deep, on every machine and in every build.
 pub const NESTING_MAX: usize = 64;
@@ -24,7 +25,7 @@ pub struct Scanned {
     pub text: String,
     /// The comments, in order, slashes included.
     pub comments: Vec<Span>,
-    /// Brackets that do not fit, characters that deceive.
+    /// Brackets that do not fit, characters that deceive, letters of no name.
     pub findings: Vec<Diagnostic>,
     /// Where declarations begin, in which nothing outside them is open; the first is the beginning of the text.
     pub starts: Vec<usize>,
@@ -49,6 +50,7 @@ pub fn scan(file: FileId, source: &str) -> Scanned {
         last: Last::Nothing,
         comments: Vec::new(),
         findings: Vec::new(),
+        foreign: BTreeSet::new(),
         starts: vec![0],
         next_at: 0,
         no_comment_ends: false,
@@ -121,6 +123,8 @@ struct Scanner<'a> {
     last: Last,
     comments: Vec<Span>,
     findings: Vec<Diagnostic>,
+    /// The words that have letters of no name.
+    foreign: BTreeSet<&'a str>,
     starts: Vec<usize>,
     /// What comes next begins here, when that has been looked for.
     next_at: usize,
@@ -387,10 +391,11 @@ impl<'a> Scanner<'a> {
     }
 
     fn word(&mut self) {
-        let length: usize =
-            self.rest().chars().take_while(|c| c.is_alphanumeric() || *c == '_').map(char::len_utf8).sum();
+        let is_of_word = |c: &char| c.is_alphanumeric() || *c == '_' || confusables::combines(*c);
+        let length: usize = self.rest().chars().take_while(is_of_word).map(char::len_utf8).sum();
         self.look_alike(self.at, self.at + length);
         let word = &self.source[self.at..self.at + length];
+        self.foreign_letters(word);
         // After a dot any word is a field's name: `flow.toward`.
         let is_field = self.source[..self.at].ends_with('.');
         // `else if` without end would nest without end.
@@ -401,6 +406,29 @@ impl<'a> Scanner<'a> {
         self.after_else = word == "else" && !is_field;
         self.last = if words::goes_on_after(word) && !is_field { Last::Goes } else { Last::Ends };
         self.at += length;
+    }
+
+    /// A word with letters that no name has is told where it first stands, and read as a name with others.
+    fn foreign_letters(&mut self, word: &'a str) {
+        let is_foreign = |c: char| !c.is_ascii() && (c.is_alphabetic() || confusables::combines(c));
+        // `µm` is a unit.
+        let is_unit = word.starts_with('µ') && word.chars().skip(1).all(|c| c.is_ascii());
+        if is_unit || !word.contains(is_foreign) || word.chars().any(|c| confusables::meant(c).is_some()) {
+            return;
+        }
+        let mut at = self.at;
+        for c in word.chars() {
+            if is_foreign(c) {
+                // Two such letters should stay two, and no word of the language has a capital.
+                self.out[at..at + c.len_utf8()].iter_mut().for_each(|byte| *byte = b'A' + *byte % 26);
+            }
+            at += c.len_utf8();
+        }
+        if self.foreign.insert(word) {
+            let finding =
+                Diagnostic::error(Code::SyntaxExpected, self.span(self.at, at), format!("`{word}` is no name"));
+            self.findings.push(finding.help("a name is made of the letters a to z, of digits and of `_`"));
+        }
     }
 
     fn deceptive(&mut self, c: char, at: usize) {

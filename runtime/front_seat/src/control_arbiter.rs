@@ -66,6 +66,13 @@ impl ControlArbiter {
         }
     }
 
+    /// Who asks has waited long enough, and takes that for a no.
+    pub fn turn_away(&mut self) {
+        if let Guest::Asks(_) = self.guest {
+            self.guest = Guest::Gone(Control::Refused);
+        }
+    }
+
     /// The guest is gone: he has given the vehicle back, or is heard no more.
     pub fn leave(&mut self) {
         self.guest = Guest::None;

@@ -88,6 +88,11 @@ impl FrontSeat {
         if self.arbiter.is_open() { self.answer(now, position) } else { Control::Requesting }
     }
 
+    /// Who asks has waited long enough, and takes that for a no.
+    pub fn turn_away(&mut self) {
+        self.arbiter.turn_away();
+    }
+
     /// The guest has given the vehicle back, or is heard no more.
     pub fn leave(&mut self, position: Point) {
         self.arbiter.leave();

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// A vehicle sinks that is deeper than it may be by so much, m, or whose altitude is low, and has not risen by so much in so long, s.
 const SUNK_M: f64 = 1.0;
+/// Who is low has less to lose.
+const SUNK_LOW_M: f64 = 0.5;
 const RISEN_M: f64 = 0.5;
 const PATIENCE_S: f64 = 5.0;
 /// ... or so long, s, if its altitude is low: a hull takes ten seconds to be lifted.
@@ -77,15 +79,16 @@ impl Deep {
     }
 
     /// Whether it has risen since. Where it may be rises with the bottom: who rises more slowly than that rises, too.
-    fn has_risen_since(&self, before: Deep) -> bool {
-        let by_altitude = self.climbed_since(before).is_some_and(|climbed| climbed >= RISEN_M);
-        self.by <= before.by - RISEN_M || self.depth <= before.depth - RISEN_M || by_altitude
+    fn has_risen_since(&self, before: Deep, rise: f64) -> bool {
+        let by_altitude = self.climbed_since(before).is_some_and(|climbed| climbed >= rise);
+        self.by <= before.by - rise || self.depth <= before.depth - rise || by_altitude
     }
 
     /// Whether it has sunk further since.
     fn has_sunk_since(&self, before: Deep) -> bool {
-        let by_altitude = self.climbed_since(before).is_some_and(|climbed| climbed <= -SUNK_M);
-        self.by > before.by + SUNK_M || by_altitude || self.is_low && !before.is_low
+        let fall = if self.is_low { SUNK_LOW_M } else { SUNK_M };
+        let by_altitude = self.climbed_since(before).is_some_and(|climbed| climbed <= -fall);
+        self.by > before.by + fall || by_altitude || self.is_low && !before.is_low
     }
 
     /// How much the altitude has grown, m. Only that tells of a vehicle whose depth is exactly the same: it is stuck, perhaps.
@@ -109,8 +112,12 @@ impl Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match (self, now.patience()) {
             (Lift::Lifted(..) | Lift::InVain(_), _) if now.by <= LIFTED_M => Lift::Clear,
-            (Lift::Lifted(before, _), _) if now.has_risen_since(before) => Lift::Lifted(now, tick),
-            (Lift::Lifted(_, since), _) if lasts(since) > IN_VAIN_S => Lift::InVain(now),
+            (Lift::Lifted(before, _), _) if now.has_risen_since(before, RISEN_M) => Lift::Lifted(now, tick),
+            (Lift::Lifted(before, since), _) if lasts(since) > IN_VAIN_S => match now.has_risen_since(before, LIFTED_M)
+            {
+                true => Lift::Lifted(now, tick),
+                false => Lift::InVain(now),
+            },
             (Lift::Lifted(..), _) => self,
             (Lift::InVain(before), _) if !now.has_sunk_since(before) => self,
             (Lift::Deep(before, since), Some(patience)) if now.by > before.by - RISEN_M => {

@@ -11,7 +11,8 @@ use albacore_front_seat::{FrontSeat, Known};
 use albacore_geometry::{Point, Vector};
 use albacore_vehicle::measurements::VEHICLE_MODE;
 use albacore_vehicle::{
-    Beyond, Command, Control, LimitWatch, Limits, Measurement, Snapshot, TICK_S, Truth, Vehicle, VehicleError, Vertical,
+    Beyond, Command, Control, LimitWatch, Limits, Measurement, REQUEST_TICKS, Snapshot, TICK_S, Truth, Vehicle,
+    VehicleError, Vertical,
 };
 
 /// Ticks between what the vehicle tells of its own mission.
@@ -33,6 +34,8 @@ pub struct Simulator {
     front_seat: FrontSeat,
     watch: LimitWatch,
     control: Control,
+    /// When somebody asked to drive, ticks.
+    asked: u64,
     /// The same as it was told last.
     told: Control,
     command: Option<Command>,
@@ -68,6 +71,7 @@ impl Simulator {
             ),
             watch: LimitWatch::new(scenario.limits()),
             control: Control::Disconnected,
+            asked: 0,
             told: Control::Disconnected,
             command: None,
             did: None,
@@ -258,6 +262,11 @@ impl Vehicle for Simulator {
             let is_refused = self.control == Control::Refused || has_asked && !drives;
             self.control = if is_refused { Control::Refused } else { Control::Released };
         } else if self.control != Control::Released {
+            if self.control == Control::Requesting && tick.saturating_sub(self.asked) > REQUEST_TICKS {
+                let seconds = REQUEST_TICKS as f64 * TICK_S;
+                self.incidents.notice(&format!("the vehicle did not let us drive for {seconds} s: it did not answer"));
+                self.front_seat.turn_away();
+            }
             self.control = self.front_seat.answer(tick as f64 * TICK_S, self.known().position);
         }
         snapshot.samples.clear();
@@ -274,6 +283,9 @@ impl Vehicle for Simulator {
         if self.gives_up() {
             self.control = Control::Refused;
             return Ok(());
+        }
+        if self.control != Control::Requesting {
+            self.asked = self.tick.unwrap_or_default();
         }
         self.control = self.front_seat.ask(self.time_s(), self.known().position);
         Ok(())

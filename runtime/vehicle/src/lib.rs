@@ -18,6 +18,9 @@ use serde::{Deserialize, Serialize};
 /// The control period: one tick, in seconds.
 pub const TICK_S: f64 = 0.1;
 
+/// A vehicle that does not let drive who asks for so many ticks has refused, whatever it answers.
+pub const REQUEST_TICKS: u64 = 300;
+
 /// The numbers of one sample, in SI units; what each means is the measurement's to say.
 pub type Reading = [f64; 4];
 

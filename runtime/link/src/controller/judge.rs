@@ -3,10 +3,8 @@
 use super::round_trip::Moment;
 use super::{Controller, Given, Want};
 use crate::status::{Phase, Status};
-use albacore_vehicle::{Control, TICK_S};
+use albacore_vehicle::{Control, REQUEST_TICKS, TICK_S};
 
-/// A vehicle that answers, but does not let us drive for this many ticks, by its own clock or the host's, refuses.
-const REQUEST_TICKS: u64 = 300;
 /// What was asked of a vehicle and not answered for so many ticks will not be: no link is driven over that is slower.
 const ANSWER_TICKS: u64 = 25;
 /// A vehicle that says in so many states, one after the other, that we do not drive has left: where a message has a sum of 8 bits,
@@ -57,6 +55,7 @@ impl Controller {
                 let late = self.late.cost_us_the_vehicle(self.tick).map_or(String::new(), |why| format!(": {why}"));
                 self.end(Control::Released, &format!("the vehicle has left override by itself{late}"))
             }
+            // By its own clock or the host's.
             (phase, _) if self.round_trip.between(since, Moment { tick, ..self.moment() }) > REQUEST_TICKS => {
                 let why = match phase {
                     Phase::PreLaunch => "it is not launched yet",
