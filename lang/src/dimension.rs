@@ -96,6 +96,26 @@ impl Dimension {
         }
     }
 
+    /// A unit of this dimension as a script writes it: units are divided, and not multiplied.
+    pub fn unit(self) -> String {
+        let shown = self.display().unit;
+        if !shown.contains(' ') && !shown.starts_with("1/") {
+            return shown;
+        }
+        let power = |halves: i8| match halves {
+            2 => String::new(),
+            h if h % 2 == 0 => format!("^{}", h / 2),
+            h => format!("^{}", f64::from(h) / 2.0),
+        };
+        let mut parts: Vec<(&str, i8)> =
+            SYMBOLS.into_iter().zip(self.halves).filter(|(_, halves)| *halves != 0).collect();
+        parts.sort_by_key(|(_, halves)| *halves < 0);
+        let word = |(i, (symbol, halves)): (usize, &(&str, i8))| {
+            format!("{symbol}{}", power(if i == 0 { *halves } else { -halves }))
+        };
+        parts.iter().enumerate().map(word).collect::<Vec<_>>().join("/")
+    }
+
     fn symbol(self) -> String {
         let part = |positive: bool| {
             let mut parts = Vec::new();

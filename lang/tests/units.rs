@@ -27,3 +27,18 @@ fn a_dimension_says_its_name_or_its_units() {
     assert_eq!(Dimension::SPEED.to_string(), "Speed");
     assert_eq!(Dimension::LENGTH.times(Dimension::ANGLE).unwrap().to_string(), "a quantity in m rad");
 }
+
+/// What messages advise can be written.
+#[test]
+fn every_dimension_has_a_unit_that_is_read_as_it() {
+    let bases = [Dimension::LENGTH, Dimension::TIME, Dimension::ANGLE, Dimension::MASS, Dimension::TEMPERATURE];
+    for (i, a) in bases.into_iter().enumerate() {
+        for b in bases {
+            for (p, q) in [(1.0, 1.0), (-1.0, -1.0), (2.0, -0.5), (-3.0, 1.5), (0.0, -1.0)] {
+                let dimension = a.power(p).and_then(|a| a.times(b.power(q)?)).unwrap();
+                let text = dimension.unit();
+                assert_eq!(unit(&text, &|_| None).map(|u| u.dimension), Some(dimension), "{i}: {text}");
+            }
+        }
+    }
+}

@@ -18,7 +18,7 @@ pub(super) fn unit_help(constant: Option<f64>, unit: &str) -> String {
 
 /// By what a quantity must be multiplied or divided to become another; a constant may as well be written in another unit.
 pub(super) fn scaling_help(has: Dimension, wants: Dimension, what: &str, is_constant: bool) -> String {
-    let unit = wants.display().unit;
+    let unit = wants.unit();
     match (scaling(has, wants), is_constant) {
         (Some(scaling), true) => format!("write {what} in `{unit}`, or {} it by {}", scaling.verb, scaling.by),
         (Some(scaling), false) => format!("{} {what} by {}", scaling.verb, scaling.by),

@@ -228,7 +228,12 @@ impl<'t> Checker<'t> {
             }
             let block =
                 self.in_block(|c| if as_value { c.value_block(&arm.block, expected) } else { c.block(&arm.block) });
-            if arm.names.is_empty() { otherwise = Some(block) } else { checked.push((indices, block)) }
+            if !arm.names.is_empty() {
+                checked.push((indices, block));
+            } else if otherwise.replace(block).is_some() {
+                let finding = Diagnostic::error(Code::TypesMatch, arm.span, "this `match` has an `else` already");
+                self.report(finding.help("keep one of them"));
+            }
         }
         let missing: Vec<&str> =
             variants.iter().enumerate().filter(|(i, _)| !seen.contains(i)).map(|(_, v)| v.as_str()).collect();
@@ -237,6 +242,13 @@ impl<'t> Checker<'t> {
                 Diagnostic::error(Code::TypesMatch, span, format!("this `match` says nothing of {}", listed(&missing)))
                     .help("add an arm for each, or `else { … }`");
             self.report(finding);
+        }
+        if let Some(arm) = arms.iter().find(|arm| arm.names.is_empty())
+            && missing.is_empty()
+            && !variants.is_empty()
+        {
+            let finding = Diagnostic::error(Code::FlowUnreachable, arm.span, "this is never reached");
+            self.report(finding.help("each variant has an arm of its own: leave `else` out"));
         }
         (on, checked, otherwise)
     }

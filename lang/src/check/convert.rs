@@ -153,7 +153,7 @@ impl<'t> Checker<'t> {
                 format!("it holds {m} at most: leave elements out, or declare it longer")
             }
             (Type::Int | Type::Quantity(_), Type::Quantity(d)) if value.ty.dimension() == Some(Dimension::NONE) => {
-                unit_help(constant, &d.display().unit)
+                unit_help(constant, &d.unit())
             }
             (Type::Quantity(has), Type::Quantity(wants)) => scaling_help(*has, *wants, "it", constant.is_some()),
             (Type::Vector(has), Type::Vector(wants)) => scaling_help(*has, *wants, "it", false),

@@ -465,10 +465,10 @@ impl<'t> Checker<'t> {
                     return partner(op, x, y).map(str::to_string);
                 };
                 if d.is_none() {
-                    return Some(format!("give the number on the left a unit, such as `{}`", e.display().unit));
+                    return Some(format!("give the number on the left a unit, such as `{}`", e.unit()));
                 }
                 if e.is_none() {
-                    return Some(format!("give the number on the right a unit, such as `{}`", d.display().unit));
+                    return Some(format!("give the number on the right a unit, such as `{}`", d.unit()));
                 }
                 sides_help(a, d, b, e)
             }

@@ -9,6 +9,7 @@ use crate::hir::{Expect, Expr, Test, When, test_file_name};
 use crate::source::Span;
 use crate::syntax::tree::{self, ExpectMode, TestClause};
 use crate::types::Type;
+use albacore_arithmetic::INT_MAX;
 
 /// A test runs this many seeds at most.
 const SEEDS_MAX: f64 = 1_000_000.0;
@@ -57,7 +58,13 @@ impl<'t> Checker<'t> {
             for clause in &test.clauses {
                 match &clause.node {
                     TestClause::Expect { mode, holds } => expects.push(c.expect(mode, holds, clause.span)),
-                    TestClause::SnapshotSwitches { seed } => snapshots.push(*seed as u64),
+                    TestClause::SnapshotSwitches { seed } if seed.fract() == 0.0 && *seed <= INT_MAX => {
+                        snapshots.push(*seed as u64);
+                    }
+                    TestClause::SnapshotSwitches { .. } => {
+                        let finding = Diagnostic::error(Code::TestsSeeds, clause.span, "a seed is a whole number");
+                        c.report(finding.help("for example `snapshot switches of seed 1`"));
+                    }
                     TestClause::Run { .. } => {}
                 }
             }
