@@ -180,22 +180,7 @@ impl<'t> Checker<'t> {
         span: Span,
     ) -> (Expr, Vec<(Vec<usize>, Block)>, Option<Block>) {
         let on = self.expr(on, None);
-        let variants = match &on.ty {
-            Type::Enum(id) => self.types.enums[*id].variants.clone(),
-            Type::Unknown => Arc::default(),
-            other => {
-                let name = self.type_name(other);
-                self.report(
-                    Diagnostic::error(
-                        Code::TypesMatch,
-                        on.span,
-                        format!("`match` chooses between the variants of an enum, this is {}", article(&name)),
-                    )
-                    .help("use `if`"),
-                );
-                Arc::default()
-            }
-        };
+        let variants = self.variants(&on);
         let by_name: BTreeMap<&str, usize> = variants.iter().enumerate().map(|(i, v)| (v.as_str(), i)).collect();
         let mut seen = BTreeSet::new();
         let mut checked = Vec::new();
@@ -235,22 +220,42 @@ impl<'t> Checker<'t> {
                 self.report(finding.help("keep one of them"));
             }
         }
+        self.covered(arms, &variants, &seen, span);
+        (on, checked, otherwise)
+    }
+
+    /// The variants that a `match` chooses between.
+    fn variants(&mut self, on: &Expr) -> Arc<[String]> {
+        match &on.ty {
+            Type::Enum(id) => self.types.enums[*id].variants.clone(),
+            Type::Unknown => Arc::default(),
+            other => {
+                let message = format!(
+                    "`match` chooses between the variants of an enum, this is {}",
+                    article(&self.type_name(other))
+                );
+                self.report(Diagnostic::error(Code::TypesMatch, on.span, message).help("use `if`"));
+                Arc::default()
+            }
+        }
+    }
+
+    /// Reports the variants that no arm of a `match` names, and an `else` that none is left for.
+    fn covered(&mut self, arms: &[tree::MatchArm], variants: &[String], seen: &BTreeSet<usize>, span: Span) {
         let missing: Vec<&str> =
             variants.iter().enumerate().filter(|(i, _)| !seen.contains(i)).map(|(_, v)| v.as_str()).collect();
-        if otherwise.is_none() && !missing.is_empty() {
-            let finding =
-                Diagnostic::error(Code::TypesMatch, span, format!("this `match` says nothing of {}", listed(&missing)))
-                    .help("add an arm for each, or `else { … }`");
-            self.report(finding);
+        match arms.iter().find(|arm| arm.names.is_empty()) {
+            None if !missing.is_empty() => {
+                let message = format!("this `match` says nothing of {}", listed(&missing));
+                let finding = Diagnostic::error(Code::TypesMatch, span, message);
+                self.report(finding.help("add an arm for each, or `else { … }`"));
+            }
+            Some(arm) if missing.is_empty() && !variants.is_empty() => {
+                let finding = Diagnostic::error(Code::FlowUnreachable, arm.span, "this is never reached");
+                self.report(finding.help("each variant has an arm of its own: leave `else` out"));
+            }
+            _ => {}
         }
-        if let Some(arm) = arms.iter().find(|arm| arm.names.is_empty())
-            && missing.is_empty()
-            && !variants.is_empty()
-        {
-            let finding = Diagnostic::error(Code::FlowUnreachable, arm.span, "this is never reached");
-            self.report(finding.help("each variant has an arm of its own: leave `else` out"));
-        }
-        (on, checked, otherwise)
     }
 }
 
