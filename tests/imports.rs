@@ -174,3 +174,39 @@ scenario late {{\n{bottom}\n}}\n"
     let (code, told) = run(&folder, &["run", "main.alb", "--no-out", "--in", "late"]);
     assert!(code == Some(2) && told.contains("and `wb.late`"), "{told}");
 }
+
+/// Two modules have a mission of one name: an expectation means the area of the one that its test runs.
+#[test]
+fn an_expectation_means_the_area_of_the_mission_that_is_run() {
+    let folder = folder("areas");
+    for (module, area) in [("one", "sea"), ("two", "bay")] {
+        let script = format!(
+            "mission round {{
+    area {area} = rectangle(center: point(north: 0 m, east: 0 m), along: 0 deg, length: 400 m, width: 400 m)
+    goto {area}.center
+}}\n"
+        );
+        std::fs::write(folder.join(module).with_extension("alb"), script).unwrap();
+    }
+    let expecting = |module: &str, area: &str| {
+        let main = format!(
+            "use one\nuse two\ntest \"inside\" {{
+    run {module}.round() in calm seeds 1..1
+    expect always {area}.gap(truth.position) > 0 m\n}}\n"
+        );
+        std::fs::write(folder.join("main.alb"), main).unwrap();
+        run(&folder, &["test", "main.alb"])
+    };
+    for (module, area) in
+        [("one", "round.sea"), ("two", "round.bay"), ("one", "one.round.sea"), ("two", "two.round.bay")]
+    {
+        let (code, told) = expecting(module, area);
+        assert_eq!(code, Some(0), "{module} {area}: {told}");
+    }
+    for (module, area) in [("one", "round.bay"), ("two", "round.sea"), ("one", "one.round.bay")] {
+        let (code, told) = expecting(module, area);
+        assert!(code == Some(3) && told.contains("the mission has no area"), "{module} {area}: {told}");
+    }
+    let (code, told) = expecting("one", "two.round.bay");
+    assert!(code == Some(3) && told.contains("no value"), "{told}");
+}

@@ -5,7 +5,7 @@ use super::result_range::of_type;
 use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::dimension::{self, Dimension};
+use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval, TextPart};
 use crate::source::Span;
 use crate::syntax::tree::{self, Unary};
@@ -202,7 +202,7 @@ impl<'t> Checker<'t> {
             _ => None,
         };
         let mut checked: Vec<Expr> = Vec::new();
-        let mut common = wanted.or_else(|| unit_of_some(elements));
+        let mut common = wanted.or_else(|| self.unit_of_some(elements));
         for element in elements {
             let value = match &common {
                 Some(ty) => self.expr_as(element, &ty.clone(), "an element of this list"),
@@ -220,6 +220,18 @@ impl<'t> Checker<'t> {
             None => Type::Unknown,
         };
         self.make(ExprKind::List(checked), ty, span)
+    }
+
+    /// Of a list that begins with a number without a unit: the type of the first number that has one, which the others want.
+    fn unit_of_some(&self, elements: &[tree::Expr]) -> Option<Type> {
+        let unit = |e: &tree::Expr| match &e.kind {
+            tree::ExprKind::Number { unit: Some(unit), .. } => self.unit_if(self.scope.module, &unit.node),
+            _ => None,
+        };
+        let is_bare = |e: &tree::Expr| matches!(e.kind, tree::ExprKind::Number { unit: None, .. });
+        elements.first().filter(|e| is_bare(e))?;
+        let unit = elements.iter().find_map(unit).filter(|unit| !unit.dimension.is_none())?;
+        Some(Type::Quantity(unit.dimension))
     }
 
     /// The type of a list that says nothing of its elements, where nothing else does.
@@ -371,15 +383,4 @@ pub(super) fn article(name: &str) -> String {
         Some('A' | 'E' | 'I' | 'O') => format!("an {name}"),
         _ => format!("a {name}"),
     }
-}
-
-/// Of a list that begins with a number without a unit: the type of the first number that has one, which the others want.
-fn unit_of_some(elements: &[tree::Expr]) -> Option<Type> {
-    let unit = |e: &tree::Expr| match &e.kind {
-        tree::ExprKind::Number { unit: Some(unit), .. } => dimension::unit(&unit.node, &|_| None),
-        _ => None,
-    };
-    let is_bare = |e: &tree::Expr| matches!(e.kind, tree::ExprKind::Number { unit: None, .. });
-    elements.first().filter(|e| is_bare(e))?;
-    elements.iter().find_map(unit).filter(|unit| !unit.dimension.is_none()).map(|unit| Type::Quantity(unit.dimension))
 }

@@ -1,13 +1,13 @@
 //! What the expectations of a test speak of: the truth that only the simulator knows, and what the mission has reported.
 
-use super::Checker;
 use super::expr::article;
+use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval, TestNames, VarKind};
 use crate::source::Span;
-use crate::syntax::tree::{self, ActivityKind, ClauseKind, Item};
+use crate::syntax::tree;
 use crate::types::Type;
 use albacore_wording::listed;
 use std::collections::BTreeMap;
@@ -26,9 +26,8 @@ pub(super) type Reports = BTreeMap<String, Vec<Type>>;
 
 /// The test whose expectations are being checked.
 pub(super) struct TestScope {
-    /// The mission that it runs, and the name of its area.
+    /// The mission that it runs.
     mission: usize,
-    area: Option<String>,
     /// The types of what that reports, by name.
     reports: Rc<Reports>,
     /// The variables that hold where and when something was reported, by its name.
@@ -59,10 +58,8 @@ impl<'t> Checker<'t> {
         };
         // It has run for no time yet, or for some.
         self.scope.vars[vars.time].range = Interval::NOT_NEGATIVE;
-        let area = self.area_name(self.mission_name(mission));
         self.test = Some(TestScope {
             mission,
-            area,
             reports: self.reports_of(mission),
             report_vars: Default::default(),
             names: vars,
@@ -86,6 +83,9 @@ impl<'t> Checker<'t> {
     /// `truth.position` and the like, and the area of the mission by the mission's name.
     pub(super) fn test_member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let test = self.test.as_ref()?;
+        if self.is_tested(base) {
+            return self.area_of_the_tested(base, member, span);
+        }
         let tree::ExprKind::Name(name) = &base.kind else { return None };
         let id = match (name.as_str(), member.node.as_str()) {
             ("truth", "position") => test.names.position,
@@ -106,17 +106,44 @@ impl<'t> Checker<'t> {
                 self.report(finding);
                 return Some(self.unknown(span));
             }
-            _ => {
-                let is_own = name == self.mission_name(test.mission) && test.area.as_ref() == Some(&member.node);
-                let id = is_own.then_some(test.names.area)?;
-                let mission = &self.hir.activities[test.mission];
-                self.names_used.refer(base.span, mission.span);
-                if let Some(area) = mission.vars.iter().find(|var| var.kind == VarKind::Area) {
-                    self.names_used.refer(member.span, area.span);
-                }
-                id
-            }
+            _ => return None,
         };
+        Some(self.variable(id, span))
+    }
+
+    /// Whether the mission that a test runs is named: `box`, or `surveys.box` of a module that is imported.
+    fn is_tested(&self, base: &tree::Expr) -> bool {
+        let Some(test) = &self.test else { return false };
+        match &base.kind {
+            tree::ExprKind::Name(name) => *name == self.mission_name(test.mission),
+            tree::ExprKind::Member(module, name) => self.module_named(module).is_some_and(
+                |module| matches!(self.defined_in(module, name), Some(&Def::Activity(id)) if id == test.mission),
+            ),
+            _ => false,
+        }
+    }
+
+    /// `box.op`: the area of the mission that a test runs.
+    fn area_of_the_tested(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
+        let test = self.test.as_ref()?;
+        let mission = &self.hir.activities[test.mission];
+        let area = mission.vars.iter().find(|var| var.kind == VarKind::Area);
+        let Some(area) = area.filter(|area| area.name == member.node) else {
+            // A module may have the name of its mission.
+            if self.module_named(base).is_some() {
+                return None;
+            }
+            let message = format!("the mission has no area `{}`", member.node);
+            let finding = Diagnostic::error(Code::NamesUnknown, member.span, message);
+            self.report(match area {
+                Some(area) => finding.help(format!("its area is `{}`", area.name)),
+                None => finding.help("`truth.position` and the like tell where the vehicle truly was"),
+            });
+            return Some(self.unknown(span));
+        };
+        let id = test.names.area;
+        self.names_used.refer(base.span, mission.span);
+        self.names_used.refer(member.span, area.span);
         Some(self.variable(id, span))
     }
 
@@ -146,19 +173,6 @@ impl<'t> Checker<'t> {
     fn mission_name(&self, mission: usize) -> &str {
         let full = &self.activity_signatures[mission].name;
         full.rsplit('.').next().unwrap_or(full)
-    }
-
-    /// The name that a mission gives its operating area.
-    fn area_name(&self, mission: &str) -> Option<String> {
-        self.modules.iter().flat_map(|m| &m.tree.items).find_map(|item| match item {
-            Item::Activity(a) if matches!(a.kind, ActivityKind::Mission { .. }) && a.name.node == mission => {
-                a.body.clauses.iter().find_map(|c| match &c.kind {
-                    ClauseKind::Area { name, .. } => Some(name.node.clone()),
-                    _ => None,
-                })
-            }
-            _ => None,
-        })
     }
 
     /// `reported("source")`: where that was first reported, `reported_at("source")`: when, `has_reported("source")`: whether.

@@ -33,13 +33,34 @@ impl<'t> Checker<'t> {
         Some(Unit { dimension: base.dimension, scale: base.scale * number })
     }
 
-    /// The unit that a word names in a module.
-    pub(super) fn unit(&mut self, module: usize, word: &tree::Name) -> Option<Unit> {
-        let own = |name: &str| match self.lookup(module, name) {
+    /// The unit that a module declares by a name.
+    fn own_unit(&self, module: usize, name: &str) -> Option<Unit> {
+        match self.lookup(module, name) {
             Some(Def::Unit(unit)) => Some(*unit),
             _ => None,
-        };
-        let found = dimension::unit(&word.node, &own);
+        }
+    }
+
+    /// The unit that a word names in a module, if it names one.
+    pub(super) fn unit_if(&self, module: usize, word: &str) -> Option<Unit> {
+        dimension::unit(word, &|name| self.own_unit(module, name))
+    }
+
+    /// What is meant by a unit with digits in it: `1h30min`, `0x1f`.
+    fn digits_in_unit(&self, module: usize, word: &str) -> Option<String> {
+        if word.strip_prefix('x').is_some_and(|digits| digits.chars().all(|c| c.is_ascii_hexdigit())) && word.len() > 1
+        {
+            return Some("numbers are decimal: write this one with the digits 0 to 9".to_string());
+        }
+        let (unit, rest) = word.split_at(word.find(|c: char| c.is_ascii_digit())?);
+        let (number, other) = rest.split_at(rest.find(|c: char| !c.is_ascii_digit())?);
+        (self.unit_if(module, unit).is_some() && self.unit_if(module, other).is_some())
+            .then(|| format!("add them: `… {unit} + {number} {other}`"))
+    }
+
+    /// The unit that a word names in a module.
+    pub(super) fn unit(&mut self, module: usize, word: &tree::Name) -> Option<Unit> {
+        let found = self.unit_if(module, &word.node);
         // A unit may be made of several: `fathom/s`.
         let mut start = word.span.start;
         for part in word.node.split_inclusive(|c: char| !c.is_alphanumeric() && c != '_') {
@@ -53,13 +74,13 @@ impl<'t> Checker<'t> {
             let finding = Diagnostic::error(Code::UnitsUnknown, word.span, format!("`{}` is no unit", word.node))
                 .here("unknown unit");
             let finding = if let Some((unit, name)) = word.node.split_once('/')
-                && dimension::unit(unit, &own).is_some()
+                && self.unit_if(module, unit).is_some()
             {
                 match nearest_unit(name, &known).filter(|_| name.len() > 1) {
                     Some(near) => finding.help(format!("did you mean `{unit}/{near}`?")),
                     None => finding.help(format!("to divide by a variable, write a blank: `{unit} / {name}`")),
                 }
-            } else if let Some(habit) = run_together(&word.node, &own) {
+            } else if let Some(habit) = self.digits_in_unit(module, &word.node) {
                 finding.help(habit)
             } else if matches!(word.node.as_str(), "N" | "E" | "W" | "°N" | "°S" | "°E" | "°W") {
                 finding.help("a position is its latitude, a blank and its longitude: `36.18°N 75.74°W`")
@@ -234,15 +255,4 @@ fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         _ => return nearest(word, known.iter().copied()),
     };
     known.iter().copied().find(|k| *k == meant)
-}
-
-/// What is meant by a unit with digits in it: `1h30min`, `0x1f`.
-fn run_together(word: &str, own: &dyn Fn(&str) -> Option<Unit>) -> Option<String> {
-    if word.strip_prefix('x').is_some_and(|digits| digits.chars().all(|c| c.is_ascii_hexdigit())) && word.len() > 1 {
-        return Some("numbers are decimal: write this one with the digits 0 to 9".to_string());
-    }
-    let (unit, rest) = word.split_at(word.find(|c: char| c.is_ascii_digit())?);
-    let (number, other) = rest.split_at(rest.find(|c: char| !c.is_ascii_digit())?);
-    (dimension::unit(unit, own).is_some() && dimension::unit(other, own).is_some())
-        .then(|| format!("add them: `… {unit} + {number} {other}`"))
 }
