@@ -57,8 +57,14 @@ impl Project {
 
     /// What `albacore test` ends with, prints and says.
     fn test(&self, more: &[&str]) -> (Option<i32>, String) {
+        self.test_with(&[], more)
+    }
+
+    /// The same with variables of the environment.
+    fn test_with(&self, variables: &[(&str, &str)], more: &[&str]) -> (Option<i32>, String) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
-        command.arg("test").arg(&self.0).args(more).env("NO_COLOR", "1").stdin(Stdio::null());
+        command.arg("test").arg(&self.0).args(more).env("NO_COLOR", "1").envs(variables.iter().copied());
+        command.stdin(Stdio::null());
         let output = command.output().unwrap();
         let said = [output.stdout, output.stderr].concat();
         (output.status.code(), String::from_utf8_lossy(&said).replace(&self.0.display().to_string(), "."))
@@ -341,4 +347,14 @@ fn a_test_is_told_by_as_much_of_its_path_as_tells_it_from_others() {
     {
         assert!(said.contains(&format!("{line}  ")), "{line}: {said}");
     }
+}
+
+/// Where the system starts no thread, here for want of memory for its stack, one thread runs all seeds.
+#[test]
+fn tests_are_run_where_no_thread_can_be_started() {
+    let project = Project::new("alone", "20 s", "100 m");
+    let told = project.test(&["--accept"]);
+    let alone = project.test_with(&[("RUST_MIN_STACK", "1000000000000000")], &[]);
+    let again = project.test(&[]);
+    assert!(alone == again && alone.0 == Some(0), "{told:?}\n{alone:?}\n{again:?}");
 }
