@@ -5,7 +5,7 @@ use super::expr::article;
 use super::{Checker, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
+use crate::hir::{self, Body, Expr, ExprKind, Rule, Target, Var, VarKind, mentions_done, same_condition};
 use crate::source::Span;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
@@ -252,6 +252,7 @@ impl<'t> Checker<'t> {
         &mut self,
         hir: &hir::Hir,
         known_ends: &mut Known,
+        vars: &[Var],
         (behaviors, start, rules): (&[usize], usize, &[Rule]),
     ) {
         let names: Vec<tree::Name> = behaviors
@@ -318,18 +319,20 @@ impl<'t> Checker<'t> {
                 }
             }
         }
-        self.shadowed(rules, &leaving, &names);
+        self.shadowed(rules, &leaving, &names, vars);
     }
 
-    /// A rule after one of the same source whose guard always holds is never tried.
-    fn shadowed(&mut self, rules: &[Rule], leaving: &[Vec<usize>], names: &[tree::Name]) {
+    /// A rule after one of the same source that holds whenever it does is never reached.
+    fn shadowed(&mut self, rules: &[Rule], leaving: &[Vec<usize>], names: &[tree::Name], vars: &[Var]) {
         for (k, later) in rules.iter().enumerate() {
             // A rule of many behaviors is compared once with each other one.
             let mut compared: BTreeMap<usize, bool> = BTreeMap::new();
             let mut shadows = |earlier: usize| {
                 *compared.entry(earlier).or_insert_with(|| {
                     let earlier = &rules[earlier];
-                    earlier.sources.len() >= later.sources.len() && same_condition(&earlier.on, &later.on)
+                    earlier.sources.len() >= later.sources.len()
+                        && same_condition(&earlier.on, &later.on)
+                        && tried_alike(&earlier.on, &later.on, vars)
                 })
             };
             let mut left: Vec<(&str, &Rule)> = Vec::new();
@@ -357,6 +360,13 @@ impl<'t> Checker<'t> {
             self.report(before.into_iter().take(SHOWN).fold(finding, label));
         }
     }
+}
+
+/// Whether the condition of an earlier rule finds what that of a later one will: one with `done` is tried after the body too, which
+/// may have assigned a memory meanwhile.
+fn tried_alike(earlier: &Expr, later: &Expr, vars: &[Var]) -> bool {
+    let is_assigned = |e: &Expr| matches!(e.kind, ExprKind::Var(id) if vars[id].kind == VarKind::Memory);
+    mentions_done(earlier) || !mentions_done(later) || !earlier.contains(is_assigned)
 }
 
 /// The behaviors of a table by their names; of two of one name the first.
