@@ -34,6 +34,8 @@ pub(crate) const UNDONE_M: f64 = 2.5;
 /// to be.
 const LOW_SHARE: f64 = 0.25;
 const LOW_MAX_M: f64 = 0.5;
+/// A depth or an altitude is told to be held that is given otherwise than asked by more than this, m: it follows the bottom.
+const TOLD_M: f64 = 0.5;
 /// A chart is asked for so many standard deviations of the position around it, and for so much more, m.
 const CHART_SIGMAS: f64 = 3.0;
 const CHART_MARGIN_M: f64 = 10.0;
@@ -203,13 +205,10 @@ impl Run {
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
         let is_low = self.is_low();
         let up = self.leads_up(floor);
-        match (asked, known) {
-            (Vertical::Depth(metres), _) if is_low => {
-                self.limit(Channel::Depth, metres);
-                Vertical::Depth(up)
-            }
+        let given = match (asked, known) {
+            (Vertical::Depth(_), _) if is_low => Vertical::Depth(up),
             (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
-                let given = self.limit(Channel::Altitude, metres);
+                let given = self.within_limits(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
                 let given = given.max(self.ahead(altitude.0)).min(highest);
                 match self.may_lead_too_deep(given, water, deepest) {
@@ -219,17 +218,36 @@ impl Run {
                 }
             }
             // An altitude that nobody measures cannot be held within anything.
-            (Vertical::Altitude(metres), None) if bounded => {
-                self.limit(Channel::Altitude, metres);
-                Vertical::Depth(if is_low { up } else { floor })
-            }
-            (Vertical::Altitude(metres), None) => Vertical::Altitude(self.limit(Channel::Altitude, metres)),
+            (Vertical::Altitude(_), None) if bounded => Vertical::Depth(if is_low { up } else { floor }),
+            (Vertical::Altitude(metres), None) => Vertical::Altitude(self.within_limits(Channel::Altitude, metres)),
             (Vertical::Depth(metres), _) => {
-                let given = self.limit(Channel::Depth, metres);
+                let given = self.within_limits(Channel::Depth, metres);
                 let shallowest = known.map_or(0.0, |heard| heard.water - altitude.1);
                 Vertical::Depth(given.max(shallowest).min(floor).max(0.0))
             }
-        }
+        };
+        self.tell_limited_vertical(asked, given, known.map(|heard| heard.water_now));
+        given
+    }
+
+    /// Says when a depth or an altitude that is asked for is held by its own limit, or is told otherwise by more than noise for the sake of
+    /// the other, `water` deep (m).
+    fn tell_limited_vertical(&mut self, asked: Vertical, given: Vertical, water: Option<f64>) {
+        let (channel, asked, given) = match (asked, given, water) {
+            (Vertical::Depth(asked), Vertical::Depth(given), _) => (Channel::Depth, asked, given),
+            (Vertical::Altitude(asked), Vertical::Altitude(given), _) => (Channel::Altitude, asked, given),
+            (Vertical::Altitude(asked), Vertical::Depth(given), Some(water)) => {
+                (Channel::Altitude, asked, water - given)
+            }
+            // An altitude that is unknown has been told to be.
+            (Vertical::Altitude(asked), ..) => (Channel::Altitude, asked, self.within_limits(Channel::Altitude, asked)),
+            (Vertical::Depth(asked), ..) => (Channel::Depth, asked, asked),
+        };
+        let other = if channel == Channel::Depth { Channel::Altitude } else { Channel::Depth };
+        self.tell_limited(other, 0.0, 0.0, false);
+        let own = self.within_limits(channel, asked);
+        let apart = if self.state.limited[channel as usize] { 0.0 } else { TOLD_M };
+        self.tell_limited(channel, asked, given, own != asked || (given - asked).abs() > apart);
     }
 
     /// The depth, m, that a vehicle is told whose altitude is low: the least, or less where the water allows no more. How deep it is may

@@ -158,16 +158,25 @@ impl Run {
 
     /// Holds a setpoint within its limits, and says when that begins and when it ends.
     pub fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
-        let (low, high) = *self.state.limits.of(channel);
+        let given = self.within_limits(channel, asked);
+        self.tell_limited(channel, asked, given, given != asked);
+        given
+    }
+
+    /// A setpoint within the limits of its own channel.
+    pub fn within_limits(&self, channel: Channel, asked: f64) -> f64 {
+        let mut limits = self.state.limits;
+        let (low, high) = *limits.of(channel);
         // Standing still is always allowed: it is what a hold asks for.
         let is_free = channel.row().is_free_at_zero && asked == 0.0;
-        let given = if is_free { 0.0 } else { asked.max(low).min(high.max(low)) };
-        let held = given != asked;
-        if held != self.state.limited[channel as usize] {
-            self.state.limited[channel as usize] = held;
+        if is_free { 0.0 } else { asked.max(low).min(high.max(low)) }
+    }
+
+    /// Says when it begins that another setpoint is given than is asked for, and when it ends.
+    pub fn tell_limited(&mut self, channel: Channel, asked: f64, given: f64, held: bool) {
+        if held != std::mem::replace(&mut self.state.limited[channel as usize], held) {
             self.events.push(if held { Event::Limited(channel, asked, given) } else { Event::LimitedEnded(channel) });
         }
-        given
     }
 
     /// The fastest turn as a number: the first statement plans with it.
