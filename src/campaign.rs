@@ -21,7 +21,6 @@ use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::time::Duration;
 use summary::CampaignSummary;
 use table::{Foreign, Standing, Table, TableError};
 
@@ -236,7 +235,6 @@ impl Campaign {
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} to go")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
-        bar.enable_steady_tick(Duration::from_millis(100));
         bar
     }
 }

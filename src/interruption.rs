@@ -1,11 +1,11 @@
 //! The system's requests to end: Ctrl-C, and every other signal that can be caught and ends a program.
 
 use crate::clock::now;
+use albacore_session::threads::thread;
 use signal_hook::consts as signal;
 use signal_hook::iterator::Signals;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, mpsc};
-use std::thread::Builder;
 use std::time::Duration;
 
 /// Who asks again sooner than this has not asked twice: a terminal that is closed sends several signals at once.
@@ -121,6 +121,17 @@ impl Drop for Held {
     }
 }
 
+/// Lets every signal come, whatever the program that began this one has blocked: call it first of all. One that nobody wants to come
+/// is ignored, as by `nohup`, not blocked.
+#[cfg(unix)]
+pub fn unblock() {
+    let _ = nix::sys::signal::SigSet::all().thread_unblock();
+}
+
+/// There is no such thing.
+#[cfg(not(unix))]
+pub fn unblock() {}
+
 /// A file that has reached a limit of size is an error of the disk, and no request: the program does not end of it.
 #[cfg(unix)]
 pub fn survive_file_limits() {
@@ -183,7 +194,7 @@ fn listen() {
     LISTENING.get_or_init(|| {
         // No handler is there before who waits for it: without handlers a signal ends the program at once, as it does any other.
         let (give, given) = mpsc::sync_channel::<Signals>(1);
-        let waiting = Builder::new().name("signals".into()).spawn(move || {
+        let waiting = thread("signals").spawn(move || {
             given.into_iter().for_each(|mut signals| signals.forever().for_each(hear));
         });
         let (Ok(_), Ok(signals)) = (waiting, Signals::new([0; 0])) else { return };
@@ -216,7 +227,7 @@ pub fn hear_faults() {
     if faults.thread_block().is_err() {
         return;
     }
-    let hearing = Builder::new().name("faults".into()).spawn(move || {
+    let hearing = thread("faults").spawn(move || {
         while let Ok(fault) = faults.wait() {
             hear(fault as i32);
         }

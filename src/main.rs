@@ -82,6 +82,7 @@ fn repeated(error: clap::Error) -> clap::Error {
 }
 
 fn main() -> ExitCode {
+    interruption::unblock();
     interruption::survive_file_limits();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,

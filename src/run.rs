@@ -209,7 +209,6 @@ fn bar(json: bool, doing: &str) -> ProgressBar {
         ProgressStyle::with_template("{spinner} {pos} s  {msg}").unwrap_or_else(|_| ProgressStyle::default_spinner());
     bar.set_style(style);
     bar.set_message(doing.to_string());
-    bar.enable_steady_tick(Duration::from_millis(100));
     bar
 }
 

@@ -3,16 +3,18 @@
 
 use crate::exit::Exit;
 use crate::message;
+use albacore_session::threads::thread;
 use indicatif::ProgressBar;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::thread::Builder;
 use std::time::Duration;
 
 /// Messages that wait at most; further ones are counted.
 const WAITING_MAX: usize = 1000;
+/// A spinner turns once in this time, whether there is news or not.
+const BEAT: Duration = Duration::from_millis(100);
 /// A terminal that takes nothing for so long, when all is said, is left.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -45,7 +47,7 @@ impl Speaker {
         let (speaks, spoken) = channel();
         let queue = Queue { sender, waiting: Arc::default(), unsaid: Arc::default() };
         let waits = Arc::clone(&queue.waiting);
-        Builder::new().name("speaker".into()).spawn(move || speak(&said, &waits, &speaks))?;
+        thread("speaker").spawn(move || speak(&said, &waits, &speaks))?;
         let lines = queue.clone();
         message::hand_to(Some(Box::new(move |text| lines.say(text))));
         Ok(Speaker { queue: Some(queue), spoken })
@@ -115,7 +117,15 @@ impl Queue {
 /// Speaks until nobody has anything to say any more; tells of each that it is said.
 fn speak(said: &Receiver<Said>, waiting: &AtomicUsize, speaks: &Sender<()>) {
     let mut bar = ProgressBar::hidden();
-    for said in said {
+    loop {
+        let said = match said.recv_timeout(BEAT) {
+            Ok(said) => said,
+            Err(RecvTimeoutError::Timeout) => {
+                bar.tick();
+                continue;
+            }
+            Err(RecvTimeoutError::Disconnected) => break,
+        };
         match said {
             Said::Lines(lines) => bar.suspend(|| message::print(&lines)),
             Said::Bar(make) => bar = make(),
@@ -133,7 +143,7 @@ fn speak(said: &Receiver<Said>, waiting: &AtomicUsize, speaks: &Sender<()>) {
 /// Does what a terminal or a disk may hold, on a thread of its own; nothing, if it has not come to its end in time.
 pub fn within<T: Send + 'static>(patience: Duration, work: impl FnOnce() -> T + Send + 'static) -> Option<T> {
     let (sender, done) = channel();
-    Builder::new().name("last".into()).spawn(move || drop(sender.send(work()))).ok()?;
+    thread("last").spawn(move || drop(sender.send(work()))).ok()?;
     done.recv_timeout(patience).ok()
 }
 

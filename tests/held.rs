@@ -191,6 +191,34 @@ fn what_is_to_be_ignored_ends_nothing() {
     assert_eq!(ended(&mut run).code(), Some(1));
 }
 
+/// Who began the program may have blocked signals: that is passed on, and nobody means it.
+#[test]
+fn signals_that_were_blocked_are_heard() {
+    let folder = empty("blocked");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    for (count, signal) in (1..).zip(["TERM", "HUP", "64"]) {
+        let run = vehicle.mission(&["--mission", "stay", "--no-out"]);
+        let mut blocking = std::process::Command::new("env");
+        blocking.arg("--block-signal").arg(run.get_program()).args(run.get_args());
+        blocking.current_dir(env!("CARGO_MANIFEST_DIR")).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut run = blocking.spawn().unwrap();
+        eventually(signal, || (vehicle.said().matches("override taken").count() == count).then_some(()));
+        send(&format!("-{signal}"), &run);
+        assert_eq!(ended(&mut run).code(), Some(1), "{signal}");
+        eventually(signal, || (vehicle.said().matches("override released").count() == count).then_some(()));
+    }
+}
+
+/// A variable of the environment that makes stacks small would overflow them once the vehicle is ours.
+#[test]
+fn no_environment_makes_a_stack_too_small() {
+    let folder = empty("stack");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let output = vehicle.mission(&["--no-out"]).env("RUST_MIN_STACK", "1").output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    vehicle.says("override released");
+}
+
 #[test]
 fn ctrl_z_leaves_no_vehicle_without_commands() {
     let folder = empty("ctrl-z");

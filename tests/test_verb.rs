@@ -357,4 +357,7 @@ fn tests_are_run_where_no_thread_can_be_started() {
     let alone = project.test_with(&[("RUST_MIN_STACK", "1000000000000000")], &[]);
     let again = project.test(&[]);
     assert!(alone == again && alone.0 == Some(0), "{told:?}\n{alone:?}\n{again:?}");
+    for odd in [("RUST_MIN_STACK", "1"), ("RAYON_NUM_THREADS", "20000")] {
+        assert_eq!(project.test_with(&[odd], &[]), again, "{odd:?}");
+    }
 }

@@ -3,11 +3,11 @@
 use super::folder::Folder;
 use super::not_ours;
 use crate::{disk, message};
+use albacore_session::threads::thread;
 use std::fs::File;
 use std::io;
 use std::path::PathBuf;
 use std::sync::{Arc, Weak};
-use std::thread::Builder;
 use std::time::Duration;
 
 /// The time from one look to the next.
@@ -22,7 +22,7 @@ impl Watch {
     pub fn begin(folder: &Folder) -> io::Result<Self> {
         let (names, lasts) = (folder.names()?, Arc::new(()));
         let until = Arc::downgrade(&lasts);
-        Builder::new().name("files".into()).spawn(move || look(&names, &until))?;
+        thread("files").spawn(move || look(&names, &until))?;
         Ok(Watch { _lasts: lasts })
     }
 }

@@ -53,8 +53,7 @@ impl Campaign {
         stop: &AtomicBool,
         mut deliver: impl FnMut(Row) -> ControlFlow<()>,
     ) -> Result<bool, String> {
-        // For the pool, none is one for each core.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+        let pool = crate::threads::pool(threads);
         let pool = pool.map_err(|error| error.to_string())?;
         let ahead = AHEAD_PER_THREAD * pool.current_num_threads();
         let (sender, receiver) = mpsc::channel();

@@ -21,6 +21,7 @@ mod served_vehicle;
 mod shown;
 mod summary;
 mod tests;
+pub mod threads;
 mod wanted;
 
 pub use albacore_diagram as diagram;

@@ -5,9 +5,9 @@ use crate::plan::{Plan, PlanError};
 use crate::recorders::expectations::Expectations;
 use crate::recorders::trace::Trace;
 use crate::run::Driver;
+use crate::threads::pool;
 use albacore_lang::{Script, TestProgram};
 use albacore_vehicle::TICK_S;
-use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -61,7 +61,7 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
     let seeds: Vec<u64> = (test.seeds.0..=test.seeds.1).collect();
     let judged = |&seed: &u64| judge(&plan, test, seed);
     // A system that gives no more threads has one: it takes longer, and the result is the same.
-    let runs = match ThreadPoolBuilder::new().build() {
+    let runs = match pool(None) {
         Ok(pool) => pool.install(|| seeds.par_iter().map(judged).collect()),
         Err(_) => seeds.iter().map(judged).collect::<Result<Vec<Judged>, PlanError>>(),
     }?;

@@ -8,6 +8,7 @@ use super::queue::{Feed, Intake, queue};
 use super::{Driver, Run, Running};
 use crate::recorders::journal::{Journal, Sink};
 use crate::recorders::{InMemory, Recorder};
+use crate::threads::thread;
 use albacore_machine::Outcome;
 use albacore_trace::journal::{Gap, JournalHeader};
 use albacore_trace::{Step, TickRecord};
@@ -16,7 +17,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::thread::Builder;
 use std::time::Duration;
 
 /// The most that waits for a writer: some two hours of ticks.
@@ -76,7 +76,7 @@ impl Run {
             journalist = Some(Journalist::begin(waits, self.header(&set), sink)?);
         }
         let Run { driver, mut memory, journal, record } = self;
-        let driving = Builder::new().name("driver".into()).spawn(move || drive(driver, &interrupted, lines))?;
+        let driving = thread("driver").spawn(move || drive(driver, &interrupted, lines))?;
         fold(&mut memory, &records, journalist.as_ref(), report);
         let driver = driving.join().map_err(|_| io::Error::other("the driver has panicked: report this"))?;
         let journal_stalled = journalist.is_some_and(|journalist| !journalist.ends(report));
@@ -204,7 +204,7 @@ impl Journalist {
     fn begin(waits: Intake<Line>, header: JournalHeader, sink: Sink) -> io::Result<Self> {
         let (told, failures) = channel();
         let level = waits.level();
-        Builder::new().name("journal".into()).spawn(move || write_all(&waits, &header, sink, &told))?;
+        thread("journal").spawn(move || write_all(&waits, &header, sink, &told))?;
         Ok(Journalist { level, failures })
     }
 
