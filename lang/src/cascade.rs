@@ -20,7 +20,7 @@ const NAMES: [Code; 9] = [
 ];
 
 /// Findings that a declaration lacks something: what could not be read of it may be just that.
-const PARTS: [Code; 16] = [
+const PARTS: [Code; 17] = [
     Code::TypesResult,
     Code::TypesIfValue,
     Code::TypesMatch,
@@ -36,6 +36,7 @@ const PARTS: [Code; 16] = [
     Code::MissionsRecovery,
     Code::MissionsWithin,
     Code::TestsRun,
+    Code::TestsNothing,
     Code::TimeInstantLoop,
 ];
 

@@ -266,14 +266,23 @@ fn common_type<'e>(values: impl IntoIterator<Item = &'e Expr> + Clone) -> Type {
     if values.clone().into_iter().all(is_sign) {
         return Type::Sign;
     }
-    let both = |x: Type, y: Type| match (&x, &y) {
-        (Type::None, other) | (other, Type::None) => other.clone().optional(),
-        (Type::Optional(_), _) => x,
-        (_, Type::Optional(_)) => y,
-        (Type::Quantity(_), Type::Int | Type::Sign) | (_, Type::Unknown) => x,
-        (Type::Int | Type::Sign, Type::Quantity(_)) => y,
-        (Type::Heading, _) | (_, Type::Heading) => Type::Heading,
-        _ => x,
-    };
-    values.into_iter().map(|v| v.ty.clone()).reduce(both).unwrap_or(Type::Unknown)
+    values.into_iter().map(|v| v.ty.clone()).reduce(wider).unwrap_or(Type::Unknown)
+}
+
+/// Of two types the one that values of both can have; the first where there is none.
+pub(super) fn wider(x: Type, y: Type) -> Type {
+    match (x, y) {
+        (Type::None, other) | (other, Type::None) => other.optional(),
+        (Type::Optional(x), Type::Optional(y)) => wider(*x, *y).optional(),
+        (Type::Optional(x), y) => wider(*x, y).optional(),
+        (x, Type::Optional(y)) => wider(x, *y).optional(),
+        (Type::Int | Type::Sign, y @ Type::Quantity(_)) => y,
+        (x, y @ (Type::Heading | Type::Depth | Type::Altitude))
+            if matches!(x, Type::Int | Type::Sign | Type::Quantity(_)) =>
+        {
+            y
+        }
+        (Type::Sign, Type::Int) => Type::Int,
+        (x, _) => x,
+    }
 }

@@ -1,5 +1,6 @@
 //! Expressions: names, literals, conversions, conditions.
 
+use super::choice::wider;
 use super::facts::Place;
 use super::result_range::of_type;
 use super::{Checker, Temporal};
@@ -201,17 +202,21 @@ impl<'t> Checker<'t> {
             Some(Type::List(inner, _)) => Some((**inner).clone()),
             _ => None,
         };
+        let mut common = wanted.clone().or_else(|| self.unit_of_some(elements));
         let mut checked: Vec<Expr> = Vec::new();
-        let mut common = wanted.or_else(|| self.unit_of_some(elements));
         for element in elements {
-            let value = match &common {
-                Some(ty) => self.expr_as(element, &ty.clone(), "an element of this list"),
-                None => self.expr(element, None),
-            };
+            let value = self.expr(element, common.as_ref());
             if common.is_none() && value.ty != Type::Unknown {
                 common = Some(value.ty.clone());
             }
             checked.push(value);
+        }
+        // Whatever comes first, all become what all can be.
+        if wanted.is_none() {
+            common = common.map(|first| checked.iter().map(|value| value.ty.clone()).fold(first, wider));
+        }
+        if let Some(ty) = &common {
+            checked = checked.into_iter().map(|value| self.coerce(value, ty, "an element of this list")).collect();
         }
         let ty = match common {
             Some(Type::None) => self.untold(span, "what would these be if they were present?"),
@@ -294,9 +299,8 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         }
-        self.temporal_allowed(span, "for");
         let (holds, duration) = self.watched(|c| (c.condition(holds), c.duration(duration, "the time after `for`")));
-        self.make(ExprKind::HeldFor(Box::new(holds), Box::new(duration)), Type::Bool, span)
+        self.temporal("for", ExprKind::HeldFor(Box::new(holds), Box::new(duration)), span)
     }
 
     /// Works on what a temporal operator watches: it is computed on every tick, whatever stands beside it.
@@ -308,13 +312,16 @@ impl<'t> Checker<'t> {
         result
     }
 
-    pub(super) fn temporal_allowed(&mut self, span: Span, word: &str) {
+    /// A condition over time, where one may stand.
+    fn temporal(&mut self, word: &str, condition: ExprKind, span: Span) -> Expr {
         if self.scope.temporal == Temporal::No {
             self.report(
                 Diagnostic::error(Code::TimeHere, span, format!("`{word}` has no beginning to count from here"))
                     .help("it stands in rules, in `on`, `until` and `abort … on`, and in a `signal`; name it there"),
             );
+            return self.unknown(span);
         }
+        self.make(condition, Type::Bool, span)
     }
 
     fn unary(&mut self, op: &crate::source::Spanned<Unary>, operand: &tree::Expr, span: Span) -> Expr {
@@ -325,14 +332,12 @@ impl<'t> Checker<'t> {
                 self.operation(Builtin::Not, vec![value], Type::Bool, span)
             }
             Unary::Becomes => {
-                self.temporal_allowed(span, "becomes");
                 let value = self.watched(|c| c.condition(operand));
-                self.make(ExprKind::Becomes(Box::new(value)), Type::Bool, span)
+                self.temporal("becomes", ExprKind::Becomes(Box::new(value)), span)
             }
             Unary::After => {
-                self.temporal_allowed(span, "after");
                 let time = self.watched(|c| c.duration(operand, "the time after `after`"));
-                self.make(ExprKind::After(Box::new(time)), Type::Bool, span)
+                self.temporal("after", ExprKind::After(Box::new(time)), span)
             }
             Unary::Pos => {
                 let value = self.expr(operand, None);

@@ -47,6 +47,12 @@ struct Known {
 
 const NOTHING: Known = Known { is_present: false, range: Interval::ANY };
 
+/// A range made narrower by a fact. One that contradicts it stands where nothing is reached: it shows nothing.
+fn narrow(range: Interval, fact: Interval) -> Interval {
+    let narrowed = range.and(fact);
+    if narrowed.is_empty() { range } else { narrowed }
+}
+
 /// What is known in a block beside what is known outside it. Blocks are entered and left by the thousand, and what is known outside
 /// is not copied for them.
 #[derive(Clone, Debug, Default)]
@@ -89,7 +95,7 @@ impl Facts {
             let before = self.known.get(place);
             let known = match fact {
                 Fact::Present(_) => Known { is_present: true, ..before },
-                Fact::Within(_, range) => Known { range: before.range.and(range), ..before },
+                Fact::Within(_, range) => Known { range: narrow(before.range, range), ..before },
             };
             let is_fixed = matches!(place, Place::Var(v) if vars[v].kind.is_fixed());
             let layer = Rc::make_mut(&mut self.known);
@@ -103,7 +109,7 @@ impl Facts {
 
     /// A known range, made narrower by what tests have shown.
     pub fn narrowed(&self, place: Place, range: Interval) -> Interval {
-        range.and(self.known.get(place).range)
+        narrow(range, self.known.get(place).range)
     }
 
     /// An assignment: nothing is known of the variable any more.

@@ -24,28 +24,10 @@ impl<'t> Checker<'t> {
         block: &tree::Block,
         span: Span,
     ) -> Option<Stmt> {
-        if let ForOver::Range(range) = over {
-            let first = self.expr_as(&range.first, &Type::Int, "the beginning of the range");
-            let last = self.expr_as(&range.last, &Type::Int, "the end of the range");
-            self.range_holds_something(range, &first, &last);
-            self.enter_loop();
-            let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
-            let (var, body) = self.in_block(|c| {
-                let var = c.declare(name, VarKind::Loop, Type::Int);
-                c.scope.vars[var].range = Interval::new(first.range.low, end);
-                (var, c.block(block))
-            });
-            // Written so that a bound that is no number counts as none.
-            let exact = first.range.low.abs().max(end.abs()) < INT_MAX;
-            let bounded = exact && end - first.range.low <= ROUNDS_MAX;
-            // A bound that is wrong has been told of.
-            if !bounded && first.ty != Type::Unknown && last.ty != Type::Unknown {
-                self.bounded_or_takes_time(&body, range.last.span);
-            }
-            let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };
-            return Some(Stmt { kind, span });
-        }
-        let ForOver::List(written) = over else { return None };
+        let written = match over {
+            ForOver::Range(range) => return Some(self.for_range(name, range, block, span)),
+            ForOver::List(written) => written,
+        };
         // `area.edges` is walked without being made a list.
         if let tree::ExprKind::Member(base, member) = &written.kind
             && member.node == "edges"
@@ -95,6 +77,37 @@ impl<'t> Checker<'t> {
             (var, c.block(block))
         });
         Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
+    }
+
+    /// `for i in 1..n`.
+    fn for_range(&mut self, name: &tree::Name, range: &tree::Range, block: &tree::Block, span: Span) -> Stmt {
+        let first = self.expr_as(&range.first, &Type::Int, "the beginning of the range");
+        let last = self.expr_as(&range.last, &Type::Int, "the end of the range");
+        self.range_holds_something(range, &first, &last);
+        self.enter_loop();
+        let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
+        let (var, body) = self.in_block(|c| {
+            let var = c.declare(name, VarKind::Loop, Type::Int);
+            c.scope.vars[var].range = Interval::new(first.range.low, end);
+            (var, c.block(block))
+        });
+        // Written so that a bound that is no number counts as none.
+        let exact = first.range.low.abs().max(end.abs()) < INT_MAX;
+        let bounded = exact && end - first.range.low <= ROUNDS_MAX;
+        // A bound that is wrong has been told of.
+        if !bounded && first.ty != Type::Unknown && last.ty != Type::Unknown {
+            let counts = end - first.range.low <= ROUNDS_MAX;
+            let help = if counts && first.range.constant().is_some() && last.range.constant().is_some() {
+                format!("whole numbers end at {INT_MAX}: count to less, and add in the loop")
+            } else {
+                format!(
+                    "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
+                )
+            };
+            self.bounded_or_takes_time(&body, range.last.span, help);
+        }
+        let kind = StmtKind::ForRange { var, first, last, inclusive: range.inclusive, body };
+        Stmt { kind, span }
     }
 
     /// `for row in area.rows(step)`: the lines of a lawn-mower, computed one by one.
@@ -208,7 +221,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn bounded_or_takes_time(&mut self, body: &Block, range: Span) {
+    fn bounded_or_takes_time(&mut self, body: &Block, range: Span, help: String) {
         if !takes_time(body) {
             self.report(
                 Diagnostic::error(
@@ -217,9 +230,7 @@ impl<'t> Checker<'t> {
                     "this `for` may go round too often without taking time",
                 )
                 .here("how large can this be?")
-                .help(format!(
-                    "hold it to {ROUNDS_MAX} rounds: a range, such as a parameter `n: Int in 1..10`, or `min(n, 10)`"
-                )),
+                .help(help),
             );
         }
     }

@@ -423,11 +423,14 @@ impl<'t> Checker<'t> {
         let [limit, of] = given.as_slice() else { return self.unknown(span) };
         let count = match of.range.constant() {
             Some(n) if (1.0..=HITS_MAX).contains(&n) => n as u32,
-            _ => {
-                self.report(
-                    Diagnostic::error(Code::TypesHits, of.span, "how many samples are counted must be a constant")
-                        .help(format!("a whole number from 1 to {HITS_MAX}")),
-                );
+            _ if of.ty == Type::Unknown => return self.unknown(span),
+            known => {
+                let message = match known {
+                    Some(n) => format!("{n} samples cannot be counted"),
+                    None => "how many samples are counted must be a constant".to_string(),
+                };
+                let finding = Diagnostic::error(Code::TypesHits, of.span, message);
+                self.report(finding.help(format!("a whole number from 1 to {HITS_MAX}")));
                 return self.unknown(span);
             }
         };

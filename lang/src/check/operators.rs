@@ -48,6 +48,7 @@ impl<'t> Checker<'t> {
                     self.report(finding);
                     return self.unknown(span);
                 }
+                let of_constants = [&a, &b].into_iter().all(|e| matches!(e.kind, ExprKind::Number(_)));
                 let value = match op.node {
                     Binary::Add => self.sum(op, a, b, span),
                     Binary::Sub => self.difference(op, a, b, span),
@@ -57,7 +58,8 @@ impl<'t> Checker<'t> {
                     Binary::Toward => self.toward(op, a, b, span),
                     _ => self.comparison(op, a, b, span),
                 };
-                self.sensible_result(value)
+                // A variable that is known to be at the end of its range has come there by itself.
+                if of_constants { self.sensible_result(value) } else { value }
             }
         }
     }

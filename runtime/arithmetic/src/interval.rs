@@ -68,6 +68,11 @@ impl Interval {
         (self.low == self.high).then_some(self.low)
     }
 
+    /// Whether there is no such number: its ends have changed places.
+    pub fn is_empty(self) -> bool {
+        self.low > self.high
+    }
+
     /// Whether zero is impossible.
     pub fn excludes_zero(self) -> bool {
         self.least > 0.0

@@ -25,7 +25,9 @@ pub fn load_faults(texts: &[String]) -> Script {
 pub(crate) fn as_clause(name: &str, text: &str) -> String {
     let text = text.trim();
     let is_whole = text.strip_prefix(name).is_some_and(|rest| rest.trim_start().starts_with('('));
-    if is_whole { text.to_string() } else { format!("{name}({text})") }
+    // A comment ends where the line does.
+    let rest = if text.contains("//") { "\n    " } else { "" };
+    if is_whole { text.to_string() } else { format!("{name}({text}{rest})") }
 }
 
 /// What goes wrong in a run beside what its scenario says.
