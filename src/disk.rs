@@ -211,7 +211,11 @@ impl Reserved {
 #[cfg(unix)]
 pub fn is_at(file: &File, path: &Path) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt;
-    let (ours, there) = (file.metadata()?, fs::symlink_metadata(path)?);
+    let there = match fs::symlink_metadata(path) {
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(false),
+        there => there?,
+    };
+    let ours = file.metadata()?;
     Ok((ours.dev(), ours.ino()) == (there.dev(), there.ino()))
 }
 

@@ -41,7 +41,9 @@ impl DigestedFile {
 
     /// Adds a line, whole or not at all.
     pub fn add(&mut self, line: &[u8]) -> Result<(), TableError> {
-        if !disk::is_at(self.file(), &self.path).unwrap_or(false) {
+        // What the disk does not tell has not become another's.
+        let is_there = disk::is_at(self.file(), &self.path);
+        if !is_there.map_err(|error| TableError::Disk(self.path.clone(), error))? {
             return Err(TableError::Gone(self.path.clone()));
         }
         if !self.is_as_left()? {
@@ -65,7 +67,6 @@ impl DigestedFile {
             Ok(Some(text)) if digest(Digest::new(), &text) == self.digest => Ok(text),
             Ok(Some(_)) => Err(TableError::Changed(self.path.clone())),
             Ok(None) => Err(TableError::Gone(self.path.clone())),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(TableError::Gone(self.path.clone())),
             Err(error) => Err(TableError::Disk(self.path.clone(), error)),
         }
     }

@@ -261,8 +261,11 @@ impl Table {
         let written = known.concat();
         // Others may have written while rows were run.
         file.text()?;
-        if !sums::read(&self.path).is_ok_and(|sums| sums == found.sums) {
-            return Err(TableError::Changed(beside(&self.path, ".sums")));
+        let path = beside(&self.path, ".sums");
+        match sums::read(&self.path) {
+            Ok(sums) if sums == found.sums => {}
+            Err(Unread::Wrong(why)) => return Err(TableError::Disk(path, io::Error::other(why))),
+            _ => return Err(TableError::Changed(path)),
         }
         // Whoever kills the campaign in between finds a table that is as it was, or whole, and never one that is shorter than its sums.
         let file = if found.text.starts_with(&written) {
