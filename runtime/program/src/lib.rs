@@ -18,12 +18,12 @@ mod verify;
 
 pub use activity::{
     Abort, Activity, ActivityId, ActivityKind, Body, CallSite, Entry, Exit, OverlaySite, ReportSite, Rule, Table,
-    Target, Text, TextPart, Valued, Watched, WatchedCode, header, setpoints,
+    Target, Text, TextPart, Valued, Watched, WatchedCode, header,
 };
 pub use cause::{Cause, OverrideEnd};
 pub use guide::{Ends, GUIDANCE_WORDS, GuidanceLaw, Guide, Omitted, Param, ParamKind, Steering};
 pub use op::{AreaOp, Compute, ListOp, Op, When};
-pub use setpoint::{Axis, Channel, Mark, Setpoint, SetpointKind};
+pub use setpoint::{Axis, Channel, Mark, Setpoint, SetpointKind, setpoints};
 pub use shape::{AREA_CORNER_WORDS, AREA_WORDS, Display, ROWS_WORDS, Shape};
 pub use slot::{ABSOLUTE, Addr, Slot};
 pub use verify::{Claim, Claims, Unit, Unsound};

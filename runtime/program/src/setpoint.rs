@@ -1,6 +1,5 @@
 //! What a vehicle is told besides its course: one table of the channels of a command, and of the words in which setpoints stand.
 
-use crate::setpoints;
 use crate::{Slot, number};
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +44,30 @@ impl Axis {
     pub fn named(name: &str) -> Option<Axis> {
         Axis::ALL.into_iter().find(|axis| axis.name() == name)
     }
+}
+
+/// The words in which vertical and speed setpoints are kept.
+pub mod setpoints {
+    /// [`UNSET`], [`DEPTH`] or [`ALTITUDE`].
+    pub const VERTICAL: u32 = 0;
+    /// Metres.
+    pub const METRES: u32 = 1;
+    /// Metres per second, or [`NO_SPEED`].
+    pub const SPEED: u32 = 2;
+    /// How many words that is.
+    pub const WORDS: u32 = 3;
+
+    /// No speed setpoint: below whatever a script can compute.
+    pub const NO_SPEED: f64 = f64::NEG_INFINITY;
+    /// No vertical setpoint.
+    pub const UNSET: f64 = 0.0;
+    /// The metres are a depth.
+    pub const DEPTH: f64 = 1.0;
+    /// The metres are an altitude.
+    pub const ALTITUDE: f64 = 2.0;
+
+    /// The words where nobody has set anything.
+    pub const NONE: [f64; WORDS as usize] = [UNSET, 0.0, NO_SPEED];
 }
 
 /// The type of a setpoint.
