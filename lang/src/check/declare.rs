@@ -106,7 +106,7 @@ impl<'t> Checker<'t> {
         self.overlays_do_one_thing(&hir, &mut known_ends);
         for activity in &hir.activities {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
-                self.check_table(&hir, &mut known_ends, &activity.vars, (behaviors, *start, rules));
+                self.check_table(&hir, &mut known_ends, activity, (behaviors, *start, rules));
             }
         }
         self.hir = hir;

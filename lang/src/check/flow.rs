@@ -1,7 +1,7 @@
 //! What a checked block does to time and to what follows it.
 
 use super::timed::guidance_ends;
-use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed};
+use crate::hir::{Action, Block, Expr, ExprKind, Stmt, StmtKind, Timed};
 use crate::source::Span;
 
 /// Whether every path through a block takes time, or leaves it for good.
@@ -18,6 +18,9 @@ pub(crate) fn takes_time(block: &Block) -> bool {
             goes_round(first, last, *inclusive) && takes_time(body)
         }
         StmtKind::ForEdges { body, .. } => takes_time(body),
+        StmtKind::ForList { list, body, .. } => {
+            matches!(&list.kind, ExprKind::List(elements) if !elements.is_empty()) && takes_time(body)
+        }
         _ => false,
     })
 }

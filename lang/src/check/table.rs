@@ -2,7 +2,7 @@
 
 use super::ends::{Known, can_end};
 use super::expr::article;
-use super::{Checker, Setting};
+use super::{Checker, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Expr, ExprKind, Rule, Target, Var, VarKind, mentions_done, same_condition};
@@ -252,7 +252,7 @@ impl<'t> Checker<'t> {
         &mut self,
         hir: &hir::Hir,
         known_ends: &mut Known,
-        vars: &[Var],
+        strategy: &hir::Activity,
         (behaviors, start, rules): (&[usize], usize, &[Rule]),
     ) {
         let names: Vec<tree::Name> = behaviors
@@ -269,6 +269,7 @@ impl<'t> Checker<'t> {
             }
         }
         let mut known = BTreeSet::new();
+        let aborts_anyway = may_abort(strategy);
         for (i, name) in names.iter().enumerate() {
             if !known.insert(&name.node) {
                 continue;
@@ -311,7 +312,7 @@ impl<'t> Checker<'t> {
                         );
                     }
                 }
-                if leaving.is_empty() {
+                if leaving.is_empty() && !may_abort(&hir.activities[behaviors[i]]) && !aborts_anyway {
                     self.report(
                         Diagnostic::error(Code::RulesForever, name.span, format!("`{}` is never left", name.node))
                             .help(format!("add `{} -> … on …`", name.node)),
@@ -319,7 +320,7 @@ impl<'t> Checker<'t> {
                 }
             }
         }
-        self.shadowed(rules, &leaving, &names, vars);
+        self.shadowed(rules, &leaving, &names, &strategy.vars);
     }
 
     /// A rule after one of the same source that holds whenever it does is never reached.
@@ -360,6 +361,13 @@ impl<'t> Checker<'t> {
             self.report(before.into_iter().take(SHOWN).fold(finding, label));
         }
     }
+}
+
+/// Whether an activity can abort the mission by itself.
+fn may_abort(activity: &hir::Activity) -> bool {
+    let in_reactions = activity.reactions.iter().any(|(_, block)| flow::aborts(block).is_some());
+    let in_body = matches!(&activity.body, Body::Sequence(block) if flow::aborts(block).is_some());
+    !activity.aborts.is_empty() || in_reactions || in_body
 }
 
 /// Whether the condition of an earlier rule finds what that of a later one will: one with `done` is tried after the body too, which

@@ -123,6 +123,10 @@ impl<'h> Table<'h> {
     fn comes_again(&self, rule: &'h Rule) -> Option<Diagnostic> {
         let Target::Behavior(to) = rule.target else { return None };
         let behavior = self.behaviors[to];
+        // One that has a rule for its end does not go back.
+        if self.leaving[to].iter().any(|&rule| matches!(self.rules[rule].on.kind, ExprKind::Done)) {
+            return None;
+        }
         let way = rule.sources.iter().map(|&source| (source, rule)).chain([(to, rule)]);
         if !rule.back || never_ends(self.hir, behavior) || !self.lasts(&rule.on, until(self.hir, behavior), way) {
             return None;

@@ -1,7 +1,7 @@
 //! Drives to a point, and notices when it only circles it.
 
 use crate::law::{Args, Guidance, Law, Start};
-use crate::parameters::NAVIGATION_JUMP;
+use crate::parameters::{NAVIGATION_JUMP, STAND_OFF};
 use crate::words::{Reader, Writer};
 use albacore_geometry::math::TAU;
 use albacore_geometry::{Heading, Point};
@@ -11,9 +11,6 @@ const FALLEN: f64 = 0.9;
 
 /// A goal that is circled counts as reached within this many arrival radii.
 const ORBIT_ACCEPT: f64 = 1.5;
-
-/// A new approach begins this many turning radii away: far enough outside both turning circles to straighten out.
-const STAND_OFF: f64 = 3.0;
 
 /// Drives straight at a goal until within a radius of it, whatever the course there (2005 paper, appendix A.1).
 ///

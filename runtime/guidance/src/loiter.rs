@@ -1,7 +1,7 @@
 //! Circles a point.
 
 use crate::law::{Args, Guidance, Law, Start, cross_track};
-use crate::parameters::{ARRIVAL_RADIUS, CROSS_TRACK_GAIN};
+use crate::parameters::{ARRIVAL_RADIUS, CROSS_TRACK_GAIN, STAND_OFF};
 use crate::words::{Reader, Writer};
 use albacore_geometry::math::{PI, TAU, acos};
 use albacore_geometry::{Heading, Point};
@@ -27,7 +27,8 @@ pub enum Circling {
 /// From outside the vehicle steers along the tangent to the circle, from inside it spirals outward, and near the
 /// circle the law of the line takes over, with the circle's own direction as the track. Turns are counted from where
 /// the circle is reached. A circle narrower than the vehicle can turn is driven as tightly as it goes, and counted
-/// from the second time round.
+/// from the second time round. A vehicle that cannot help going round the other way, which turns about the centre as it
+/// begins, drives straight away and comes back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loiter {
     center: Point,
@@ -35,20 +36,37 @@ pub struct Loiter {
     circling: Circling,
     turns: f64,
     lead: f64,
+    turning_radius: f64,
     last: Point,
     started: bool,
     entered: bool,
     swept: f64,
+    /// Driving off for a new approach, in the direction `outward`.
+    leaving: bool,
+    outward: Heading,
 }
 
 impl Loiter {
     /// How many words the state takes.
-    pub const WORDS: usize = 11;
+    pub const WORDS: usize = 14;
 
-    /// Round `center` at `radius` metres for `turns` (infinity: for ever), turns commanded `lead` metres early.
-    pub fn new(center: Point, radius: f64, circling: Circling, turns: f64, lead: f64) -> Self {
-        let last = Point::ORIGIN;
-        Loiter { center, radius, circling, turns, lead, last, started: false, entered: false, swept: 0.0 }
+    /// Round `center` at `radius` metres for `turns` (infinity: for ever), by a vehicle that turns within `turning_radius`
+    /// metres, turns commanded `lead` metres early.
+    pub fn new(center: Point, radius: f64, circling: Circling, turns: f64, lead: f64, turning_radius: f64) -> Self {
+        Loiter {
+            center,
+            radius,
+            circling,
+            turns,
+            lead,
+            turning_radius,
+            last: Point::ORIGIN,
+            started: false,
+            entered: false,
+            swept: 0.0,
+            leaving: false,
+            outward: Heading::NORTH,
+        }
     }
 
     /// Turns driven since the circle was reached; zero before.
@@ -80,7 +98,7 @@ impl Law<{ Loiter::WORDS }> for Loiter {
         let (center, radius, turns) = (args.point(), args.number(), args.number());
         let turns = if turns > 0.0 { turns } else { f64::INFINITY };
         let circling = if args.flag() { Circling::Clockwise } else { Circling::Anticlockwise };
-        Loiter::new(center, radius, circling, turns, start.lead())
+        Loiter::new(center, radius, circling, turns, start.lead(), start.turning_radius)
     }
 
     /// One tick, from the vehicle's position and its course over ground. Arrived when the turns are done.
@@ -94,16 +112,28 @@ impl Law<{ Loiter::WORDS }> for Loiter {
         self.started = true;
         self.last = position;
         let near = (range - self.radius).abs() <= (ENTRY_PART * self.radius).min(ARRIVAL_RADIUS);
-        if !self.entered && (near || self.swept.abs() >= TAU) {
+        if !self.entered && (near || self.swept >= TAU) {
             self.entered = true;
             self.swept = 0.0;
+        }
+        if self.swept <= -TAU {
+            (self.leaving, self.entered, self.swept, self.outward) = (true, false, 0.0, out.toward());
+        }
+        self.leaving &= range < self.radius + STAND_OFF * self.turning_radius;
+        if self.leaving {
+            self.swept = 0.0;
+            return Guidance { course: self.outward, arrived: false };
         }
         let arrived = self.entered && self.swept >= self.turns * TAU;
         if range <= CENTER_M {
             return Guidance { course, arrived };
         }
         let tangent = out.toward() + side * (PI / 2.0 + (self.lead / self.radius.max(CENTER_M)).min(1.0));
-        Guidance { course: tangent + side * self.inward(range), arrived }
+        let along = tangent + side * self.inward(range);
+        // A circle narrower than the vehicle can turn lies within the one that it drives, which it enters by a turn the right way round.
+        let is_narrow = self.radius < self.turning_radius && range < 2.0 * self.turning_radius;
+        let is_wrong_turn = side * (along - course) < -PI / 2.0;
+        Guidance { course: if is_narrow && is_wrong_turn { course + side * (PI / 2.0) } else { along }, arrived }
     }
 
     fn to_words(self) -> [f64; Self::WORDS] {
@@ -113,10 +143,13 @@ impl Law<{ Loiter::WORDS }> for Loiter {
             .flag(self.circling == Circling::Anticlockwise)
             .number(self.turns)
             .number(self.lead)
+            .number(self.turning_radius)
             .point(self.last)
             .flag(self.started)
             .flag(self.entered)
             .number(self.swept)
+            .flag(self.leaving)
+            .heading(self.outward)
             .finish()
     }
 
@@ -128,10 +161,13 @@ impl Law<{ Loiter::WORDS }> for Loiter {
             circling: if reader.flag() { Circling::Anticlockwise } else { Circling::Clockwise },
             turns: reader.number(),
             lead: reader.number(),
+            turning_radius: reader.number(),
             last: reader.point(),
             started: reader.flag(),
             entered: reader.flag(),
             swept: reader.number(),
+            leaving: reader.flag(),
+            outward: reader.heading(),
         }
     }
 }

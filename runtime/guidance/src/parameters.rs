@@ -14,6 +14,10 @@ pub const CROSS_TRACK_MAX: f64 = 45.0 * DEGREE;
 /// A point is reached within this many metres: R = 10 m (2005 paper, Table IV).
 pub const ARRIVAL_RADIUS: f64 = 10.0;
 
+/// A new approach to what was only circled begins this many turning radii away: far enough outside both turning circles to
+/// straighten out. Ours.
+pub const STAND_OFF: f64 = 3.0;
+
 /// A vehicle that keeps its place lies still within this many metres of it, and goes back from there. Ours: as near as a
 /// point is reached.
 pub const STATION_OUTER_RADIUS: f64 = ARRIVAL_RADIUS;

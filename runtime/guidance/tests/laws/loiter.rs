@@ -20,7 +20,7 @@ fn worst(radius: f64, circling: Circling, current: Vector, compensated: bool, re
     for i in 0..100 {
         let start = scattered(i, 0, reach);
         let mut vehicle = Vehicle::at(start.point, start.heading).in_current(current, compensated);
-        let mut loiter = Loiter::new(CENTER, radius, circling, 2.0, lead());
+        let mut loiter = Loiter::new(CENTER, radius, circling, 2.0, lead(), crate::vehicle::radius());
         let (mut swept, mut last) = (0.0, start.point);
         let guided = |p: Point, c: Heading| {
             let guidance = loiter.step(p, c);
@@ -75,7 +75,7 @@ fn a_circle_too_narrow_to_drive_still_ends() {
 #[test]
 fn it_starts_from_the_centre_too() {
     let mut vehicle = Vehicle::at(CENTER, Heading::from_degrees(200.0));
-    let mut loiter = Loiter::new(CENTER, 30.0, Circling::Clockwise, 1.0, lead());
+    let mut loiter = Loiter::new(CENTER, 30.0, Circling::Clockwise, 1.0, lead(), crate::vehicle::radius());
     assert_eq!(loiter.step(vehicle.position, vehicle.course).course, vehicle.course);
     assert!(vehicle.run(300.0, |p, c| loiter.step(p, c), |_| ()).is_some());
 }
@@ -83,7 +83,7 @@ fn it_starts_from_the_centre_too() {
 #[test]
 fn for_ever_is_for_ever() {
     let mut vehicle = Vehicle::at(Point::ORIGIN, Heading::NORTH);
-    let mut loiter = Loiter::new(CENTER, 20.0, Circling::Clockwise, f64::INFINITY, lead());
+    let mut loiter = Loiter::new(CENTER, 20.0, Circling::Clockwise, f64::INFINITY, lead(), crate::vehicle::radius());
     assert!(vehicle.run(1000.0, |p, c| loiter.step(p, c), |_| ()).is_none());
     // 2 m/s round 126 m: 15 turns in 1000 s.
     assert!(loiter.turned() > 14.0);
@@ -94,10 +94,36 @@ fn for_ever_is_for_ever() {
 fn it_enters_along_the_tangent() {
     // From 40 m south of the centre of a circle of 20 m, clockwise (centre on the right): 30 degrees left of the
     // centre.
-    let mut loiter = Loiter::new(Point::ORIGIN, 20.0, Circling::Clockwise, 1.0, 0.0);
+    let mut loiter = Loiter::new(Point::ORIGIN, 20.0, Circling::Clockwise, 1.0, 0.0, crate::vehicle::radius());
     let course = loiter.step(Point::new(-40.0, 0.0), Heading::NORTH).course;
     assert!((course.degrees() - 330.0).abs() < 1e-9, "{}", course.degrees());
-    let mut loiter = Loiter::new(Point::ORIGIN, 20.0, Circling::Anticlockwise, 1.0, 0.0);
+    let mut loiter = Loiter::new(Point::ORIGIN, 20.0, Circling::Anticlockwise, 1.0, 0.0, crate::vehicle::radius());
     let course = loiter.step(Point::new(-40.0, 0.0), Heading::NORTH).course;
     assert!((course.degrees() - 30.0).abs() < 1e-9, "{}", course.degrees());
+}
+
+/// A vehicle that turns about the centre as it begins, the other way than it should, cannot help going on so: it drives off once it has
+/// been round, and comes back.
+#[test]
+fn a_centre_beside_a_turning_vehicle_is_circled_the_right_way_round() {
+    let radius = crate::vehicle::radius();
+    let mut longest = 0.0_f64;
+    let ways = [(Circling::Clockwise, -1.0), (Circling::Anticlockwise, 1.0)];
+    for ((circling, side), east) in ways.into_iter().flat_map(|way| [0.0, 0.5].map(|east| (way, east))) {
+        for narrow in [0.1, 1.0, 3.0, 6.0, 10.0, 11.5, 13.0, 16.0] {
+            for beside in [0.2, 0.5, 0.8, 0.9, 1.0, 1.1, 1.3, 2.0] {
+                let centre = Point::new(0.0, side * beside * radius);
+                let vehicle = Vehicle::at(Point::ORIGIN, Heading::NORTH);
+                let mut vehicle = vehicle.in_current(Vector::new(0.0, east), true);
+                let mut loiter = Loiter::new(centre, narrow, circling, 2.0, lead(), radius);
+                let time = vehicle.run(1000.0, |p, c| loiter.step(p, c), |_| ());
+                let time =
+                    time.unwrap_or_else(|| panic!("never: {narrow} m, {beside} turning radii beside, {east} m/s"));
+                longest = longest.max(time);
+                assert!((loiter.turned() - 2.0).abs() < 0.05, "{}", loiter.turned());
+            }
+        }
+    }
+    println!("{longest:.0} s");
+    assert!(longest < 400.0, "{longest} s");
 }

@@ -24,7 +24,7 @@ fn goals_that_are_nowhere() {
     check(|p, c| pose.step(p, c));
     let mut line = FollowLine::new(Line { start: Point::ORIGIN, end: NOWHERE }, 12.6, 0.5);
     check(|p, c| line.step(p, c));
-    let mut loiter = Loiter::new(NOWHERE, f64::NAN, Circling::Clockwise, 1.0, f64::NAN);
+    let mut loiter = Loiter::new(NOWHERE, f64::NAN, Circling::Clockwise, 1.0, f64::NAN, f64::NAN);
     check(|p, c| loiter.step(p, c));
 }
 
