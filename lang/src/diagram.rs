@@ -5,6 +5,7 @@ use crate::source::{Sources, Span};
 use crate::syntax;
 use crate::{ENTRY, Script};
 use albacore_wording::{listed, nearest};
+use std::collections::BTreeMap;
 
 /// A strategy, or a mission whose body is a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -115,6 +116,7 @@ fn imported(names: &[&str]) -> Option<String> {
 fn diagram(activity: &Activity, hir: &Hir, sources: &Sources) -> Option<Diagram> {
     let Body::Table { start, behaviors, rules } = &activity.body else { return None };
     let mut edges: Vec<Edge> = Vec::new();
+    let mut places = BTreeMap::new();
     for (i, rule) in rules.iter().enumerate() {
         let target = match &rule.target {
             hir::Target::Behavior(to) => Target::Behavior(*to),
@@ -124,13 +126,11 @@ fn diagram(activity: &Activity, hir: &Hir, sources: &Sources) -> Option<Diagram>
         let effect = rule.effect.as_ref().map(|block| statements(block, sources)).filter(|text| !text.is_empty());
         let guard = Guard { rule: i + 1, on: written(rule.on_span, sources), effect };
         for &source in &rule.sources {
-            let same = |e: &&mut Edge| (e.source, &e.target, e.back) == (source, &target, rule.back);
-            match edges.iter_mut().find(same) {
-                Some(edge) => edge.guards.push(guard.clone()),
-                None => {
-                    edges.push(Edge { source, target: target.clone(), back: rule.back, guards: vec![guard.clone()] })
-                }
+            let place = *places.entry((source, target.clone(), rule.back)).or_insert(edges.len());
+            if place == edges.len() {
+                edges.push(Edge { source, target: target.clone(), back: rule.back, guards: Vec::new() });
             }
+            edges[place].guards.push(guard.clone());
         }
     }
     Some(Diagram {

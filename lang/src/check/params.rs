@@ -239,6 +239,11 @@ impl<'t> Checker<'t> {
             true => format!("{} %", short(significant(x * 100.0))),
             false => self.shown_number(x, &value.ty),
         };
+        // One that lies just outside is not told as the bound.
+        let apart = |x: f64| match show(x) {
+            shown if shown == show(range.low) || shown == show(range.high) => self.exact_number(x, &value.ty),
+            shown => shown,
+        };
         let percent = value.range.constant().map(|x| x * 0.01).filter(|x| *x >= range.low && *x <= range.high);
         let (bounds, among) = match (range.low > -LARGEST, range.high < LARGEST) {
             (true, false) => (format!("{} or more", show(range.low)), "of"),
@@ -249,7 +254,7 @@ impl<'t> Checker<'t> {
             Some(x) => Diagnostic::error(
                 Code::RangesOutside,
                 value.span,
-                format!("{} is outside the range of `{param}`", show(x)),
+                format!("{} is outside the range of `{param}`", apart(x)),
             )
             .help(match (percent.filter(|_| is_share), &value.ty) {
                 (Some(meant), _) => format!("choose a value {among} {bounds}: `{}`, perhaps?", show(meant)),
@@ -275,6 +280,15 @@ impl<'t> Checker<'t> {
     }
 
     pub(super) fn shown_number(&self, x: f64, ty: &Type) -> String {
+        self.number_in_digits(x, ty, significant)
+    }
+
+    /// The same with all its digits.
+    fn exact_number(&self, x: f64, ty: &Type) -> String {
+        self.number_in_digits(x, ty, |x| x)
+    }
+
+    fn number_in_digits(&self, x: f64, ty: &Type, digits: fn(f64) -> f64) -> String {
         let display = match ty.present() {
             // Whole hours and minutes, as they are spoken of.
             Type::Quantity(Dimension::TIME) if x >= 36_000.0 && x % 3600.0 == 0.0 => {
@@ -286,7 +300,7 @@ impl<'t> Checker<'t> {
             Type::Depth | Type::Altitude => Dimension::LENGTH.display(),
             _ => return short(x),
         };
-        format!("{} {}", short(significant(x / display.scale)), display.unit)
+        format!("{} {}", short(digits(x / display.scale)), display.unit)
     }
 }
 
