@@ -118,7 +118,7 @@ impl<'t> Checker<'t> {
             let then = c.block_knowing(c.shown(&condition, true), then, expected);
             (then, c.block_knowing(c.shown(&condition, false), otherwise, expected))
         });
-        let ty = self.join(&mut then_block, &mut else_block, span);
+        let ty = self.join(&mut then_block, &mut else_block, expected, span);
         self.make(ExprKind::If(Box::new(condition), then_block, else_block), ty, span)
     }
 
@@ -131,7 +131,7 @@ impl<'t> Checker<'t> {
     }
 
     /// Makes two blocks end in values of one type.
-    fn join(&mut self, a: &mut Block, b: &mut Block, span: Span) -> Type {
+    fn join(&mut self, a: &mut Block, b: &mut Block, expected: Option<&Type>, span: Span) -> Type {
         let (Some(x), Some(y)) = (a.value.take(), b.value.take()) else {
             self.report(
                 Diagnostic::error(Code::TypesIfValue, span, "both blocks must end in a value")
@@ -139,7 +139,7 @@ impl<'t> Checker<'t> {
             );
             return Type::Unknown;
         };
-        let ty = common_type([&*x, &*y]);
+        let ty = common_type([&*x, &*y], expected);
         a.value = Some(Box::new(self.coerce(*x, &ty, "the value of the other block")));
         b.value = Some(Box::new(self.coerce(*y, &ty, "the value of the other block")));
         ty
@@ -154,7 +154,8 @@ impl<'t> Checker<'t> {
     ) -> Expr {
         let is_tail = self.scope.tail == Some(span);
         let (on, mut arms, mut otherwise) = self.as_value(is_tail, |c| c.match_arms(on, arms, expected, true, span));
-        let ty = common_type(arms.iter().map(|(_, b)| b).chain(&otherwise).filter_map(|b| b.value.as_deref()));
+        let values = arms.iter().map(|(_, b)| b).chain(&otherwise).filter_map(|b| b.value.as_deref());
+        let ty = common_type(values, expected);
         for block in arms.iter_mut().map(|(_, b)| b).chain(otherwise.iter_mut()) {
             match block.value.take() {
                 Some(value) => {
@@ -259,14 +260,17 @@ impl<'t> Checker<'t> {
     }
 }
 
-/// The type that the values of all blocks can have: that of the first, unless another says more.
-fn common_type<'e>(values: impl IntoIterator<Item = &'e Expr> + Clone) -> Type {
+/// The type that the values of all blocks can have. Constants become the depth, altitude or heading that is expected, each by itself.
+fn common_type<'e>(values: impl IntoIterator<Item = &'e Expr> + Clone, expected: Option<&Type>) -> Type {
     let is_one = |v: &Expr| v.ty == Type::Int && v.range.constant().is_some_and(|n| n.abs() == 1.0);
     let is_sign = |v: &Expr| v.ty == Type::Sign || is_one(v);
     if values.clone().into_iter().all(is_sign) {
         return Type::Sign;
     }
-    values.into_iter().map(|v| v.ty.clone()).reduce(wider).unwrap_or(Type::Unknown)
+    let given = expected.map(Type::present).filter(|ty| matches!(ty, Type::Depth | Type::Altitude | Type::Heading));
+    let is_constant = |v: &Expr| matches!(v.ty, Type::Quantity(_)) && v.range.constant().is_some();
+    let given = given.filter(|_| values.clone().into_iter().all(is_constant));
+    values.into_iter().map(|v| v.ty.clone()).chain(given.cloned()).reduce(wider).unwrap_or(Type::Unknown)
 }
 
 /// Of two types the one that values of both can have; the first where there is none.

@@ -83,8 +83,10 @@ impl<'t> Checker<'t> {
     /// `truth.position` and the like, and the area of the mission by the mission's name.
     pub(super) fn test_member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let test = self.test.as_ref()?;
-        if self.is_tested(base) {
-            return self.area_of_the_tested(base, member, span);
+        match self.mission_meant(base) {
+            Some(id) if id == test.mission => return self.area_of_the_tested(base, member, span),
+            Some(_) if self.module_named(base).is_none() => return Some(self.not_run(base, span)),
+            _ => {}
         }
         let tree::ExprKind::Name(name) = &base.kind else { return None };
         let id = match (name.as_str(), member.node.as_str()) {
@@ -111,16 +113,28 @@ impl<'t> Checker<'t> {
         Some(self.variable(id, span))
     }
 
-    /// Whether the mission that a test runs is named: `box`, or `surveys.box` of a module that is imported.
-    fn is_tested(&self, base: &tree::Expr) -> bool {
-        let Some(test) = &self.test else { return false };
-        match &base.kind {
-            tree::ExprKind::Name(name) => *name == self.mission_name(test.mission),
-            tree::ExprKind::Member(module, name) => self.module_named(module).is_some_and(
-                |module| matches!(self.defined_in(module, name), Some(&Def::Activity(id)) if id == test.mission),
-            ),
-            _ => false,
+    /// The mission that is named: `box`, or `surveys.box` of a module that is imported. The name alone is that of the one which is run.
+    fn mission_meant(&self, base: &tree::Expr) -> Option<usize> {
+        let test = self.test.as_ref()?;
+        let found = match &base.kind {
+            tree::ExprKind::Name(name) if *name == self.mission_name(test.mission) => return Some(test.mission),
+            tree::ExprKind::Name(name) if self.local(name).is_none() => self.lookup(self.scope.module, name),
+            tree::ExprKind::Member(module, name) => self.defined_in(self.module_named(module)?, name),
+            _ => None,
+        };
+        match found {
+            Some(&Def::Activity(id)) if self.mission_ids.contains(&id) => Some(id),
+            _ => None,
         }
+    }
+
+    /// An expectation that speaks of a mission which its test does not run.
+    fn not_run(&mut self, base: &tree::Expr, span: Span) -> Expr {
+        let run = self.test.as_ref().map_or("", |test| self.mission_name(test.mission)).to_string();
+        let finding =
+            Diagnostic::error(Code::NamesValue, base.span, format!("this test runs `{run}`, not this mission"));
+        self.report(finding.help(format!("the area that is known here is that of `{run}`")));
+        self.unknown(span)
     }
 
     /// `box.op`: the area of the mission that a test runs.

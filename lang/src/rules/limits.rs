@@ -12,6 +12,7 @@ pub(super) struct Limit {
     channel: Channel,
     /// Whether it is the least value, else the greatest.
     least: bool,
+    /// Of one that is computed, the most that it allows.
     value: f64,
     span: Span,
 }
@@ -21,9 +22,11 @@ pub(super) fn of(hir: &Hir, mission: usize) -> Vec<Limit> {
     let parts = hir.activities[mission].mission.iter();
     parts
         .flat_map(|m| &m.limits)
-        .filter_map(|(channel, least, e)| {
-            e.range.constant().map(|value| Limit { channel: *channel, least: *least, value, span: e.span })
+        .map(|(channel, least, e)| {
+            let value = if *least { e.range.low } else { e.range.high };
+            Limit { channel: *channel, least: *least, value, span: e.span }
         })
+        .filter(|limit| limit.value.abs() < LARGEST)
         .collect()
 }
 
