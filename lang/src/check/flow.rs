@@ -13,16 +13,20 @@ pub(crate) fn takes_time(block: &Block) -> bool {
             arms.iter().all(|(_, b)| takes_time(b)) && otherwise.as_ref().is_none_or(takes_time) && !arms.is_empty()
         }
         StmtKind::With(_, body) => takes_time(body),
-        // A range that holds at least one number goes round at least once.
-        StmtKind::ForRange { first, last, inclusive, body, .. } => {
-            goes_round(first, last, *inclusive) && takes_time(body)
-        }
-        StmtKind::ForEdges { body, .. } => takes_time(body),
-        StmtKind::ForList { list, body, .. } => {
-            matches!(&list.kind, ExprKind::List(elements) if !elements.is_empty()) && takes_time(body)
-        }
-        _ => false,
+        _ => first_round(stmt).is_some_and(takes_time),
     })
+}
+
+/// What a loop does that goes round at least once: over the edges of an area, a range that holds a number, a list that is written out.
+fn first_round(stmt: &Stmt) -> Option<&Block> {
+    match &stmt.kind {
+        StmtKind::ForRange { first, last, inclusive, body, .. } => goes_round(first, last, *inclusive).then_some(body),
+        StmtKind::ForEdges { body, .. } => Some(body),
+        StmtKind::ForList { list, body, .. } => {
+            matches!(&list.kind, ExprKind::List(elements) if !elements.is_empty()).then_some(body)
+        }
+        _ => None,
+    }
 }
 
 /// Whether a range is known to hold at least one number.
@@ -61,7 +65,9 @@ pub(super) fn never_goes_on(stmt: &Stmt) -> bool {
         StmtKind::Match(_, arms, otherwise) => {
             !arms.is_empty() && arms.iter().all(|(_, b)| leaves(b)) && otherwise.as_ref().is_none_or(leaves)
         }
-        _ => false,
+        // No word leads out of a loop but `finish` and `abort`.
+        StmtKind::While { condition, .. } => matches!(condition.kind, ExprKind::Number(x) if x != 0.0),
+        _ => first_round(stmt).is_some_and(leaves),
     }
 }
 

@@ -175,7 +175,11 @@ impl Run {
     /// Says when it begins that another setpoint is given than is asked for, and when it ends.
     pub fn tell_limited(&mut self, channel: Channel, asked: f64, given: f64, held: bool) {
         if held != std::mem::replace(&mut self.state.limited[channel as usize], held) {
-            self.events.push(if held { Event::Limited(channel, asked, given) } else { Event::LimitedEnded(channel) });
+            self.events.push(if held {
+                Event::Limited(channel, asked, given + 0.0)
+            } else {
+                Event::LimitedEnded(channel)
+            });
         }
     }
 

@@ -84,13 +84,10 @@ impl Evaluator<'_> {
         // What is measured too low leads up, whatever the depth is told to be.
         let low_by = (0.25 * lowest).min(0.5);
         let is_low = self.bottom.altitude(&self.w).is_some_and(|altitude| altitude < lowest - low_by);
-        match asked {
-            Vertical::Depth(asked) if is_low => {
-                self.limit(Channel::Depth, asked);
-                Vertical::Depth(low.min(deepest))
-            }
+        let given = match asked {
+            Vertical::Depth(_) if is_low => Vertical::Depth(low.min(deepest)),
             Vertical::Altitude(asked) => {
-                let given = self.limit(Channel::Altitude, asked);
+                let given = self.clamped(Channel::Altitude, asked);
                 match known {
                     Some(echo) => {
                         let most = if low > 0.0 { (echo.sum - low).max(lowest) } else { f64::MAX };
@@ -115,11 +112,31 @@ impl Evaluator<'_> {
                 }
             }
             Vertical::Depth(asked) => {
-                let given = self.limit(Channel::Depth, asked);
+                let given = self.clamped(Channel::Depth, asked);
                 let least = known.map_or(0.0, |echo| echo.water - highest);
                 Vertical::Depth(given.max(least).min(deepest).max(0.0))
             }
-        }
+        };
+        self.say_held(asked, given, known.map(|echo| echo.sum));
+        given
+    }
+
+    /// Says what became of the depth or the altitude that is asked for. That one is told otherwise for the sake of the other begins with 50 cm.
+    fn say_held(&mut self, asked: Vertical, given: Vertical, sum: Option<f64>) {
+        let (channel, other, wanted) = match asked {
+            Vertical::Depth(wanted) => (Channel::Depth, Channel::Altitude, wanted),
+            Vertical::Altitude(wanted) => (Channel::Altitude, Channel::Depth, wanted),
+        };
+        self.say_limited(other, None);
+        let clamped = self.clamped(channel, wanted);
+        let got = match (asked, given) {
+            (Vertical::Depth(_), Vertical::Depth(got)) | (Vertical::Altitude(_), Vertical::Altitude(got)) => got,
+            (_, Vertical::Depth(depth)) => sum.map_or(clamped, |sum| sum - depth),
+            (_, Vertical::Altitude(_)) => wanted,
+        };
+        let slack = if self.limited[channel as usize] { 0.0 } else { 0.5 };
+        let held = clamped != wanted || (got - wanted).abs() > slack;
+        self.say_limited(channel, held.then_some((wanted, got)));
     }
 
     /// The altitude by which a least one holds for the next 15 m of way, m.

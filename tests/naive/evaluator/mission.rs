@@ -56,7 +56,7 @@ pub struct Evaluator<'p> {
     pub(super) required: Vec<Required>,
     /// Least and greatest, by channel.
     pub(super) limits: [(f64, f64); 3],
-    limited: [bool; 3],
+    pub(super) limited: [bool; 3],
     filter: CommandFilter,
     pub(super) bottom: Bottom,
     /// Since when the vehicle has lain on the bottom, and for how many ticks in all, and while it drove.
@@ -451,15 +451,23 @@ impl<'p> Evaluator<'p> {
     }
 
     pub(super) fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
+        let given = self.clamped(channel, asked);
+        self.say_limited(channel, (given != asked).then_some((asked, given)));
+        given
+    }
+
+    pub(super) fn clamped(&self, channel: Channel, asked: f64) -> f64 {
         let (low, high) = self.limits[channel as usize];
         // Speed 0 is always allowed.
-        let given = if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.max(low).min(high.max(low)) };
-        let held = given != asked;
-        if held != std::mem::replace(&mut self.limited[channel as usize], held) {
-            let how = if held { format!("{asked:?} {given:?}") } else { "no more".into() };
+        if channel == Channel::Speed && asked == 0.0 { 0.0 } else { asked.max(low).min(high.max(low)) }
+    }
+
+    /// Says when a limit begins to hold a setpoint, and when it holds it no more.
+    pub(super) fn say_limited(&mut self, channel: Channel, held: Option<(f64, f64)>) {
+        if held.is_some() != std::mem::replace(&mut self.limited[channel as usize], held.is_some()) {
+            let how = held.map_or("no more".into(), |(asked, given)| format!("{asked:?} {:?}", given + 0.0));
             self.w.say(format!("limit {channel:?} {how}"));
         }
-        given
     }
 }
 
