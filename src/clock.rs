@@ -30,6 +30,9 @@ fn awake() -> Instant {
     Instant::now()
 }
 
+/// The last second that is written with four digits of a year, since 1970.
+const LAST_S: u64 = 253_402_300_799;
+
 /// A moment of Coordinated Universal Time.
 #[derive(Clone, Copy)]
 pub struct Utc(SystemTime);
@@ -38,7 +41,13 @@ impl Utc {
     /// Now.
     #[expect(clippy::disallowed_methods, reason = "when a run was by the wall clock is no part of what it does")]
     pub fn now() -> Self {
-        Utc(SystemTime::now())
+        Utc::of(SystemTime::now())
+    }
+
+    /// A moment that can be written. A clock that nobody has set may stand before 1970.
+    fn of(moment: SystemTime) -> Self {
+        let last = SystemTime::UNIX_EPOCH + Duration::from_secs(LAST_S);
+        Utc(moment.clamp(SystemTime::UNIX_EPOCH, last))
     }
 
     /// `2026-11-22T10-31-05Z`: no file system minds it, and names are in the order of time.
@@ -86,6 +95,13 @@ impl Pace {
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_clock_that_was_never_set_is_written() {
+        let day = Duration::from_secs(86_400);
+        assert_eq!(Utc::of(SystemTime::UNIX_EPOCH - day).file_name(), "1970-01-01T00-00-00Z");
+        assert_eq!(Utc::of(SystemTime::UNIX_EPOCH + day * 4_000_000).file_name(), "9999-12-31T23-59-59Z");
+    }
 
     /// The time since the machine began, in which it may have slept, as the system itself tells it.
     #[test]
