@@ -10,17 +10,18 @@ mod levels;
 mod limits;
 mod livelock;
 mod overlaps;
+mod overrides;
 mod places;
 mod reports;
 mod swapped;
-mod unreached;
 
 pub use livelock::check as livelocks;
 pub use overlaps::check as overlaps;
+pub use overrides::{RunIn, check as overrides};
+pub use overrides::{RunIn, check as overrides};
 pub use places::{FAR_M, operating_area};
 pub use reports::check as tests_reports;
 pub use swapped::{hemisphere, of_mission as swapped};
-pub use unreached::{RunIn, check as unreached};
 
 pub use inputs::read as inputs_read;
 
