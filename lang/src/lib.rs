@@ -168,9 +168,9 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
         Where::Own => of_chosen().and_then(|(info, _)| Some(RunIn::One(*scenario_ids.get(info.scenario.as_ref()?)?))),
         Where::Elsewhere => Some(RunIn::Elsewhere),
     };
-    let overrides = rules::overrides(&checked.hir, &meant, run_in, &checked.overrides).into_iter();
+    let unreached = rules::overrides(&checked.hir, &meant, run_in, &checked.overrides).into_iter();
     // A value that is wrong has been told of: that it would change nothing is no second mistake.
-    findings.extend(overrides.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
+    findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
     let mission_ids = missions.iter().map(|(info, id)| (info.name.clone(), *id)).collect();
     let Checked { hir, types, names, .. } = checked;

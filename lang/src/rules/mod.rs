@@ -18,7 +18,6 @@ mod swapped;
 pub use livelock::check as livelocks;
 pub use overlaps::check as overlaps;
 pub use overrides::{RunIn, check as overrides};
-pub use overrides::{RunIn, check as overrides};
 pub use places::{FAR_M, operating_area};
 pub use reports::check as tests_reports;
 pub use swapped::{hemisphere, of_mission as swapped};
