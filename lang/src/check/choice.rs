@@ -281,11 +281,7 @@ pub(super) fn wider(x: Type, y: Type) -> Type {
         (Type::Optional(x), y) => wider(*x, y).optional(),
         (x, Type::Optional(y)) => wider(x, *y).optional(),
         (Type::Int | Type::Sign, y @ Type::Quantity(_)) => y,
-        (x, y @ (Type::Heading | Type::Depth | Type::Altitude))
-            if matches!(x, Type::Int | Type::Sign | Type::Quantity(_)) =>
-        {
-            y
-        }
+        (Type::Int | Type::Sign | Type::Quantity(_), y @ (Type::Heading | Type::Depth | Type::Altitude)) => y,
         (Type::Sign, Type::Int) => Type::Int,
         (x, _) => x,
     }
