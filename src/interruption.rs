@@ -121,16 +121,28 @@ impl Drop for Held {
     }
 }
 
-/// Lets every signal come, whatever the program that began this one has blocked: call it first of all. One that nobody wants to come
-/// is ignored, as by `nohup`, not blocked.
+/// Lets every signal come, whatever the program that began this one has blocked, and lets Ctrl-C and the request to terminate end it
+/// where they were ignored: call it first of all. Any other that nobody wants to come is ignored, as by `nohup`, not blocked.
 #[cfg(unix)]
 pub fn unblock() {
+    let ignored = ignored();
+    for (request, ends) in ALWAYS_HEARD.into_iter().zip(ENDS.iter()) {
+        if ignored >> (request - 1) & 1 == 1 {
+            let _ = signal_hook::flag::register_conditional_default(request, Arc::clone(ends));
+        }
+    }
     let _ = nix::sys::signal::SigSet::all().thread_unblock();
 }
 
 /// There is no such thing.
 #[cfg(not(unix))]
 pub fn unblock() {}
+
+/// What no program is deaf to: a shell ignores the first for what it begins in the background.
+const ALWAYS_HEARD: [i32; 2] = [signal::SIGINT, signal::SIGTERM];
+
+/// Whether each of them, if it was ignored, ends the program at once: as long as nobody else hears it.
+static ENDS: LazyLock<[Arc<AtomicBool>; 2]> = LazyLock::new(|| [(); 2].map(|()| Arc::new(AtomicBool::new(true))));
 
 /// A file that has reached a limit of size is an error of the disk, and no request: the program does not end of it.
 #[cfg(unix)]
@@ -147,7 +159,9 @@ pub fn survive_file_limits() {}
 pub fn ctrl_c() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.
-    let _ = signal_hook::flag::register(signal::SIGINT, Arc::clone(&interrupted));
+    if signal_hook::flag::register(signal::SIGINT, Arc::clone(&interrupted)).is_ok() {
+        ENDS[0].store(false, Ordering::Relaxed);
+    }
     interrupted
 }
 
@@ -181,10 +195,9 @@ fn ignored() -> u64 {
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
-/// Whether a request is heard. Ctrl-C and the request to terminate always are: a shell ignores the first for what it begins in
-/// the background.
+/// Whether a request is heard.
 fn is_heard(request: i32, ignored: u64) -> bool {
-    matches!(request, signal::SIGINT | signal::SIGTERM) || ignored >> (request - 1) & 1 == 0
+    ALWAYS_HEARD.contains(&request) || ignored >> (request - 1) & 1 == 0
 }
 
 /// Hears requests from now on, in a thread that waits for them and does nothing else: it must not write, for a terminal may hold
@@ -201,6 +214,7 @@ fn listen() {
         let (handle, ignored) = (signals.handle(), ignored());
         // One that the system does not have is none.
         requests().filter(|request| is_heard(*request, ignored)).for_each(|request| _ = handle.add_signal(request));
+        ENDS.iter().for_each(|ends| ends.store(false, Ordering::Relaxed));
         let _ = give.send(signals);
     });
 }

@@ -209,6 +209,22 @@ fn signals_that_were_blocked_are_heard() {
     }
 }
 
+/// Where nobody listens to signals either, the request to terminate ends what was begun with it ignored.
+#[test]
+fn what_is_to_be_ignored_is_not_the_request_to_terminate() {
+    for verb in [&["repl"][..], &["fmt", "-"]] {
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", "trap '' INT TERM; exec \"$0\" \"$@\""]).arg(env!("CARGO_BIN_EXE_albacore")).args(verb);
+        let mut child = shell.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // It waits for what is typed: who asks again and again asks once when it does.
+        let status = eventually("the end", || {
+            send("-TERM", &child);
+            child.try_wait().unwrap()
+        });
+        assert_eq!(status.signal(), Some(15), "{verb:?}");
+    }
+}
+
 /// A variable of the environment that makes stacks small would overflow them once the vehicle is ours.
 #[test]
 fn no_environment_makes_a_stack_too_small() {

@@ -260,16 +260,22 @@ impl<'t> Checker<'t> {
     }
 }
 
-/// The type that the values of all blocks can have. Constants become the depth, altitude or heading that is expected, each by itself.
+/// The type that the values of all blocks can have. Constants become the depth, altitude or heading that is expected, each by itself, and
+/// so do lists that are written out.
 fn common_type<'e>(values: impl IntoIterator<Item = &'e Expr> + Clone, expected: Option<&Type>) -> Type {
     let is_one = |v: &Expr| v.ty == Type::Int && v.range.constant().is_some_and(|n| n.abs() == 1.0);
     let is_sign = |v: &Expr| v.ty == Type::Sign || is_one(v);
     if values.clone().into_iter().all(is_sign) {
         return Type::Sign;
     }
-    let given = expected.map(Type::present).filter(|ty| matches!(ty, Type::Depth | Type::Altitude | Type::Heading));
-    let is_constant = |v: &Expr| matches!(v.ty, Type::Quantity(_)) && v.range.constant().is_some();
-    let given = given.filter(|_| values.clone().into_iter().all(is_constant));
+    let given = expected.map(Type::present).filter(|given| {
+        values.clone().into_iter().all(|v| match (&v.ty, given) {
+            (Type::None, _) => true,
+            (Type::Quantity(_), Type::Depth | Type::Altitude | Type::Heading) => v.range.constant().is_some(),
+            (Type::List(..), Type::List(..)) => matches!(v.kind, ExprKind::List(_)),
+            _ => false,
+        })
+    });
     values.into_iter().map(|v| v.ty.clone()).chain(given.cloned()).reduce(wider).unwrap_or(Type::Unknown)
 }
 
@@ -283,6 +289,7 @@ pub(super) fn wider(x: Type, y: Type) -> Type {
         (Type::Int | Type::Sign, y @ Type::Quantity(_)) => y,
         (Type::Int | Type::Sign | Type::Quantity(_), y @ (Type::Heading | Type::Depth | Type::Altitude)) => y,
         (Type::Sign, Type::Int) => Type::Int,
+        (Type::List(x, n), Type::List(y, m)) => Type::List(Box::new(wider(*x, *y)), n.max(m)),
         (x, _) => x,
     }
 }

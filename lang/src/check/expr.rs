@@ -205,7 +205,9 @@ impl<'t> Checker<'t> {
         let mut common = wanted.clone().or_else(|| self.unit_of_some(elements));
         let mut checked: Vec<Expr> = Vec::new();
         for element in elements {
-            let value = self.expr(element, common.as_ref());
+            // What another is like says what an empty list would hold, and nothing else.
+            let is_empty = matches!(&element.kind, tree::ExprKind::List(elements) if elements.is_empty());
+            let value = self.expr(element, wanted.as_ref().or(common.as_ref().filter(|_| is_empty)));
             if common.is_none() && value.ty != Type::Unknown {
                 common = Some(value.ty.clone());
             }
