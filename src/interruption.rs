@@ -89,7 +89,7 @@ impl Heard {
 /// later, and is none that the system sends by itself.
 pub fn flag() -> Arc<AtomicBool> {
     heard().is_looked_at = true;
-    listen();
+    let _ = listen();
     Arc::clone(&RAISED)
 }
 
@@ -107,7 +107,7 @@ pub struct Held(());
 /// Begins to hold.
 pub fn held() -> Held {
     heard().in_the_making += 1;
-    listen();
+    let _ = listen();
     Held(())
 }
 
@@ -200,23 +200,30 @@ fn is_heard(request: i32, ignored: u64) -> bool {
     ALWAYS_HEARD.contains(&request) || ignored >> (request - 1) & 1 == 0
 }
 
+/// Hears requests from now on; why not, where the system has no thread or no file for it. Who drives a vehicle may not be deaf.
+pub fn hears() -> Result<(), &'static str> {
+    listen().as_ref().map(|()| ()).map_err(String::as_str)
+}
+
 /// Hears requests from now on, in a thread that waits for them and does nothing else: it must not write, for a terminal may hold
 /// who writes.
-fn listen() {
-    static LISTENING: OnceLock<()> = OnceLock::new();
+fn listen() -> &'static Result<(), String> {
+    static LISTENING: OnceLock<Result<(), String>> = OnceLock::new();
     LISTENING.get_or_init(|| {
         // No handler is there before who waits for it: without handlers a signal ends the program at once, as it does any other.
         let (give, given) = mpsc::sync_channel::<Signals>(1);
         let waiting = thread("signals").spawn(move || {
             given.into_iter().for_each(|mut signals| signals.forever().for_each(hear));
         });
-        let (Ok(_), Ok(signals)) = (waiting, Signals::new([0; 0])) else { return };
+        waiting.map_err(|error| error.to_string())?;
+        let signals = Signals::new([0; 0]).map_err(|error| error.to_string())?;
         let (handle, ignored) = (signals.handle(), ignored());
         // One that the system does not have is none.
         requests().filter(|request| is_heard(*request, ignored)).for_each(|request| _ = handle.add_signal(request));
         ENDS.iter().for_each(|ends| ends.store(false, Ordering::Relaxed));
         let _ = give.send(signals);
-    });
+        Ok(())
+    })
 }
 
 /// A request has come.

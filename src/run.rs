@@ -7,7 +7,7 @@ use crate::live::Live;
 use crate::output::Lines;
 use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
 use crate::run_folder::{Place, Record, RunFolder, RunRequest};
-use crate::speaker::{Speaker, no_thread};
+use crate::speaker::{Speaker, hears_requests, no_thread};
 use crate::synced::Synced;
 use crate::vehicle::told;
 use crate::{interruption, message, output};
@@ -68,6 +68,11 @@ impl Run {
             Ok(speaker) => speaker,
             Err(error) => return no_thread(&error),
         };
+        if speaker.is_some()
+            && let Err(exit) = hears_requests()
+        {
+            return exit;
+        }
         let script = match self.choice.script(&self.script) {
             Ok(script) => script,
             Err(exit) => return exit,

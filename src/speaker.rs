@@ -2,7 +2,7 @@
 //! for as long as it likes.
 
 use crate::exit::Exit;
-use crate::message;
+use crate::{interruption, message};
 use albacore_session::threads::thread;
 use indicatif::ProgressBar;
 use std::io;
@@ -145,6 +145,17 @@ pub fn within<T: Send + 'static>(patience: Duration, work: impl FnOnce() -> T + 
     let (sender, done) = channel();
     thread("last").spawn(move || drop(sender.send(work()))).ok()?;
     done.recv_timeout(patience).ok()
+}
+
+/// Begins to hear the system's requests to end; tells where that cannot be.
+pub fn hears_requests() -> Result<(), Exit> {
+    interruption::hears().map_err(|why| {
+        message::error(
+            &format!("signals cannot be heard, and so nothing would give the vehicle back: {why}"),
+            Some("close files and end other programs, or raise the limits of open files and threads"),
+        );
+        Exit::Failed
+    })
 }
 
 /// Tells that there is no thread to be had.

@@ -4,7 +4,7 @@ use crate::campaign::seeds;
 use crate::clock::{self, Pace};
 use crate::exit::Exit;
 use crate::plan::{Faults, refused, scenario_script, sound};
-use crate::speaker::{Speaker, no_thread};
+use crate::speaker::{Speaker, hears_requests, no_thread};
 use crate::{interruption, message};
 use albacore_session::{FarEnd, Faulty, LinkError, LinkFault, Rows, ServedVehicle, Transport, WrittenUrl};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -53,6 +53,9 @@ impl Vehicle {
             Ok(speaker) => speaker,
             Err(error) => return no_thread(&error),
         };
+        if let Err(exit) = hears_requests() {
+            return exit;
+        }
         let url = match WrittenUrl::parse(&self.link) {
             Ok(url) => url,
             Err(error) => return told(&error, Exit::Usage),

@@ -209,6 +209,19 @@ fn signals_that_were_blocked_are_heard() {
     }
 }
 
+/// Without a file to hear signals with, nothing would give the vehicle back: it is not taken.
+#[test]
+fn a_run_that_would_hear_no_signal_takes_no_vehicle() {
+    let folder = empty("deaf");
+    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let run = vehicle.mission(&["--mission", "stay", "--no-out"]);
+    let mut limited = behind("ulimit -n 4", &run);
+    let output = limited.stdin(Stdio::null()).output().unwrap();
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(stderr(&output).contains("signals cannot be heard"), "{}", stderr(&output));
+    assert!(!vehicle.said().contains("override taken"));
+}
+
 /// Where nobody listens to signals either, the request to terminate ends what was begun with it ignored.
 #[test]
 fn what_is_to_be_ignored_is_not_the_request_to_terminate() {
