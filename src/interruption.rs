@@ -202,7 +202,7 @@ fn is_heard(request: i32, ignored: u64) -> bool {
 
 /// Hears requests from now on; why not, where the system has no thread or no file for it. Who drives a vehicle may not be deaf.
 pub fn hears() -> Result<(), &'static str> {
-    listen().as_ref().map(|()| ()).map_err(String::as_str)
+    listen().as_ref().copied().map_err(String::as_str)
 }
 
 /// Hears requests from now on, in a thread that waits for them and does nothing else: it must not write, for a terminal may hold

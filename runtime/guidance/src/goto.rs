@@ -64,6 +64,8 @@ impl Goto {
     fn watch_orbit(&mut self, last: Point, position: Point, range: f64) {
         if self.leaving {
             self.leaving = false;
+            // A hull may turn less tightly than is planned with: the next new approach, if there is one, begins farther off.
+            self.turning_radius *= 2.0;
             self.lap_range = range;
             self.swept = 0.0;
         }

@@ -9,6 +9,15 @@ use albacore_geometry::{Heading, Point};
 /// The circle is reached within this part of its radius, at most [`ARRIVAL_RADIUS`].
 const ENTRY_PART: f64 = 0.25;
 
+/// The range has fallen when it is below this part of what it was.
+const FALLEN: f64 = 0.9;
+
+/// An approach that makes this many laps, and the way to the centre besides, without coming nearer or round by a quarter is in vain.
+const LAPS_MAX: f64 = 3.0;
+
+/// Each new approach comes from another side, this much farther round, rad: one that failed would fail again.
+const NEXT_APPROACH: f64 = 2.4;
+
 /// Nearer to the centre than this, in metres, no direction round it is to be made out.
 const CENTER_M: f64 = 1e-3;
 
@@ -28,7 +37,8 @@ pub enum Circling {
 /// circle the law of the line takes over, with the circle's own direction as the track. Turns are counted from where
 /// the circle is reached. A circle narrower than the vehicle can turn is driven as tightly as it goes, and counted
 /// from the second time round. A vehicle that cannot help going round the other way, which turns about the centre as it
-/// begins, drives straight away and comes back.
+/// begins, or that gets no nearer, drives straight away and comes back, each time from farther and to a wider circle: a hull
+/// may turn less tightly than is planned with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loiter {
     center: Point,
@@ -41,6 +51,10 @@ pub struct Loiter {
     started: bool,
     entered: bool,
     swept: f64,
+    /// What has to be improved on, of the range or of the angle swept, and the way since it was.
+    range: f64,
+    most: f64,
+    way: f64,
     /// Driving off for a new approach, in the direction `outward`.
     leaving: bool,
     outward: Heading,
@@ -48,7 +62,7 @@ pub struct Loiter {
 
 impl Loiter {
     /// How many words the state takes.
-    pub const WORDS: usize = 14;
+    pub const WORDS: usize = 17;
 
     /// Round `center` at `radius` metres for `turns` (infinity: for ever), by a vehicle that turns within `turning_radius`
     /// metres, turns commanded `lead` metres early.
@@ -64,6 +78,9 @@ impl Loiter {
             started: false,
             entered: false,
             swept: 0.0,
+            range: f64::INFINITY,
+            most: 0.0,
+            way: 0.0,
             leaving: false,
             outward: Heading::NORTH,
         }
@@ -108,21 +125,30 @@ impl Law<{ Loiter::WORDS }> for Loiter {
         let range = out.length();
         if self.started && range > CENTER_M {
             self.swept += side * (out.toward() - (self.last - self.center).toward());
+            self.way += position.distance(self.last);
         }
         self.started = true;
         self.last = position;
         let near = (range - self.radius).abs() <= (ENTRY_PART * self.radius).min(ARRIVAL_RADIUS);
         if !self.entered && (near || self.swept >= TAU) {
-            self.entered = true;
-            self.swept = 0.0;
+            (self.entered, self.swept, self.most) = (true, 0.0, 0.0);
         }
-        if self.swept <= -TAU {
-            (self.leaving, self.entered, self.swept, self.outward) = (true, false, 0.0, out.toward());
+        if range < FALLEN * self.range || self.swept > self.most + TAU / 4.0 {
+            (self.range, self.most, self.way) = (range.min(self.range), self.swept.max(self.most), 0.0);
         }
-        self.leaving &= range < self.radius + STAND_OFF * self.turning_radius;
+        let is_in_vain = self.way > range + LAPS_MAX * TAU * self.radius.max(self.turning_radius);
+        if !self.leaving && (self.swept <= -TAU || is_in_vain) {
+            (self.leaving, self.entered, self.outward) = (true, false, self.outward + NEXT_APPROACH);
+        }
         if self.leaving {
-            self.swept = 0.0;
-            return Guidance { course: self.outward, arrived: false };
+            (self.swept, self.most, self.range, self.way) = (0.0, 0.0, f64::INFINITY, 0.0);
+            if range < self.radius + STAND_OFF * self.turning_radius {
+                return Guidance { course: self.outward, arrived: false };
+            }
+            self.leaving = false;
+            // The next approach is to a circle that can be driven as far as is known, and one after it to a wider one.
+            self.radius = self.radius.max(self.turning_radius);
+            self.turning_radius *= 2.0;
         }
         let arrived = self.entered && self.swept >= self.turns * TAU;
         if range <= CENTER_M {
@@ -148,6 +174,9 @@ impl Law<{ Loiter::WORDS }> for Loiter {
             .flag(self.started)
             .flag(self.entered)
             .number(self.swept)
+            .number(self.range)
+            .number(self.most)
+            .number(self.way)
             .flag(self.leaving)
             .heading(self.outward)
             .finish()
@@ -166,6 +195,9 @@ impl Law<{ Loiter::WORDS }> for Loiter {
             started: reader.flag(),
             entered: reader.flag(),
             swept: reader.number(),
+            range: reader.number(),
+            most: reader.number(),
+            way: reader.number(),
             leaving: reader.flag(),
             outward: reader.heading(),
         }

@@ -127,3 +127,17 @@ fn a_centre_beside_a_turning_vehicle_is_circled_the_right_way_round() {
     println!("{longest:.0} s");
     assert!(longest < 400.0, "{longest} s");
 }
+
+/// A hull that turns no faster than it can, whatever the mission allows, circles beside a centre that is told to lie within its reach.
+#[test]
+fn how_tightly_the_vehicle_turns_is_learnt() {
+    for planned in [0.4, 2.0, 7.0] {
+        for i in 0..100 {
+            let start = scattered(i, 0, 30.0);
+            let mut vehicle = Vehicle::at(start.point, start.heading);
+            let mut loiter = Loiter::new(CENTER, 0.1, Circling::Clockwise, 1.0, lead(), planned);
+            let time = vehicle.run(2000.0, |p, c| loiter.step(p, c), |_| ());
+            assert!(time.is_some(), "never from {start:?}, {planned} m planned");
+        }
+    }
+}
