@@ -22,8 +22,15 @@ const AGREE_LATE: u32 = 10;
 pub struct VehicleTime {
     last_ms: Option<u32>,
     passed_ms: u64,
-    /// The last stamp that was doubted, and how many of them have followed each other.
-    doubt: Option<(u32, u32)>,
+    doubt: Option<Doubt>,
+}
+
+/// Stamps that do not follow the last one that was believed, but each other.
+#[derive(Clone, Copy, Debug)]
+struct Doubt {
+    first_ms: u32,
+    last_ms: u32,
+    count: u32,
 }
 
 /// What a stamp says.
@@ -52,10 +59,11 @@ impl VehicleTime {
         if !follows(last, ms) && !self.agreed(last, ms) {
             return Stamp::Doubtful;
         }
-        self.doubt = None;
+        // How far it leapt is told by the first that was doubted, not by the one that had it believed.
+        let leapt = self.doubt.take().filter(|_| !follows(last, ms)).map_or(ms, |doubt| doubt.first_ms);
         self.last_ms = Some(ms);
         let ahead = since(last, ms);
-        let set = ahead > PASSED_MS;
+        let set = since(last, leapt) > PASSED_MS;
         self.passed_ms += if set { TICK_MS } else { u64::from(ahead) };
         let tick = self.tick();
         if set { Stamp::ClockSet(tick) } else { Stamp::Tick(tick) }
@@ -63,12 +71,12 @@ impl VehicleTime {
 
     /// Whether a stamp that does not follow the last is to be believed all the same.
     fn agreed(&mut self, last: u32, ms: u32) -> bool {
-        let count = match self.doubt {
-            Some((doubted, count)) if follows(doubted, ms) => count + 1,
-            _ => 1,
+        let doubt = match self.doubt {
+            Some(doubt) if follows(doubt.last_ms, ms) => Doubt { last_ms: ms, count: doubt.count + 1, ..doubt },
+            _ => Doubt { first_ms: ms, last_ms: ms, count: 1 },
         };
-        self.doubt = Some((ms, count));
-        count >= if since(ms, last) <= LATE_MS { AGREE_LATE } else { AGREE }
+        self.doubt = Some(doubt);
+        doubt.count >= if since(ms, last) <= LATE_MS { AGREE_LATE } else { AGREE }
     }
 }
 
@@ -98,6 +106,10 @@ mod tests {
         assert_eq!(heard(&nine_hertz), [Tick(0), Tick(1), Tick(2), Tick(3), Tick(4)]);
         let gap = [0, 4_000, 4_100, 4_200, 4_300];
         assert_eq!(heard(&gap)[3..], [Tick(42), Tick(43)], "a gap is time that has passed");
+        let long = [0, 4_800, 4_900, 5_010, 5_110];
+        assert_eq!(heard(&long)[3..], [Tick(50), Tick(51)], "believed when it is longer ago than what passes");
+        let slow = [0, 4_000, 5_000, 6_000, 7_000];
+        assert_eq!(heard(&slow)[3..], [Tick(60), Tick(70)], "one state a second");
     }
 
     #[test]
