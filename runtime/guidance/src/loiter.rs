@@ -125,7 +125,8 @@ impl Law<{ Loiter::WORDS }> for Loiter {
         let range = out.length();
         if self.started && range > CENTER_M {
             self.swept += side * (out.toward() - (self.last - self.center).toward());
-            self.way += position.distance(self.last);
+            // Along the course: positions that are told wrong one after another make no way.
+            self.way += (position - self.last).along(course);
         }
         self.started = true;
         self.last = position;

@@ -141,3 +141,21 @@ fn how_tightly_the_vehicle_turns_is_learnt() {
         }
     }
 }
+
+/// Positions that are told wrong by some metres in each tick make no way: the vehicle goes round all the same.
+#[test]
+fn noisy_positions_are_no_way_in_vain() {
+    let mut vehicle = Vehicle::at(Point::new(20.0, 10.0), Heading::NORTH);
+    let mut loiter = Loiter::new(CENTER, 20.0, Circling::Clockwise, 2.0, lead(), crate::vehicle::radius());
+    let mut tick = 0;
+    let time = vehicle.run(
+        1000.0,
+        |p, c| {
+            tick += 1;
+            loiter.step(p + (scattered(tick, 1, 8.0).point - Point::ORIGIN), c)
+        },
+        |_| (),
+    );
+    // Two turns of 126 m at 2 m/s, and the way in.
+    assert!(time.is_some_and(|time| time < 200.0), "{time:?}");
+}
