@@ -244,10 +244,11 @@ impl Run {
             (Vertical::Depth(asked), ..) => (Channel::Depth, asked, asked),
         };
         let other = if channel == Channel::Depth { Channel::Altitude } else { Channel::Depth };
-        self.tell_limited(other, 0.0, 0.0, false);
+        self.tell_limited(other, None);
         let own = self.within_limits(channel, asked);
         let apart = if self.state.limited[channel as usize] { 0.0 } else { TOLD_M };
-        self.tell_limited(channel, asked, given, own != asked || (given - asked).abs() > apart);
+        let held = own != asked || (given - asked).abs() > apart;
+        self.tell_limited(channel, held.then_some((asked, given)));
     }
 
     /// The depth, m, that a vehicle is told whose altitude is low: the least, or less where the water allows no more. How deep it is may

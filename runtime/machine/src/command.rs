@@ -159,7 +159,7 @@ impl Run {
     /// Holds a setpoint within its limits, and says when that begins and when it ends.
     pub fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
         let given = self.within_limits(channel, asked);
-        self.tell_limited(channel, asked, given, given != asked);
+        self.tell_limited(channel, (given != asked).then_some((asked, given)));
         given
     }
 
@@ -172,13 +172,13 @@ impl Run {
         if is_free { 0.0 } else { asked.max(low).min(high.max(low)) }
     }
 
-    /// Says when it begins that another setpoint is given than is asked for, and when it ends.
-    pub fn tell_limited(&mut self, channel: Channel, asked: f64, given: f64, held: bool) {
-        if held != std::mem::replace(&mut self.state.limited[channel as usize], held) {
-            self.events.push(if held {
-                Event::Limited(channel, asked, given + 0.0)
-            } else {
-                Event::LimitedEnded(channel)
+    /// Says when it begins that another setpoint is given than is asked for (both, while it is so), and when it ends.
+    pub fn tell_limited(&mut self, channel: Channel, held: Option<(f64, f64)>) {
+        if held.is_some() != std::mem::replace(&mut self.state.limited[channel as usize], held.is_some()) {
+            self.events.push(match held {
+                // A zero has no sign.
+                Some((asked, given)) => Event::Limited(channel, asked, given + 0.0),
+                None => Event::LimitedEnded(channel),
             });
         }
     }

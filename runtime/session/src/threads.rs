@@ -8,14 +8,14 @@ use std::thread::{Builder, available_parallelism};
 /// The stack of a thread, bytes: what the standard library gives. A variable of the environment makes it larger, but not smaller.
 const STACK: usize = 2 << 20;
 
-#[expect(clippy::disallowed_methods, reason = "this is where threads are made")]
 /// A thread by its name, which a debugger shows, to be started.
+#[expect(clippy::disallowed_methods, reason = "this is where threads are made")]
 pub fn thread(name: &str) -> Builder {
     Builder::new().name(name.to_string()).stack_size(stack())
 }
 
-#[expect(clippy::disallowed_methods, reason = "this is where threads are made")]
 /// So many threads, else one for each core, to share the work of many runs. Fails where the system does not start them.
+#[expect(clippy::disallowed_methods, reason = "this is where threads are made")]
 pub fn pool(threads: Option<usize>) -> Result<ThreadPool, ThreadPoolBuildError> {
     let threads = threads.unwrap_or_else(|| available_parallelism().map_or(1, NonZero::get));
     ThreadPoolBuilder::new().num_threads(threads).stack_size(stack()).build()
