@@ -1,8 +1,9 @@
 //! Drives to a point so as to arrive there on a given heading, along a Dubins path.
 
 use crate::dubins::{Path, Pose, Words, shortest};
+use crate::goto::Goto;
 use crate::law::{Args, Guidance, Law, Start, cross_track};
-use crate::parameters::{CROSS_TRACK_GAIN, CROSS_TRACK_MAX, LINE_CAPTURE_ANGLE, NAVIGATION_JUMP};
+use crate::parameters::{ARRIVAL_RADIUS, CROSS_TRACK_GAIN, CROSS_TRACK_MAX, LINE_CAPTURE_ANGLE, NAVIGATION_JUMP};
 use crate::words::{Reader, Writer};
 use albacore_geometry::{Heading, Point};
 
@@ -17,6 +18,13 @@ const WIDEN: f64 = 1.25;
 /// Arcs never grow to more than this many times the radius first planned with.
 const WIDEN_MAX: f64 = 4.0;
 
+/// So many paths that were left one after another, none of them begun nearer to the goal by a tenth, are enough: this
+/// vehicle cannot keep any, and drives to the point alone.
+const LEFT_MAX: u8 = 12;
+
+/// The goal is nearer when its range is below this part of what it was.
+const NEARER: f64 = 0.9;
+
 /// So many times a path that ended across the goal's heading is planned again; then an end is an end.
 const RETRIES_MAX: u8 = 3;
 
@@ -27,6 +35,10 @@ const RETRIES_MAX: u8 = 3;
 /// cross-track correction that follows a line. When the vehicle is more than 9 m from where it should be, a new path
 /// is planned from where it is, at most once for each turning radius driven; likewise when the path ends more than 30
 /// degrees across the goal's heading.
+///
+/// A vehicle that turns far less tightly than is planned with, or is carried by a current near its own speed, can leave
+/// every path. Then the point is what counts: it is driven to by [`Goto`], which learns from its own failures, to within
+/// the paper's radius of arrival and on whatever heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GotoPose {
     path: Path,
@@ -41,18 +53,36 @@ pub struct GotoPose {
     driven: f64,
     jumped: bool,
     retries: u8,
+    /// The range of the goal to be improved on, and how many paths were left since it was.
+    range: f64,
+    left: u8,
+    /// Toward the point alone, once too many paths were left.
+    to_point: Goto,
 }
 
 impl GotoPose {
     /// How many words the state takes.
-    pub const WORDS: usize = Path::WORDS + 12;
+    pub const WORDS: usize = Path::WORDS + 14 + Goto::WORDS;
 
     /// From `start` to `goal` with arcs of `radius` metres, turns commanded `lead` metres early
     /// (speed x [`TURN_LEAD_TIME`](crate::parameters::TURN_LEAD_TIME)).
     pub fn new(start: Pose, goal: Pose, radius: f64, words: Words, lead: f64) -> Self {
         let path = shortest(start, goal, radius, words);
-        let (radius, last) = (path.radius, start.point);
-        GotoPose { path, goal, words, radius, lead, progress: 0.0, last, driven: 0.0, jumped: false, retries: 0 }
+        GotoPose {
+            path,
+            goal,
+            words,
+            radius: path.radius,
+            lead,
+            progress: 0.0,
+            last: start.point,
+            driven: 0.0,
+            jumped: false,
+            retries: 0,
+            range: f64::INFINITY,
+            left: 0,
+            to_point: Goto::new(goal.point, ARRIVAL_RADIUS, path.radius),
+        }
     }
 
     /// The path now followed.
@@ -82,6 +112,15 @@ impl GotoPose {
         self.driven = 0.0;
         self.jumped = false;
     }
+
+    /// Counts a path that was left.
+    fn leave(&mut self, position: Point) {
+        let range = position.distance(self.goal.point);
+        if range < NEARER * self.range {
+            (self.range, self.left) = (range, 0);
+        }
+        self.left = self.left.saturating_add(1);
+    }
 }
 
 impl Law<{ GotoPose::WORDS }> for GotoPose {
@@ -96,6 +135,9 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
     /// up to 9 m from the goal after a late jump of the navigation: another path for the last metres would be a whole
     /// loop.
     fn step(&mut self, position: Point, course: Heading) -> Guidance {
+        if self.left >= LEFT_MAX {
+            return self.to_point.step(position, course);
+        }
         let step = position.distance(self.last);
         self.last = position;
         self.jumped |= step > NAVIGATION_JUMP;
@@ -106,6 +148,7 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
         let retry = across && foot.distance >= self.path.length() && self.retries < RETRIES_MAX;
         if (miss > OFF_PATH || retry) && self.driven >= self.path.radius {
             self.retries += u8::from(retry);
+            self.leave(position);
             self.plan_again(Pose { point: position, heading: course });
             foot = self.path.project(position, 0.0);
         }
@@ -127,6 +170,9 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
             .number(self.driven)
             .flag(self.jumped)
             .number(f64::from(self.retries))
+            .number(self.range)
+            .number(f64::from(self.left))
+            .numbers(&self.to_point.to_words())
             .finish()
     }
 
@@ -143,6 +189,9 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
             driven: reader.number(),
             jumped: reader.flag(),
             retries: reader.number() as u8,
+            range: reader.number(),
+            left: reader.number() as u8,
+            to_point: Goto::from_words(&reader.numbers()),
         }
     }
 }

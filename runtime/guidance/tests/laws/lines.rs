@@ -7,7 +7,7 @@
     reason = "a helper of tests panics as they do; --nocapture shows the figures"
 )]
 
-use crate::vehicle::{SPEED, Vehicle, lead, radius, scattered};
+use crate::vehicle::{BEYOND_ANY_PATH, SPEED, Vehicle, lead, radius, scattered};
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Heading, Line, Point, Vector};
 use albacore_guidance::dubins::{Words, shortest};
@@ -101,6 +101,25 @@ fn an_approach_that_cannot_succeed_is_given_up() {
         given_up += u32::from(time > 200.0);
     }
     assert!(given_up > 0, "the case was met");
+}
+
+/// A line ends even where no approach to it can be kept to.
+#[test]
+fn a_line_whose_approach_cannot_be_kept_is_driven() {
+    for (radius, rate_deg, current, compensated) in BEYOND_ANY_PATH {
+        let mut late = 0.0_f64;
+        for i in 0..48 {
+            let start = scattered(i, 0, if i % 2 == 0 { 30.0 } else { 150.0 });
+            let mut vehicle =
+                Vehicle::at(start.point, start.heading).in_current(Vector::new(0.0, current), compensated);
+            vehicle.rate_max = radians(rate_deg);
+            let mut follow = FollowLine::new(LINE, radius, lead());
+            let time = vehicle.run(20_000.0, |p, c| follow.step(p, c), |_| ());
+            late = late.max(time.unwrap_or(f64::INFINITY));
+        }
+        println!("{radius} m, {rate_deg} deg/s in {current} m/s: {late:.0} s");
+        assert!(late < 20_000.0, "never with {radius} m at {rate_deg} deg/s in {current} m/s");
+    }
 }
 
 #[test]

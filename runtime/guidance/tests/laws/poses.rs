@@ -6,7 +6,7 @@
     reason = "a helper of tests panics as they do; --nocapture shows the figures"
 )]
 
-use crate::vehicle::{DT, SPEED, Vehicle, apart_deg, lead, radius, scattered, spread};
+use crate::vehicle::{BEYOND_ANY_PATH, DT, SPEED, Vehicle, apart_deg, lead, radius, scattered, spread};
 use albacore_geometry::math::{TAU, radians};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_guidance::dubins::{Pose, Words};
@@ -175,4 +175,32 @@ fn a_vehicle_that_turns_worse_than_promised_arrives() {
 fn a_goal_where_the_vehicle_is_takes_no_driving() {
     let mut guide = GotoPose::new(GOAL, GOAL, radius(), Words::Csc, lead());
     assert!(guide.step(GOAL.point, GOAL.heading).arrived);
+}
+
+/// Paths that cannot be kept, whatever the arcs: then the point is what counts, and the heading there is not.
+#[test]
+fn where_no_path_can_be_kept_the_point_is_reached() {
+    for (radius, rate_deg, current, compensated) in BEYOND_ANY_PATH {
+        let (mut late, mut far, mut end) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for i in 0..48 {
+            let start = scattered(i, 0, if i % 2 == 0 { 30.0 } else { 150.0 });
+            let mut vehicle =
+                Vehicle::at(start.point, start.heading).in_current(Vector::new(0.0, current), compensated);
+            vehicle.rate_max = radians(rate_deg);
+            let words = if i % 4 < 2 { Words::Csc } else { Words::Full };
+            let mut guide = GotoPose::new(vehicle.pose(), GOAL, radius, words, lead());
+            let watch = |v: &mut Vehicle| far = far.max(v.position.distance(GOAL.point));
+            let guided = |p: Point, c: Heading| {
+                guide = GotoPose::from_words(&guide.to_words());
+                guide.step(p, c)
+            };
+            let time = vehicle.run(20_000.0, guided, watch);
+            late = late.max(time.unwrap_or(f64::INFINITY));
+            end = end.max(vehicle.position.distance(GOAL.point));
+        }
+        println!("{radius} m, {rate_deg} deg/s in {current} m/s: {late:.0} s, {far:.0} m off, {end:.1} m at the end");
+        assert!(late < 20_000.0, "never with {radius} m at {rate_deg} deg/s in {current} m/s");
+        // Within the radius of arrival, half as much again in an orbit, and the way between two ticks.
+        assert!(end < 20.0, "{end} m from the goal");
+    }
 }

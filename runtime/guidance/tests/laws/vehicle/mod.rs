@@ -108,3 +108,18 @@ pub fn scattered(i: u32, k: u32, reach: f64) -> Pose {
 pub fn apart_deg(a: Heading, b: Heading) -> f64 {
     degrees(a - b).abs()
 }
+
+/// What no path can be kept by: a radius in m, degrees per second of the hull, a current toward the east in m/s, and whether it
+/// is known.
+pub const BEYOND_ANY_PATH: [(f64, f64, f64, bool); 10] = [
+    (0.1, 10.0, 0.0, true),
+    (0.1, 2.0, 0.0, true),
+    (0.1, 0.5, 0.0, true),
+    (12.6, 2.0, 0.0, true),
+    (12.6, 1.0, 0.0, true),
+    (12.6, 0.2, 0.0, true),
+    (12.6, 10.0, 1.5, true),
+    (12.6, 10.0, 1.8, true),
+    (12.6, 10.0, 1.5, false),
+    (12.6, 10.0, 1.8, false),
+];
