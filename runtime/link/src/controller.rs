@@ -97,7 +97,7 @@ pub struct Controller {
     over: u64,
     /// States in which it has said that we drive it, since we asked or ask again.
     ours: u64,
-    goals: [Goal; 3],
+    goals: [Goal; SetPoint::PLACES],
     /// What has to be said before the first set-point may not have been sent.
     begins_again: bool,
     /// Ticks whose commands came too late to be sent, since the last that was.

@@ -17,7 +17,7 @@ use albacore_geometry::{Heading, Point, TangentFrame, Vector};
 use albacore_guidance::Route;
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_vehicle::measurements::{ALTITUDE, BATTERY, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED};
-use albacore_vehicle::{Beyond, Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
 
 /// Ticks without a message after which who serves faster than real time should wait for the guest.
 const PATIENCE_TICKS: u64 = 10;
@@ -27,26 +27,16 @@ const TAKEN_MAX: usize = 8192;
 /// What a guest has asked for; it holds until something else is asked for.
 #[derive(Clone, Copy)]
 struct Goals {
-    heading: Heading,
-    /// Clockwise, rad/s.
+    command: Command,
+    /// The heading turns clockwise, rad/s.
     rate: f64,
-    speed: f64,
-    vertical: Vertical,
 }
 
 impl Goals {
     /// The same with one of them changed.
     fn holding(self, set_point: SetPoint) -> Self {
-        match set_point {
-            SetPoint::Heading(heading) => Goals { heading, rate: 0.0, ..self },
-            SetPoint::Speed(speed) => Goals { speed, ..self },
-            SetPoint::Depth(depth) => Goals { vertical: Vertical::Depth(depth), ..self },
-            SetPoint::Altitude(altitude) => Goals { vertical: Vertical::Altitude(altitude), ..self },
-        }
-    }
-
-    fn command(&self) -> Command {
-        Command { heading: self.heading, speed: self.speed, vertical: self.vertical }
+        let rate = if let SetPoint::Heading(_) = set_point { 0.0 } else { self.rate };
+        Goals { command: set_point.of_another(self.command), rate }
     }
 }
 
@@ -253,7 +243,7 @@ impl<V: Vehicle> Server<V> {
     fn give_over(&mut self) {
         self.happenings.push(ServerEvent::Taken(self.senses.position, self.leg()));
         let (heading, speed) = (self.senses.heading, self.seat.plan().map_or(0.0, OwnPlan::speed));
-        self.goals = Some(Goals { heading, rate: 0.0, speed, vertical: self.seat.vertical() });
+        self.goals = Some(Goals { command: Command::new(heading, speed, self.seat.vertical()), rate: 0.0 });
     }
 
     fn set_goal(&mut self, goal: Goal, text: &str) {
@@ -276,17 +266,15 @@ impl<V: Vehicle> Server<V> {
     /// The goal is accepted, where the vehicle follows it as it is; else it is said how far it does. The vehicle gives
     /// notice of that itself.
     fn answer_goal(&mut self, goal: Goal, wanted: Goals, text: &str) {
-        let (mut of_speed, mut of_vertical) = (None, None);
-        self.vehicle.clamp_command(&wanted.command(), &mut |beyond| match beyond {
-            Beyond::Fast(_) | Beyond::Astern => of_speed = Some(beyond),
-            Beyond::Deep(_) | Beyond::Low(_) | Beyond::High => of_vertical = Some(beyond),
+        let mut found = None;
+        self.vehicle.clamp_command(&wanted.command, &mut |beyond| {
+            if let Goal::Hold(set_point) = goal
+                && set_point.is_beyond(&beyond)
+            {
+                found = Some(beyond);
+            }
         });
-        let beyond = match goal {
-            Goal::Hold(SetPoint::Speed(_)) => of_speed,
-            Goal::Hold(SetPoint::Depth(_) | SetPoint::Altitude(_)) => of_vertical,
-            _ => None,
-        };
-        match beyond {
+        match found {
             Some(beyond) => self.say(&Report::Refused(Refusal::Beyond, &beyond.to_string())),
             None => self.say(&Report::Accepted(text)),
         }
@@ -323,8 +311,8 @@ impl<V: Vehicle> Server<V> {
             return Some(Command::still(heading, depth));
         }
         if let Some(goals) = &mut self.goals {
-            goals.heading = goals.heading + goals.rate * TICK_S;
-            return Some(goals.command());
+            goals.command.heading = goals.command.heading + goals.rate * TICK_S;
+            return Some(goals.command);
         }
         let Senses { position, course, heading, flow, .. } = self.senses;
         let known = Known { position, course, heading, flow: flow.unwrap_or(Vector::ZERO) };

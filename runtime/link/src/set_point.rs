@@ -1,7 +1,14 @@
 //! One of the three things that a command asks for.
 
 use albacore_geometry::Heading;
-use albacore_vehicle::{Command, Vertical};
+use albacore_geometry::math::radians;
+use albacore_vehicle::{Beyond, Command, Vertical};
+
+/// How far what the vehicle holds may be from what was asked: what a goal that moves comes to while it is on its way. In
+/// degrees (the command filter lets a heading turn by 10 a second), m, and m/s.
+const HEADING_SLACK_DEG: f64 = 10.0;
+const HEIGHT_SLACK: f64 = 0.5;
+const SPEED_SLACK: f64 = 0.2;
 
 /// What a vehicle is to hold in one way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +24,11 @@ pub enum SetPoint {
 }
 
 impl SetPoint {
+    /// How many a command has.
+    pub(crate) const PLACES: usize = 3;
+
     /// Those of a command.
-    pub fn of(command: &Command) -> [SetPoint; 3] {
+    pub fn of(command: &Command) -> [SetPoint; Self::PLACES] {
         let vertical = match command.vertical {
             Vertical::Depth(depth) => SetPoint::Depth(depth),
             Vertical::Altitude(altitude) => SetPoint::Altitude(altitude),
@@ -32,6 +42,38 @@ impl SetPoint {
             SetPoint::Heading(_) => 0,
             SetPoint::Speed(_) => 1,
             SetPoint::Depth(_) | SetPoint::Altitude(_) => 2,
+        }
+    }
+    /// A command with this one in its place.
+    pub(crate) fn of_another(self, command: Command) -> Command {
+        match self {
+            SetPoint::Heading(heading) => Command { heading, ..command },
+            SetPoint::Speed(speed) => Command { speed, ..command },
+            SetPoint::Depth(depth) => Command { vertical: Vertical::Depth(depth), ..command },
+            SetPoint::Altitude(altitude) => Command { vertical: Vertical::Altitude(altitude), ..command },
+        }
+    }
+
+    /// Whether it is this one that is beyond a vehicle's limits.
+    pub(crate) fn is_beyond(self, beyond: &Beyond) -> bool {
+        match self {
+            SetPoint::Heading(_) => false,
+            SetPoint::Speed(_) => matches!(beyond, Beyond::Fast(_) | Beyond::Astern),
+            SetPoint::Depth(_) | SetPoint::Altitude(_) => {
+                matches!(beyond, Beyond::Deep(_) | Beyond::Low(_) | Beyond::High)
+            }
+        }
+    }
+
+    /// Whether a vehicle that holds the other one has taken this one up.
+    pub(crate) fn is_held_as(self, held: SetPoint) -> bool {
+        match (held, self) {
+            (SetPoint::Heading(a), SetPoint::Heading(b)) => (a - b).abs() <= radians(HEADING_SLACK_DEG),
+            (SetPoint::Depth(a), SetPoint::Depth(b)) | (SetPoint::Altitude(a), SetPoint::Altitude(b)) => {
+                (a - b).abs() <= HEIGHT_SLACK
+            }
+            (SetPoint::Speed(a), SetPoint::Speed(b)) => (a - b).abs() <= SPEED_SLACK,
+            _ => false,
         }
     }
 }

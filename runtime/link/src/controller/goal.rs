@@ -2,7 +2,6 @@
 
 use super::ControllerSide;
 use crate::set_point::SetPoint;
-use albacore_geometry::math::radians;
 use std::mem::discriminant;
 
 /// A goal that the vehicle has not taken up is sent again after this many ticks.
@@ -14,11 +13,6 @@ const AGAIN_TICKS: u64 = 5;
 const IGNORED_TICKS: u64 = 30;
 /// Who has asked for nothing for this many ticks begins anew; fewer are ticks that came late.
 const BREAK_TICKS: u64 = 5;
-/// How far what the vehicle holds may be from what was asked: what a goal that moves comes to while it is on its way. In
-/// degrees (the command filter lets a heading turn by 10 a second), m, and m/s.
-const HEADING_SLACK_DEG: f64 = 10.0;
-const HEIGHT_SLACK: f64 = 0.5;
-const SPEED_SLACK: f64 = 0.2;
 
 /// A goal: what is asked, and what the vehicle says that it holds.
 #[derive(Clone, Debug, Default)]
@@ -50,7 +44,7 @@ impl Goal {
         let begins = self.asked.is_none() || self.last + BREAK_TICKS < now;
         self.last = now;
         let agree = match self.held {
-            Some(Held::SetPoint(held)) if discriminant(&held) == discriminant(&set_point) => agree(held, set_point),
+            Some(Held::SetPoint(held)) if discriminant(&held) == discriminant(&set_point) => set_point.is_held_as(held),
             // A depth says nothing of an altitude.
             Some(Held::SetPoint(_)) => {
                 self.held = None;
@@ -81,17 +75,5 @@ impl Goal {
         let Some((sent, tick)) = &self.sent else { return Some(asked) };
         let again = if self.agreed == now { AGAIN_TICKS } else { UNCONFIRMED_TICKS };
         (*sent != asked || now - tick >= again).then_some(asked)
-    }
-}
-
-/// Whether what the vehicle holds is what was asked.
-fn agree(held: SetPoint, asked: SetPoint) -> bool {
-    match (held, asked) {
-        (SetPoint::Heading(a), SetPoint::Heading(b)) => (a - b).abs() <= radians(HEADING_SLACK_DEG),
-        (SetPoint::Depth(a), SetPoint::Depth(b)) | (SetPoint::Altitude(a), SetPoint::Altitude(b)) => {
-            (a - b).abs() <= HEIGHT_SLACK
-        }
-        (SetPoint::Speed(a), SetPoint::Speed(b)) => (a - b).abs() <= SPEED_SLACK,
-        _ => false,
     }
 }

@@ -74,17 +74,6 @@ impl ControllerSide for Controller {
     }
 }
 
-impl From<SetPoint> for ToVehicle {
-    fn from(set_point: SetPoint) -> Self {
-        match set_point {
-            SetPoint::Heading(heading) => ToVehicle::Heading(heading),
-            SetPoint::Speed(speed) => ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed)),
-            SetPoint::Depth(depth) => ToVehicle::Depth(depth),
-            SetPoint::Altitude(altitude) => ToVehicle::Altitude(altitude),
-        }
-    }
-}
-
 impl Memory {
     fn take_in(&mut self, message: FromVehicle, received: &mut Received) {
         match message {

@@ -4,6 +4,7 @@ mod from_vehicle;
 mod to_vehicle;
 
 pub use from_vehicle::{Adcp, Ctd, FromVehicle, State};
+pub(super) use to_vehicle::RPM_AT_1_MPS;
 pub use to_vehicle::{SpeedGoal, ToVehicle};
 
 use super::fields::{fixed, number, ranges, sensor_number, within};

@@ -1,13 +1,12 @@
 //! The vehicle's side: what a guest's lines say, and the lines that tell of the vehicle.
 
 use super::frame::{Deframer, seal};
-use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
+use super::message::{Adcp, FromVehicle, RPM_AT_1_MPS, State, ToVehicle};
 use super::mode::Mode;
 use super::{DIALECT, FULL_SCALE_VOLTS, grounding, seawater};
 use crate::controller::DAY_MS;
 use crate::dialect::Dialect;
 use crate::server::{Goal, Refusal, Report, Request, Senses, ServerSide, StateReport};
-use crate::set_point::SetPoint;
 use albacore_geometry::math::{cos, sin};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::{BATTERY, CHEMICAL, SALINITY, TEMPERATURE};
@@ -16,8 +15,6 @@ use albacore_vehicle::measurements::{BATTERY, CHEMICAL, SALINITY, TEMPERATURE};
 const ADCP_TICKS: u64 = 10;
 /// The day's time at tick 0: noon.
 const BEGIN_MS: u64 = 12 * 3_600_000;
-/// Turns of the propeller a minute for 1 m/s. Ours: 1500 turns for the 2.6 m/s of a REMUS 100.
-const RPM_AT_1_MPS: f64 = 1500.0 / 2.6;
 /// The battery of a REMUS 100, Wh.
 const CAPACITY_WH: f64 = 1000.0;
 /// So much of a message that cannot be understood is shown, bytes.
@@ -93,21 +90,10 @@ fn request(message: &ToVehicle) -> Request {
         ToVehicle::VersionRequest | ToVehicle::Query(_) | ToVehicle::KeepAlive(_) | ToVehicle::Other(_) => {
             return Request::Other;
         }
-        ToVehicle::Heading(heading) => Goal::Hold(SetPoint::Heading(*heading)),
         ToVehicle::HeadingRate(rate) => Goal::Turn(*rate),
-        ToVehicle::Depth(depth) => Goal::Hold(SetPoint::Depth(*depth)),
-        ToVehicle::Altitude(altitude) => Goal::Hold(SetPoint::Altitude(*altitude)),
-        ToVehicle::Speed(speed) => Goal::Hold(SetPoint::Speed(metres_per_second(*speed))),
-        ToVehicle::Triangle(_) => Goal::Unknown,
+        _ => message.set_point().map_or(Goal::Unknown, Goal::Hold),
     };
     Request::Goal(goal, format!("#{message}"))
-}
-
-fn metres_per_second(speed: SpeedGoal) -> f64 {
-    match speed {
-        SpeedGoal::Rpm(rpm) => rpm / RPM_AT_1_MPS,
-        SpeedGoal::MetresPerSecond(speed) | SpeedGoal::Knots(speed) => speed,
-    }
 }
 
 /// Passes on what has messages of its own.

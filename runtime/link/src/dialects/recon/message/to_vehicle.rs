@@ -2,12 +2,15 @@
 
 use super::super::fields::{fixed, fixed_down, fixed_up, number, ranges, within};
 use super::{Malformed, compass, compass_text, lettered};
+use crate::set_point::SetPoint;
 use albacore_geometry::Heading;
 use albacore_geometry::math::{degrees, radians};
 use std::fmt;
 
 /// Metres a second in a knot.
 const KNOT: f64 = 1852.0 / 3600.0;
+/// Turns of the propeller a minute for 1 m/s. Ours: 1500 turns for the 2.6 m/s of a REMUS 100.
+pub(crate) const RPM_AT_1_MPS: f64 = 1500.0 / 2.6;
 
 /// What a controller says.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +52,30 @@ pub enum SpeedGoal {
     Knots(f64),
 }
 
+impl From<SetPoint> for ToVehicle {
+    fn from(set_point: SetPoint) -> Self {
+        match set_point {
+            SetPoint::Heading(heading) => ToVehicle::Heading(heading),
+            SetPoint::Speed(speed) => ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed)),
+            SetPoint::Depth(depth) => ToVehicle::Depth(depth),
+            SetPoint::Altitude(altitude) => ToVehicle::Altitude(altitude),
+        }
+    }
+}
+
 impl ToVehicle {
+    /// The set-point that it asks a vehicle to hold.
+    pub fn set_point(&self) -> Option<SetPoint> {
+        Some(match self {
+            ToVehicle::Heading(heading) => SetPoint::Heading(*heading),
+            ToVehicle::Depth(depth) => SetPoint::Depth(*depth),
+            ToVehicle::Altitude(altitude) => SetPoint::Altitude(*altitude),
+            ToVehicle::Speed(SpeedGoal::Rpm(rpm)) => SetPoint::Speed(rpm / RPM_AT_1_MPS),
+            ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed) | SpeedGoal::Knots(speed)) => SetPoint::Speed(*speed),
+            _ => return None,
+        })
+    }
+
     /// Reads the body of a frame that a controller sent.
     pub fn parse(body: &str) -> Result<Self, Malformed> {
         let malformed = || Malformed(body.to_string());
