@@ -5,7 +5,7 @@ use super::expr::article;
 use super::{Checker, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Body, Expr, ExprKind, Rule, Target, Var, VarKind, mentions_done, same_condition};
+use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
 use crate::source::Span;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
@@ -320,11 +320,12 @@ impl<'t> Checker<'t> {
                 }
             }
         }
-        self.shadowed(rules, &leaving, &names, &strategy.vars);
+        self.shadowed(rules, &leaving, &names);
     }
 
-    /// A rule after one of the same source that holds whenever it does is never reached.
-    fn shadowed(&mut self, rules: &[Rule], leaving: &[Vec<usize>], names: &[tree::Name], vars: &[Var]) {
+    /// A rule after one of the same source that holds whenever it does is never reached. One with `done` is tried at other times than one
+    /// without: after the body, which may have assigned a memory, and in the tick in which a suspended behavior goes on.
+    fn shadowed(&mut self, rules: &[Rule], leaving: &[Vec<usize>], names: &[tree::Name]) {
         for (k, later) in rules.iter().enumerate() {
             // A rule of many behaviors is compared once with each other one.
             let mut compared: BTreeMap<usize, bool> = BTreeMap::new();
@@ -333,7 +334,7 @@ impl<'t> Checker<'t> {
                     let earlier = &rules[earlier];
                     earlier.sources.len() >= later.sources.len()
                         && same_condition(&earlier.on, &later.on)
-                        && tried_alike(&earlier.on, &later.on, vars)
+                        && (mentions_done(&earlier.on) || !mentions_done(&later.on))
                 })
             };
             let mut left: Vec<(&str, &Rule)> = Vec::new();
@@ -368,13 +369,6 @@ fn may_abort(activity: &hir::Activity) -> bool {
     let in_reactions = activity.reactions.iter().any(|(_, block)| flow::aborts(block).is_some());
     let in_body = matches!(&activity.body, Body::Sequence(block) if flow::aborts(block).is_some());
     !activity.aborts.is_empty() || in_reactions || in_body
-}
-
-/// Whether the condition of an earlier rule finds what that of a later one will: one with `done` is tried after the body too, which
-/// may have assigned a memory meanwhile.
-fn tried_alike(earlier: &Expr, later: &Expr, vars: &[Var]) -> bool {
-    let is_assigned = |e: &Expr| matches!(e.kind, ExprKind::Var(id) if vars[id].kind == VarKind::Memory);
-    mentions_done(earlier) || !mentions_done(later) || !earlier.contains(is_assigned)
 }
 
 /// The behaviors of a table by their names; of two of one name the first.

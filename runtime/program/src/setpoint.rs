@@ -97,7 +97,7 @@ pub struct Setpoint {
     pub axis: Axis,
     /// Its type.
     pub kind: SetpointKind,
-    /// Its unit.
+    /// Its unit, that of SI: messages put numbers beside it as they are.
     pub unit: &'static str,
     /// What one of that unit means.
     pub meaning: &'static str,
