@@ -105,6 +105,54 @@ fn no_altitude_that_is_asked_for_leads_deeper_than_the_depth_may_be() {
     }
 }
 
+/// What of dives to a depth that is told too deep touches the bottom, with these faults besides.
+fn told_deep_aground(sizes: &[f64], rates: &[&str], besides: &[&str]) -> Vec<String> {
+    let mut aground = Vec::new();
+    for hull in ["kinematic", "fossen", "prestero"] {
+        for rate in rates {
+            let scenario = format!("{hull}_level");
+            let text = std::fs::read_to_string("tests/aground/told_deep.alb").unwrap();
+            let text = text.replace("rate: 1 Hz", &format!("rate: {rate}"));
+            let script = load_text(Source { name: "told_deep.alb".into(), text: text.into() });
+            assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
+            let plan = Plan::new(&script, "told_deep.alb", None, Some(&scenario)).unwrap();
+            for (size, besides) in sizes.iter().flat_map(|size| besides.iter().map(move |besides| (size, besides))) {
+                let mut faults = vec![format!("depth, wrong(size: {size})")];
+                faults.extend((!besides.is_empty()).then(|| (*besides).to_string()));
+                let faults = load_faults(&faults);
+                assert!(faults.is_sound(), "{:?}", faults.findings);
+                let plan = plan.clone().with_faults(&Faults::of(&faults).unwrap()).unwrap();
+                for seed in 1..=2 {
+                    let mut run = Run::new(&plan, seed).unwrap();
+                    run.to_end();
+                    if run.trace().to_string().contains("grounded at") {
+                        aground.push(format!("{hull} at {rate}, {size} times, {besides}, seed {seed}"));
+                    }
+                }
+            }
+        }
+    }
+    aground
+}
+
+/// An attack: by the time that a sounder of 1 Hz told that the altitude was low, a hull that turns slowly could not be led up any more.
+#[test]
+fn no_depth_that_is_told_too_deep_leads_aground() {
+    let aground = told_deep_aground(&[1.0, 3.0, 5.0], &["1 Hz", "2 Hz"], &[""]);
+    assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+}
+
+/// An attack: nor does an altitude that is lost in the middle of it. A vehicle that is deeper than it is told to be is led up.
+#[test]
+fn no_dive_that_is_told_too_deep_goes_on_without_an_altitude() {
+    let lost = ["45.1 s", "49 s", "62 s", "66 s"];
+    let lost: Vec<String> =
+        lost.iter().flat_map(|from| ["stuck", "off"].map(|how| format!("altitude, {how}, from: {from}"))).collect();
+    let lost: Vec<&str> = lost.iter().map(String::as_str).collect();
+    let aground = told_deep_aground(&[2.0, 3.0, 5.0], &["10 Hz"], &lost);
+    assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
+}
+
 #[test]
 fn a_mission_that_waits_stays_where_it_began_to() {
     let (outcome, trace) = run("waiting", "biased", &[]);

@@ -21,6 +21,8 @@ pub type Chart = Arc<dyn Fn(Point, f64) -> Option<f64> + Send + Sync>;
 const HELD_M: f64 = 0.5;
 /// A vehicle that is deeper by so much, m, than it may be has been led too deep.
 const SUNK_M: f64 = 0.5;
+/// A vehicle that is deeper by so much, m, than the bottom lets it be does not go where it is told: it is told to rise.
+const PASSED_M: f64 = 1.0;
 /// An echo counts for so long, s, that no other has confirmed, or after which came what is not believed.
 const DOUBTFUL_S: f64 = 1.0;
 /// Echoes agree that tell of the same depth of the water but for so much, m, and for the slope of the bottom on so much of the way
@@ -43,8 +45,8 @@ const CHART_MARGIN_M: f64 = 10.0;
 /// What is known of the water below.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Bottom {
-    /// The altitude that was told last, m, and the tick: by itself it leads up, however deep the vehicle is, and if it is doubted too.
-    sounded: Option<(u64, f64)>,
+    /// The altitude that was told last: by itself it leads up, however deep the vehicle is, and if it is doubted too.
+    sounded: Option<Sounded>,
     heard: Option<Heard>,
     /// What came after it is not believed.
     doubted: bool,
@@ -66,6 +68,14 @@ pub(crate) struct Bottom {
     lost: bool,
     /// Where the vehicle is is not known: a chart tells nothing of the water there.
     misplaced: bool,
+}
+
+/// An altitude, m, with the tick in which it was told, and the depth, m, that was known then.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Sounded {
+    tick: u64,
+    altitude: f64,
+    depth: f64,
 }
 
 /// What an echo tells: depth and water depth when it came, m. Of echoes that are all the same the least of either: as long as they
@@ -127,14 +137,14 @@ impl Run {
         };
         let depth = told(self.senses.depth, LIMIT_FRESH_S / TICK_S);
         let Some(altitude) = told(self.senses.altitude, 0.0) else { return };
-        let last = self.state.bottom.sounded.replace((tick, altitude));
+        let last = self.state.bottom.sounded.replace(Sounded { tick, altitude, depth: self.depth() });
         let Some(depth) = depth.filter(|_| is_echo) else { return };
         let held = match self.state.command.map(|command| command.vertical) {
             Some(Vertical::Altitude(goal)) => (altitude - goal).abs() < HELD_M,
             _ => false,
         };
         let water = depth + altitude;
-        let again = last.is_some_and(|(_, last)| last == altitude) && !held;
+        let again = last.is_some_and(|last| last.altitude == altitude) && !held;
         let before = self.state.bottom.heard.filter(|_| again);
         let (at, way) = (self.place(), self.way());
         let Bottom { heard, lone, lone_way, .. } = self.state.bottom;
@@ -203,7 +213,7 @@ impl Run {
         let (deepest, bounded) = (self.deepest(), self.bounds_vertical());
         let floor = self.floor(p, altitude.0).min(deepest);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
-        let is_low = self.is_low();
+        let is_low = self.is_low() || floor < deepest && self.depth() > floor + PASSED_M;
         let up = self.leads_up(floor);
         let given = match (asked, known) {
             (Vertical::Depth(_), _) if is_low => Vertical::Depth(up),
@@ -278,13 +288,22 @@ impl Run {
     pub fn is_low(&self) -> bool {
         let least = self.state.limits.altitude.0;
         let low = least - (LOW_SHARE * least).min(LOW_MAX_M);
-        self.sounded().is_some_and(|altitude| altitude < low)
+        self.altitude_now().is_some_and(|altitude| altitude < low)
     }
 
     /// The altitude that was told last, m, unless it is too old to count.
     pub fn sounded(&self) -> Option<f64> {
-        let fresh = |tick: u64| (self.state.tick - tick) as f64 * TICK_S <= LIMIT_FRESH_S;
-        self.state.bottom.sounded.filter(|(tick, _)| fresh(*tick)).map(|(_, altitude)| altitude)
+        self.sounded_lately().map(|sounded| sounded.altitude)
+    }
+
+    /// The same, less what the vehicle has dived since: a hull that dives goes on for some metres after it is told to rise.
+    fn altitude_now(&self) -> Option<f64> {
+        self.sounded_lately().map(|sounded| sounded.altitude - (self.depth() - sounded.depth).max(0.0))
+    }
+
+    fn sounded_lately(&self) -> Option<Sounded> {
+        let fresh = |sounded: &Sounded| (self.state.tick - sounded.tick) as f64 * TICK_S <= LIMIT_FRESH_S;
+        self.state.bottom.sounded.filter(fresh)
     }
 
     /// What the latest echo told, unless it is too old to count.
@@ -349,7 +368,7 @@ impl Run {
         };
         let by = self.depth() - by_altitude.min(self.deepest()).max(0.0);
         // What is low leads up though it is not believed: a depth that is stuck disproves every altitude.
-        let low = self.sounded().filter(|_| self.is_low()).map(|altitude| least - altitude);
+        let low = self.altitude_now().filter(|_| self.is_low()).map(|altitude| least - altitude);
         Some(low.map_or(by, |low| by.max(low)))
     }
 

@@ -28,8 +28,8 @@ pub(super) struct Bottom {
     echo: Option<Echo>,
     /// One that does not agree with that, and the way since.
     other: Option<(Echo, f64)>,
-    /// The latest altitude, and when it came.
-    altitude: Option<(u64, f64)>,
+    /// The latest altitude, when it came, and the depth then.
+    altitude: Option<(u64, f64, f64)>,
     /// The water that was sounded on the last 2 m and on the last 12 m of way, m.
     lately: Option<[f64; 2]>,
     lost: bool,
@@ -84,6 +84,9 @@ impl Evaluator<'_> {
         // What is measured too low leads up, whatever the depth is told to be.
         let low_by = (0.25 * lowest).min(0.5);
         let is_low = self.bottom.altitude(&self.w).is_some_and(|altitude| altitude < lowest - low_by);
+        // So does what the vehicle does not keep to.
+        let depth = self.w.depth().unwrap_or(0.0);
+        let is_low = is_low || deepest < high && depth > deepest + 1.0;
         let given = match asked {
             Vertical::Depth(_) if is_low => Vertical::Depth(low.min(deepest)),
             Vertical::Altitude(asked) => {
@@ -158,9 +161,11 @@ impl Bottom {
         0.25 * apart(w, place).max(way)
     }
 
-    /// The altitude, if it was told lately.
+    /// The altitude, if it was told lately, less by what the vehicle has sunk since.
     fn altitude(&self, w: &World) -> Option<f64> {
-        self.altitude.filter(|(tick, _)| w.tick - tick <= FRESH_TICKS).map(|(_, altitude)| altitude)
+        let (tick, altitude, depth) = self.altitude?;
+        let sunk = (w.depth().unwrap_or(0.0) - depth).max(0.0);
+        (w.tick - tick <= FRESH_TICKS).then_some(altitude - sunk)
     }
 
     pub fn hear(&mut self, w: &World) {
@@ -174,7 +179,7 @@ impl Bottom {
             depth => self.still = (depth, 0.0, w.place(FRESH_TICKS)),
         }
         let Some(altitude) = w.lately("altitude", 0) else { return };
-        let before = self.altitude.replace((w.tick, altitude));
+        let before = self.altitude.replace((w.tick, altitude, w.depth().unwrap_or(0.0)));
         let Some(depth) = w.lately("depth", FRESH_TICKS) else { return };
         let (gone, place) = (self.gone(w), w.place(FRESH_TICKS));
         let sum = depth + altitude;
@@ -188,7 +193,7 @@ impl Bottom {
         let new = Echo { tick: w.tick, depth, water: sum, sum, confirmed, agrees: agreed.is_some(), place };
         let new = match self.echo {
             // It may be an old one.
-            Some(old) if before.is_some_and(|(_, before)| before == altitude) && !held => {
+            Some(old) if before.is_some_and(|(_, before, _)| before == altitude) && !held => {
                 Echo { depth: old.depth.min(depth), water: old.water.min(sum), ..new }
             }
             _ => new,
