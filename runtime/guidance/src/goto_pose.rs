@@ -40,7 +40,19 @@ const RETRIES_MAX: u8 = 3;
 /// every path. Then the point is what counts: it is driven to by [`Goto`], which learns from its own failures, to within
 /// the paper's radius of arrival and on whatever heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GotoPose {
+pub struct GotoPose(Way);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    /// Along a path.
+    Path(PathToPose),
+    /// To the point alone, too many paths having been left.
+    Point(Goto),
+}
+
+/// A path to a pose, and how far along it the vehicle is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PathToPose {
     path: Path,
     goal: Pose,
     words: Words,
@@ -56,19 +68,17 @@ pub struct GotoPose {
     /// The range of the goal to be improved on, and how many paths were left since it was.
     range: f64,
     left: u8,
-    /// Toward the point alone, once too many paths were left.
-    to_point: Goto,
 }
 
 impl GotoPose {
     /// How many words the state takes.
-    pub const WORDS: usize = Path::WORDS + 14 + Goto::WORDS;
+    pub const WORDS: usize = PathToPose::WORDS + 1;
 
     /// From `start` to `goal` with arcs of `radius` metres, turns commanded `lead` metres early
     /// (speed x [`TURN_LEAD_TIME`](crate::parameters::TURN_LEAD_TIME)).
     pub fn new(start: Pose, goal: Pose, radius: f64, words: Words, lead: f64) -> Self {
         let path = shortest(start, goal, radius, words);
-        GotoPose {
+        GotoPose(Way::Path(PathToPose {
             path,
             goal,
             words,
@@ -81,27 +91,54 @@ impl GotoPose {
             retries: 0,
             range: f64::INFINITY,
             left: 0,
-            to_point: Goto::new(goal.point, ARRIVAL_RADIUS, path.radius),
+        }))
+    }
+
+    /// The path now followed, and how many metres of it are left. None where the point alone is driven to.
+    pub fn path(&self) -> Option<(&Path, f64)> {
+        match &self.0 {
+            Way::Path(to) => Some((&to.path, to.path.length() - to.progress)),
+            Way::Point(_) => None,
         }
     }
 
-    /// The path now followed.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Metres of the path that are left.
-    pub fn remaining(&self) -> f64 {
-        self.path.length() - self.progress
-    }
-
-    /// Begins anew from a pose, with arcs as wide as they have become.
+    /// Begins anew from a pose, with arcs as wide as they have become. Who could keep no path goes on to the point.
     pub(crate) fn restart(&mut self, from: Pose) {
-        // Nothing more was learnt of how the vehicle turns.
-        self.jumped = true;
-        self.retries = 0;
-        self.last = from.point;
-        self.plan_again(from);
+        if let Way::Path(to) = &mut self.0 {
+            // Nothing more was learnt of how the vehicle turns.
+            to.jumped = true;
+            to.retries = 0;
+            to.last = from.point;
+            to.plan_again(from);
+        }
+    }
+}
+
+impl PathToPose {
+    const WORDS: usize = Path::WORDS + 14;
+
+    /// One tick; none once too many paths were left.
+    fn step(&mut self, position: Point, course: Heading) -> Option<Guidance> {
+        let step = position.distance(self.last);
+        self.last = position;
+        self.jumped |= step > NAVIGATION_JUMP;
+        self.driven += step.min(NAVIGATION_JUMP);
+        let mut foot = self.path.project(position, self.progress);
+        let miss = position.distance(self.path.pose_at(foot.distance).point);
+        let across = (course - self.goal.heading).abs() > LINE_CAPTURE_ANGLE;
+        let retry = across && foot.distance >= self.path.length() && self.retries < RETRIES_MAX;
+        if (miss > OFF_PATH || retry) && self.driven >= self.path.radius {
+            self.retries += u8::from(retry);
+            self.leave(position);
+            if self.left >= LEFT_MAX {
+                return None;
+            }
+            self.plan_again(Pose { point: position, heading: course });
+            foot = self.path.project(position, 0.0);
+        }
+        self.progress = foot.distance;
+        let ahead = self.path.pose_at(self.progress + self.lead).heading;
+        Some(Guidance { course: ahead + cross_track(foot.left), arrived: self.progress >= self.path.length() })
     }
 
     fn plan_again(&mut self, from: Pose) {
@@ -121,41 +158,6 @@ impl GotoPose {
         }
         self.left = self.left.saturating_add(1);
     }
-}
-
-impl Law<{ GotoPose::WORDS }> for GotoPose {
-    fn begin(mut args: Args<'_>, start: &Start) -> Self {
-        let goal = Pose { point: args.point(), heading: args.heading() };
-        let radius = start.radius(args.number());
-        let words = if args.flag() { Words::Full } else { Words::Csc };
-        GotoPose::new(Pose { point: start.position, heading: start.course }, goal, radius, words, start.lead())
-    }
-
-    /// One tick, from the vehicle's position and its course over ground. Arrived at the end of the path, which can be
-    /// up to 9 m from the goal after a late jump of the navigation: another path for the last metres would be a whole
-    /// loop.
-    fn step(&mut self, position: Point, course: Heading) -> Guidance {
-        if self.left >= LEFT_MAX {
-            return self.to_point.step(position, course);
-        }
-        let step = position.distance(self.last);
-        self.last = position;
-        self.jumped |= step > NAVIGATION_JUMP;
-        self.driven += step.min(NAVIGATION_JUMP);
-        let mut foot = self.path.project(position, self.progress);
-        let miss = position.distance(self.path.pose_at(foot.distance).point);
-        let across = (course - self.goal.heading).abs() > LINE_CAPTURE_ANGLE;
-        let retry = across && foot.distance >= self.path.length() && self.retries < RETRIES_MAX;
-        if (miss > OFF_PATH || retry) && self.driven >= self.path.radius {
-            self.retries += u8::from(retry);
-            self.leave(position);
-            self.plan_again(Pose { point: position, heading: course });
-            foot = self.path.project(position, 0.0);
-        }
-        self.progress = foot.distance;
-        let ahead = self.path.pose_at(self.progress + self.lead).heading;
-        Guidance { course: ahead + cross_track(foot.left), arrived: self.progress >= self.path.length() }
-    }
 
     fn to_words(self) -> [f64; Self::WORDS] {
         Writer::new()
@@ -172,13 +174,12 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
             .number(f64::from(self.retries))
             .number(self.range)
             .number(f64::from(self.left))
-            .numbers(&self.to_point.to_words())
             .finish()
     }
 
     fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
-        GotoPose {
+        PathToPose {
             path: Path::from_words(&reader.numbers()),
             goal: Pose { point: reader.point(), heading: reader.heading() },
             words: if reader.flag() { Words::Full } else { Words::Csc },
@@ -191,7 +192,54 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
             retries: reader.number() as u8,
             range: reader.number(),
             left: reader.number() as u8,
-            to_point: Goto::from_words(&reader.numbers()),
         }
+    }
+}
+
+impl Law<{ GotoPose::WORDS }> for GotoPose {
+    fn begin(mut args: Args<'_>, start: &Start) -> Self {
+        let goal = Pose { point: args.point(), heading: args.heading() };
+        let radius = start.radius(args.number());
+        let words = if args.flag() { Words::Full } else { Words::Csc };
+        GotoPose::new(Pose { point: start.position, heading: start.course }, goal, radius, words, start.lead())
+    }
+
+    /// One tick, from the vehicle's position and its course over ground. Arrived at the end of the path, which can be
+    /// up to 9 m from the goal after a late jump of the navigation: another path for the last metres would be a whole
+    /// loop.
+    fn step(&mut self, position: Point, course: Heading) -> Guidance {
+        let to = match &mut self.0 {
+            Way::Point(to_point) => return to_point.step(position, course),
+            Way::Path(to) => to,
+        };
+        if let Some(guidance) = to.step(position, course) {
+            return guidance;
+        }
+        let mut to_point = Goto::new(to.goal.point, ARRIVAL_RADIUS, to.path.radius);
+        let guidance = to_point.step(position, course);
+        self.0 = Way::Point(to_point);
+        guidance
+    }
+
+    fn to_words(self) -> [f64; Self::WORDS] {
+        let mut words = [0.0; Self::WORDS];
+        let [is_to_point, state @ ..] = &mut words;
+        match self.0 {
+            Way::Path(to) => *state = to.to_words(),
+            Way::Point(to_point) => {
+                *is_to_point = 1.0;
+                state[..Goto::WORDS].copy_from_slice(&to_point.to_words());
+            }
+        }
+        words
+    }
+
+    fn from_words(words: &[f64; Self::WORDS]) -> Self {
+        let [is_to_point, state @ ..] = words;
+        GotoPose(if *is_to_point == 0.0 {
+            Way::Path(PathToPose::from_words(state))
+        } else {
+            Way::Point(Goto::from_words(&Reader::new(state).numbers()))
+        })
     }
 }

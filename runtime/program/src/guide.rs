@@ -7,7 +7,7 @@ use albacore_guidance::{FollowLine, Goto, GotoPose, LawOverWords, Loiter};
 use serde::{Deserialize, Serialize};
 
 /// The words that a guidance law keeps while its statement lasts: the most that any of them needs.
-pub const GUIDANCE_WORDS: u32 = 40;
+pub const GUIDANCE_WORDS: u32 = 32;
 /// The least radius, of arrival, of a turn or of a circle, m.
 const RADIUS_MIN: Interval = Interval::at_least(0.1);
 

@@ -3,6 +3,7 @@
 #![expect(
     clippy::panic,
     clippy::print_stdout,
+    clippy::unwrap_used,
     reason = "a helper of tests panics as they do; --nocapture shows the figures"
 )]
 
@@ -59,14 +60,14 @@ impl Drives {
             let mut vehicle = Vehicle::at(start.point, start.heading).in_current(self.current, self.compensated);
             vehicle.rate_max = radians(self.rate_max);
             let mut guide = GotoPose::new(vehicle.pose(), GOAL, self.radius, self.words, self.lead);
-            let planned_s = guide.path().length() / SPEED;
+            let planned_s = guide.path().unwrap().0.length() / SPEED;
             let jump_tick = (spread(i, 3) * planned_s / DT) as u32;
             let (mut off, mut tick) = (0.0_f64, 0);
-            let mut planned_at = (guide.path().start, 0.0);
+            let mut planned_at = (guide.path().unwrap().0.start, 0.0);
             let guided = |p: Point, c: Heading| {
                 let guidance = guide.step(p, c);
-                let path = guide.path();
-                off = off.max(path.pose_at(path.length() - guide.remaining()).point.distance(p));
+                let (path, remaining) = guide.path().unwrap();
+                off = off.max(path.pose_at(path.length() - remaining).point.distance(p));
                 // Another path only after a turning radius driven, whatever happens; over ground at most 2.5 m/s.
                 let now = f64::from(tick) * DT;
                 if path.start != planned_at.0 {
@@ -89,7 +90,7 @@ impl Drives {
             let time = vehicle.run(1000.0, guided, jump);
             let time = time.unwrap_or_else(|| panic!("never from {start:?}"));
             if self.rate_max == PLAIN.rate_max && self.current == PLAIN.current {
-                assert_eq!(guide.path().radius, self.radius, "a jump says nothing of how the vehicle turns");
+                assert_eq!(guide.path().unwrap().0.radius, self.radius, "a jump says nothing of how the vehicle turns");
             }
             worst.off_m = worst.off_m.max(off);
             worst.end_m = worst.end_m.max(vehicle.position.distance(GOAL.point));
