@@ -70,8 +70,8 @@ pub struct Script {
     hir: hir::Hir,
     types: types::TypeTable,
     missions: Vec<(MissionInfo, usize)>,
-    /// Where missions and scenarios stand among all, by their names.
-    mission_ids: BTreeMap<String, hir::ActivityId>,
+    /// Where missions stand among these, and scenarios among all, by their names.
+    mission_places: BTreeMap<String, usize>,
     scenario_ids: BTreeMap<String, usize>,
     names: names::Names,
     overrides: Vec<Override>,
@@ -172,7 +172,7 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     // A value that is wrong has been told of: that it would change nothing is no second mistake.
     findings.extend(unreached.filter(|f| is_error(&f) || !errors.iter().any(|e| e.file == f.span().file)));
     diagnostic::settle(&mut findings);
-    let mission_ids = missions.iter().map(|(info, id)| (info.name.clone(), *id)).collect();
+    let mission_places = missions.iter().enumerate().map(|(i, (info, _))| (info.name.clone(), i)).collect();
     let Checked { hir, types, names, .. } = checked;
     Script {
         sources: sources.clone(),
@@ -180,7 +180,7 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
         hir,
         types,
         missions,
-        mission_ids,
+        mission_places,
         scenario_ids,
         names,
         overrides,
@@ -217,7 +217,7 @@ impl Script {
 
     /// Whether a mission has no error, nor anything that it calls: it can be looked at although others have some.
     pub fn mission_is_sound(&self, name: &str) -> bool {
-        self.mission_ids.get(name).is_some_and(|id| !self.broken.reaches(*id))
+        self.mission_id(name).is_some_and(|id| !self.broken.reaches(id))
     }
 
     /// Whether a scenario has no error.
@@ -245,41 +245,54 @@ impl Script {
         self.hir.scenarios.iter().filter(|s| s.span.file == ENTRY).map(|s| s.name.as_str())
     }
 
+    fn named_mission(&self, name: &str) -> Option<&(MissionInfo, hir::ActivityId)> {
+        self.missions.get(*self.mission_places.get(name)?)
+    }
+
+    fn mission_id(&self, name: &str) -> Option<hir::ActivityId> {
+        self.named_mission(name).map(|(_, id)| *id)
+    }
+
+    /// The scenario that a mission names as its own.
+    pub fn own_scenario(&self, mission: &str) -> Option<&str> {
+        self.named_mission(mission)?.0.scenario.as_deref()
+    }
+
     /// The area of a mission, in its local frame, and where it is written; none where it is not made of constants.
     pub fn operating_area(&self, mission: &str) -> Option<(albacore_geometry::Area, source::Span)> {
-        let id = self.mission_ids.get(mission)?;
-        rules::operating_area(&self.hir, *id)
+        let id = self.mission_id(mission)?;
+        rules::operating_area(&self.hir, id)
     }
 
     /// The finding for a mission whose area is of a file that has the latitude first, as far as places of its scenario show it.
     pub fn swapped_area(&self, mission: &str, places: &[Geodetic]) -> Option<Diagnostic> {
-        let id = self.mission_ids.get(mission)?;
-        rules::swapped(&self.hir, *id, places)
+        let id = self.mission_id(mission)?;
+        rules::swapped(&self.hir, id, places)
     }
 
     /// The inputs that a mission requires, each with the place where it says so.
     pub fn requirements(&self, mission: &str) -> Vec<(&str, source::Span)> {
-        let parts = self.mission_ids.get(mission).and_then(|id| self.hir.activities[*id].mission.as_ref());
+        let parts = self.mission_id(mission).and_then(|id| self.hir.activities[id].mission.as_ref());
         let requires = parts.into_iter().flat_map(|parts| &parts.requires);
         requires.map(|require| (self.hir.inputs[require.input].name.as_str(), require.span)).collect()
     }
 
     /// The checked program, its types, and where a mission stands in it.
     pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
-        let id = self.mission_ids.get(mission)?;
-        Some((&self.hir, &self.types, *id))
+        let id = self.mission_id(mission)?;
+        Some((&self.hir, &self.types, id))
     }
 
     /// A mission, ready for the machine.
     pub fn mission(&self, name: &str) -> Option<Result<Program, Vec<Diagnostic>>> {
-        let id = self.mission_ids.get(name)?;
-        Some(lower::mission(&self.hir, &self.types, &self.sources, *id))
+        let id = self.mission_id(name)?;
+        Some(lower::mission(&self.hir, &self.types, &self.sources, id))
     }
 
     /// What a mission costs.
     pub fn cost(&self, name: &str) -> Option<Result<Cost, Vec<Diagnostic>>> {
-        let id = self.mission_ids.get(name)?;
-        Some(cost::of(&self.hir, &self.types, &self.sources, *id))
+        let id = self.mission_id(name)?;
+        Some(cost::of(&self.hir, &self.types, &self.sources, id))
     }
 
     /// The tests of the script's own file, ready to run.

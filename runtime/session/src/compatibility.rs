@@ -79,7 +79,7 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
         }
         None => "both are in metres from one origin".to_string(),
     };
-    let own = script.missions().find(|info| info.name == mission).and_then(|info| info.scenario.as_deref());
+    let own = script.own_scenario(mission);
     let mend = match own {
         Some(own) if own != name => format!("run it in a scenario that lies there, such as its own, `--in {own}`"),
         _ => format!("move the one to the other, or write `mission {mission} in SCENARIO` with one that lies there"),
@@ -90,7 +90,7 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
 /// No-go zones of a world far from the area of the mission, which cannot keep it from anything. Those of its own scenario are told
 /// where they are written.
 fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
-    let own = script.missions().find(|info| info.name == mission).and_then(|info| info.scenario.as_deref());
+    let own = script.own_scenario(mission);
     let Some((area, written)) = script.operating_area(mission).filter(|_| own != Some(scenario)) else {
         return Vec::new();
     };

@@ -79,7 +79,7 @@ impl Plan {
     /// The same, whether or not the world has what the mission needs.
     pub(crate) fn unsuited(script: &Script, file: &str, wanted: &Wanted) -> Result<Self, PlanError> {
         let (name, program) = chosen(script, file, wanted.mission)?;
-        let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
+        let own = script.own_scenario(&name).map(str::to_string);
         let known: Vec<&str> = script.scenarios().collect();
         let Some(scenario) = wanted.scenario.map(str::to_string).or(own) else {
             let message = format!("in which world does the mission `{name}` run?");
@@ -137,7 +137,7 @@ impl Plan {
                 "give a corner or the center of its area as latitude and longitude, such as `36°10.8'N 75°44.4'W`";
             return Err(PlanError::Asked(message, Some(help.into())));
         }
-        let own = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone());
+        let own = script.own_scenario(&name).map(str::to_string);
         let survey = match own {
             Some(own) => survey(&scenario::named(script, &own, program.mission.origin)?.1.world),
             None => None,
@@ -171,10 +171,10 @@ impl Plan {
     /// What the vehicle speaks that the mission's own scenario says it is for, if it says so.
     pub fn dialect(script: &Script, file: &str, mission: Option<&str>) -> Result<Option<&'static Dialect>, PlanError> {
         let (name, program) = chosen(script, file, mission)?;
-        let Some(own) = script.missions().find(|m| m.name == name).and_then(|m| m.scenario.clone()) else {
+        let Some(own) = script.own_scenario(&name) else {
             return Ok(None);
         };
-        Ok(scenario::named(script, &own, program.mission.origin)?.1.dialect)
+        Ok(scenario::named(script, own, program.mission.origin)?.1.dialect)
     }
 
     /// The frame of the mission, if it lies on the globe.
