@@ -38,7 +38,6 @@ pub struct Cpt {
 }
 
 #[derive(Clone)]
-#[expect(clippy::large_enum_variant, reason = "one of them is alive at a time, and it stays in place")]
 enum Behavior {
     Find(Find),
     /// The course held, the ticks since entry, and since which of them nothing is detected.
