@@ -279,9 +279,11 @@ impl Controller {
             Stamp::ClockSet(tick) => {
                 // Who has lost the vehicle hears later what it said meanwhile: that tells nothing of its clock.
                 if !self.lost && !matches!(self.want, Want::Leave(_)) {
-                    self.notice_of_vehicle(
-                        "the vehicle's time leapt: its clock was set; the mission's time goes on".to_string(),
-                    );
+                    let why = match self.away {
+                        Some(_) => "what it said while this computer was stopped is lost",
+                        None => "its clock was set",
+                    };
+                    self.notice_of_vehicle(format!("the vehicle's time leapt: {why}; the mission's time goes on"));
                 }
                 tick
             }
