@@ -36,7 +36,7 @@ impl Goals {
     /// The same with one of them changed.
     fn holding(self, set_point: SetPoint) -> Self {
         let rate = if let SetPoint::Heading(_) = set_point { 0.0 } else { self.rate };
-        Goals { command: set_point.of_another(self.command), rate }
+        Goals { command: set_point.placed_in(self.command), rate }
     }
 }
 

@@ -44,8 +44,9 @@ impl SetPoint {
             SetPoint::Depth(_) | SetPoint::Altitude(_) => 2,
         }
     }
+
     /// A command with this one in its place.
-    pub(crate) fn of_another(self, command: Command) -> Command {
+    pub(crate) fn placed_in(self, command: Command) -> Command {
         match self {
             SetPoint::Heading(heading) => Command { heading, ..command },
             SetPoint::Speed(speed) => Command { speed, ..command },

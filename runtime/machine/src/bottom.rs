@@ -213,22 +213,22 @@ impl Run {
         let (deepest, bounded) = (self.deepest(), self.bounds_vertical());
         let floor = self.floor(p, altitude.0).min(deepest);
         self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
-        let is_low = self.is_low() || floor < deepest && self.depth() > floor + PASSED_M;
+        let must_rise = self.is_low() || floor < deepest && self.depth() > floor + PASSED_M;
         let up = self.leads_up(floor);
         let given = match (asked, known) {
-            (Vertical::Depth(_), _) if is_low => Vertical::Depth(up),
+            (Vertical::Depth(_), _) if must_rise => Vertical::Depth(up),
             (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
                 let given = self.within_limits(Channel::Altitude, metres);
                 let highest = if depth.0 > 0.0 { (water - depth.0).max(altitude.0) } else { f64::MAX };
                 let given = given.max(self.ahead(altitude.0)).min(highest);
                 match self.may_lead_too_deep(given, water, deepest) {
-                    true if is_low => Vertical::Depth(up),
+                    true if must_rise => Vertical::Depth(up),
                     true => Vertical::Depth((water - given).min(floor).max(0.0)),
                     false => Vertical::Altitude(given),
                 }
             }
             // An altitude that nobody measures cannot be held within anything.
-            (Vertical::Altitude(_), None) if bounded => Vertical::Depth(if is_low { up } else { floor }),
+            (Vertical::Altitude(_), None) if bounded => Vertical::Depth(if must_rise { up } else { floor }),
             (Vertical::Altitude(metres), None) => Vertical::Altitude(self.within_limits(Channel::Altitude, metres)),
             (Vertical::Depth(metres), _) => {
                 let given = self.within_limits(Channel::Depth, metres);
@@ -261,7 +261,7 @@ impl Run {
         self.tell_limited(channel, held.then_some((asked, given)));
     }
 
-    /// The depth, m, that a vehicle is told whose altitude is low: the least, or less where the water allows no more. How deep it is may
+    /// The depth, m, that a vehicle is told that must rise: the least, or less where the water allows no more. How deep it is may
     /// be told wrong, and the floor with it: one that does not rise is told to surface.
     fn leads_up(&self, floor: f64) -> f64 {
         if self.state.lift.is_patient() { self.state.limits.depth.0.min(floor) } else { 0.0 }
