@@ -35,7 +35,7 @@ const OTHERS: [&str; 9] = [
 
 /// Those that can fail.
 fn sensors() -> impl Iterator<Item = &'static str> {
-    Sensor::ALL.into_iter().map(Sensor::name)
+    Sensor::all().map(Sensor::name)
 }
 
 /// What came of a run.

@@ -6,6 +6,7 @@ use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::recon::{self, seal};
 use albacore_link::{Controller, Rows, Server};
 use albacore_sim::{Fault, FaultKind, Scenario, Sensor, SensorFault, Simulator, VehicleSetup};
+use albacore_vehicle::measurements::ALTITUDE;
 use albacore_vehicle::{Limits, Snapshot, Vertical};
 
 /// As a vehicle may send them: all that has numbers.
@@ -211,7 +212,7 @@ fn a_flood_is_taken_in_to_an_end() {
 fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
     for size in [20.0, -20.0] {
         let limits = Some(Limits { altitude: 2.0, ..Limits::default() });
-        let trouble = FaultKind::Sensor(Sensor::Altitude, SensorFault::Wrong(size));
+        let trouble = FaultKind::Sensor(Sensor::of(ALTITUDE).unwrap(), SensorFault::Wrong(size));
         let faults = vec![Fault { trouble, from: 0.0, to: None }];
         let simulator = Simulator::new(&Scenario { limits, faults, ..Scenario::default() }, 1).unwrap();
         let water = simulator.water_depth(Point::ORIGIN);
@@ -237,7 +238,7 @@ fn a_goal_too_near_to_the_bottom_is_answered_by_the_vehicles_own_altitude() {
 #[test]
 fn a_goal_above_the_bottom_is_told_no_deeper_than_the_limit() {
     let limits = Some(Limits { depth: Some(4.0), ..Limits::default() });
-    let trouble = FaultKind::Sensor(Sensor::Altitude, SensorFault::Garbage);
+    let trouble = FaultKind::Sensor(Sensor::of(ALTITUDE).unwrap(), SensorFault::Garbage);
     let faults = vec![Fault { trouble, from: 0.0, to: None }];
     let simulator = Simulator::new(&Scenario { limits, faults, ..Scenario::default() }, 1).unwrap();
     let altitude = simulator.water_depth(Point::ORIGIN) - 2.0;

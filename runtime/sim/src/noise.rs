@@ -5,9 +5,12 @@ use crate::normal::inverse_normal;
 /// 2^64 over the golden ratio, odd: the increment of SplitMix64.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
+/// Set in the number of every named stream, and of no other.
+const NAMED: u64 = 1 << 63;
+
 /// What a stream of random numbers is used for: one each, so that a new sensor changes no other's noise.
 ///
-/// The numbers are part of every recorded run. Never renumber.
+/// The numbers are part of every recorded run. Never renumber. What comes new has a [name](Noise::named) instead, where it is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Stream {
@@ -59,10 +62,6 @@ pub enum Stream {
     Dvl = 67,
     /// The moment at which a recorded plume is begun.
     RecordStart = 80,
-    /// Noise of the temperature of the CTD.
-    CtdTemperature = 90,
-    /// Noise of the salinity of the CTD.
-    CtdSalinity = 91,
     /// Noise of the battery's gauge.
     Battery = 92,
 }
@@ -82,9 +81,17 @@ impl Noise {
         Noise::sub(seed, stream, 0)
     }
 
+    /// The stream of a run that has this name, and no other place draws from. The name is part of every recorded run.
+    pub fn named(seed: u64, name: &str) -> Self {
+        Noise::keyed(seed, NAMED | u64::from(name_hash(name)))
+    }
+
     /// One of several like streams of a run: one for each source, say.
     pub fn sub(seed: u64, stream: Stream, number: u32) -> Self {
-        let stream = (stream as u64) << 32 | u64::from(number);
+        Noise::keyed(seed, (stream as u64) << 32 | u64::from(number))
+    }
+
+    fn keyed(seed: u64, stream: u64) -> Self {
         Noise { key: mix(mix(seed.wrapping_add(GOLDEN)) ^ mix(stream.wrapping_mul(GOLDEN))) }
     }
 
@@ -123,6 +130,11 @@ impl Noise {
     }
 }
 
+/// FNV-1a (Fowler, Noll & Vo), 32 bits: two of a thousand names are alike once in eight thousand times.
+fn name_hash(name: &str) -> u32 {
+    name.bytes().fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+}
+
 /// SplitMix64's finaliser: Stafford's mix 13.
 #[inline]
 fn mix(z: u64) -> u64 {
@@ -152,6 +164,9 @@ mod tests {
         assert_eq!(noise.uniform(0).to_bits(), 0x3FEE_C1E2_06F7_E542);
         assert_eq!(noise.gaussian(0).to_bits(), 0x3FFC_3AF7_79B7_A884);
         assert_eq!(Noise::sub(1, Stream::Diffusion, 1).bits(7), 0x80D9_4FC3_61FD_EFF2);
+        // FNV-1a has published values.
+        assert_eq!((name_hash(""), name_hash("a"), name_hash("foobar")), (0x811C_9DC5, 0xE40C_292C, 0xBF9C_F968));
+        assert_eq!(Noise::named(1, "foobar").bits(0), 0x022B_0ECE_644A_9931);
     }
 
     #[test]
@@ -184,6 +199,8 @@ mod tests {
             Noise::new(2, Stream::Adcp),
             Noise::new(1, Stream::Lbl),
             Noise::sub(1, Stream::Adcp, 1),
+            Noise::named(1, "ctd temperature"),
+            Noise::named(1, "ctd salinity"),
         ];
         for (i, a) in streams.iter().enumerate() {
             for b in &streams[i + 1..] {

@@ -19,6 +19,10 @@ pub struct MeasurementInfo {
     pub is_watched: bool,
     /// What the vehicle makes it of: doubtful with any of them.
     pub sources: &'static [u16],
+    /// Whether a sensor of its name can fail by a `fault` clause.
+    pub fails: bool,
+    /// The measurement whose sensor it comes from alone, where that is another's: it fails with that.
+    pub fails_with: Option<u16>,
     /// The clause of the instrument that it comes from, where a vehicle may not have that one.
     pub instrument: Option<&'static str>,
 }
@@ -39,6 +43,8 @@ impl MeasurementInfo {
             is_gated: false,
             is_watched: false,
             sources: &[],
+            fails: false,
+            fails_with: None,
             instrument: None,
         }
     }
@@ -53,6 +59,14 @@ impl MeasurementInfo {
 
     const fn watched(self) -> Self {
         MeasurementInfo { is_watched: true, ..self }
+    }
+
+    const fn can_fail(self) -> Self {
+        MeasurementInfo { fails: true, ..self }
+    }
+
+    const fn failing_with(self, sensor: u16) -> Self {
+        MeasurementInfo { fails_with: Some(sensor), ..self }
     }
 
     const fn of_instrument(self, clause: &'static str) -> Self {
@@ -91,23 +105,23 @@ macro_rules! measurements {
 
 measurements! {
     /// Where the vehicle believes to be. A fix of who tells no sigma may correct 5 m.
-    POSITION: MeasurementInfo::of("position", Quantity::Position).changes(10.0, 5.0).gated().watched();
+    POSITION: MeasurementInfo::of("position", Quantity::Position).changes(10.0, 5.0).gated().watched().can_fail();
     /// Its direction over ground, turned from its body's with the compass: at rest it is any, and the gate has a rule of its own.
-    COURSE: MeasurementInfo::of("course", Quantity::Direction).gated().watched().made_of(&[HEADING]);
+    COURSE: MeasurementInfo::of("course", Quantity::Direction).gated().watched().made_of(&[HEADING]).failing_with(HEADING);
     /// Where its nose points.
-    HEADING: MeasurementInfo::of("heading", Quantity::Direction).changes(PI / 3.0, PI / 12.0).gated().watched();
+    HEADING: MeasurementInfo::of("heading", Quantity::Direction).changes(PI / 3.0, PI / 12.0).gated().watched().can_fail();
     /// Its speed over ground.
-    SPEED: MeasurementInfo::of("speed", Quantity::Speed).changes(2.0, 1.0).gated().watched();
+    SPEED: MeasurementInfo::of("speed", Quantity::Speed).changes(2.0, 1.0).gated().watched().can_fail();
     /// Its depth.
-    DEPTH: MeasurementInfo::of("depth", Quantity::Height).changes(3.0, 1.0).gated().watched();
+    DEPTH: MeasurementInfo::of("depth", Quantity::Height).changes(3.0, 1.0).gated().watched().can_fail();
     /// Its height above the bottom.
-    ALTITUDE: MeasurementInfo::of("altitude", Quantity::Height).changes(5.0, 1.2).gated().watched();
+    ALTITUDE: MeasurementInfo::of("altitude", Quantity::Height).changes(5.0, 1.2).gated().watched().can_fail();
     /// The depth of the water.
     WATER_DEPTH: MeasurementInfo::of("water_depth", Quantity::Height).made_of(&[DEPTH, ALTITUDE]);
     /// The current.
-    FLOW: MeasurementInfo::of("flow", Quantity::Flow).changes(0.0, 1.0).watched();
+    FLOW: MeasurementInfo::of("flow", Quantity::Flow).changes(0.0, 1.0).watched().can_fail();
     /// The chemical sensor: the edge of a plume is sharp.
-    CHEMICAL: MeasurementInfo::of("chemical", Quantity::Ratio).watched();
+    CHEMICAL: MeasurementInfo::of("chemical", Quantity::Ratio).watched().can_fail();
     /// What is left in the battery. A gauge is coarse; a battery that is empty in a quarter of an hour is none of ours.
     BATTERY: MeasurementInfo::of("battery", Quantity::Ratio).changes(0.001, 0.1).gated();
     /// What the vehicle's own mission is about: the place in the library's `enum VehicleMode`.

@@ -8,21 +8,19 @@ mod controller;
 mod fields;
 mod frame;
 mod grounding;
+mod instruments;
 mod message;
 mod mode;
-mod seawater;
 mod server;
 
 pub use frame::{Deframer, LINE_MAX, Unreadable, seal};
-pub use message::{Adcp, Ctd, FromVehicle, Malformed, SpeedGoal, State, ToVehicle};
+pub use instruments::Measured;
+pub use message::{Adcp, FromVehicle, Malformed, SpeedGoal, State, ToVehicle};
 pub use mode::Mode;
 
 use crate::controller::ControllerSide;
 use crate::dialect::{Dialect, Framing};
 use crate::server::ServerSide;
-
-/// The fluorometer's full scale: 5 V, as the 2003 trials' Seapoint gives. The sources give no unit.
-const FULL_SCALE_VOLTS: f64 = 5.0;
 
 /// Its row in the table of dialects.
 pub static DIALECT: Dialect = Dialect {

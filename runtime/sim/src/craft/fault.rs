@@ -16,6 +16,7 @@ use crate::craft::setup::HullSetup;
 use crate::scenario::{OfClause, Scenario, ScenarioIssues, number};
 use albacore_geometry::Vector;
 use albacore_vehicle::TICK_S;
+use albacore_vehicle::measurements::{HEADING, POSITION, info};
 use serde::Deserialize;
 use std::fmt;
 
@@ -160,17 +161,18 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
 
 impl SensorFault {
     fn check(self, sensor: Sensor, of: &mut OfClause) {
-        let mut only_of = |only: Sensor, what: &str| {
+        let mut only_of = |only: u16, what: &str| {
+            let name = info(only).name;
             of.unless(
                 Some("trouble"),
-                sensor == only,
-                format!("`{}` cannot {what}: only `{}` can", sensor.name(), only.name()),
-                format!("write `{}`, or choose another trouble", only.name()),
+                sensor.measurement() == only,
+                format!("`{}` cannot {what}: only `{name}` can", sensor.name()),
+                format!("write `{name}`, or choose another trouble"),
             );
         };
         match self {
-            SensorFault::Jump(_) => only_of(Sensor::Position, "jump"),
-            SensorFault::Saturated(_) => only_of(Sensor::Heading, "be saturated"),
+            SensorFault::Jump(_) => only_of(POSITION, "jump"),
+            SensorFault::Saturated(_) => only_of(HEADING, "be saturated"),
             _ => {}
         }
     }

@@ -2,15 +2,13 @@
 
 use super::frame::{Deframer, seal};
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
-use super::{DIALECT, FULL_SCALE_VOLTS, grounding};
+use super::{DIALECT, grounding};
 use crate::controller::{ControllerMessage, ControllerSide, Received};
 use crate::dialect::Dialect;
 use crate::set_point::SetPoint;
 use albacore_geometry::Vector;
 use albacore_geometry::math::atan2;
-use albacore_vehicle::measurements::{
-    ALTITUDE, BATTERY, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, SALINITY, SPEED, TEMPERATURE, WATER_DEPTH,
-};
+use albacore_vehicle::measurements::{ALTITUDE, COURSE, DEPTH, FLOW, HEADING, SPEED, WATER_DEPTH};
 
 /// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
 /// 2 m comes to, m an axis.
@@ -79,8 +77,9 @@ impl Memory {
         match message {
             FromVehicle::State(state) => self.take_in_state(&state, received),
             FromVehicle::Adcp(adcp) => self.take_in_adcp(&adcp, received),
-            FromVehicle::Fluorometer { value, .. } => received.sample(CHEMICAL, &[value / FULL_SCALE_VOLTS]),
-            FromVehicle::Battery { percent, .. } => received.sample(BATTERY, &[percent / 100.0]),
+            FromVehicle::Measured(measured) => {
+                measured.numbers.into_iter().for_each(|(measurement, number)| received.sample(measurement, &[number]));
+            }
             FromVehicle::Accepted(text) => take_in_echo(&text, received),
             FromVehicle::Error(code, text) => {
                 let comma = if text.is_empty() { "" } else { ", " };
@@ -89,10 +88,6 @@ impl Memory {
                     Some(aground) => received.aground(aground, said),
                     None => received.notice(said),
                 }
-            }
-            FromVehicle::Ctd(ctd) => {
-                received.sample(TEMPERATURE, &[ctd.temperature]);
-                received.sample(SALINITY, &[ctd.salinity]);
             }
             FromVehicle::Version(_) | FromVehicle::Other(_) => {}
         }

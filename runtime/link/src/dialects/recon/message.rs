@@ -3,7 +3,7 @@
 mod from_vehicle;
 mod to_vehicle;
 
-pub use from_vehicle::{Adcp, Ctd, FromVehicle, State};
+pub use from_vehicle::{Adcp, FromVehicle, State};
 pub(super) use to_vehicle::RPM_AT_1_MPS;
 pub use to_vehicle::{SpeedGoal, ToVehicle};
 
@@ -17,7 +17,7 @@ use std::ops::RangeInclusive;
 pub struct Malformed(pub String);
 
 /// `#S` and others name each field by letters before its number.
-struct Fields<'a>(Vec<(&'a str, &'a str)>);
+pub(super) struct Fields<'a>(Vec<(&'a str, &'a str)>);
 
 impl<'a> Fields<'a> {
     fn new(rest: &'a str) -> Self {
@@ -30,31 +30,31 @@ impl<'a> Fields<'a> {
         Fields(rest.split(',').map(split).collect())
     }
 
-    fn text(&self, name: &str) -> Option<&'a str> {
+    pub fn text(&self, name: &str) -> Option<&'a str> {
         self.0.iter().find(|(n, _)| *n == name).map(|(_, value)| *value)
     }
 
-    fn number(&self, name: &str) -> Option<f64> {
+    pub fn number(&self, name: &str) -> Option<f64> {
         number(self.text(name)?)
     }
 
     /// A number in a range; a sum of 8 bits lets one wrong line in 256 pass.
-    fn within(&self, name: &str, range: RangeInclusive<f64>) -> Option<f64> {
+    pub fn within(&self, name: &str, range: RangeInclusive<f64>) -> Option<f64> {
         within(self.text(name)?, range)
     }
 
     /// A direction in degrees.
-    fn heading(&self, name: &str) -> Option<Heading> {
+    pub fn heading(&self, name: &str) -> Option<Heading> {
         compass(self.text(name)?)
     }
 
     /// What a sensor tells.
-    fn sensor_number(&self, name: &str) -> Option<f64> {
+    pub fn sensor_number(&self, name: &str) -> Option<f64> {
         sensor_number(self.text(name)?)
     }
 
     /// 0 stands for what is not known, and so does what is a little below the bottom; what no sounder is out by is told as it is.
-    fn altitude(&self, name: &str) -> Option<Option<f64>> {
+    pub fn altitude(&self, name: &str) -> Option<Option<f64>> {
         self.sensor_number(name).map(|a| (a > 0.0 || !ranges::HEIGHTS.contains(&a)).then_some(a))
     }
 }
@@ -178,7 +178,7 @@ mod tests {
         let echo = FromVehicle::Accepted("Heading,Goal,270.0".into());
         assert_eq!(FromVehicle::parse("C,Heading,Goal,270.0"), Ok(echo));
         assert_eq!(ToVehicle::parse("C,Heading,Goal,270.0"), Ok(ToVehicle::Heading(Heading::from_degrees(270.0))));
-        assert!(matches!(FromVehicle::parse("c,T12.1,C3.4,S35,D3,V1500"), Ok(FromVehicle::Ctd(_))));
+        assert!(matches!(FromVehicle::parse("c,T12.1,C3.4,S35,D3,V1500"), Ok(FromVehicle::Measured(_))));
         assert_eq!(ToVehicle::parse("c,1"), Ok(ToVehicle::ClosestPoint(true)));
         assert_eq!(FromVehicle::parse("E,107,Illegal time"), Ok(FromVehicle::Error(107, "Illegal time".into())));
         assert_eq!(ToVehicle::parse("E,1"), Ok(ToVehicle::Override(true)));

@@ -3,20 +3,16 @@
 use super::frame::{Deframer, seal};
 use super::message::{Adcp, FromVehicle, RPM_AT_1_MPS, State, ToVehicle};
 use super::mode::Mode;
-use super::{DIALECT, FULL_SCALE_VOLTS, grounding, seawater};
+use super::{DIALECT, grounding, instruments};
 use crate::controller::DAY_MS;
 use crate::dialect::Dialect;
 use crate::server::{Goal, Refusal, Report, Request, Senses, ServerSide, StateReport};
 use albacore_geometry::math::{cos, sin};
-use albacore_vehicle::Snapshot;
-use albacore_vehicle::measurements::{BATTERY, CHEMICAL, SALINITY, TEMPERATURE};
 
 /// Ticks between messages of the profiler.
 const ADCP_TICKS: u64 = 10;
 /// The day's time at tick 0: noon.
 const BEGIN_MS: u64 = 12 * 3_600_000;
-/// The battery of a REMUS 100, Wh.
-const CAPACITY_WH: f64 = 1000.0;
 /// So much of a message that cannot be understood is shown, bytes.
 const SHOWN: usize = 40;
 
@@ -62,7 +58,7 @@ impl ServerSide for Server {
         let mut say = |message: FromVehicle| out.extend_from_slice(seal(&message.to_string()).as_bytes());
         match what {
             Report::Sensed(snapshot, senses, tick) => {
-                tell_samples(snapshot, senses, &mut say);
+                instruments::told(snapshot, senses).for_each(|measured| say(FromVehicle::Measured(measured)));
                 if tick.is_multiple_of(ADCP_TICKS) {
                     say(FromVehicle::Adcp(adcp(senses)));
                 }
@@ -94,28 +90,6 @@ fn request(message: &ToVehicle) -> Request {
         _ => message.set_point().map_or(Goal::Unknown, Goal::Hold),
     };
     Request::Goal(goal, format!("#{message}"))
-}
-
-/// Passes on what has messages of its own.
-fn tell_samples(snapshot: &Snapshot, senses: &Senses, say: &mut impl FnMut(FromVehicle)) {
-    let (mut temperature, mut salinity) = (None, None);
-    // On the wire there is no number for what is none.
-    for sample in snapshot.samples.iter().filter(|s| s.reading.iter().all(|x| x.is_finite())) {
-        let [a, ..] = sample.reading;
-        match sample.measurement {
-            CHEMICAL => say(FromVehicle::Fluorometer { gain: 1.0, value: a * FULL_SCALE_VOLTS }),
-            BATTERY => {
-                let (capacity, available, percent) = (CAPACITY_WH, CAPACITY_WH * a, 100.0 * a);
-                say(FromVehicle::Battery { capacity, available, percent });
-            }
-            TEMPERATURE => temperature = Some(a),
-            SALINITY => salinity = Some(a),
-            _ => {}
-        }
-    }
-    if let (Some(temperature), Some(salinity)) = (temperature, salinity) {
-        say(FromVehicle::Ctd(seawater::ctd(temperature, salinity, senses.depth)));
-    }
 }
 
 fn adcp(senses: &Senses) -> Adcp {

@@ -171,9 +171,13 @@ mod tests {
     use albacore_vehicle::Snapshot;
     use albacore_vehicle::measurements::{COURSE, DEPTH, POSITION};
 
+    fn of(measurement: u16) -> Sensor {
+        Sensor::of(measurement).unwrap()
+    }
+
     /// Depths 0, 1, 2 … a tick, faulty from tick 100 to 199: what came of each, by tick.
     fn depths(disorder: SensorFault) -> Vec<(u64, f64)> {
-        let mut filter = Filter::new(Sensor::Depth, disorder, 1, 0);
+        let mut filter = Filter::new(of(DEPTH), disorder, 1, 0);
         let mut came = Vec::new();
         for tick in 0..300 {
             let mut snapshot = Snapshot::default();
@@ -218,7 +222,7 @@ mod tests {
     #[test]
     fn intermittent_samples_come_and_stay_away_by_turns() {
         let disorder = SensorFault::Intermittent { on: 5.0, off: 15.0 };
-        let mut filter = Filter::new(Sensor::Depth, disorder, 3, 0);
+        let mut filter = Filter::new(of(DEPTH), disorder, 3, 0);
         let (mut came, mut turns, mut before) = (0, 0, true);
         for tick in 0..1_000_000 {
             let mut snapshot = Snapshot::default();
@@ -236,7 +240,7 @@ mod tests {
 
     #[test]
     fn a_saturated_gyroscope_misses_fast_turns_for_good() {
-        let mut filter = Filter::new(Sensor::Heading, SensorFault::Saturated(0.1), 1, 0);
+        let mut filter = Filter::new(of(HEADING), SensorFault::Saturated(0.1), 1, 0);
         let mut heading = 0.0;
         let mut read = (0.0, 0.0);
         for tick in 0..400 {
@@ -265,7 +269,7 @@ mod tests {
     #[test]
     fn a_jump_and_a_wrong_position_are_off_by_what_they_say() {
         let position = |disorder| {
-            let mut filter = Filter::new(Sensor::Position, disorder, 9, 0);
+            let mut filter = Filter::new(of(POSITION), disorder, 9, 0);
             let mut snapshot = Snapshot::default();
             snapshot.push(POSITION, &[10.0, 20.0, 2.0]);
             filter.apply(5, &mut snapshot.samples);

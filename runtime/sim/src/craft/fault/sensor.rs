@@ -2,71 +2,64 @@
 
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Vector};
-use albacore_vehicle::measurements::{ALTITUDE, CHEMICAL, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, info};
+use albacore_vehicle::measurements::{ALL, info};
 use albacore_vehicle::{Quantity, Reading};
 use serde::Deserialize;
 
-/// A sensor that can fail, with the measurements that come from it alone.
+/// A sensor that can fail, by the measurement that it is named after: one with [`fails`](albacore_vehicle::measurements::MeasurementInfo).
 ///
 /// `water_depth` is the sum of depth and altitude: it fails with either, and stays away where one of them does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Sensor {
-    /// Dead reckoning and fixes: `position` with its standard deviation. Wrong: 50 m off, somewhere.
-    Position,
-    /// The compass: `heading`, and `course`, for the velocity over ground is measured by the vehicle and turned with the
-    /// compass. Wrong: 20 degrees clockwise.
-    Heading,
-    /// The Doppler log: `speed`. Wrong: 0.5 m/s too fast.
-    Speed,
-    /// The pressure gauge: `depth`. Wrong: 2 m too deep.
-    Depth,
-    /// The echo sounder: `altitude`. Wrong: 2 m too high.
-    Altitude,
-    /// The Doppler profiler: `flow`. Wrong: 0.1 m/s added, toward somewhere.
-    Flow,
-    /// The fluorometer: `chemical`. Wrong: 5 % of full scale added, up to full scale.
-    Chemical,
+#[serde(try_from = "String")]
+pub struct Sensor(u16);
+
+/// A name that no sensor has which can fail.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("no sensor `{0}` can fail")]
+pub struct UnknownSensor(String);
+
+impl TryFrom<String> for Sensor {
+    type Error = UnknownSensor;
+
+    fn try_from(name: String) -> Result<Self, UnknownSensor> {
+        Sensor::all().find(|sensor| sensor.name() == name).ok_or(UnknownSensor(name))
+    }
 }
 
 impl Sensor {
-    /// All of them.
-    pub const ALL: [Sensor; 7] = [
-        Sensor::Position,
-        Sensor::Heading,
-        Sensor::Speed,
-        Sensor::Depth,
-        Sensor::Altitude,
-        Sensor::Flow,
-        Sensor::Chemical,
-    ];
+    /// All of them, in the order of their measurements.
+    pub fn all() -> impl Iterator<Item = Sensor> {
+        (0..).zip(&ALL).filter(|(_, row)| row.fails).map(|(measurement, _)| Sensor(measurement))
+    }
+
+    /// That of a measurement, if it can fail.
+    pub fn of(measurement: u16) -> Option<Sensor> {
+        info(measurement).fails.then_some(Sensor(measurement))
+    }
 
     /// The measurement that it is named after.
     pub(crate) fn measurement(self) -> u16 {
-        match self {
-            Sensor::Position => POSITION,
-            Sensor::Heading => HEADING,
-            Sensor::Speed => SPEED,
-            Sensor::Depth => DEPTH,
-            Sensor::Altitude => ALTITUDE,
-            Sensor::Flow => FLOW,
-            Sensor::Chemical => CHEMICAL,
-        }
+        self.0
     }
 
     /// What a scenario calls it.
     pub fn name(self) -> &'static str {
-        info(self.measurement()).name
+        info(self.0).name
     }
 
     /// Whether a measurement comes from it.
     pub(crate) fn has(self, measurement: u16) -> bool {
-        measurement == self.measurement() || self == Sensor::Heading && measurement == COURSE
+        measurement == self.0 || info(measurement).fails_with == Some(self.0)
+    }
+
+    /// Whether the vehicle makes a measurement of what it tells, together with others.
+    pub(crate) fn is_source_of(self, measurement: u16) -> bool {
+        info(measurement).sources.contains(&self.0)
     }
 
     /// What it measures.
     pub(crate) fn quantity(self) -> Quantity {
-        info(self.measurement()).quantity
+        info(self.0).quantity
     }
 
     /// The greatest size of what comes as garbage: some times what can be.

@@ -1,7 +1,7 @@
 //! The faults of a run: which are in force in a tick, what is said of it, and what they do.
 
 use super::filter::Filter;
-use super::{Fault, FaultKind, Sensor, to_tick};
+use super::{Fault, FaultKind, to_tick};
 use albacore_geometry::Vector;
 use albacore_vehicle::measurements::{ALTITUDE, DEPTH, WATER_DEPTH};
 use albacore_vehicle::{Sample, TICK_S};
@@ -89,7 +89,7 @@ impl Faults {
             if known.in_force {
                 filter.apply(tick, samples);
                 water_depth_fails |=
-                    matches!(known.fault.trouble, FaultKind::Sensor(Sensor::Depth | Sensor::Altitude, _));
+                    matches!(known.fault.trouble, FaultKind::Sensor(sensor, _) if sensor.is_source_of(WATER_DEPTH));
             } else {
                 filter.watch(tick, samples);
             }
@@ -127,8 +127,9 @@ fn add_up(samples: &mut Vec<Sample>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::craft::fault::SensorFault;
+    use crate::craft::fault::{Sensor, SensorFault};
     use albacore_vehicle::Snapshot;
+    use albacore_vehicle::measurements::{FLOW, SPEED};
 
     fn fault(trouble: FaultKind, from: f64, to: Option<f64>) -> Fault {
         Fault { trouble, from, to }
@@ -136,7 +137,7 @@ mod tests {
 
     #[test]
     fn begin_and_end_are_told_to_the_tick() {
-        let trouble = FaultKind::Sensor(Sensor::Flow, SensorFault::NotANumber);
+        let trouble = FaultKind::Sensor(Sensor::of(FLOW).unwrap(), SensorFault::NotANumber);
         let mut faults =
             Faults::new(&[fault(trouble, 0.3, Some(0.5)), fault(FaultKind::IgnoredCommands, 0.4, None)], 1);
         let told: Vec<(u64, String)> = (0..10)
@@ -188,7 +189,8 @@ mod tests {
 
     #[test]
     fn the_waters_depth_fails_with_either_part() {
-        let told = |sensor, disorder| {
+        let told = |measurement, disorder| {
+            let sensor = Sensor::of(measurement).unwrap();
             let mut faults = Faults::new(&[fault(FaultKind::Sensor(sensor, disorder), 0.0, None)], 1);
             faults.advance_to(0);
             let mut snapshot = Snapshot::default();
@@ -198,9 +200,9 @@ mod tests {
             faults.filter(0, &mut snapshot.samples);
             snapshot.samples.iter().find(|s| s.measurement == WATER_DEPTH).map(|s| s.reading[0])
         };
-        assert_eq!(told(Sensor::Depth, SensorFault::Off), None);
-        assert_eq!(told(Sensor::Altitude, SensorFault::Wrong(1.0)), Some(10.0));
-        assert_eq!(told(Sensor::Speed, SensorFault::Off), Some(8.0));
-        assert!(told(Sensor::Depth, SensorFault::NotANumber).is_some_and(|sum| !sum.is_finite()));
+        assert_eq!(told(DEPTH, SensorFault::Off), None);
+        assert_eq!(told(ALTITUDE, SensorFault::Wrong(1.0)), Some(10.0));
+        assert_eq!(told(SPEED, SensorFault::Off), Some(8.0));
+        assert!(told(DEPTH, SensorFault::NotANumber).is_some_and(|sum| !sum.is_finite()));
     }
 }

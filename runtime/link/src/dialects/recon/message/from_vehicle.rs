@@ -1,6 +1,7 @@
 //! What a vehicle says.
 
 use super::super::fields::{fixed, position, position_texts, ranges, time, time_text, within};
+use super::super::instruments::{self, Measured};
 use super::super::mode::Mode;
 use super::{Fields, Malformed, compass_text, lettered};
 use albacore_geometry::math::{degrees, radians};
@@ -14,24 +15,8 @@ pub enum FromVehicle {
     State(State),
     /// `#A`: its Doppler profiler.
     Adcp(Adcp),
-    /// `#c`: conductivity, temperature, depth.
-    Ctd(Ctd),
-    /// `#F`: its fluorometer: gain, and the value at that gain.
-    Fluorometer {
-        /// Gain.
-        gain: f64,
-        /// Value; the public sources give no unit.
-        value: f64,
-    },
-    /// `#B`: its battery.
-    Battery {
-        /// Capacity; the public sources give no unit, ours sends watt hours.
-        capacity: f64,
-        /// What is left of it.
-        available: f64,
-        /// The same in per cent.
-        percent: f64,
-    },
+    /// An instrument's message.
+    Measured(Measured),
     /// `#C`: the echo of a command that was accepted.
     Accepted(String),
     /// `#E`: an error: number and text.
@@ -96,21 +81,6 @@ pub struct Adcp {
     pub look: char,
 }
 
-/// The fields of `#c`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ctd {
-    /// Degrees Celsius.
-    pub temperature: f64,
-    /// Conductivity; the public sources give no unit, ours sends S/m.
-    pub conductivity: f64,
-    /// Practical salinity.
-    pub salinity: f64,
-    /// Depth, m.
-    pub depth: f64,
-    /// Speed of sound, m/s.
-    pub sound_speed: f64,
-}
-
 impl FromVehicle {
     /// Reads the body of a frame that a vehicle sent.
     pub fn parse(body: &str) -> Result<Self, Malformed> {
@@ -120,11 +90,7 @@ impl FromVehicle {
         let message = match letter {
             'S' => State::read(&fields).map(FromVehicle::State),
             'A' => Adcp::read(&fields).map(FromVehicle::Adcp),
-            'c' => Ctd::read(&fields).map(FromVehicle::Ctd),
-            'F' => {
-                fields.number("G").and_then(|gain| Some(FromVehicle::Fluorometer { gain, value: fields.number("V")? }))
-            }
-            'B' => battery(&fields),
+            letter if instruments::has(letter) => instruments::parse(letter, &fields, body).map(FromVehicle::Measured),
             'C' => Some(FromVehicle::Accepted(rest.to_string())),
             'E' => {
                 let (code, text) = rest.split_once(',').unwrap_or((rest, ""));
@@ -135,12 +101,6 @@ impl FromVehicle {
         };
         message.ok_or_else(malformed)
     }
-}
-
-fn battery(fields: &Fields) -> Option<FromVehicle> {
-    let (capacity, available) = (fields.number("C")?, fields.number("A")?);
-    let percent = fields.within("P", ranges::CHARGES)?;
-    Some(FromVehicle::Battery { capacity, available, percent })
 }
 
 impl State {
@@ -188,36 +148,12 @@ impl Adcp {
     }
 }
 
-impl Ctd {
-    fn read(fields: &Fields) -> Option<Self> {
-        Some(Ctd {
-            temperature: fields.number("T")?,
-            conductivity: fields.number("C")?,
-            salinity: fields.number("S")?,
-            depth: fields.sensor_number("D")?,
-            sound_speed: fields.number("V")?,
-        })
-    }
-}
-
 impl fmt::Display for FromVehicle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FromVehicle::State(state) => state.fmt(f),
             FromVehicle::Adcp(adcp) => adcp.fmt(f),
-            FromVehicle::Ctd(c) => write!(
-                f,
-                "c,T{},C{},S{},D{},V{}",
-                fixed(c.temperature, 3),
-                fixed(c.conductivity, 3),
-                fixed(c.salinity, 3),
-                fixed(c.depth, 2),
-                fixed(c.sound_speed, 2)
-            ),
-            FromVehicle::Fluorometer { gain, value } => write!(f, "F,G{},V{}", fixed(*gain, 0), fixed(*value, 4)),
-            FromVehicle::Battery { capacity, available, percent } => {
-                write!(f, "B,C{},A{},P{}", fixed(*capacity, 1), fixed(*available, 1), fixed(*percent, 1))
-            }
+            FromVehicle::Measured(measured) => f.write_str(&measured.message),
             FromVehicle::Accepted(text) => write!(f, "C,{text}"),
             FromVehicle::Error(code, text) if text.is_empty() => write!(f, "E,{code}"),
             FromVehicle::Error(code, text) => write!(f, "E,{code},{text}"),

@@ -1,17 +1,8 @@
-//! What a CTD measures and derives, from temperature and salinity: `#c` tells all of it, and the port knows only these two.
-
-use super::message::Ctd;
-
-/// `#c` for a temperature (degrees Celsius), a practical salinity and a depth (m). In pressure a decibar goes for a metre, which
-/// is 1 % off at most above 1000 m.
-pub fn ctd(temperature: f64, salinity: f64, depth: f64) -> Ctd {
-    let conductivity = conductivity(temperature, salinity, depth);
-    Ctd { temperature, conductivity, salinity, depth, sound_speed: sound_speed(temperature, salinity, depth) }
-}
+//! What follows from temperature and salinity: a CTD derives salinity from conductivity, and the speed of sound.
 
 /// The speed of sound, m/s (Mackenzie 1981, J. Acoust. Soc. Am. 70, 807-812, nine terms: 2 to 30 degrees, salinities of 25 to
 /// 40, to 8000 m).
-fn sound_speed(temperature: f64, salinity: f64, depth: f64) -> f64 {
+pub fn sound_speed(temperature: f64, salinity: f64, depth: f64) -> f64 {
     let (t, s, d) = (temperature, salinity - 35.0, depth);
     let of_temperature = polynomial(t, &[1448.96, 4.591, -5.304e-2, 2.374e-4]);
     let of_depth = d * (1.630e-2 + d * 1.675e-7);
@@ -19,8 +10,9 @@ fn sound_speed(temperature: f64, salinity: f64, depth: f64) -> f64 {
 }
 
 /// The conductivity that the practical salinity scale derives a salinity from (PSS-78: UNESCO Technical Papers in Marine Science
-/// 44, 1983, pp. 6-12), S/m, at a temperature (degrees Celsius) and a pressure (decibars).
-fn conductivity(temperature: f64, salinity: f64, pressure: f64) -> f64 {
+/// 44, 1983, pp. 6-12), S/m, at a temperature (degrees Celsius) and a pressure (decibars). A depth in metres goes for the pressure: it is
+/// 1 % off at most above 1000 m.
+pub fn conductivity(temperature: f64, salinity: f64, pressure: f64) -> f64 {
     STANDARD * ratio(temperature, salinity, pressure)
 }
 
