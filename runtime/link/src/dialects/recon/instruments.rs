@@ -1,16 +1,60 @@
-//! Instruments that have a message of their own: a file for each, and this is their register.
+//! Instruments that have a message of their own, in the order in which a vehicle tells of them.
 
-mod battery;
-mod ctd;
-mod fluorometer;
 mod seawater;
 
+use super::fields::{fixed, ranges};
 use super::message::Fields;
 use crate::server::Senses;
+use albacore_vehicle::measurements::{BATTERY, CHEMICAL, SALINITY, TEMPERATURE};
 use albacore_vehicle::{Reading, Snapshot};
 
-/// All of them, in the order in which a vehicle tells of them.
-static ALL: [&Instrument; 3] = [&fluorometer::INSTRUMENT, &ctd::INSTRUMENT, &battery::INSTRUMENT];
+/// All of them.
+static ALL: [Instrument; 3] = [
+    // The fluorometer: gain, and the value at that gain.
+    Instrument {
+        letter: 'F',
+        measures: &[CHEMICAL],
+        read: |fields| {
+            fields.number("G")?;
+            Some([fields.number("V")? / FULL_SCALE_VOLTS, 0.0, 0.0, 0.0])
+        },
+        write: |[chemical, ..], _| format!("G1,V{}", fixed(chemical * FULL_SCALE_VOLTS, 4)),
+    },
+    // The CTD: temperature (degrees Celsius), conductivity (the sources give no unit; ours sends S/m), practical salinity, depth (m) and
+    // the speed of sound (m/s). Only temperature and salinity are read.
+    Instrument {
+        letter: 'c',
+        measures: &[TEMPERATURE, SALINITY],
+        read: |fields| {
+            fields.number("C").and(fields.sensor_number("D")).and(fields.number("V"))?;
+            Some([fields.number("T")?, fields.number("S")?, 0.0, 0.0])
+        },
+        write: |[temperature, salinity, ..], senses| {
+            let conductivity = seawater::conductivity(temperature, salinity, senses.depth);
+            let sound_speed = seawater::sound_speed(temperature, salinity, senses.depth);
+            let [t, c, s] = [temperature, conductivity, salinity].map(|x| fixed(x, 3));
+            format!("T{t},C{c},S{s},D{},V{}", fixed(senses.depth, 2), fixed(sound_speed, 2))
+        },
+    },
+    // The battery: capacity, what is left of it, and the same in per cent. The sources give no unit of the first two; ours sends watt hours.
+    Instrument {
+        letter: 'B',
+        measures: &[BATTERY],
+        read: |fields| {
+            fields.number("C").and(fields.number("A"))?;
+            Some([fields.within("P", ranges::CHARGES)? / 100.0, 0.0, 0.0, 0.0])
+        },
+        write: |[charge, ..], _| {
+            let [c, a, p] = [CAPACITY_WH, CAPACITY_WH * charge, 100.0 * charge].map(|x| fixed(x, 1));
+            format!("C{c},A{a},P{p}")
+        },
+    },
+];
+
+/// The fluorometer's full scale: 5 V, as the 2003 trials' Seapoint gives. The sources give no unit.
+const FULL_SCALE_VOLTS: f64 = 5.0;
+/// The battery of a REMUS 100, Wh.
+const CAPACITY_WH: f64 = 1000.0;
 
 /// What a message of an instrument is.
 struct Instrument {
@@ -72,7 +116,7 @@ mod tests {
     use super::*;
     use crate::dialects::recon::FromVehicle;
     use albacore_geometry::{Heading, Point};
-    use std::collections::HashSet;
+    use std::collections::BTreeSet;
 
     const SENSES: Senses = Senses {
         position: Point::ORIGIN,
@@ -94,7 +138,7 @@ mod tests {
 
     #[test]
     fn what_is_told_is_read_again() {
-        for instrument in ALL {
+        for instrument in &ALL {
             for number in [0.0, 0.123_4, 0.5, 1.0] {
                 let [measured] = &message_of(instrument, number)[..] else {
                     panic!("{}: not one message", instrument.letter)
@@ -110,13 +154,13 @@ mod tests {
             }
             assert_eq!(message_of(instrument, f64::NAN), [], "no number, no message");
         }
-        let letters: HashSet<char> = ALL.iter().map(|instrument| instrument.letter).collect();
+        let letters: BTreeSet<char> = ALL.iter().map(|instrument| instrument.letter).collect();
         assert_eq!(letters.len(), ALL.len());
     }
 
     #[test]
     fn a_message_without_one_of_its_fields_is_none() {
-        for instrument in ALL {
+        for instrument in &ALL {
             let [Measured { message, .. }] = &message_of(instrument, 0.5)[..] else { panic!("not one message") };
             let parts: Vec<&str> = message.split(',').collect();
             for without in 1..parts.len() {
