@@ -66,7 +66,10 @@ pub fn not_written(path: &Path, error: &io::Error) -> String {
         ErrorKind::IsADirectory | ErrorKind::NotADirectory if is_folders => {
             Some("its name ends as a folder's does, and there is no such folder".to_string())
         }
-        ErrorKind::AlreadyExists => Some("there is a file of that name".to_string()).filter(|_| is_file(&path)),
+        ErrorKind::AlreadyExists => {
+            let what = if is_file(&path) { "file" } else { "folder" };
+            path.exists().then(|| format!("there is a {what} of that name"))
+        }
         ErrorKind::NotADirectory => {
             path.ancestors().find(is_file).map(|file| format!("`{}` is a file, and no folder", file.display()))
         }

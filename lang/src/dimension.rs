@@ -221,6 +221,14 @@ fn word(text: &str, known: &dyn Fn(&str) -> Option<Unit>) -> Option<Unit> {
     Some(Unit { dimension: base.dimension.power(power)?, scale: albacore_geometry::math::pow(base.scale, power) })
 }
 
+/// The words of a unit such as `m2/s`, without their powers, and each that has one with it too.
+pub fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split('/').flat_map(|word| {
+        let power = word.find(|c: char| c.is_ascii_digit() || c == '^');
+        [Some(word), power.map(|at| &word[..at])].into_iter().flatten()
+    })
+}
+
 /// The unit that a text such as `cm/s` names; `own` knows the units that the script declares.
 pub fn unit(text: &str, own: &dyn Fn(&str) -> Option<Unit>) -> Option<Unit> {
     let known = |name: &str| {

@@ -27,8 +27,12 @@ fn line(p: &Program, event: &Event) -> String {
                 .flatten()
                 .find(|entry| entry.activity == *from)
                 .map_or(&[][..], |entry| &entry.exits[*exit as usize].watched);
-            let watched = named(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values);
-            format!("switch {} {} [{watched}]", name(*from), p.rules[*rule as usize].place)
+            let mut said = named(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values);
+            let words: u32 = watched.iter().map(|watched| watched.shape.words()).sum();
+            if let Some(done) = values.get(words as usize) {
+                said += &format!("; done {done}");
+            }
+            format!("switch {} {} [{said}]", name(*from), p.rules[*rule as usize].place)
         }
         Event::Remembered(memory, words) => {
             let memory = &p.memories[*memory as usize];

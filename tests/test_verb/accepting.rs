@@ -127,6 +127,24 @@ fn the_snapshot_of_a_test_that_fails_is_not_accepted() {
     let (code, said) = project.test(&["--accept"]);
     assert_eq!(code, Some(1), "{said}");
     assert_eq!((project.snapshot().is_some(), project.snapshot()), (true, accepted));
+    // Nor is that advised.
+    let (code, said) = project.test(&[]);
+    let advised = said.contains("albacore test --accept");
+    assert_eq!((code, advised, said.contains("mend the test or the mission first")), (Some(1), false, true), "{said}");
+}
+
+/// A comment above a table moves its rules, and nothing else.
+#[test]
+fn rules_on_other_lines_are_told_as_such() {
+    let project = Project::new("lines", "10 s", "5 m");
+    let table = "\nstrategy s() {\n    behavior a { steer north for 1 s at depth 3 m, speed 1 m/s }\n    start a\n    a -> finish on done\n}\n";
+    let script = std::fs::read_to_string(project.0.join("north.alb")).unwrap();
+    let script = script.replacen("    steer", "    s()\n    steer", 1) + table;
+    std::fs::write(project.0.join("north.alb"), &script).unwrap();
+    assert_eq!(project.test(&["--accept"]).0, Some(0));
+    std::fs::write(project.0.join("north.alb"), format!("// {}\n{script}", "a comment\n// ".repeat(90))).unwrap();
+    let (code, said) = project.test(&[]);
+    assert!(code == Some(1) && said.contains("same behavior, by rules on other lines"), "{said}");
 }
 
 /// Version control may write other line ends than these, and an editor may leave the last one out.

@@ -167,6 +167,7 @@ impl<'t> Checker<'t> {
             self.report(Diagnostic::error(Code::TypesNone, value.span, "this signal is always absent"));
         }
         let id = self.declare(name, VarKind::Signal, value.ty.clone());
+        self.scope.vars[id].is_momentary = self.is_momentary(&value);
         Decl::Signal(id, value)
     }
 

@@ -1,5 +1,6 @@
 //! The first pass: what every module declares, before any body is looked at.
 
+use super::units::UnitsAhead;
 use super::{Checker, ClauseInfo, Def, Lazy, Module, Signature, ends};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -51,6 +52,7 @@ fn in_order(declared: &[Lazy], ranks: &[usize]) -> Vec<usize> {
 impl<'t> Checker<'t> {
     pub(super) fn run(&mut self) {
         let modules = self.modules;
+        self.units_ahead = UnitsAhead::of(modules);
         for (m, module) in modules.iter().enumerate() {
             for item in &module.tree.items {
                 self.declare_item(m, item);
@@ -179,11 +181,7 @@ impl<'t> Checker<'t> {
                 self.types.records.push(RecordInfo { name: name_text, module, fields, places });
                 self.define(m, name, Def::Record(self.types.records.len() - 1));
             }
-            Item::Unit { name, value } => {
-                if let Some(unit) = self.declared_unit(m, name, value) {
-                    self.define(m, name, Def::Unit(unit));
-                }
-            }
+            Item::Unit { name, value } => self.declare_unit(m, name, value),
             Item::Input { name, .. } => {
                 let (fields, places) = (Vec::new(), Vec::new());
                 self.hir.inputs.push(hir::Input { name: name.node.clone(), ty: Type::Unknown, fields, places });
@@ -360,6 +358,7 @@ impl<'t> Checker<'t> {
                             span: info.span,
                             range: info.range.unwrap_or_else(|| super::result_range::of_type(&info.ty)),
                             walks_constants: false,
+                            is_momentary: false,
                             order: None,
                         });
                         scenario.defaults.push(info.default);

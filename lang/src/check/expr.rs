@@ -302,7 +302,28 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         }
         let (holds, duration) = self.watched(|c| (c.condition(holds), c.duration(duration, "the time after `for`")));
+        if duration.range.low > 0.0 && self.is_momentary(&holds) {
+            self.report(
+                Diagnostic::error(
+                    Code::TimeMomentary,
+                    holds.span,
+                    "this holds for one tick at a time, and never for longer",
+                )
+                .help("write `becomes (X for T)` for the moment at which X has held for so long, or leave `for` out"),
+            );
+        }
         self.temporal("for", ExprKind::HeldFor(Box::new(holds), Box::new(duration)), span)
+    }
+
+    /// Whether a condition holds for one tick at a time: what becomes true, and what comes to its end.
+    pub(super) fn is_momentary(&self, e: &Expr) -> bool {
+        match &e.kind {
+            ExprKind::Becomes(_) | ExprKind::Done => true,
+            ExprKind::Var(id) => self.scope.vars[*id].is_momentary,
+            ExprKind::Do(Builtin::And, operands) => operands.iter().any(|e| self.is_momentary(e)),
+            ExprKind::Do(Builtin::Or, operands) => operands.iter().all(|e| self.is_momentary(e)),
+            _ => false,
+        }
     }
 
     /// Works on what a temporal operator watches: it is computed on every tick, whatever stands beside it.

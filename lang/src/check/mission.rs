@@ -64,7 +64,10 @@ impl Checker<'_> {
                 value.span,
                 "this limit may be negative, and would hold nothing",
             );
-            self.report(finding.help("give what it is computed from a range of its own: `in 1 m..30 m`"));
+            let unit = channel.row().unit;
+            self.report(
+                finding.help(format!("give what it is computed from a range of its own: `in 1 {unit}..3 {unit}`")),
+            );
         }
         if let Some((_, _, other)) = mission.limits.iter().find(|(c, l, _)| *c == channel && *l != least) {
             let (low, high) = if least { (&value, other) } else { (other, &value) };

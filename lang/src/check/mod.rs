@@ -35,6 +35,7 @@ mod test;
 mod timed;
 mod truth;
 mod type_syntax;
+mod units;
 mod unused;
 mod value;
 mod vehicle;
@@ -59,6 +60,7 @@ use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
+use units::UnitsAhead;
 use visible::Visible;
 
 /// Beyond this many findings no name is searched for what it may have meant: each search looks at all names, and nobody
@@ -269,6 +271,8 @@ pub struct Checker<'t> {
     /// What vehicles bring into the scenario that is being checked.
     fitted: Vec<hir::ClauseUse>,
     fn_signatures: Vec<Signature>,
+    /// Units whose turn comes yet.
+    units_ahead: UnitsAhead<'t>,
     /// The functions whose signatures are not read yet.
     fns_ahead: BTreeMap<usize, (usize, &'t tree::Function)>,
     activity_signatures: Vec<Signature>,
@@ -326,6 +330,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         vehicles: Vec::new(),
         fitted: Vec::new(),
         fn_signatures: Vec::new(),
+        units_ahead: UnitsAhead::default(),
         fns_ahead: BTreeMap::new(),
         activity_signatures: Vec::new(),
         overlay_ids: BTreeSet::new(),
@@ -365,7 +370,7 @@ impl<'t> Checker<'t> {
     }
 
     /// "did you mean `x`?", or else what there is.
-    fn suggestion<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str> + Clone) -> Option<String> {
+    fn suggestion<'n>(&self, name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<String> {
         if self.findings.len() < HELPED_MAX { albacore_wording::help(name, known) } else { None }
     }
 

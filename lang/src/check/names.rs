@@ -117,6 +117,7 @@ impl<'t> Checker<'t> {
             span,
             range,
             walks_constants: false,
+            is_momentary: false,
             order: None,
         });
         self.scope.visible.push(name, id);
@@ -197,6 +198,12 @@ impl<'t> Checker<'t> {
         let finding = if self.scope.setting == Setting::Function {
             Diagnostic::error(Code::NamesInput, span, format!("a function cannot read the input `{name}`"))
                 .help("give the function a parameter, and pass the input as its argument")
+        } else if self.test.is_some() {
+            let message = format!("a test cannot read the input `{name}`");
+            Diagnostic::error(Code::NamesInput, span, message).help(match name {
+                "position" => "where the vehicle truly is stands in `truth.position`".to_string(),
+                _ => format!("let the mission report it, `report \"{name}\": {name}`, and look at what was reported"),
+            })
         } else {
             Diagnostic::error(Code::NamesInput, span, format!("`{name}` is known only when the vehicle moves"))
                 .here("a constant is needed here")

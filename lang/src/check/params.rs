@@ -199,7 +199,10 @@ impl<'t> Checker<'t> {
                         range.first.span.to(range.last.span),
                         "this range holds nothing",
                     )
-                    .help("the smaller bound comes first"),
+                    .help(match *ty == Type::Heading {
+                        true => "no range goes across north: leave it out, and test the heading where it is used",
+                        false => "the smaller bound comes first",
+                    }),
                 );
                 None
             }
@@ -271,6 +274,7 @@ impl<'t> Checker<'t> {
             )
             .help(match range == Interval::NOT_NEGATIVE && value.ty == Type::Quantity(Dimension::TIME) {
                 true => "no time is negative: write `max(0 s, …)`",
+                false if value.ty == Type::Heading => "give what it is computed from a range of its own",
                 false => "give what it is computed from a range of its own, or hold it with `clamp(x, low, high)`",
             }),
         };

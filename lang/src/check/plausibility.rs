@@ -28,9 +28,13 @@ impl<'t> Checker<'t> {
     /// The duration of `for T`, `within T`, `fresh T` and `after T`.
     pub(super) fn duration(&mut self, e: &tree::Expr, what: &str) -> Expr {
         let value = self.expr_as(e, &Type::Quantity(Dimension::TIME), what);
-        if value.ty == Type::Unknown {
-            return value;
+        if value.ty != Type::Unknown {
+            self.not_backwards(&value, what);
         }
+        value
+    }
+
+    fn not_backwards(&mut self, value: &Expr, what: &str) {
         if value.range.high <= 0.0 {
             let how = match value.range {
                 Interval { high, .. } if high < 0.0 => "negative",
@@ -48,15 +52,18 @@ impl<'t> Checker<'t> {
                     .help("write `max(0 s, …)`: 0 s is one tick, the shortest time there is"),
             );
         }
-        value
     }
 
     /// The time after which a mission or its recovery is over: nothing would be left of one that may be 0 s.
     pub(super) fn time_limit(&mut self, e: &tree::Expr, what: &str) -> Expr {
-        let value = self.duration(e, what);
-        if value.ty != Type::Unknown && value.range.low == 0.0 && value.range.high > 0.0 {
+        let value = self.expr_as(e, &Type::Quantity(Dimension::TIME), what);
+        if value.ty == Type::Unknown {
+        } else if value.range.low > 0.0 || value.range.high <= 0.0 {
+            self.not_backwards(&value, what);
+        } else {
+            let how = if value.range.low < 0.0 { "negative" } else { "zero" };
             self.report(
-                Diagnostic::error(Code::RangesDuration, value.span, format!("{what} may be zero"))
+                Diagnostic::error(Code::RangesDuration, value.span, format!("{what} may be {how}"))
                     .here("how short can this be?")
                     .help("give the parameter a range, `in 1 min..2 h`, or write `max(1 min, …)`"),
             );

@@ -18,6 +18,9 @@ const EXITS_MAX: usize = 65_536;
 /// Of the rules that shadow another so many are shown.
 const SHOWN: usize = 3;
 
+/// Words with which other tables end.
+const ENDS: [&str; 9] = ["end", "complete", "completed", "stop", "exit", "quit", "success", "finished", "terminate"];
+
 impl<'t> Checker<'t> {
     pub(super) fn table(
         &mut self,
@@ -148,6 +151,7 @@ impl<'t> Checker<'t> {
             let finding =
                 Diagnostic::error(Code::RulesUnknown, name.span, format!("there is no behavior `{}` here", name.node));
             let finding = match self.suggestion(&name.node, known()) {
+                _ if ENDS.contains(&name.node.as_str()) => finding.help("write `finish`: it ends the strategy"),
                 Some(help) => finding.help(help),
                 None => finding,
             };

@@ -16,6 +16,9 @@ use std::rc::Rc;
 /// What stands after `truth`.
 const TRUTHS: [&str; 5] = ["position", "nearest_source", "start", "deepest", "depth_at"];
 
+/// No run lasts longer, s: three years.
+const RUN_MAX_S: f64 = 1e8;
+
 /// What is said without a source.
 const NO_SOURCE: &str = "the scenario has no source";
 /// What is said without a deepest point.
@@ -57,7 +60,7 @@ impl<'t> Checker<'t> {
             reported_at: Vec::new(),
         };
         // It has run for no time yet, or for some.
-        self.scope.vars[vars.time].range = Interval::NOT_NEGATIVE;
+        self.scope.vars[vars.time].range = Interval::new(0.0, RUN_MAX_S);
         self.test = Some(TestScope {
             mission,
             reports: self.reports_of(mission),
@@ -231,7 +234,11 @@ impl<'t> Checker<'t> {
             }
             _ => {
                 let place = self.report_var(&what, false, text.span);
-                self.taken_for_granted(place, format!("no place was reported as \"{what}\""), span)
+                self.taken_for_granted(
+                    place,
+                    format!("the first report \"{what}\" has no place, or there is none"),
+                    span,
+                )
             }
         })
     }

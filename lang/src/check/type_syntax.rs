@@ -13,34 +13,6 @@ use albacore_wording::nearest;
 const LIST_CAPACITY_MAX: f64 = 1024.0;
 
 impl<'t> Checker<'t> {
-    pub(super) fn declared_unit(&mut self, m: usize, name: &tree::Name, value: &tree::Expr) -> Option<Unit> {
-        if name.node.contains('_') {
-            // Behind a number a unit ends there.
-            let message = "the name of a unit is letters and digits alone";
-            let help = format!("write `{}`", name.node.split('_').collect::<String>());
-            self.report(Diagnostic::error(Code::UnitsDeclaration, name.span, message).help(help));
-            return None;
-        }
-        let tree::ExprKind::Number { value: number, unit: Some(unit), .. } = &value.kind else {
-            self.report(
-                Diagnostic::error(Code::UnitsDeclaration, value.span, "a unit is declared by a quantity")
-                    .help("for example `unit fathom = 1.8288 m`"),
-            );
-            return None;
-        };
-        let base = self.unit(m, unit)?;
-        self.sensible_quantity(base.scale * number, value.span).then_some(())?;
-        Some(Unit { dimension: base.dimension, scale: base.scale * number })
-    }
-
-    /// The unit that a module declares by a name.
-    fn own_unit(&self, module: usize, name: &str) -> Option<Unit> {
-        match self.lookup(module, name) {
-            Some(Def::Unit(unit)) => Some(*unit),
-            _ => None,
-        }
-    }
-
     /// The unit that a word names in a module, if it names one.
     pub(super) fn unit_if(&self, module: usize, word: &str) -> Option<Unit> {
         dimension::unit(word, &|name| self.own_unit(module, name))

@@ -77,6 +77,8 @@ pub struct Var {
     pub span: Span,
     /// The values a number can have.
     pub range: Interval,
+    /// A signal that holds for one tick at a time.
+    pub is_momentary: bool,
     /// It walks a list of constants: an angle among them may stand for a heading, as each constant may.
     pub walks_constants: bool,
     /// In a list kept in order: which end comes first, and the key, a function of `it`.

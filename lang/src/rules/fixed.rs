@@ -51,6 +51,8 @@ enum Source<'h> {
     Value(&'h Expr),
     /// Each element of a list.
     Elements(&'h Expr),
+    /// Each number from one to another.
+    Numbers(&'h Expr, &'h Expr, bool),
     /// Each edge of an area.
     Edges(&'h Expr),
     /// Each row of an area, so far apart at most.
@@ -144,6 +146,9 @@ impl<'h> Fixed<'h> {
             }
             StmtKind::ForEdges { var, area, .. } => self.sets((unit, *var), unit, Source::Edges(area)),
             StmtKind::ForRows { var, area, step, .. } => self.sets((unit, *var), unit, Source::Rows(area, step)),
+            StmtKind::ForRange { var, first, last, inclusive, .. } => {
+                self.sets((unit, *var), unit, Source::Numbers(first, last, *inclusive));
+            }
             StmtKind::ForList { var, list, .. } => self.sets((unit, *var), unit, Source::Elements(list)),
             StmtKind::If(e, ..) | StmtKind::Match(e, ..) => self.tests(unit, e),
             StmtKind::While { condition, bind, .. } => {
@@ -241,6 +246,11 @@ impl<'h> Fixed<'h> {
                 let values = self.values(unit, whole).into_iter();
                 values.filter_map(|written| part(written, *at, &e.ty)).collect()
             }
+            ExprKind::Do(Builtin::At, operands) => {
+                let [list, index] = operands.as_slice() else { return Vec::new() };
+                let Some(index) = index.range.constant() else { return Vec::new() };
+                self.elements(unit, list).get(index as usize).cloned().into_iter().collect()
+            }
             // The corners of a polygon are a list of its own.
             ExprKind::Do(Builtin::Polygon, operands) => {
                 let [Expr { kind: ExprKind::List(corners), .. }] = &operands[..] else { return Vec::new() };
@@ -309,6 +319,13 @@ impl<'h> Fixed<'h> {
         match source {
             Source::Value(e) => self.values(unit, e),
             Source::Elements(list) => self.elements(unit, list),
+            Source::Numbers(first, last, inclusive) => {
+                let ends = [first, last].map(|end| end.range.constant());
+                let [Some(first_number), Some(last_number)] = ends else { return Vec::new() };
+                let numbers = (0..VALUES_MAX).map(|n| first_number + n as f64);
+                let numbers = numbers.take_while(|x| *x < last_number || inclusive && *x == last_number);
+                numbers.map(|x| (first.span.to(last.span), Value::Number(x))).collect()
+            }
             Source::Edges(area) => lines(self.values(unit, area), &|area| area.edges().map(|edge| edge.line).collect()),
             Source::Rows(area, step) => {
                 let [(_, Value::Number(step))] = self.values(unit, step)[..] else { return Vec::new() };
@@ -369,6 +386,9 @@ fn result(op: Builtin, operands: &[Value]) -> Option<Value> {
         (Builtin::Pair, [Number(north), Number(east)]) => Pair(Point::new(*north, *east)),
         (Builtin::Heading, [angle @ Number(_)]) => angle.clone(),
         (Builtin::Neg, [Number(x)]) => Number(-x),
+        (Builtin::Add | Builtin::AddInt, [Number(a), Number(b)]) => Number(a + b),
+        (Builtin::Sub | Builtin::SubInt, [Number(a), Number(b)]) => Number(a - b),
+        (Builtin::Mul | Builtin::MulInt, [Number(a), Number(b)]) => Number(a * b),
         (Builtin::AddVector, [Pair(a), Pair(b)]) => pair(vector(a) + vector(b)),
         (Builtin::SubVector, [Pair(a), Pair(b)]) => pair(vector(a) - vector(b)),
         (Builtin::Scale, [Pair(v), Number(by)]) => pair(*by * vector(v)),

@@ -33,8 +33,13 @@ pub(super) fn of(hir: &Hir, mission: usize) -> Vec<Limit> {
 /// The finding for a setpoint that lies beyond a limit: an error when all its values do, a warning when some of a range do
 /// that somebody has written. `range` is what is known of the setpoint here.
 pub(super) fn beyond(limits: &[Limit], channel: Channel, setpoint: &Expr, range: Interval) -> Option<Diagnostic> {
+    // Speed 0 is always allowed.
+    let may_rest = channel == Channel::Speed && range.holds(0.0);
+    if may_rest && range.high <= 0.0 {
+        return None;
+    }
     let of_channel = || limits.iter().filter(|limit| limit.channel == channel);
-    let wholly = |l: &&Limit| if l.least { range.high < l.value } else { range.low > l.value };
+    let wholly = |l: &&Limit| if l.least { range.high < l.value && !may_rest } else { range.low > l.value };
     let partly = |l: &&Limit| {
         let end = if l.least { range.low } else { range.high };
         end.abs() < LARGEST && if l.least { end < l.value } else { end > l.value }
@@ -54,7 +59,13 @@ pub(super) fn beyond(limits: &[Limit], channel: Channel, setpoint: &Expr, range:
     let limit = of_channel().find(partly)?;
     let (end, bound) = if limit.least { (range.low, "least") } else { (range.high, "most") };
     let (end, value) = (round(end), limit.value);
-    let message = format!("this {name} may be {end} {unit}, and the mission's limit is {value} {unit} at {bound}");
+    let message = if may_rest && limit.least {
+        format!(
+            "this {name} may be less than {value} {unit}, the mission's limit, and more than 0 {unit}, which is always allowed"
+        )
+    } else {
+        format!("this {name} may be {end} {unit}, and the mission's limit is {value} {unit} at {bound}")
+    };
     let side = if limit.least { "begins at" } else { "ends at" };
     let help = format!("give what it is made of a range that {side} {value} {unit}, or change the limit");
     Some(told(Diagnostic::warning(Code::LimitsRange, setpoint.span, message), limit).help(help))

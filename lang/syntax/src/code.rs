@@ -206,6 +206,7 @@ codes! {
         TimeInstant = "instant",
         TimeInstantLoop = "instant_loop",
         TimeModifier = "modifier",
+        TimeMomentary = "momentary",
         TimeUnread = "unread",
         TimeVar = "var",
         TimeWith = "with",

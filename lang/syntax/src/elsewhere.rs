@@ -1,5 +1,6 @@
 //! Whole statements as other languages, and other crews, write them.
 
+mod tables;
 mod texts;
 
 use super::habits::{Habit, line_end, quantity, word};
@@ -13,7 +14,11 @@ const BEFORE_BLOCK: [&str; 16] = [
 
 /// The habit behind a statement that could be read up to a place; `expected` tells what the grammar would have taken.
 pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habit> {
-    counted(before, rest)
+    tables::rule(before, rest)
+        .or_else(|| tables::crossing(before, rest))
+        .or_else(|| tables::unbraced(before, rest))
+        .or_else(|| tables::requirements(before, rest))
+        .or_else(|| counted(before, rest))
         .or_else(|| result(before, rest, expected))
         .or_else(|| block(before, rest, expected))
         .or_else(|| arm(before, rest, expected))
@@ -132,6 +137,7 @@ fn block(before: &str, rest: &str, expected: &str) -> Option<Habit> {
 /// How a body without braces is written: an abort is a clause of its own, for a reaction takes no time.
 fn in_block(head: &str, body: &str) -> String {
     match head.strip_prefix("on ").filter(|_| body.starts_with("abort")) {
+        Some(condition) if body.trim() == "abort" => format!("write `abort \"why\" on {condition}`"),
         Some(condition) => format!("write `{body} on {condition}`"),
         None => format!("write `{head} {{ {body} }}`"),
     }
@@ -397,6 +403,11 @@ fn head(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     if before.trim() == "test" && expected == "a text" && !word(rest).is_empty() {
         let message = Some("a test has a name, which is a text".to_string());
         return Some(Habit { message, help: format!("write `test \"{}\" {{`", line_end(rest)) });
+    }
+    if first == "expect" && word(rest) == "for" {
+        let message = Some("an expectation has no `for`".to_string());
+        let help = "let the mission see it: `signal long = X for 5 s`, `report \"long\": …` on it, and expect what was reported";
+        return Some(Habit { message, help: help.to_string() });
     }
     if first == "mission" {
         return match word(rest) {

@@ -147,7 +147,7 @@ fn unfinished(before: &str, rest: &str) -> Option<Habit> {
         }
         (_, "and" | "or", "for") => "what has to hold for so long stands in parentheses: `(X for 5 s)`",
         (_, _, "between") => "write both bounds: `x > 3 m and x < 5 m`",
-        ("hold", "hold", next) if !next.is_empty() && !super::words::is_reserved(next) => {
+        ("hold", "hold", next) if next.starts_with(|c: char| c.is_alphabetic()) && !super::words::is_reserved(next) => {
             "`hold` keeps the place where it begins: go there first, `goto POINT`"
         }
         _ => return None,

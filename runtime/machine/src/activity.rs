@@ -221,16 +221,16 @@ impl Run {
             self.execute(p, watched.code.entry, base);
             values.extend_from_slice(self.slice(base + watched.code.value, watched.shape.words()));
         }
+        let back = rule.back && rule.target != Target::Behavior(from);
+        if back && exit.guard_done.is_some() {
+            values.push(f64::from(u8::from(done)));
+        }
         self.events.push(Event::Switched { rule: exit.rule, from: entry.activity, exit: exit_index, values });
         // The result is of the tick as it was when the rule was tried.
         if let Target::Finish(Some(code)) = rule.target {
             self.execute(p, code, base);
         }
-        let to = match rule.target {
-            Target::Behavior(to) => Some(to),
-            _ => None,
-        };
-        if rule.back && to != Some(from) {
+        if back {
             self.events.push(Event::Suspended(entry.activity));
             let mut waiting = Vec::new();
             self.chain_from(p, entry.activity, base, &mut |id, base| waiting.push((id, base)));
@@ -252,7 +252,7 @@ impl Run {
                     self.pass_on_waiting(p, table, base, to);
                     self.leave(p, id, base, Cause::Rule);
                 }
-                let back_to = (rule.back && to != from).then_some(from);
+                let back_to = back.then_some(from);
                 self.enter_behavior(p, activity, table, base, to, back_to);
                 Switch::Entered
             }

@@ -25,7 +25,8 @@ pub enum Event {
         from: ActivityId,
         /// Which of its entry's exits fired.
         exit: u32,
-        /// The words of the exit's watched values, one after the other.
+        /// The words of the exit's watched values, one after the other. Of a rule with `done` and `then back` one more: whether the behavior
+        /// had come to its end. Otherwise it is left as done, or not.
         values: Vec<f64>,
     },
     /// A rule changed a memory: index into the program's memories, and its words now.

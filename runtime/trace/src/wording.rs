@@ -189,6 +189,9 @@ impl Wording {
             return guard.map(|(_, guard)| format!("on {}", one_line(guard))).unwrap_or_default();
         }
         let asks_done = exit.is_some_and(|exit| exit.guard_done.is_some());
+        // Who waits to go on is not left, and the event says it.
+        let words: usize = watched.iter().map(|watched| watched.shape.words() as usize).sum();
+        let done = values.get(words).map_or(done, |said: &f64| *said != 0.0);
         let done = if asks_done { format!("done = {done}, ") } else { String::new() };
         done + &self.values(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values)
     }

@@ -66,11 +66,12 @@ fn distance(a: &str, b: &str) -> (usize, bool) {
 }
 
 /// "did you mean `x`?", or else what there is.
-pub fn help<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str> + Clone) -> Option<String> {
-    if let Some(near) = nearest(name, candidates.clone()) {
+pub fn help<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    // Who knows one of the very name knows it as something else.
+    let mut all: Vec<&str> = candidates.into_iter().filter(|candidate| *candidate != name).collect();
+    if let Some(near) = nearest(name, all.iter().copied()) {
         return Some(format!("did you mean `{near}`?"));
     }
-    let mut all: Vec<&str> = candidates.into_iter().collect();
     all.sort_unstable();
     all.dedup();
     (!all.is_empty() && all.len() <= LISTED_MAX).then(|| format!("there is {}", listed(&all)))

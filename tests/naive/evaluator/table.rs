@@ -80,13 +80,16 @@ impl<'p> Table<'p> {
             let words = value(w, scope, e).words(&w.shape(&e.ty));
             watched.push(exactly(&name, &w.shape(&e.ty), &words));
         }
-        w.say(format!("switch {name} {} [{}]", w.sources.place(rule.span), watched.join(", ")));
+        let mut said = watched.join(", ");
+        let back = rule.back && !matches!(rule.target, Target::Behavior(to) if to == from);
+        if back && mentions_done(&rule.on) {
+            said += &format!("; done {}", u8::from(done));
+        }
+        w.say(format!("switch {name} {} [{}]", w.sources.place(rule.span), said));
         // Rule 11: the result is computed before the `do`.
         if let Target::Finish(Some(e)) = &rule.target {
             owner.result = Some(value(w, scope, e));
         }
-        let to = if let Target::Behavior(to) = rule.target { Some(to) } else { None };
-        let back = rule.back && to != Some(from);
         if back {
             w.say(format!("suspend {name}"));
             if let Some(active) = self.active() {

@@ -88,7 +88,10 @@ impl Generator {
                     if self.names.iter().any(|name| name.text == condition) {
                         continue;
                     }
-                    self.line(&format!("signal {name} = {condition}"));
+                    // What holds for one tick at a time holds for no time that is asked for elsewhere.
+                    let lasting =
+                        if condition.starts_with("becomes") { format!("not ({condition})") } else { condition };
+                    self.line(&format!("signal {name} = {lasting}"));
                     self.declare(&name, Ty::Bool, false);
                 }
                 1 => {

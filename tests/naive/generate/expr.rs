@@ -249,7 +249,7 @@ impl Generator {
             5 => ("false and", format!("({x} for {time}) and {y}")),
             6 => ("or over time", format!("{y} or (becomes {x})")),
             7 => ("becomes after", format!("becomes after {time}")),
-            8 => ("for of becomes", format!("not ((becomes {x}) for {time})")),
+            8 => ("becomes of for", format!("becomes ({x} for {time})")),
             _ => ("plain", x),
         };
         self.count(feature);

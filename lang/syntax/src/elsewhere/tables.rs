@@ -1,0 +1,102 @@
+//! Rules of switching tables, and what a mission says before its body.
+
+use super::{Habit, last_word, line_end, word, write};
+
+/// Words with which a crossing is told elsewhere, and the sign that ours has for it.
+const CROSSINGS: [(&str, &str); 14] = [
+    ("rises", ">"),
+    ("climbs", ">"),
+    ("exceeds", ">"),
+    ("above", ">"),
+    ("over", ">"),
+    ("greater", ">"),
+    ("more", ">"),
+    ("falls", "<"),
+    ("drops", "<"),
+    ("sinks", "<"),
+    ("below", "<"),
+    ("under", "<"),
+    ("less", "<"),
+    ("fewer", "<"),
+];
+
+/// `a -> abort on X`, `a -> b after 10 s`, `a -> b on X, then back`, `a -> b on every 10 s`, `a -> b on X do n = 1`.
+pub(super) fn rule(before: &str, rest: &str) -> Option<Habit> {
+    let (head, after) = before.split_once("->")?;
+    let (head, after, next) = (head.trim(), after.trim(), word(rest));
+    let said = |message: &str, help: String| Some(Habit { message: Some(message.to_string()), help });
+    if after == "abort" && matches!(next, "on" | "when" | "if") {
+        let condition = line_end(rest).trim_start_matches(next).trim();
+        return said("an abort says why", format!("write `{head} -> abort \"why\" on {condition}`"));
+    }
+    let is_asked = |word: &str| matches!(word, "when" | "if" | "while");
+    if after.split_whitespace().any(is_asked) {
+        return None;
+    }
+    let has_on = after.split_whitespace().any(|word| word == "on");
+    if !has_on && matches!(next, "after" | "becomes" | "done" | "not" | "no") {
+        let message = format!("`on` is missing before `{next}`");
+        return said(&message, format!("write `{head} -> {after} on {}`", line_end(rest)));
+    }
+    if has_on && matches!(last_word(after), "every" | "each") {
+        let time = line_end(rest).trim_end_matches("then back").trim();
+        let to = word(after);
+        return said(
+            "a rhythm is no condition",
+            format!("write `{head} -> {to} on after {time}`: the time counts anew whenever `{head}` is entered"),
+        );
+    }
+    if has_on && rest.starts_with(',') {
+        return said(
+            "the parts of a rule stand without commas",
+            format!("write `{} {}`", before.trim(), line_end(&rest[1..])),
+        );
+    }
+    if has_on && after.ends_with(" do") && !next.is_empty() {
+        return said("what a rule does stands between `{` and `}`", format!("write `do {{ {} }}`", line_end(rest)));
+    }
+    None
+}
+
+/// `depth rises above 18 m`, `depth is below 3 m`.
+pub(super) fn crossing(before: &str, rest: &str) -> Option<Habit> {
+    let what = last_word(before);
+    let asks = before.contains(" on ") || before.contains(" until ") || before.trim_start().starts_with("on ");
+    if !asks || what.is_empty() || !before.ends_with(' ') {
+        return None;
+    }
+    let words: Vec<&str> = line_end(rest).split_whitespace().collect();
+    let number = words.iter().position(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
+    let sign = words[..number].iter().find_map(|word| CROSSINGS.iter().find(|(known, _)| known == word))?.1;
+    let bound = words[number..].iter().take(2).copied().collect::<Vec<_>>().join(" ");
+    Some(Habit {
+        message: Some("values are compared by signs".to_string()),
+        help: format!(
+            "write `{what} {sign} {bound}`; for the moment at which that comes to hold, `becomes {what} {sign} {bound}`"
+        ),
+    })
+}
+
+/// `requires position fresh 5 s`, `limits depth <= 30 m`, `recovery goto op.center`.
+pub(super) fn unbraced(before: &str, rest: &str) -> Option<Habit> {
+    let (item, said) = (before.trim(), line_end(rest));
+    if said.is_empty() || rest.starts_with(['{', ':', '=', '(']) {
+        return None;
+    }
+    match item {
+        "requires" | "limits" => write(format!("{item} {{ {said} }}")),
+        "recovery" if word(said) != "within" => write(format!("recovery within 10 min {{ {said} }}")),
+        _ => None,
+    }
+}
+
+/// `requires { depth fresh 5 s, heading fresh 5 s }`.
+pub(super) fn requirements(before: &str, rest: &str) -> Option<Habit> {
+    let (head, _) = before.rsplit_once(" fresh ").filter(|(_, time)| time.trim_end().ends_with(','))?;
+    let sensor = last_word(head);
+    let next = word(rest);
+    (!sensor.is_empty() && !next.is_empty()).then(|| Habit {
+        message: None,
+        help: format!("name all of one age together, `{sensor}, {next} fresh 5 s`, or write `;` between the ages"),
+    })
+}
