@@ -62,6 +62,10 @@ pub enum Stream {
     Dvl = 67,
     /// The moment at which a recorded plume is begun.
     RecordStart = 80,
+    /// Noise of the temperature of the CTD.
+    CtdTemperature = 90,
+    /// Noise of the salinity of the CTD.
+    CtdSalinity = 91,
     /// Noise of the battery's gauge.
     Battery = 92,
 }
@@ -199,8 +203,8 @@ mod tests {
             Noise::new(2, Stream::Adcp),
             Noise::new(1, Stream::Lbl),
             Noise::sub(1, Stream::Adcp, 1),
-            Noise::named(1, "ctd temperature"),
-            Noise::named(1, "ctd salinity"),
+            Noise::named(1, "light"),
+            Noise::named(1, "sound"),
         ];
         for (i, a) in streams.iter().enumerate() {
             for b in &streams[i + 1..] {

@@ -3,7 +3,7 @@
 use super::delay::Delay;
 use super::rate::is_due;
 use super::{Instrument, Surroundings};
-use crate::noise::Noise;
+use crate::noise::{Noise, Stream};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::{SALINITY, TEMPERATURE};
 use serde::Deserialize;
@@ -54,12 +54,8 @@ pub struct CtdProbe {
 impl CtdProbe {
     /// That of a run.
     pub fn new(settings: &Ctd, seed: u64) -> Self {
-        CtdProbe {
-            settings: settings.clone(),
-            temperature: Noise::named(seed, "ctd temperature"),
-            salinity: Noise::named(seed, "ctd salinity"),
-            delay: Delay::new(settings.delay),
-        }
+        let (temperature, salinity) = (Noise::new(seed, Stream::CtdTemperature), Noise::new(seed, Stream::CtdSalinity));
+        CtdProbe { settings: settings.clone(), temperature, salinity, delay: Delay::new(settings.delay) }
     }
 
     /// What it tells at a tick and a depth (m): temperature (degrees Celsius) and practical salinity.
