@@ -56,7 +56,7 @@ fn corners_of_a_file_are_those_that_a_script_would_write() {
         "polygon([36.1804°N 75.7398°W, 36.1804°N 75.7396°W, 36.1806°N 75.7397°W]) else area_file(\"wreck.kml\")",
     ] {
         edit(&project("written"), FILES[0], "area_file(\"wreck.kml\")", written);
-        let zones = |plan: &Plan| plan.scenario.no_go.clone();
+        let zones = |plan: &Plan| plan.scenario.environment.no_go.clone();
         assert_eq!(zones(&plan(&folder)), zones(&of_file));
         assert_eq!(zones(&of_file).len(), 1);
     }
@@ -72,7 +72,10 @@ fn a_polygon_with_a_hole_is_an_area_where_the_hole_is_read_too() {
     assert_eq!(found, ["areas::file"], "nothing knows of the hole");
     edit(&holed, FILES[0], "area_file(\"wreck.kml\")", "area_file(\"bay.geojson\", named: \"box\", hole: 1)");
     let (whole, holed) = (plan(&folder), plan(&holed));
-    assert_eq!((holed.scenario.no_go.len(), &holed.scenario.no_go), (1, &whole.scenario.no_go));
+    assert_eq!(
+        (holed.scenario.environment.no_go.len(), &holed.scenario.environment.no_go),
+        (1, &whole.scenario.environment.no_go)
+    );
     assert_eq!(holed.frame().unwrap().origin, whole.frame().unwrap().origin);
 }
 

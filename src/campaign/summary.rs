@@ -38,7 +38,7 @@ impl<'a> CampaignSummary<'a> {
             runs: tally.runs(),
             outcomes: tally.outcomes(),
             reported: tally.reported(),
-            within: (!plan.scenario.sources.is_empty()).then(|| tally.within()),
+            within: (!plan.scenario.environment.sources.is_empty()).then(|| tally.within()),
             interval: INTERVAL,
             error_m: tally.error_m(),
             report_t_s: tally.report_t_s(),

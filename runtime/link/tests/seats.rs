@@ -10,7 +10,7 @@ use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_guidance::Route;
 use albacore_link::recon::{self, FromVehicle, State};
 use albacore_link::{Controller, Rows, Server, ServerEvent};
-use albacore_sim::{Bottom, OwnMission, Scenario, Simulator, VehicleSetup};
+use albacore_sim::{Bottom, Environment, OwnMission, Scenario, Simulator, VehicleSetup};
 use albacore_vehicle::Control::{InControl, Monitoring, Refused, Released, Requesting, Suspended};
 use albacore_vehicle::Vertical::{Altitude, Depth};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vehicle, Vertical};
@@ -277,7 +277,7 @@ impl Seat for Served {
 fn seats(case: &Case) -> [(&'static str, Box<dyn Seat>); 2] {
     let route: Route = "400x30x2".parse::<Rows>().unwrap().into();
     let scenario = Scenario {
-        bottom: Bottom::flat(WATER_DEPTH),
+        environment: Environment { bottom: Bottom::flat(WATER_DEPTH), ..Environment::default() },
         vehicle: VehicleSetup { depth: OWN.2, ..VehicleSetup::default() },
         limits: case.limits.clone(),
         own_mission: Some(OwnMission { route: route.clone(), vertical: Depth(OWN.2) }),

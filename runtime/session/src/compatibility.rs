@@ -48,7 +48,7 @@ fn elsewhere(script: &Script, mission: &str, held: &Held) -> Option<Diagnostic> 
     });
     let start = -area.gap(world.vehicle.start);
     // A record is its own region, and `uncovered` says more of it.
-    let region = world.region.as_ref().filter(|_| world.recording.is_none());
+    let region = world.environment.region.as_ref().filter(|_| world.environment.recording.is_none());
     let on_globe = |point| held.origin.map(|origin| TangentFrame { origin }.to_geodetic(point));
     let (message, what, there) = match (nearest.filter(|(apart, ..)| *apart > SAME_PLANE_M), region) {
         (Some((apart, there, _)), _) => {
@@ -101,7 +101,7 @@ fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
         let help = "look for minutes exchanged in its corners, and for north and east";
         (out > FAR_M).then(|| Diagnostic::warning(Code::ScenariosOutside, written, message).help(help))
     };
-    world.no_go.iter().filter_map(far).collect()
+    world.environment.no_go.iter().filter_map(far).collect()
 }
 
 /// What the mission requires and the vehicle has no sensor for.
@@ -128,8 +128,8 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
 /// A flow that the mission requires, and that the profiler takes for an error.
 fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Option<Diagnostic> {
     let (_, span) = script.requirements(mission).into_iter().find(|(input, _)| *input == senses::FLOW)?;
-    let above = world.flow.upper.as_ref().map_or(0.0, |upper| upper.mean.length());
-    let (speed, fastest) = (world.flow.speed().max(above), world.instruments.adcp.gates.fastest);
+    let above = world.environment.flow.upper.as_ref().map_or(0.0, |upper| upper.mean.length());
+    let (speed, fastest) = (world.environment.flow.speed().max(above), world.instruments.adcp.gates.fastest);
     let message = format!(
         "the flow of `{scenario}` is {speed:.2} m/s, and its profiler takes {fastest:.2} m/s and more for an error: `flow` \
          will be missing, or too slow"
@@ -163,10 +163,10 @@ fn uncovered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
 
 /// What of a world was measured or computed elsewhere: what it is, where that is, and what is beyond.
 fn known(world: &Scenario) -> Vec<(&'static str, Area, &'static str)> {
-    let record = world.recording.as_ref().map(|recorded| recorded.recording.area().clone());
+    let record = world.environment.recording.as_ref().map(|recorded| recorded.recording.area().clone());
     let record =
         record.map(|area| ("record", area, "beyond it there is no chemical, and the flow is that of its edge"));
-    let survey = match &world.bottom.ground {
+    let survey = match &world.environment.bottom.ground {
         Ground::Plane(_) => None,
         Ground::Grid(grid) => grid.area(),
     };

@@ -9,16 +9,21 @@ use albacore_trace::{Depths, Picture};
 
 /// What is so in a world before any run, with the flow that carries its plume, m/s.
 pub(crate) fn of_world(scenario: &Scenario, carrying: Vector) -> Picture {
-    let upper = scenario.flow.upper.as_ref();
+    let upper = scenario.environment.flow.upper.as_ref();
     let below = if upper.is_some() { "lower layer:" } else { "flow" };
     let flows = [
         Some((below.to_string(), carrying)),
         upper.map(|upper| (format!("above {}:", number::metres(upper.above)), upper.mean)),
     ];
     Picture {
-        no_go: scenario.no_go.iter().map(|zone| (zone.name.clone(), zone.area.corners().to_vec())).collect(),
-        sources: scenario.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),
-        leaks: scenario.sources.iter().filter_map(|source| Some([source.at, source.to?])).collect(),
+        no_go: scenario
+            .environment
+            .no_go
+            .iter()
+            .map(|zone| (zone.name.clone(), zone.area.corners().to_vec()))
+            .collect(),
+        sources: scenario.environment.sources.iter().map(|source| (source.name.clone(), source.at)).collect(),
+        leaks: scenario.environment.sources.iter().filter_map(|source| Some([source.at, source.to?])).collect(),
         flows: flows.into_iter().flatten().collect(),
         ..Picture::default()
     }
@@ -34,7 +39,7 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
     let (summary, scenario) = (results.summary(0.0), &results.plan.scenario);
     let deepest = results.deepest_sought();
     let sounded = if deepest.is_some() { results.area.as_slice() } else { &[] };
-    let depth = |p| if world.in_simulation { scenario.bottom.depth_at(p) } else { f64::NAN };
+    let depth = |p| if world.in_simulation { scenario.environment.bottom.depth_at(p) } else { f64::NAN };
     let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
     Picture {
         title: summary.mission.clone(),
@@ -48,7 +53,7 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         behaviors: track.behaviors.clone(),
         detections: track.detections.clone(),
         reports: summary.reports.iter().filter_map(place).collect(),
-        ..of_world(scenario, scenario.flow.mean)
+        ..of_world(scenario, scenario.environment.flow.mean)
     }
     .svg()
 }

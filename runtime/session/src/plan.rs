@@ -245,7 +245,7 @@ fn seen_from(folder: &Path, name: &str) -> String {
 
 /// The bottom of a scenario without its pits, if it was surveyed.
 fn survey(world: &Scenario) -> Option<Arc<Bottom>> {
-    let ground = world.bottom.ground.clone();
+    let ground = world.environment.bottom.ground.clone();
     matches!(ground, Ground::Grid(_)).then(|| Arc::new(Bottom { ground, pits: Vec::new() }))
 }
 

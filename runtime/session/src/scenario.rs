@@ -14,7 +14,7 @@ use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::{ScenarioClause, ScenarioProgram};
 use albacore_link::Dialect;
 use albacore_machine::Evaluation;
-use albacore_sim::{InstrumentSetting, Scenario, Setting};
+use albacore_sim::{EnvironmentSetting, InstrumentSetting, Scenario, Setting};
 use albacore_trace::journal::SourceDigest;
 pub(crate) use clause::Clause;
 pub(crate) use defaults::DEFAULTS;
@@ -59,6 +59,9 @@ fn read(understood: &mut Understood, c: Clause, files: &Files, frame: Option<Tan
         "recorded_plume" => recorded::recorded_plume(understood, c.read()?, files),
         "dialect" => dialect(c.read()?).map(|dialect| understood.dialect = Some(dialect)),
         "link_fault" => Err(cannot_be("it is what `albacore vehicle --link-faults` takes, not part of a world")),
+        name if EnvironmentSetting::NAMES.contains(&name) => {
+            c.read().map(|setting| understood.world.set(Setting::Environment(setting)))
+        }
         name if InstrumentSetting::NAMES.contains(&name) => {
             c.read().map(|setting| understood.world.set(Setting::Instrument(setting)))
         }

@@ -63,7 +63,7 @@ impl Shown {
             formatter.push_clause(clause, "", ValueSource::Said, &mut clauses);
             match (clause.name.as_str(), clauses.last_mut()) {
                 ("bottom_grid", Some(told)) => {
-                    if let Ground::Grid(grid) = &world.bottom.ground {
+                    if let Ground::Grid(grid) = &world.environment.bottom.ground {
                         told.values.extend(formatter.survey(grid));
                     }
                 }

@@ -7,7 +7,7 @@ mod common;
 #[path = "../tests/world/mod.rs"]
 mod worlds;
 
-use albacore_sim::{Noise, Plume, Scenario, Simulator, Stream};
+use albacore_sim::{Environment, Noise, Plume, Scenario, Simulator, Stream};
 use albacore_vehicle::{Command, Snapshot, TICK_S, Vehicle, Vertical};
 use common::{cost, stretches};
 use std::hint::black_box;
@@ -32,7 +32,7 @@ impl Duck {
             Duck::Flat => worlds::flat(),
             Duck::Layered => worlds::layered(),
         };
-        scenario.sources[0].rate = RATE;
+        scenario.environment.sources[0].rate = RATE;
         scenario
     }
 }
@@ -54,8 +54,10 @@ fn main() {
 /// little else. An increment is one draw for the horizontal, and in a layer one more for the vertical.
 fn step_and_increment(duck: Duck) -> [f64; 2] {
     let scenario = duck.scenario();
-    let plume = scenario.plume.clone().map(|plume| Plume { step: TICK_S, graded: false, ..plume });
-    let mut begin = Simulator::new(&Scenario { plume, ..scenario }, 1).unwrap();
+    let plume = scenario.environment.plume.clone().map(|plume| Plume { step: TICK_S, graded: false, ..plume });
+    let mut begin =
+        Simulator::new(&Scenario { environment: Environment { plume, ..scenario.environment }, ..scenario }, 1)
+            .unwrap();
     begin.sense(&mut Snapshot::default()).unwrap();
     let filaments = begin.filaments().count() as u64;
     let (horizontal, vertical) = (Noise::new(1, Stream::Diffusion), Noise::new(1, Stream::VerticalDiffusion));
@@ -83,10 +85,10 @@ fn step_and_increment(duck: Duck) -> [f64; 2] {
 /// A sample on the way down the middle of the plume, noise included; those of a tick share a search.
 fn concentration_underway(duck: Duck) -> f64 {
     let mut scenario = duck.scenario();
-    scenario.vehicle.start = scenario.sources[0].at;
+    scenario.vehicle.start = scenario.environment.sources[0].at;
     scenario.vehicle.depth = 4.0;
     scenario.instruments.fluorometer.rate = FAST_HZ;
-    let heading = scenario.flow.mean.toward();
+    let heading = scenario.environment.flow.mean.toward();
     let mut begin = Simulator::new(&scenario, 1).unwrap();
     begin.take_over().unwrap();
     begin.command(&Command::new(heading, 2.0, Vertical::Altitude(2.0))).unwrap();

@@ -76,7 +76,7 @@ impl Simulator {
             command: None,
             did: None,
             truth: Truth::default(),
-            incidents: Incidents::new(&scenario.no_go),
+            incidents: Incidents::new(&scenario.environment.no_go),
             faults: Faults::new(&scenario.faults, seed),
             tick: None,
         };

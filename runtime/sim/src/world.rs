@@ -10,16 +10,133 @@ pub(crate) mod stratification;
 pub(crate) mod survey;
 pub(crate) mod water;
 
-use crate::scenario::Scenario;
-use crate::world::bottom::Bottom;
-use crate::world::recorded::Playback;
+use crate::scenario::{Scenario, ScenarioIssues};
+use crate::world::bottom::{Bottom, Ground, NoGo, Pit, Plane};
+use crate::world::plume::{Leak, Patch, Plume, Source};
+use crate::world::recorded::{Playback, RecordedPlume};
 use crate::world::simulated::Simulated;
 use crate::world::stratification::Stratification;
 use crate::world::survey::Survey;
-use crate::world::water::Sea;
-use crate::world::water::UpperFlow;
-use albacore_geometry::{Point, Vector};
+use crate::world::water::{Flow, MeanFlow, Sea, Tide, Turning, UpperFlow, Waves};
+use albacore_geometry::{Area, Point, Vector};
 use albacore_vehicle::TICK_S;
+use serde::Deserialize;
+
+/// What a scenario says of all that is there without the vehicle.
+///
+/// The default is still water, 20 m deep, without a plume.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Environment {
+    /// Where the flow meanders and filaments live, widened by [`crate::Meander::margin`]. A meander or a plume needs it.
+    pub region: Option<Area>,
+    /// The water's motion.
+    pub flow: Flow,
+    /// Its temperature and salinity.
+    pub stratification: Stratification,
+    /// The water's depth.
+    pub bottom: Bottom,
+    /// Where the vehicle must not be.
+    pub no_go: Vec<NoGo>,
+    /// How the chemical spreads; none: the chemical sensor reads only its noise.
+    pub plume: Option<Plume>,
+    /// What releases chemical.
+    pub sources: Vec<Source>,
+    /// What was left in the water before the run.
+    pub patches: Vec<Patch>,
+    /// A plume that was computed elsewhere, and the flow that carries it, instead of those of our own.
+    pub recording: Option<RecordedPlume>,
+}
+
+/// The clauses of the environment, by their names in a script, and what each sets.
+macro_rules! clauses {
+    ($($name:literal $clause:ident($settings:ty) => |$environment:ident, $given:ident| $set:expr;)*) => {
+        /// A clause of a scenario that says how its environment is.
+        #[derive(Clone, Debug, Deserialize)]
+        #[allow(missing_docs, reason = "the standard library says what each clause is")]
+        pub enum EnvironmentSetting { $(#[serde(rename = $name)] $clause($settings)),* }
+
+        impl EnvironmentSetting {
+            /// The names of the clauses.
+            pub const NAMES: [&str; [$($name),*].len()] = [$($name),*];
+        }
+
+        impl Environment {
+            /// Takes in a clause. What there is one of is as the last clause says.
+            pub(crate) fn set(&mut self, setting: EnvironmentSetting) {
+                match setting {
+                    $(EnvironmentSetting::$clause($given) => {
+                        let $environment = self;
+                        $set;
+                    })*
+                }
+            }
+        }
+    };
+}
+
+clauses! {
+    "flow" Flow(MeanFlow) => |of, flow| (of.flow.mean, of.flow.meander) = flow.into();
+    "turning" Turning(Turning) => |of, turning| of.flow.turning = turning.rate;
+    "tide" Tide(Tide) => |of, tide| of.flow.tides.push(tide);
+    "waves" Waves(Waves) => |of, waves| of.flow.waves = Some(waves);
+    "upper_layer" UpperLayer(UpperFlow) => |of, upper| of.flow.upper = Some(upper);
+    "stratification" Stratification(Stratification) => |of, stratification| of.stratification = stratification;
+    "region" Region(Region) => |of, region| of.region = Some(region.area);
+    "bottom" Bottom(Plane) => |of, plane| of.bottom.ground = Ground::Plane(plane);
+    "pit" Pit(Pit) => |of, pit| of.bottom.pits.push(pit);
+    "no_go" NoGo(NoGo) => |of, zone| of.no_go.push(zone);
+    "plume" Plume(Plume) => |of, plume| of.plume = Some(plume);
+    "source" Source(Source) => |of, source| of.sources.push(source);
+    "leak" Leak(Leak) => |of, leak| of.sources.push(leak.into());
+    "patch" Patch(Patch) => |of, patch| of.patches.push(patch);
+}
+
+/// Where the flow meanders and filaments live.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    area: Area,
+}
+
+impl Environment {
+    /// The clauses that may stand several times, and how many there are of each.
+    pub(crate) fn counts(&self) -> [(&'static str, usize); 6] {
+        let leaks = self.sources.iter().filter(|source| source.to.is_some()).count();
+        [
+            ("tide", self.flow.tides.len()),
+            ("pit", self.bottom.pits.len()),
+            ("no_go", self.no_go.len()),
+            ("source", self.sources.len() - leaks),
+            ("leak", leaks),
+            ("patch", self.patches.len()),
+        ]
+    }
+}
+
+/// What of the environment cannot be.
+pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
+    water::check(scenario, objections);
+    stratification::check(scenario, objections);
+    bottom::check(scenario, objections);
+    // An area that was read from a file has not met its constructor.
+    if let Some(Err(error)) = scenario.environment.region.as_ref().map(|region| Area::polygon(region.corners())) {
+        let mut of = objections.of("region");
+        of.unless(Some("area"), false, error.to_string(), "give its corners one after the other, round it");
+    }
+    for (i, zone) in scenario.environment.no_go.iter().enumerate() {
+        if let Err(error) = Area::polygon(zone.area.corners()) {
+            let mut of = objections.nth("no_go", i);
+            of.unless(Some("area"), false, error.to_string(), "give its corners one after the other, round it");
+        }
+    }
+    // What follows looks at the region and the flow's direction.
+    if objections.0.is_empty() {
+        water::check_meander(scenario, objections);
+        plume::check(scenario, objections);
+        plume::check_sources(scenario, objections);
+        recorded::check(scenario, objections);
+    }
+}
 
 /// The world of a run.
 #[derive(Clone, Debug)]
@@ -43,14 +160,14 @@ enum Carrier {
 impl World {
     /// The world of a valid scenario at tick 0, with its flow wandering and its plume spread.
     pub fn new(scenario: &Scenario, seed: u64) -> Self {
-        let carrier = match &scenario.recording {
+        let carrier = match &scenario.environment.recording {
             Some(recording) => Carrier::Recorded(Box::new(Playback::new(recording, seed))),
             None => Carrier::Simulated(Box::new(Simulated::new(scenario, seed))),
         };
-        let (upper, bottom) = (scenario.flow.upper.clone(), scenario.bottom.clone());
+        let (upper, bottom) = (scenario.environment.flow.upper.clone(), scenario.environment.bottom.clone());
         let depth = bottom.depth_at(scenario.vehicle.start);
-        let sea = scenario.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
-        World { carrier, upper, sea, stratification: scenario.stratification.clone(), bottom }
+        let sea = scenario.environment.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
+        World { carrier, upper, sea, stratification: scenario.environment.stratification.clone(), bottom }
     }
 
     /// Why the world cannot go on to a tick, if it cannot.

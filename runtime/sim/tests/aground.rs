@@ -4,7 +4,7 @@
 
 use albacore_geometry::{Heading, Point};
 use albacore_sim::hull::Crossflow;
-use albacore_sim::{Bottom, Grid, Ground, HullSetup, Scenario, Simulator, SubmersibleHull, VehicleSetup};
+use albacore_sim::{Bottom, Environment, Grid, Ground, HullSetup, Scenario, Simulator, SubmersibleHull, VehicleSetup};
 use albacore_vehicle::{Command, Snapshot, Truth, Vehicle, Vertical};
 use std::sync::Arc;
 
@@ -35,8 +35,15 @@ struct Trial {
 impl Trial {
     fn new(hull: &HullSetup, bottom: &Bottom, start: Point, depth: f64) -> Self {
         let vehicle = VehicleSetup { hull: hull.clone(), start, depth, ..VehicleSetup::default() };
-        let mut simulator =
-            Simulator::new(&Scenario { bottom: bottom.clone(), vehicle, ..Scenario::default() }, 1).unwrap();
+        let mut simulator = Simulator::new(
+            &Scenario {
+                environment: Environment { bottom: bottom.clone(), ..Environment::default() },
+                vehicle,
+                ..Scenario::default()
+            },
+            1,
+        )
+        .unwrap();
         simulator.take_over().unwrap();
         Trial { simulator, told: Vec::new() }
     }

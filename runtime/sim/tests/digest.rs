@@ -18,7 +18,7 @@ fn fold(digest: u64, word: u64) -> u64 {
 /// All samples of five minutes on a zigzag through the plume, and all filaments at the end.
 fn digest(seed: u64) -> Result<u64, Box<dyn Error>> {
     let mut scenario = world::layered();
-    scenario.vehicle.start = scenario.sources[0].at;
+    scenario.vehicle.start = scenario.environment.sources[0].at;
     scenario.instruments.fluorometer.false_alarms = 0.01;
     let mut simulator = Simulator::new(&scenario, seed)?;
     let mut snapshot = Snapshot::default();

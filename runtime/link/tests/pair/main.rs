@@ -6,7 +6,7 @@ mod wire;
 
 use albacore_geometry::{Geodetic, Heading, Point, TangentFrame};
 use albacore_link::{Controller, Milestone, Rows, Server, ServerEvent, recon};
-use albacore_sim::{Bottom, Ctd, Scenario, Simulator, Stratification, VehicleSetup};
+use albacore_sim::{Bottom, Ctd, Environment, Scenario, Simulator, Stratification, VehicleSetup};
 use albacore_vehicle::measurements::{SALINITY, TEMPERATURE};
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vertical};
 use wire::{Chance, Delay, Wire};
@@ -164,7 +164,8 @@ fn the_controller_sees_what_the_vehicle_believes_as_fine_as_the_dialect_says() {
 fn temperature_and_salinity_come_of_a_vehicle_that_has_a_ctd() {
     let stratification =
         Stratification { surface: 18.0, bottom: 8.0, surface_salinity: 31.0, thermocline: 3.0, ..Default::default() };
-    let mut scenario = Scenario { stratification, ..still_water() };
+    let mut scenario =
+        Scenario { environment: Environment { stratification, ..still_water().environment }, ..still_water() };
     scenario.instruments.ctd = Some(Ctd::default());
     let mut pair = Pair::of(&scenario, "100x30x2", 1, 0.0);
     let mut came = Vec::new();
@@ -251,7 +252,15 @@ fn commands_beyond_the_scenarios_limits_are_held_at_them_and_noticed() {
 
 #[test]
 fn a_vehicle_that_runs_aground_says_so_and_that_it_came_free() {
-    let mut pair = Pair::of(&Scenario { bottom: Bottom::flat(4.0), ..still_water() }, "100x20x2", 1, 0.0);
+    let mut pair = Pair::of(
+        &Scenario {
+            environment: Environment { bottom: Bottom::flat(4.0), ..still_water().environment },
+            ..still_water()
+        },
+        "100x20x2",
+        1,
+        0.0,
+    );
     pair.controller.take_over();
     pair.send();
     let mut told = Vec::new();

@@ -11,7 +11,7 @@ mod pictures;
 use albacore_formats::recording::{RecordedKernel, Recording, RecordingHeader};
 use albacore_geometry::{Area, Heading, Point};
 use albacore_sim::probe::Band;
-use albacore_sim::{Flow, Meander, Plume, Scenario, Source};
+use albacore_sim::{Environment, Flow, Meander, Plume, Scenario, Source};
 use library::scenario;
 use page::{Page, table};
 use std::error::Error;
@@ -72,8 +72,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let even = STEPS.map(|step| (format!("{step} s"), step, false));
     let graded = (String::from("1 s to 16 s, by age"), 1.0, true);
     let measured = even.into_iter().chain([graded]).map(|(name, step, graded)| {
-        let plume = flat.plume.clone().map(|plume| Plume { step, graded, ..plume });
-        Ok((name, measure::bands_under_way(&Scenario { plume, ..flat.clone() }, STEP_SEEDS)?))
+        let plume = flat.environment.plume.clone().map(|plume| Plume { step, graded, ..plume });
+        Ok((
+            name,
+            measure::bands_under_way(
+                &Scenario { environment: Environment { plume, ..flat.environment.clone() }, ..flat.clone() },
+                STEP_SEEDS,
+            )?,
+        ))
     });
     let steps: Vec<(String, Vec<Band>)> = measured.collect::<Result<_, Box<dyn Error>>>()?;
     page.put("steps", by_band(steps.iter().map(|(name, bands)| (name.clone(), bands))));
@@ -93,14 +99,17 @@ fn record(root: &Path) -> Result<Arc<Recording>, Box<dyn Error>> {
 /// Our own plume with the record's numbers: `own_plume_a` of `missions/recorded.alb`.
 fn half_rate(recording: &Recording) -> Scenario {
     Scenario {
-        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 1094.0, 367.0)),
-        flow: Flow {
-            mean: 0.125 * Heading::from_degrees(180.0).unit(),
-            meander: Some(Meander::default()),
-            ..Flow::default()
+        environment: Environment {
+            region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 1094.0, 367.0)),
+            flow: Flow {
+                mean: 0.125 * Heading::from_degrees(180.0).unit(),
+                meander: Some(Meander::default()),
+                ..Flow::default()
+            },
+            plume: Some(Plume::default()),
+            sources: vec![Source { at: recording.source(), rate: 0.5, ..Source::default() }],
+            ..Environment::default()
         },
-        plume: Some(Plume::default()),
-        sources: vec![Source { at: recording.source(), rate: 0.5, ..Source::default() }],
         ..Scenario::default()
     }
 }
@@ -168,7 +177,8 @@ fn mass() -> Result<String, Box<dyn Error>> {
 
 fn flow(flat: &Scenario, recording: &Recording) -> Result<String, Box<dyn Error>> {
     let found = measure::meanders(flat, 200)?;
-    let sigma = flat.flow.meander.as_ref().map_or(0.0, |m| m.direction_sd) * flat.flow.mean.length();
+    let sigma =
+        flat.environment.flow.meander.as_ref().map_or(0.0, |m| m.direction_sd) * flat.environment.flow.mean.length();
     let root = 0.5_f64.sqrt();
     let mm = |v: f64| format!("{:.1} mm/s", 1000.0 * v);
     let both = |(u, v): (f64, f64)| vec![mm(u), mm(v)];

@@ -4,7 +4,7 @@ use albacore_formats::recording::{RecordedKernel, Recording};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Area, Heading, Point, Vector};
 use albacore_sim::probe::{Band, Probe};
-use albacore_sim::{Flow, Plume, RecordedPlume, Scenario, ScenarioError, Simulator, Source, Still};
+use albacore_sim::{Environment, Flow, Plume, RecordedPlume, Scenario, ScenarioError, Simulator, Source, Still};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle, VehicleError};
 use std::error::Error;
 use std::sync::Arc;
@@ -34,7 +34,7 @@ pub fn fly(probe: &mut Probe, scenario: &Scenario, simulator: &Simulator) {
     let places = simulator.filaments().map(|(place, _)| place);
     let survey = simulator.survey();
     let reads = |p| survey.concentration(p, ALTITUDE) > THRESHOLD;
-    probe.fly(scenario.sources[0].at, scenario.flow.mean.toward(), places, reads);
+    probe.fly(scenario.environment.sources[0].at, scenario.environment.flow.mean.toward(), places, reads);
 }
 
 /// What probes meet at the start of runs with some seeds.
@@ -88,7 +88,7 @@ pub struct Aged {
 /// The scatter of filaments in a uniform flow. There the age is known from the squared radius, which grows evenly.
 pub fn scatter(seeds: u64, classes: usize) -> Result<Vec<Aged>, ScenarioError> {
     let scenario = uniform(Plume::default(), 2.0);
-    let (source, plume) = (scenario.sources[0].at, Plume::default());
+    let (source, plume) = (scenario.environment.sources[0].at, Plume::default());
     let oldest = 1900.0 / 0.2;
     let mut aged = vec![Aged::default(); classes];
     for seed in 0..seeds {
@@ -117,7 +117,7 @@ pub fn scatter(seeds: u64, classes: usize) -> Result<Vec<Aged>, ScenarioError> {
 pub fn amounts(layer: Option<f64>) -> Result<Vec<(f64, f64)>, ScenarioError> {
     let plume = Plume { layer, vertical: layer.map_or(0.0, |_| 1e-3), ..Plume::default() };
     let scenario = uniform(plume.clone(), 2e-3);
-    let source = &scenario.sources[0];
+    let source = &scenario.environment.sources[0];
     let simulator = Simulator::new(&scenario, 5)?;
     let survey = simulator.survey();
     let reference = plume.initial_radius * plume.initial_radius + plume.growth * source.reference_age;
@@ -149,10 +149,13 @@ pub fn amounts(layer: Option<f64>) -> Result<Vec<(f64, f64)>, ScenarioError> {
 /// A uniform flow of 0.2 m/s with one source.
 fn uniform(plume: Plume, rate: f64) -> Scenario {
     Scenario {
-        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0)),
-        flow: Flow { mean: Vector::new(0.2, 0.0), ..Flow::default() },
-        plume: Some(plume),
-        sources: vec![Source { at: Point::new(-900.0, 0.0), rate, ..Source::default() }],
+        environment: Environment {
+            region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0)),
+            flow: Flow { mean: Vector::new(0.2, 0.0), ..Flow::default() },
+            plume: Some(plume),
+            sources: vec![Source { at: Point::new(-900.0, 0.0), rate, ..Source::default() }],
+            ..Environment::default()
+        },
         ..Scenario::default()
     }
 }
@@ -172,7 +175,7 @@ pub struct Meanders {
 
 /// The deviations of a scenario's flow: over seeds, and every 800 s of each.
 pub fn meanders(scenario: &Scenario, seeds: u64) -> Result<Meanders, Box<dyn Error>> {
-    let ahead = scenario.flow.mean.toward();
+    let ahead = scenario.environment.flow.mean.toward();
     let across = ahead + PI / 2.0;
     let place = |x: f64, y: f64| Point::ORIGIN + x * ahead.unit() + y * across.unit();
     // The box of the field: the region, and 60 m more on every side.
@@ -181,7 +184,10 @@ pub fn meanders(scenario: &Scenario, seeds: u64) -> Result<Meanders, Box<dyn Err
     let edges = [place(-x, 0.0), place(x, 0.0), place(0.0, -y), place(0.0, y)];
     let inside: Vec<Point> =
         (0..60).map(|i| place(-500.0 + 111.0 * f64::from(i % 10), -150.0 + 60.0 * f64::from(i / 10))).collect();
-    let quiet = Scenario { plume: None, sources: Vec::new(), ..scenario.clone() };
+    let quiet = Scenario {
+        environment: Environment { plume: None, sources: Vec::new(), ..scenario.environment.clone() },
+        ..scenario.clone()
+    };
     let (mut sums, mut turned, mut n) = ([(0.0, 0.0); 3], 0.0, 0.0);
     for seed in 0..seeds {
         let mut simulator = Simulator::new(&quiet, seed)?;
@@ -190,7 +196,7 @@ pub fn meanders(scenario: &Scenario, seeds: u64) -> Result<Meanders, Box<dyn Err
             n += 1.0;
             for (places, sum) in [&corners[..], &edges, &inside].into_iter().zip(&mut sums) {
                 for p in places {
-                    let off = simulator.flow(*p, ALTITUDE) - scenario.flow.mean;
+                    let off = simulator.flow(*p, ALTITUDE) - scenario.environment.flow.mean;
                     let (u, v) = (off.along(ahead), off.right_of(ahead));
                     sum.0 += u * u / places.len() as f64;
                     sum.1 += v * v / places.len() as f64;
@@ -211,12 +217,15 @@ pub fn meanders(scenario: &Scenario, seeds: u64) -> Result<Meanders, Box<dyn Err
 
 /// The direction of the flow in the middle of the region over time: degrees off the mean, every 60 s.
 pub fn directions(scenario: &Scenario, seed: u64, seconds: f64) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
-    let quiet = Scenario { plume: None, sources: Vec::new(), ..scenario.clone() };
+    let quiet = Scenario {
+        environment: Environment { plume: None, sources: Vec::new(), ..scenario.environment.clone() },
+        ..scenario.clone()
+    };
     let mut simulator = Simulator::new(&quiet, seed)?;
     let mut found = Vec::new();
     while simulator.time_s() < seconds {
         run(&mut simulator, 60.0)?;
-        let off = simulator.flow(Point::ORIGIN, ALTITUDE).toward() - scenario.flow.mean.toward();
+        let off = simulator.flow(Point::ORIGIN, ALTITUDE).toward() - scenario.environment.flow.mean.toward();
         found.push((simulator.time_s() / 3600.0, off * 180.0 / PI));
     }
     Ok(found)

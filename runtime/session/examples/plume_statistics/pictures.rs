@@ -28,8 +28,15 @@ pub fn map(flat: &Scenario, recording: &Arc<Recording>) -> Result<String, Box<dy
     let mut svg = Svg::new(940.0, 780.0);
     let simulator = Simulator::new(flat, 1)?;
     let ours: Vec<(Point, f64)> = simulator.filaments().collect();
-    let toward = flat.flow.mean.toward();
-    one_map(&mut svg, 40.0, "duck_2003_flat, seed 1: a filament a second", &ours, toward, flat.sources[0].at);
+    let toward = flat.environment.flow.mean.toward();
+    one_map(
+        &mut svg,
+        40.0,
+        "duck_2003_flat, seed 1: a filament a second",
+        &ours,
+        toward,
+        flat.environment.sources[0].at,
+    );
     let theirs: Vec<(Point, f64)> = recording.alive(0.0).map(|(place, r2)| (place, r2.sqrt())).collect();
     let title = "the recorded plume, by an independent model: one every two seconds";
     one_map(&mut svg, 420.0, title, &theirs, Heading::from_degrees(180.0), recording.source());
@@ -73,7 +80,7 @@ pub fn readings(flat: &Scenario, recording: &Arc<Recording>) -> Result<String, B
     let ours: Vec<(Point, f64)> = simulator.filaments().collect();
     let still = Still::new(&RecordedPlume::new(Arc::clone(recording)), 0.0);
     let theirs: Vec<(Point, f64)> = recording.alive(0.0).collect();
-    let (toward, source) = (flat.flow.mean.toward(), flat.sources[0].at);
+    let (toward, source) = (flat.environment.flow.mean.toward(), flat.environment.sources[0].at);
     let south = Heading::from_degrees(180.0);
     for (row, from) in [(0, 100.0), (1, 800.0)] {
         for (column, name) in ["duck_2003_flat", "the recorded plume"].into_iter().enumerate() {

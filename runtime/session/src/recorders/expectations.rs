@@ -75,7 +75,7 @@ impl<'t> Expectations<'t> {
         for (point, answer) in &expect.depths {
             evaluation.run(&test.program, point.entry);
             let words = evaluation.words(point.value, 2);
-            let depth = self.results.plan.scenario.bottom.depth_at(Point::new(words[0], words[1]));
+            let depth = self.results.plan.scenario.environment.bottom.depth_at(Point::new(words[0], words[1]));
             evaluation.set(*answer, &[depth]);
         }
         evaluation.run(&test.program, expect.holds.entry);

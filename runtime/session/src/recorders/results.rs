@@ -135,19 +135,19 @@ impl Results {
 
     /// The place of a true source that is nearest to another.
     pub fn nearest_source(&self, to: Point) -> Option<Point> {
-        let sources = self.plan.scenario.sources.iter().map(|source| source.nearest(to));
+        let sources = self.plan.scenario.environment.sources.iter().map(|source| source.nearest(to));
         sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
     }
 
     /// The deepest point, where that is what is sought: there are hollows to be found, and no sources.
     pub fn deepest_sought(&self) -> Option<Point> {
         let world = &self.plan.scenario;
-        self.deepest.filter(|_| world.sources.is_empty() && world.bottom.has_hollows())
+        self.deepest.filter(|_| world.environment.sources.is_empty() && world.environment.bottom.has_hollows())
     }
 
     /// What there is to be found, as far as anybody knows: the place that is nearest to another, and what it is.
     fn sought(&self, to: Point) -> Option<(Point, &'static str)> {
-        let source = match self.plan.scenario.sources.as_slice() {
+        let source = match self.plan.scenario.environment.sources.as_slice() {
             [_] => "the source",
             _ => "the nearest source",
         };
@@ -202,7 +202,7 @@ impl Recorder for Results {
     fn take(&mut self, record: &TickRecord) {
         if self.area.is_empty() && !record.area.is_empty() {
             self.area = record.corners();
-            let (bottom, area) = (&self.plan.scenario.bottom, Area::polygon(&self.area).ok());
+            let (bottom, area) = (&self.plan.scenario.environment.bottom, Area::polygon(&self.area).ok());
             self.deepest = area.filter(|_| !bottom.is_level()).map(|area| bottom.deepest(&area));
         }
         match &record.step {

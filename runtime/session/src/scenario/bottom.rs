@@ -42,7 +42,7 @@ pub fn grid(
     let survey = albacore_formats::survey::read(&bytes)
         .map_err(|unreadable| Wrong(unreadable.faults.into_iter().map(in_file).collect()))?;
     let extent = survey.extent(&placing, frame).map_err(|fault| Wrong(vec![in_file(fault)]))?;
-    understood.world.bottom.ground = Ground::Grid(Arc::new(Grid {
+    understood.world.environment.bottom.ground = Ground::Grid(Arc::new(Grid {
         south_west: extent.south_west,
         north_east: extent.north_east,
         rows: survey.north.count,
@@ -57,7 +57,7 @@ pub fn grid(
 
 /// A vehicle that starts beyond its survey would swim over the depth of the nearest edge, which nobody means.
 pub fn elsewhere(program: &ScenarioProgram, world: &Scenario) -> Option<Diagnostic> {
-    let Ground::Grid(grid) = &world.bottom.ground else { return None };
+    let Ground::Grid(grid) = &world.environment.bottom.ground else { return None };
     let clause = program.clauses.iter().find(|clause| clause.name == "bottom_grid")?;
     let (start, Grid { south_west, north_east, .. }) = (world.vehicle.start, grid.as_ref());
     let nearest = Point::new(

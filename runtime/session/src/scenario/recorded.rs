@@ -41,10 +41,10 @@ pub fn recorded_plume(understood: &mut Understood, clause: RecordedPlumeClause, 
     digest.text(recorded.recording.sha256());
     understood.files.push(SourceDigest { name: path, digest: digest.value() });
     let scenario = &mut understood.world;
-    scenario.region = Some(recorded.recording.area().clone());
-    scenario.flow.mean = recorded.recording.mean_flow();
-    scenario.sources = vec![recorded.source()];
-    scenario.recording = Some(recorded);
+    scenario.environment.region = Some(recorded.recording.area().clone());
+    scenario.environment.flow.mean = recorded.recording.mean_flow();
+    scenario.environment.sources = vec![recorded.source()];
+    scenario.environment.recording = Some(recorded);
     Ok(())
 }
 

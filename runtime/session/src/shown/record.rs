@@ -7,7 +7,7 @@ use albacore_sim::Scenario;
 
 /// Tells them after `recorded_plume`, with what of each is in the record.
 pub(super) fn push_recorded(world: &Scenario, formatter: &ClauseFormatter, shown: &mut Vec<ShownClause>) {
-    let Some(recorded) = &world.recording else { return };
+    let Some(recorded) = &world.environment.recording else { return };
     let (recording, source) = (&recorded.recording, recorded.source());
     if let Some(clause) = shown.last_mut() {
         clause.values.extend(values([("lasts", quantity("s", recording.duration()))]));

@@ -13,11 +13,11 @@ pub(super) fn svg(name: &str, scenario: &Scenario, simulator: &Simulator, seed: 
     let start = simulator.truth().position;
     let legs = scenario.own_mission.iter().flat_map(|own| own.route.legs(start, scenario.vehicle.heading));
     let route: Vec<Point> = legs.flat_map(|leg| [leg.start, leg.end]).collect();
-    let surveyed = match &scenario.bottom.ground {
+    let surveyed = match &scenario.environment.bottom.ground {
         Ground::Grid(grid) => grid.area(),
         Ground::Plane(_) => None,
     };
-    let known = scenario.region.as_ref().map(|region| (region, "region"));
+    let known = scenario.environment.region.as_ref().map(|region| (region, "region"));
     let known = known.or(surveyed.as_ref().map(|area| (area, "survey")));
     let (area, area_name) = known.map_or_else(Default::default, |(area, name)| (area.corners().to_vec(), name));
     let water = if area.is_empty() { near(start, &route, scenario) } else { area.clone() };
@@ -39,6 +39,6 @@ pub(super) fn svg(name: &str, scenario: &Scenario, simulator: &Simulator, seed: 
 /// Corners of the water about the vehicle, its way, and where it must not be.
 fn near(start: Point, route: &[Point], scenario: &Scenario) -> Vec<Point> {
     let around = [-AROUND_M, AROUND_M].map(|away| Point::new(start.north + away, start.east + away));
-    let no_go = scenario.no_go.iter().flat_map(|zone| zone.area.corners());
+    let no_go = scenario.environment.no_go.iter().flat_map(|zone| zone.area.corners());
     around.iter().chain(route).chain(no_go).copied().collect()
 }

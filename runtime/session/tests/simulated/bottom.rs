@@ -61,7 +61,7 @@ fn a_run_over_a_surveyed_bottom_grounds_and_comes_free() {
     let clauses = "bottom_grid(\"shoal.csv\", at: point(north: 0 m, east: 0 m), scale: 100, depth_scale: 0.5)
         vehicle(kinematic, start: point(north: -50 m, east: 0 m), depth: 1 m)";
     let plan = plan(&folder, clauses).unwrap();
-    assert_eq!(plan.scenario.bottom.depth_at(albacore_geometry::Point::new(-100.0, 7.0)), 6.0);
+    assert_eq!(plan.scenario.environment.bottom.depth_at(albacore_geometry::Point::new(-100.0, 7.0)), 6.0);
     assert_eq!(plan.sources.last().unwrap().name, "shoal.csv", "a campaign does not go on over another bottom");
     // Half as deep, 200 m wide: 3.5 m deep where it starts, and 5 cm less each metre northward.
     let (outcome, told) = told(&plan);
@@ -79,7 +79,7 @@ fn the_cuts_of_etopo5_can_be_laid_out() {
         "bottom_grid(\"bathymetry/mariana.csv\", at: point(north: 100 m, east: 50 m), scale: 1 %, depth_scale: 1 %)
         pit(\"deeper\", at: point(north: 100 m, east: 50 m), depth: 2 m, radius: 10 m)
         vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 1 m)";
-    let bottom = plan(&missions(), clauses).unwrap().scenario.bottom.clone();
+    let bottom = plan(&missions(), clauses).unwrap().scenario.environment.bottom.clone();
     let middle = bottom.depth_at(albacore_geometry::Point::new(100.0, 50.0));
     assert!((middle - (30.64 + 2.0)).abs() < 1e-9, "the middle of row 25, cells 30 and 31, and the pit: {middle}");
 }

@@ -17,7 +17,7 @@ fn probe(scenario: &Scenario, seeds: u64) -> Result<Vec<Band>, ScenarioError> {
         let places = simulator.filaments().map(|(place, _)| place);
         let survey = simulator.survey();
         let reads = |p| survey.concentration(p, 2.0) > THRESHOLD;
-        probe.fly(scenario.sources[0].at, scenario.flow.mean.toward(), places, reads);
+        probe.fly(scenario.environment.sources[0].at, scenario.environment.flow.mean.toward(), places, reads);
     }
     Ok(probe.bands)
 }

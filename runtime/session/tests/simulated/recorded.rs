@@ -38,12 +38,12 @@ fn plan(clauses: &str) -> Result<Plan, String> {
 fn a_record_brings_flow_plume_source_and_region() {
     let plan = plan("recorded_plume(\"recorded/case_a.json\", kernel: flat, start: 1 min)").unwrap();
     let world = &plan.scenario;
-    let recorded = world.recording.as_ref().unwrap();
+    let recorded = world.environment.recording.as_ref().unwrap();
     assert_eq!((recorded.start, recorded.start_spread, recorded.threshold), (60.0, 0.0, 0.04));
     assert_eq!(format!("{:?}", recorded.kernel), "Flat");
-    assert_eq!((world.sources.len(), world.sources[0].name.as_str()), (1, "case_a"));
-    assert_eq!((world.sources[0].at.north, world.sources[0].rate), (431.7, 0.5));
-    assert!((world.flow.mean.north + 0.12448).abs() < 1e-4 && world.region.is_some());
+    assert_eq!((world.environment.sources.len(), world.environment.sources[0].name.as_str()), (1, "case_a"));
+    assert_eq!((world.environment.sources[0].at.north, world.environment.sources[0].rate), (431.7, 0.5));
+    assert!((world.environment.flow.mean.north + 0.12448).abs() < 1e-4 && world.environment.region.is_some());
     assert!(
         plan.sources.iter().any(|source| source.name == "recorded/case_a.json"),
         "the journal tells which record it was"

@@ -81,9 +81,8 @@ macro_rules! clauses {
     ($($name:literal $clause:ident => $field:ident $(in $wrap:ident)?;)*) => {
         /// A clause of a scenario that says how an instrument is.
         #[derive(Clone, Debug, Deserialize)]
-        #[serde(rename_all = "snake_case")]
         #[allow(missing_docs, reason = "the standard library says what each clause is")]
-        pub enum InstrumentSetting { $($clause($clause)),* }
+        pub enum InstrumentSetting { $(#[serde(rename = $name)] $clause($clause)),* }
 
         impl InstrumentSetting {
             /// The names of the clauses.

@@ -296,9 +296,9 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let v = &scenario.vehicle;
     // Where the start is scattered it may be anywhere: as shallow as the ground is there.
     let water = if v.start_spread > 0.0 {
-        scenario.bottom.shallowest_within(v.start_spread, v.start)
+        scenario.environment.bottom.shallowest_within(v.start_spread, v.start)
     } else {
-        scenario.bottom.depth_at(v.start)
+        scenario.environment.bottom.depth_at(v.start)
     };
     // Of a grid without water it has been told.
     let has_water = objections.0.iter().all(|objection| objection.clause != "bottom_grid");
@@ -350,7 +350,8 @@ fn check_own_mission(scenario: &Scenario, own: &OwnMission, objections: &mut Sce
         }
     };
     let Vertical::Depth(depth) = own.vertical else { return };
-    let depths = legs.iter().flat_map(|leg| [leg.start, leg.end]).map(|point| scenario.bottom.depth_at(point));
+    let depths =
+        legs.iter().flat_map(|leg| [leg.start, leg.end]).map(|point| scenario.environment.bottom.depth_at(point));
     let shallowest = depths.fold(f64::INFINITY, f64::min);
     of.unless(
         Some("depth"),

@@ -14,8 +14,8 @@ pub use index::Index;
 pub use nearby::Nearby;
 pub use settings::Plume;
 pub(crate) use settings::check;
-pub(crate) use source::{Leak, SPIN_UP_MAX_S, check as check_sources};
-pub use source::{Patch, Source, Times};
+pub use source::{Leak, Patch, Source, Times};
+pub(crate) use source::{SPIN_UP_MAX_S, check as check_sources};
 pub use spin_up::begin as spin_up_begin;
 pub use steps::{LONGEST_PLUME_STEP_S, LONGEST_STEP_S, stays_in_layer};
 
@@ -72,10 +72,10 @@ pub struct FilamentPlume {
 impl FilamentPlume {
     /// The plume of a scenario, empty at `begin` seconds; none if the scenario has none.
     pub fn new(scenario: &Scenario, frame: &FlowFrame, begin: f64, seed: u64) -> Option<Self> {
-        let settings = scenario.plume.clone()?;
+        let settings = scenario.environment.plume.clone()?;
         let diffusion =
             |number| (Noise::sub(seed, Stream::Diffusion, number), Noise::sub(seed, Stream::VerticalDiffusion, number));
-        let sources = scenario.sources.iter().zip(0..).map(|(source, number)| {
+        let sources = scenario.environment.sources.iter().zip(0..).map(|(source, number)| {
             let (x, y) = frame.to_local(source.at);
             let noise = Noise::sub(seed, Stream::Release, number);
             let leak = source.to.map(|to| {
@@ -90,7 +90,7 @@ impl FilamentPlume {
                 noises: diffusion(number),
             }
         });
-        let patches = scenario.patches.iter().zip(PATCH_STREAMS..).map(|(patch, number)| {
+        let patches = scenario.environment.patches.iter().zip(PATCH_STREAMS..).map(|(patch, number)| {
             let (x, y) = frame.to_local(patch.at);
             Origin {
                 place: [x, y, patch.height],
@@ -104,7 +104,7 @@ impl FilamentPlume {
             origins: sources.chain(patches).collect(),
             blocks: Vec::new(),
             steps_of: Steps::new(scenario, &settings),
-            oldest_patch: scenario.patches.iter().map(|patch| -patch.age).fold(0.0, f64::min),
+            oldest_patch: scenario.environment.patches.iter().map(|patch| -patch.age).fold(0.0, f64::min),
             length: frame.length,
             width: frame.width,
             end: begin,

@@ -19,10 +19,10 @@ impl Simulated {
     /// Those of a valid scenario at tick 0, with its flow wandering and its plume spread.
     pub fn new(scenario: &Scenario, seed: u64) -> Self {
         let begin = spin_up_begin(scenario);
-        let mut water = Water::new(&scenario.flow, scenario.region.as_ref(), begin, seed);
+        let mut water = Water::new(&scenario.environment.flow, scenario.environment.region.as_ref(), begin, seed);
         let mut plume = FilamentPlume::new(scenario, water.frame(), begin, seed);
         if let Some(plume) = &mut plume {
-            plume.spin_up(&mut water, &scenario.patches, seed);
+            plume.spin_up(&mut water, &scenario.environment.patches, seed);
         }
         Simulated { water, plume, nearby: Nearby::default() }
     }

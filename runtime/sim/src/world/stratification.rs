@@ -51,7 +51,7 @@ impl Stratification {
 
 /// What of the water's layers cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    let s = &scenario.stratification;
+    let s = &scenario.environment.stratification;
     let (above, below) = (density(s.surface, s.surface_salinity), density(s.bottom, s.bottom_salinity));
     objections.of("stratification").unless(
         None,

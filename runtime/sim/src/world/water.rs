@@ -13,8 +13,8 @@ pub use cells::Cells;
 pub use current::Current;
 pub use frame::FlowFrame;
 pub use mesh::mesh_fault;
-pub use settings::{Flow, Meander, Tide, UpperFlow, Waves};
-pub(crate) use settings::{MeanFlow, check, check_meander};
+pub use settings::{Flow, MeanFlow, Meander, Tide, Turning, UpperFlow, Waves};
+pub(crate) use settings::{check, check_meander};
 pub use waves::Sea;
 
 use albacore_geometry::{Area, Point, Vector};

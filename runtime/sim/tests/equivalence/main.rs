@@ -13,7 +13,7 @@ mod brute;
 use albacore_geometry::math::TAU;
 use albacore_geometry::{Area, Heading, Point};
 use albacore_sim::probe::Probe;
-use albacore_sim::{Flow, Meander, Plume, Scenario, Simulator, Source};
+use albacore_sim::{Environment, Flow, Meander, Plume, Scenario, Simulator, Source};
 use albacore_vehicle::{Snapshot, TICK_S, Vehicle};
 use brute::{Brute, Law};
 use std::collections::BTreeMap;
@@ -44,10 +44,13 @@ fn scenario(change: impl Fn(&mut Plume)) -> Scenario {
     let mut plume = Plume::default();
     change(&mut plume);
     Scenario {
-        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 500.0, 250.0)),
-        flow: Flow { mean: 0.125 * Heading::NORTH.unit(), meander: Some(Meander::default()), ..Flow::default() },
-        plume: Some(plume),
-        sources: vec![Source { at: Point::new(SOURCE[0] - 310.0, SOURCE[1] - 185.0), ..Source::default() }],
+        environment: Environment {
+            region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 500.0, 250.0)),
+            flow: Flow { mean: 0.125 * Heading::NORTH.unit(), meander: Some(Meander::default()), ..Flow::default() },
+            plume: Some(plume),
+            sources: vec![Source { at: Point::new(SOURCE[0] - 310.0, SOURCE[1] - 185.0), ..Source::default() }],
+            ..Environment::default()
+        },
         ..Scenario::default()
     }
 }
@@ -95,7 +98,7 @@ fn of_seeds(met_with: impl Fn(u64) -> Vec<Met> + Sync) -> Vec<Met> {
 
 fn fast(change: impl Fn(&mut Plume)) -> Vec<Met> {
     let scenario = scenario(change);
-    let source = scenario.sources[0].at;
+    let source = scenario.environment.sources[0].at;
     of_seeds(|seed| {
         let (mut met, mut snapshot) = (Vec::new(), Snapshot::default());
         let mut simulator = Simulator::new(&scenario, seed).unwrap();

@@ -3,7 +3,7 @@
 use super::{driven, names, scenario};
 use crate::world;
 use albacore_geometry::{Point, Vector};
-use albacore_sim::{Adcp, Bottom, Lbl, Looks, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow};
+use albacore_sim::{Adcp, Bottom, Environment, Lbl, Looks, Navigation, Pit, Scenario, Simulator, Sounder, UpperFlow};
 use albacore_vehicle::{Snapshot, Vehicle};
 
 #[test]
@@ -36,10 +36,12 @@ fn the_flow_is_estimated_once_the_vehicle_moves() {
 #[test]
 fn a_low_boundary_deceives_the_profiler() {
     let mut layered = scenario();
-    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() });
+    layered.environment.flow.upper =
+        Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() });
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!((last[0] - 0.2).abs() < 0.02 && last[1].abs() < 0.02, "{last:?}");
-    layered.flow.upper = Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 3.5, ..UpperFlow::default() });
+    layered.environment.flow.upper =
+        Some(UpperFlow { mean: Vector::new(0.2, 0.0), above: 3.5, ..UpperFlow::default() });
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
 }
@@ -49,7 +51,7 @@ fn a_low_boundary_deceives_the_profiler() {
 fn a_downward_look_is_not_deceived_by_a_low_boundary() {
     let upper = UpperFlow { mean: Vector::new(0.2, 0.0), above: 2.5, ..UpperFlow::default() };
     let mut layered = scenario();
-    layered.flow.upper = Some(upper);
+    layered.environment.flow.upper = Some(upper);
     layered.instruments.adcp.looks = Looks::Down;
     let last = *driven(&layered, 400, "flow").unwrap().last().unwrap();
     assert!(last[0].abs() < 0.02 && (last[1] - 0.1).abs() < 0.02, "{last:?}");
@@ -126,7 +128,7 @@ fn a_fast_chemical_sensor_gives_several_samples_a_tick() {
 fn over_a_pit_the_water_is_deeper_and_echoes_are_as_noisy_as_told() {
     let pit = Pit { at: Point::new(60.0, 3.0), depth: 2.0, radius: 15.0, ..Pit::default() };
     let bottom = Bottom { pits: vec![pit], ..Bottom::flat(10.0) };
-    let mut over = Scenario { bottom, ..scenario() };
+    let mut over = Scenario { environment: Environment { bottom, ..scenario().environment }, ..scenario() };
     let exact = driven(&over, 60, "water_depth").unwrap();
     let deepest = exact.iter().map(|sample| sample[0]).fold(0.0, f64::max);
     assert!((deepest - 12.0).abs() < 0.02 && (exact[0][0] - 10.0).abs() < 0.01, "{deepest}");

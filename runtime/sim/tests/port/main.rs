@@ -9,7 +9,7 @@ mod world;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_sim::hull::Crossflow;
 use albacore_sim::{
-    Bottom, Fault, FaultKind, Flow, Grid, Ground, HullSetup, KinematicHull, Plane, Scenario, Simulator,
+    Bottom, Environment, Fault, FaultKind, Flow, Grid, Ground, HullSetup, KinematicHull, Plane, Scenario, Simulator,
     SubmersibleHull, VehicleSetup,
 };
 use albacore_vehicle::{Command, Control, Limits, Snapshot, Vehicle, Vertical};
@@ -18,8 +18,11 @@ use std::sync::Arc;
 
 fn scenario() -> Scenario {
     Scenario {
-        flow: Flow { mean: Vector::new(0.0, 0.1), ..Flow::default() },
-        bottom: Bottom::flat(10.0),
+        environment: Environment {
+            flow: Flow { mean: Vector::new(0.0, 0.1), ..Flow::default() },
+            bottom: Bottom::flat(10.0),
+            ..Environment::default()
+        },
         ..Scenario::default()
     }
 }
@@ -83,7 +86,11 @@ fn whatever_moves_it_a_vehicle_that_leaks_floats_up_and_refuses_who_asks() {
         HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected),
     ] {
         let vehicle = VehicleSetup { hull, depth: 6.0, ..VehicleSetup::default() };
-        let world = Scenario { bottom: Bottom::flat(30.0), vehicle, ..Scenario::default() };
+        let world = Scenario {
+            environment: Environment { bottom: Bottom::flat(30.0), ..Environment::default() },
+            vehicle,
+            ..Scenario::default()
+        };
         let mut snapshot = Snapshot::default();
         let mut simulator = Simulator::new(&Scenario { faults: vec![leak(10.0)], ..world.clone() }, 1).unwrap();
         simulator.sense(&mut snapshot).unwrap();
@@ -163,7 +170,12 @@ fn the_least_altitude_lifts_it_over_a_rise() {
         HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected),
     ] {
         let vehicle = VehicleSetup { hull, start: Point::new(-250.0, 0.0), ..VehicleSetup::default() };
-        let rising = Scenario { bottom: bottom.clone(), limits: Some(limits.clone()), vehicle, ..scenario() };
+        let rising = Scenario {
+            environment: Environment { bottom: bottom.clone(), ..scenario().environment },
+            limits: Some(limits.clone()),
+            vehicle,
+            ..scenario()
+        };
         let mut simulator = Simulator::new(&rising, 1).unwrap();
         let mut snapshot = Snapshot::default();
         simulator.take_over().unwrap();
@@ -191,7 +203,8 @@ fn shoal() -> Grid {
 fn over_a_surveyed_shoal_it_grounds_and_says_so_once() {
     let bottom = Bottom { ground: Ground::Grid(Arc::new(shoal())), pits: Vec::new() };
     let still = Flow::default();
-    let scenario = Scenario { bottom, flow: still, ..Scenario::default() };
+    let scenario =
+        Scenario { environment: Environment { bottom, flow: still, ..Environment::default() }, ..Scenario::default() };
     let mut simulator = Simulator::new(&scenario, 1).unwrap();
     let mut snapshot = Snapshot::default();
     simulator.take_over().unwrap();

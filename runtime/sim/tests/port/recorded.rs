@@ -3,7 +3,7 @@
 use crate::world;
 use albacore_formats::recording::{Recording, RecordingHeader};
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_sim::{RecordedPlume, Scenario, Simulator, Tide};
+use albacore_sim::{Environment, RecordedPlume, Scenario, Simulator, Tide};
 use albacore_vehicle::{Command, Snapshot, Vehicle, Vertical};
 use std::error::Error;
 use std::sync::Arc;
@@ -18,7 +18,8 @@ fn recording() -> Result<Arc<Recording>, Box<dyn Error>> {
 /// In the record from a moment on, at a place.
 fn scenario(start: f64, place: Point) -> Result<Scenario, Box<dyn Error>> {
     let recording = Some(RecordedPlume { start, ..RecordedPlume::new(recording()?) });
-    let mut scenario = Scenario { recording, ..Scenario::default() };
+    let mut scenario =
+        Scenario { environment: Environment { recording, ..Environment::default() }, ..Scenario::default() };
     scenario.instruments.adcp.noise = 0.0;
     (scenario.vehicle.start, scenario.vehicle.depth) = (place, 5.0);
     Ok(scenario)
@@ -77,9 +78,9 @@ fn a_run_ends_with_its_record() {
 fn impossible_playbacks_are_refused() {
     let fault = |change: &dyn Fn(&mut Scenario, &mut RecordedPlume)| {
         let mut scenario = scenario(0.0, Point::ORIGIN).unwrap();
-        let mut recorded = scenario.recording.take().unwrap();
+        let mut recorded = scenario.environment.recording.take().unwrap();
         change(&mut scenario, &mut recorded);
-        scenario.recording = Some(recorded);
+        scenario.environment.recording = Some(recorded);
         scenario.validate().map_or_else(|error| error.to_string(), |()| String::from("sound"))
     };
     assert_eq!(fault(&|_, _| ()), "sound");
@@ -87,8 +88,14 @@ fn impossible_playbacks_are_refused() {
     for (said, expected) in [
         (fault(&|_, r| r.start = 5400.0), "that ends at 5400 s"),
         (fault(&|_, r| (r.start, r.start_spread) = (3000.0, 2500.0)), "the run begins up to 5500 s"),
-        (fault(&|s, _| s.flow.tides = vec![Tide::default()]), "brings its own plume and its own flow"),
-        (fault(&|s, _| (s.plume, s.region) = (own.plume.clone(), own.region.clone())), "brings its own plume"),
+        (fault(&|s, _| s.environment.flow.tides = vec![Tide::default()]), "brings its own plume and its own flow"),
+        (
+            fault(&|s, _| {
+                (s.environment.plume, s.environment.region) =
+                    (own.environment.plume.clone(), own.environment.region.clone())
+            }),
+            "brings its own plume",
+        ),
     ] {
         assert!(said.contains(expected), "{said}, not {expected}");
     }

@@ -4,7 +4,9 @@ use super::{scenario, shoal};
 use crate::world;
 use albacore_geometry::{Point, Vector};
 use albacore_sim::hull::Crossflow;
-use albacore_sim::{Bottom, Grid, Ground, HullSetup, Pit, Plane, Scenario, Source, SubmersibleHull, Times};
+use albacore_sim::{
+    Bottom, Environment, Grid, Ground, HullSetup, Pit, Plane, Scenario, Source, SubmersibleHull, Times,
+};
 use albacore_vehicle::Limits;
 use std::sync::Arc;
 
@@ -16,19 +18,19 @@ fn impossible_plumes_are_refused() {
         scenario.validate().unwrap_err().to_string()
     };
     for (fault, expected) in [
-        (fault(&|s| s.flow.mean = Vector::ZERO), "needs a `flow` that carries it"),
-        (fault(&|s| s.region = None), "`plume` needs a `region`"),
-        (fault(&|s| s.plume = None), "a `source` needs a `plume`"),
-        (fault(&|s| s.sources[0].at = Point::new(5000.0, 0.0)), "outside the `region`"),
-        (fault(&|s| s.sources[0].height = 4.0), "and the `layer` of the plume 3.5 m high"),
-        (fault(&|s| s.sources[0].rate = 1000.0), "filaments are alive at a time"),
-        (fault(&|s| s.plume.as_mut().unwrap().layer = None), "`vertical` of `plume` needs a `layer`"),
-        (fault(&|s| s.plume.as_mut().unwrap().step = 0.25), "`step` of `plume` is 0.25 s"),
+        (fault(&|s| s.environment.flow.mean = Vector::ZERO), "needs a `flow` that carries it"),
+        (fault(&|s| s.environment.region = None), "`plume` needs a `region`"),
+        (fault(&|s| s.environment.plume = None), "a `source` needs a `plume`"),
+        (fault(&|s| s.environment.sources[0].at = Point::new(5000.0, 0.0)), "outside the `region`"),
+        (fault(&|s| s.environment.sources[0].height = 4.0), "and the `layer` of the plume 3.5 m high"),
+        (fault(&|s| s.environment.sources[0].rate = 1000.0), "filaments are alive at a time"),
+        (fault(&|s| s.environment.plume.as_mut().unwrap().layer = None), "`vertical` of `plume` needs a `layer`"),
+        (fault(&|s| s.environment.plume.as_mut().unwrap().step = 0.25), "`step` of `plume` is 0.25 s"),
         (
-            fault(&|s| s.flow.meander.as_mut().unwrap().viscosity = 1.0),
+            fault(&|s| s.environment.flow.meander.as_mut().unwrap().viscosity = 1.0),
             "too little for cells of 20 m in a flow of up to",
         ),
-        (fault(&|s| s.flow.meander.as_mut().unwrap().cell = 1.0), "make more than 40000 nodes"),
+        (fault(&|s| s.environment.flow.meander.as_mut().unwrap().cell = 1.0), "make more than 40000 nodes"),
     ] {
         assert!(fault.contains(expected), "{fault}");
     }
@@ -49,24 +51,25 @@ fn chemical_where_there_is_no_water_is_refused() {
         change(&mut scenario);
         objected(&scenario)
     };
-    let layer = |s: &mut Scenario, high| s.plume.as_mut().unwrap().layer = Some(high);
+    let layer = |s: &mut Scenario, high| s.environment.plume.as_mut().unwrap().layer = Some(high);
     assert_eq!(changed(&|s| layer(s, 1e9)), [("plume", 0, Some("layer"))]);
-    assert_eq!(changed(&|s| s.sources[0].height = 500.0), [("source", 0, Some("height"))]);
+    assert_eq!(changed(&|s| s.environment.sources[0].height = 500.0), [("source", 0, Some("height"))]);
     let twin = |s: &mut Scenario, aside: f64| {
-        let to = s.sources[0].at + Vector::new(aside, 0.0);
-        s.sources.extend([Source { to: Some(to), ..s.sources[0].clone() }]);
+        let to = s.environment.sources[0].at + Vector::new(aside, 0.0);
+        s.environment.sources.extend([Source { to: Some(to), ..s.environment.sources[0].clone() }]);
     };
     assert_eq!(changed(&|s| twin(s, 1.0)), [("leak", 0, Some("name"))]);
     assert_eq!(changed(&|s| twin(s, 0.0)), [("leak", 0, Some("name")), ("leak", 0, Some("to"))]);
     // What has always released may have ceased before the run; what begins later may not.
-    assert_eq!(changed(&|s| s.sources[0].when.ends = Some(-1000.0)), []);
-    let backward =
-        |s: &mut Scenario| s.sources[0].when = Times { begins: Some(10.0), ends: Some(5.0), ..Times::default() };
+    assert_eq!(changed(&|s| s.environment.sources[0].when.ends = Some(-1000.0)), []);
+    let backward = |s: &mut Scenario| {
+        s.environment.sources[0].when = Times { begins: Some(10.0), ends: Some(5.0), ..Times::default() }
+    };
     assert_eq!(changed(&backward), [("source", 0, Some("ends"))]);
     let ashore = Scenario { limits: Some(Limits { altitude: 100.0, ..Limits::default() }), ..scenario() };
     assert_eq!(objected(&ashore), [("limits", 0, Some("altitude"))]);
     let mut stepped = world::layered();
-    stepped.plume.as_mut().unwrap().step = 1000.0;
+    stepped.environment.plume.as_mut().unwrap().step = 1000.0;
     assert_eq!(objected(&stepped), [("plume", 0, Some("step"))], "and nothing of a step that no script can say");
 }
 
@@ -92,8 +95,8 @@ fn impossible_hulls_and_limits_are_refused() {
 #[test]
 fn shafts_and_starts_below_the_bottom_are_refused() {
     let mut bad = scenario();
-    bad.bottom.pits = vec![Pit { depth: 100.0, radius: 1.0, ..Pit::default() }];
-    bad.bottom.ground = Ground::Plane(Plane { from: 10.0, to: 4.0, ..Plane::default() });
+    bad.environment.bottom.pits = vec![Pit { depth: 100.0, radius: 1.0, ..Pit::default() }];
+    bad.environment.bottom.ground = Ground::Plane(Plane { from: 10.0, to: 4.0, ..Plane::default() });
     bad.vehicle.depth = 5.0;
     let said = bad.validate().unwrap_err();
     assert!(!said.to_string().contains("below the bottom"), "it starts where the water is 7 m: {said}");
@@ -107,7 +110,8 @@ fn shafts_and_starts_below_the_bottom_are_refused() {
 fn grids_that_cannot_be_and_starts_on_land_are_refused() {
     let on = |grid: Grid| Bottom { ground: Ground::Grid(Arc::new(grid)), pits: Vec::new() };
     let said = |bad: &Scenario| bad.validate().unwrap_err().to_string();
-    let mut bad = Scenario { bottom: on(shoal()), ..Scenario::default() };
+    let mut bad =
+        Scenario { environment: Environment { bottom: on(shoal()), ..Environment::default() }, ..Scenario::default() };
     assert_eq!(bad.validate(), Ok(()));
     bad.vehicle.start = Point::new(60.0, 0.0);
     assert!(said(&bad).contains("on land"), "{}", said(&bad));
@@ -123,7 +127,10 @@ fn grids_that_cannot_be_and_starts_on_land_are_refused() {
         Grid { depths: vec![20.0, f64::NAN, 1.0, 1.0], ..shoal() },
         Grid { north_east: Point::new(-100.0, 100.0), ..shoal() },
     ] {
-        let bad = Scenario { bottom: on(wrong), ..Scenario::default() };
+        let bad = Scenario {
+            environment: Environment { bottom: on(wrong), ..Environment::default() },
+            ..Scenario::default()
+        };
         assert!(bad.validate().unwrap_err().faults.iter().any(|f| f.clause == "bottom_grid"), "{}", said(&bad));
     }
 }

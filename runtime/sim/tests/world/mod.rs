@@ -2,8 +2,8 @@
 
 use albacore_geometry::{Area, Heading, Point};
 use albacore_sim::{
-    Bottom, Flow, Ground, HullSetup, InstrumentSetup, KinematicHull, Lbl, Meander, Navigation, Plane, Plume, Scenario,
-    Source, VehicleSetup,
+    Bottom, Environment, Flow, Ground, HullSetup, InstrumentSetup, KinematicHull, Lbl, Meander, Navigation, Plane,
+    Plume, Scenario, Source, VehicleSetup,
 };
 
 /// Where the mean flow goes, degrees.
@@ -15,14 +15,17 @@ pub fn flat() -> Scenario {
     let across = down_flow + Heading::from_degrees(90.0).radians();
     let place = |x: f64, y: f64| Point::ORIGIN + x * down_flow.unit() + y * across.unit();
     Scenario {
-        region: Some(Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0)),
-        flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), ..Flow::default() },
-        bottom: Bottom {
-            ground: Ground::Plane(Plane { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0 }),
-            pits: Vec::new(),
+        environment: Environment {
+            region: Some(Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0)),
+            flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), ..Flow::default() },
+            bottom: Bottom {
+                ground: Ground::Plane(Plane { from: 4.0, to: 8.0, toward: Heading::from_degrees(50.0), across: 367.0 }),
+                pits: Vec::new(),
+            },
+            plume: Some(Plume::default()),
+            sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
+            ..Environment::default()
         },
-        plume: Some(Plume::default()),
-        sources: vec![Source { name: String::from("dye"), at: place(-427.0, 0.0), ..Source::default() }],
         vehicle: VehicleSetup { start: place(527.0, -163.5), ..VehicleSetup::default() },
         instruments: InstrumentSetup {
             navigation: Some(Navigation { lbl: Some(Lbl::default()), ..Navigation::default() }),
@@ -36,7 +39,10 @@ pub fn flat() -> Scenario {
 pub fn layered() -> Scenario {
     let flat = flat();
     Scenario {
-        plume: Some(Plume { vertical: 1e-3, layer: Some(3.5), ..Plume::default() }),
+        environment: Environment {
+            plume: Some(Plume { vertical: 1e-3, layer: Some(3.5), ..Plume::default() }),
+            ..flat.environment
+        },
         vehicle: VehicleSetup {
             hull: HullSetup::Kinematic(KinematicHull { altitude_jitter: 0.3, ..KinematicHull::default() }),
             ..flat.vehicle

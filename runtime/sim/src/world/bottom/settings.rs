@@ -111,19 +111,19 @@ const STEEPEST: f64 = 10.0;
 
 /// What of the bottom cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    if let Ground::Grid(grid) = &scenario.bottom.ground {
+    if let Ground::Grid(grid) = &scenario.environment.bottom.ground {
         check_grid(grid, objections);
     }
-    for (i, pit) in scenario.bottom.pits.iter().enumerate() {
+    for (i, pit) in scenario.environment.bottom.pits.iter().enumerate() {
         let mut of = objections.nth("pit", i);
-        of.name(&pit.name, &scenario.bottom.pits[..i].iter().map(|p| p.name.as_str()).collect::<Vec<_>>());
+        of.name(&pit.name, &scenario.environment.bottom.pits[..i].iter().map(|p| p.name.as_str()).collect::<Vec<_>>());
         of.unless(
             Some("radius"),
             pit.depth <= STEEPEST * pit.radius,
             format!("a pit {} m deep with a radius of {} m is a shaft", number(pit.depth), number(pit.radius)),
             format!("make `radius` {} m at least", number(pit.depth / STEEPEST)),
         );
-        let deepest = scenario.bottom.depth_at(pit.at);
+        let deepest = scenario.environment.bottom.depth_at(pit.at);
         of.unless(
             Some("depth"),
             deepest <= DEEPEST_M,
@@ -131,8 +131,8 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             format!("make them shallower: {DEEPEST_M} m at most"),
         );
     }
-    for (i, zone) in scenario.no_go.iter().enumerate() {
-        let others: Vec<&str> = scenario.no_go[..i].iter().map(|z| z.name.as_str()).collect();
+    for (i, zone) in scenario.environment.no_go.iter().enumerate() {
+        let others: Vec<&str> = scenario.environment.no_go[..i].iter().map(|z| z.name.as_str()).collect();
         objections.nth("no_go", i).name(&zone.name, &others);
     }
 }

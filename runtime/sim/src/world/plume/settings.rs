@@ -41,9 +41,9 @@ impl Default for Plume {
 
 /// What of the plume cannot be, once region and flow are sound.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    let Some(plume) = &scenario.plume else { return };
+    let Some(plume) = &scenario.environment.plume else { return };
     let mut of = objections.of("plume");
-    let has_region = scenario.region.is_some();
+    let has_region = scenario.environment.region.is_some();
     of.unless(
         None,
         has_region,
@@ -52,7 +52,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     );
     of.unless(
         None,
-        scenario.flow.speed() > 0.0,
+        scenario.environment.flow.speed() > 0.0,
         "`plume` needs a `flow` that carries it",
         "give the scenario one: `flow(12 cm/s toward 140 deg)`, for example",
     );

@@ -1,6 +1,7 @@
 //! What releases chemical, or has released it: what a scenario says of it, and what of that cannot be.
 
 use crate::scenario::{OfClause, Scenario, ScenarioIssues, number, rounded_down};
+use crate::world::Environment;
 use crate::world::plume::spin_up_begin;
 use crate::world::water::Flow;
 use albacore_geometry::Point;
@@ -146,15 +147,15 @@ impl Default for Source {
 /// What of the sources cannot be, once region, flow and bottom are sound.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     // A record's source is there to be told of.
-    if scenario.recording.is_some() {
+    if scenario.environment.recording.is_some() {
         return;
     }
     let before = objections.0.len();
     let mut names = Vec::new();
-    for (i, source) in scenario.sources.iter().enumerate() {
+    for (i, source) in scenario.environment.sources.iter().enumerate() {
         // A script tells them apart, each with its own count.
         let is_leak = |source: &&Source| source.to.is_some();
-        let leaks = scenario.sources[..i].iter().filter(is_leak).count();
+        let leaks = scenario.environment.sources[..i].iter().filter(is_leak).count();
         let (clause, nth) = if is_leak(&source) { ("leak", leaks) } else { ("source", i - leaks) };
         let mut of = objections.nth(clause, nth);
         check_source(source, &mut of);
@@ -168,14 +169,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             of.unless(Some("to"), to != source.at, message, mend);
         }
     }
-    for (i, patch) in scenario.patches.iter().enumerate() {
+    for (i, patch) in scenario.environment.patches.iter().enumerate() {
         let mut of = objections.nth("patch", i);
         of.name(&patch.name, &names);
         names.push(patch.name.as_str());
         check_place(scenario, &mut of, "at", patch.at, patch.height);
     }
     check_layer(scenario, objections);
-    if objections.0.len() == before && scenario.plume.is_some() && scenario.flow.speed() > 0.0 {
+    if objections.0.len() == before && scenario.environment.plume.is_some() && scenario.environment.flow.speed() > 0.0 {
         check_size(scenario, objections);
     }
 }
@@ -206,11 +207,11 @@ fn check_source(source: &Source, of: &mut OfClause) {
 fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: Point, height: f64) {
     of.unless(
         None,
-        scenario.plume.is_some(),
+        scenario.environment.plume.is_some(),
         format!("a `{}` needs a `plume`: without one nothing spreads", of.clause()),
         "add `plume()` to the scenario",
     );
-    if let Some(region) = &scenario.region {
+    if let Some(region) = &scenario.environment.region {
         let gap = region.gap(at);
         of.unless(
             Some(param),
@@ -219,7 +220,7 @@ fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: 
             "move it into the region, or make that larger: outside nothing spreads",
         );
     }
-    let water = scenario.bottom.depth_at(at);
+    let water = scenario.environment.bottom.depth_at(at);
     of.unless(Some(param), water > 0.0 || water.is_nan(), "this is on land", "move it into the water");
     of.unless(
         Some("height"),
@@ -227,7 +228,7 @@ fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: 
         format!("this is {} m above the bottom, where the water is {} m deep", number(height), rounded_down(water)),
         format!("make `height` {} m at most", rounded_down(water)),
     );
-    if let Some(layer) = scenario.plume.as_ref().and_then(|plume| plume.layer) {
+    if let Some(layer) = scenario.environment.plume.as_ref().and_then(|plume| plume.layer) {
         of.unless(
             Some("height"),
             height <= layer || height > water,
@@ -243,10 +244,10 @@ fn check_place(scenario: &Scenario, of: &mut OfClause, param: &'static str, at: 
 
 /// Whether the layer that holds the plume is below the surface where the chemical comes from.
 fn check_layer(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    let Some(layer) = scenario.plume.as_ref().and_then(|plume| plume.layer) else { return };
-    let sources = scenario.sources.iter().map(|source| (&source.name, source.at));
-    let places = sources.chain(scenario.patches.iter().map(|patch| (&patch.name, patch.at)));
-    let mut waters = places.map(|(name, at)| (name, scenario.bottom.depth_at(at)));
+    let Some(layer) = scenario.environment.plume.as_ref().and_then(|plume| plume.layer) else { return };
+    let sources = scenario.environment.sources.iter().map(|source| (&source.name, source.at));
+    let places = sources.chain(scenario.environment.patches.iter().map(|patch| (&patch.name, patch.at)));
+    let mut waters = places.map(|(name, at)| (name, scenario.environment.bottom.depth_at(at)));
     if let Some((name, water)) = waters.find(|(_, water)| *water > 0.0 && layer > *water) {
         let most = rounded_down(water);
         objections.of("plume").unless(
@@ -264,8 +265,8 @@ fn check_size(scenario: &Scenario, objections: &mut ScenarioIssues) {
     if transit > SPIN_UP_MAX_S {
         return never_crossed(scenario, objections);
     }
-    let released = transit * scenario.sources.iter().map(|source| source.rate).sum::<f64>();
-    let filaments = released + scenario.patches.iter().map(|patch| f64::from(patch.filaments)).sum::<f64>();
+    let released = transit * scenario.environment.sources.iter().map(|source| source.rate).sum::<f64>();
+    let filaments = released + scenario.environment.patches.iter().map(|patch| f64::from(patch.filaments)).sum::<f64>();
     objections.of("plume").unless(
         None,
         filaments <= FILAMENTS_MAX,
@@ -276,7 +277,13 @@ fn check_size(scenario: &Scenario, objections: &mut ScenarioIssues) {
 
 /// A plume takes too long to leave its region: the flow is slow, or turns round before it is there.
 fn never_crossed(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    let straight = Scenario { flow: Flow { turning: 0.0, ..scenario.flow.clone() }, ..scenario.clone() };
+    let straight = Scenario {
+        environment: Environment {
+            flow: Flow { turning: 0.0, ..scenario.environment.flow.clone() },
+            ..scenario.environment.clone()
+        },
+        ..scenario.clone()
+    };
     if -spin_up_begin(&straight) <= SPIN_UP_MAX_S {
         return objections.of("turning").unless(
             Some("rate"),

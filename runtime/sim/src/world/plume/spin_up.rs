@@ -13,14 +13,15 @@ const TRANSIT_STEP_S: f64 = 60.0;
 /// When the spin-up begins, s: so long before 0 that what was released earlier has left its box by 0. Nobody looks before 0, so
 /// that all steps are as long as they may be: a whole number of them.
 pub fn begin(scenario: &Scenario) -> f64 {
-    if scenario.plume.is_none() || scenario.sources.is_empty() {
+    if scenario.environment.plume.is_none() || scenario.environment.sources.is_empty() {
         return 0.0;
     }
-    let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
-    let current = Current::new(&scenario.flow);
+    let frame = FlowFrame::new(&scenario.environment.flow, scenario.environment.region.as_ref());
+    let current = Current::new(&scenario.environment.flow);
     let transit = if current.is_steady() {
-        let farthest = scenario.sources.iter().map(|s| frame.length - frame.to_local(s.at).0).fold(0.0, f64::max);
-        SPIN_UP_TRANSITS * (farthest / scenario.flow.mean.length())
+        let farthest =
+            scenario.environment.sources.iter().map(|s| frame.length - frame.to_local(s.at).0).fold(0.0, f64::max);
+        SPIN_UP_TRANSITS * (farthest / scenario.environment.flow.mean.length())
     } else {
         emptied_in(&current, SPIN_UP_TRANSITS * frame.length, SPIN_UP_TRANSITS * frame.width, &frame)
     };

@@ -55,7 +55,7 @@ impl Steps {
 /// The longest step of a scenario's plume, s: so short that in one a filament neither crosses its layer nor much of a cell of the
 /// field, and the flow does not change much.
 pub fn longest(scenario: &Scenario) -> f64 {
-    let flow = &scenario.flow;
+    let flow = &scenario.environment.flow;
     let meander = flow.meander.as_ref().map(|meander| meander.period);
     let turn = (flow.turning != 0.0).then(|| TAU / flow.turning.abs());
     let periods = meander.into_iter().chain(turn).chain(flow.tides.iter().map(|tide| tide.period));
@@ -63,7 +63,7 @@ pub fn longest(scenario: &Scenario) -> f64 {
     if let Some(meander) = &flow.meander {
         longest = longest.min(CELL_SHARE * meander.cell / flow.speed());
     }
-    if let Some(plume) = &scenario.plume
+    if let Some(plume) = &scenario.environment.plume
         && let Some(layer) = plume.layer
     {
         longest = longest.min(crossed_in(layer, plume.vertical));

@@ -1,16 +1,20 @@
 //! The plume's physics, each law against its own parameter.
 
 use super::*;
+use crate::world::Environment;
 use crate::world::water::{Flow, Meander, Tide};
 use albacore_geometry::{Area, Heading, Point, Vector};
 
 /// A wide uniform flow with one source near its up-flow end.
 fn uniform(rate: f64, settings: Plume) -> Scenario {
     Scenario {
-        region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0)),
-        flow: Flow { mean: Vector::new(0.2, 0.0), ..Flow::default() },
-        plume: Some(settings),
-        sources: vec![Source { at: Point::new(-900.0, 0.0), rate, ..Default::default() }],
+        environment: Environment {
+            region: Some(Area::rectangle(Point::ORIGIN, Heading::NORTH, 2000.0, 600.0)),
+            flow: Flow { mean: Vector::new(0.2, 0.0), ..Flow::default() },
+            plume: Some(settings),
+            sources: vec![Source { at: Point::new(-900.0, 0.0), rate, ..Default::default() }],
+            ..Environment::default()
+        },
         ..Scenario::default()
     }
 }
@@ -19,10 +23,13 @@ fn uniform(rate: f64, settings: Plume) -> Scenario {
 fn meandering(settings: Plume) -> Scenario {
     let down_flow = Heading::from_degrees(140.0);
     Scenario {
-        region: Some(Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0)),
-        flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), ..Flow::default() },
-        plume: Some(settings),
-        sources: vec![Source { at: Point::ORIGIN - 427.0 * down_flow.unit(), ..Source::default() }],
+        environment: Environment {
+            region: Some(Area::rectangle(Point::ORIGIN, down_flow, 1094.0, 367.0)),
+            flow: Flow { mean: 0.125 * down_flow.unit(), meander: Some(Meander::default()), ..Flow::default() },
+            plume: Some(settings),
+            sources: vec![Source { at: Point::ORIGIN - 427.0 * down_flow.unit(), ..Source::default() }],
+            ..Environment::default()
+        },
         ..Scenario::default()
     }
 }
@@ -34,7 +41,7 @@ fn rising() -> Plume {
 
 fn begun(scenario: &Scenario, begin: f64, seed: u64) -> (FilamentPlume, Water) {
     scenario.validate().unwrap();
-    let water = Water::new(&scenario.flow, scenario.region.as_ref(), begin, seed);
+    let water = Water::new(&scenario.environment.flow, scenario.environment.region.as_ref(), begin, seed);
     (FilamentPlume::new(scenario, water.frame(), begin, seed).unwrap(), water)
 }
 
@@ -149,7 +156,10 @@ fn an_index_reads_what_a_search_of_the_whole_plume_does() {
 #[test]
 fn nothing_jumps_between_steps() {
     let scenario = Scenario {
-        flow: Flow { mean: Vector::new(0.2, 0.0), meander: Some(Meander::default()), ..Flow::default() },
+        environment: Environment {
+            flow: Flow { mean: Vector::new(0.2, 0.0), meander: Some(Meander::default()), ..Flow::default() },
+            ..uniform(1.0, Plume::default()).environment
+        },
         ..uniform(1.0, Plume::default())
     };
     let (mut plume, mut water) = begun(&scenario, 0.0, 6);
@@ -174,8 +184,11 @@ fn nothing_jumps_between_steps() {
 fn a_tide_carries_the_plume_to_both_sides() {
     let tide = Tide { amplitude: Vector::new(0.15, 0.0), period: 8000.0, ..Tide::default() };
     let scenario = Scenario {
-        flow: Flow { mean: Vector::new(0.04, 0.0), tides: vec![tide], ..Flow::default() },
-        sources: vec![Source { at: Point::new(-300.0, 0.0), ..Default::default() }],
+        environment: Environment {
+            flow: Flow { mean: Vector::new(0.04, 0.0), tides: vec![tide], ..Flow::default() },
+            sources: vec![Source { at: Point::new(-300.0, 0.0), ..Default::default() }],
+            ..uniform(1.0, Plume::default()).environment
+        },
         ..uniform(1.0, Plume::default())
     };
     let begin = spin_up_begin(&scenario);
@@ -200,12 +213,15 @@ fn a_patch_is_as_wide_as_asked_and_drifts() {
     let patch =
         Patch { at: Point::new(-500.0, 20.0), radius: 15.0, filaments: 2000, age: 30_000.0, ..Patch::default() };
     let scenario = Scenario {
-        sources: Vec::new(),
-        patches: vec![patch.clone()],
+        environment: Environment {
+            sources: Vec::new(),
+            patches: vec![patch.clone()],
+            ..uniform(1.0, Plume { diffusivity: 0.0, ..Default::default() }).environment
+        },
         ..uniform(1.0, Plume { diffusivity: 0.0, ..Default::default() })
     };
     let (mut plume, mut water) = begun(&scenario, spin_up_begin(&scenario), 3);
-    plume.spin_up(&mut water, &scenario.patches, 3);
+    plume.spin_up(&mut water, &scenario.environment.patches, 3);
     let [x, y, _] = plume.origins[0].place;
     let centre = |plume: &FilamentPlume| {
         let all = now(plume);
@@ -242,7 +258,7 @@ fn a_patch_is_as_wide_as_asked_and_drifts() {
 #[test]
 fn a_leak_is_a_line() {
     let mut scenario = uniform(2.0, Plume { diffusivity: 0.0, ..Default::default() });
-    scenario.sources[0].to = Some(Point::new(-900.0, 100.0));
+    scenario.environment.sources[0].to = Some(Point::new(-900.0, 100.0));
     let (mut plume, mut water) = begun(&scenario, 0.0, 3);
     plume.advance_to(20_000, &mut water);
     let [_, y, _] = plume.origins[0].place;

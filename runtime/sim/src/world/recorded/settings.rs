@@ -61,13 +61,13 @@ impl PartialEq for RecordedPlume {
 
 /// What of a recorded plume cannot be in a scenario.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    let Some(recorded) = &scenario.recording else { return };
-    let flow = &scenario.flow;
+    let Some(recorded) = &scenario.environment.recording else { return };
+    let flow = &scenario.environment.flow;
     let own_flow = flow.meander.is_some() || flow.turning != 0.0 || !flow.tides.is_empty();
     let mut of = objections.of("recorded_plume");
     of.unless(
         None,
-        scenario.plume.is_none() && !own_flow,
+        scenario.environment.plume.is_none() && !own_flow,
         "`recorded_plume` brings its own plume and its own flow",
         "leave out `plume`, and all of `flow` but an upper layer and waves",
     );

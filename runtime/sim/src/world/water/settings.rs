@@ -51,6 +51,14 @@ impl From<MeanFlow> for (Vector, Option<Meander>) {
     }
 }
 
+/// How the mean flow turns.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turning {
+    /// Clockwise, rad/s.
+    pub rate: f64,
+}
+
 /// A tide that runs to and fro on a line: one constituent.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -164,10 +172,10 @@ const BREAKING: f64 = 0.78;
 
 /// The mean and the upper flow.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    objections.of("flow").flow("mean", scenario.flow.mean);
-    check_current(&scenario.flow, objections);
-    if let Some(waves) = &scenario.flow.waves {
-        let start = scenario.bottom.depth_at(scenario.vehicle.start);
+    objections.of("flow").flow("mean", scenario.environment.flow.mean);
+    check_current(&scenario.environment.flow, objections);
+    if let Some(waves) = &scenario.environment.flow.waves {
+        let start = scenario.environment.bottom.depth_at(scenario.vehicle.start);
         let highest = BREAKING * start;
         objections.of("waves").unless(
             Some("height"),
@@ -180,14 +188,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             format!("make them {} m high at most, or start in deeper water", rounded_down(highest)),
         );
     }
-    let (speed, tides) = (scenario.flow.speed(), !scenario.flow.tides.is_empty());
+    let (speed, tides) = (scenario.environment.flow.speed(), !scenario.environment.flow.tides.is_empty());
     let message = format!("with its tides the water runs as fast as {} m/s: no sea does", number(speed));
     let mend = format!("make flow and tides less: {FLOW_MAX} m/s at most, all together");
     objections.of("flow").unless(Some("mean"), !tides || speed <= FLOW_MAX, message, mend);
-    if let Some(upper) = &scenario.flow.upper {
+    if let Some(upper) = &scenario.environment.flow.upper {
         let mut layer = objections.of("upper_layer");
         layer.flow("flow", upper.mean);
-        let deepest = scenario.bottom.deepest_possible();
+        let deepest = scenario.environment.bottom.deepest_possible();
         layer.unless(
             Some("above"),
             upper.above <= deepest || !deepest.is_finite(),
@@ -232,18 +240,18 @@ fn check_current(flow: &Flow, objections: &mut ScenarioIssues) {
 
 /// The meander, once region and mean flow are sound.
 pub(crate) fn check_meander(scenario: &Scenario, objections: &mut ScenarioIssues) {
-    let Some(meander) = &scenario.flow.meander else { return };
+    let Some(meander) = &scenario.environment.flow.meander else { return };
     let before = objections.0.len();
     let mut of = objections.of("flow");
     of.unless(
         Some("meander"),
-        scenario.region.is_some(),
+        scenario.environment.region.is_some(),
         "a `flow` with a `meander` needs a `region`: it wanders on a grid over it",
         "add `region(…)` to the scenario, or leave `meander` out",
     );
     of.unless(
         Some("mean"),
-        scenario.flow.mean.length() > 0.0,
+        scenario.environment.flow.mean.length() > 0.0,
         "a flow of 0 m/s cannot meander",
         "give it a speed, or leave `meander` out",
     );
@@ -254,8 +262,8 @@ pub(crate) fn check_meander(scenario: &Scenario, objections: &mut ScenarioIssues
         "it must be between 0 and 1",
     );
     if objections.0.len() == before {
-        let frame = FlowFrame::new(&scenario.flow, scenario.region.as_ref());
-        if let Some(fault) = mesh_fault(meander, &frame, scenario.flow.speed()) {
+        let frame = FlowFrame::new(&scenario.environment.flow, scenario.environment.region.as_ref());
+        if let Some(fault) = mesh_fault(meander, &frame, scenario.environment.flow.speed()) {
             objections.of("flow").unless(Some(fault.param), false, fault.message, fault.mend);
         }
     }
