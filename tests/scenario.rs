@@ -57,6 +57,35 @@ fn what_a_record_brings_is_listed_as_its_own() {
     );
 }
 
+/// What is derived says what the other says, but for what it says itself: an order that stays, parameters and all.
+#[test]
+fn what_is_derived_is_listed_whole() {
+    let world = "tests/scenario/derived.alb#ours_in_it";
+    insta::assert_snapshot!(listed(&[world, "--no-out"]));
+    let set = listed(&[world, "--no-out", "--set", "depth=8m", "--set", "ours_in_it.speed=3cm/s"]);
+    assert!(set.contains("from              8 m\n") && set.contains("0.06 m/s toward 90 deg\n"), "{set}");
+    let refused = |value: &str, why: &str| {
+        let output = show(Path::new(env!("CARGO_MANIFEST_DIR")), &[world, "--no-out", "--set", value]);
+        let said = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+        assert!(output.status.code() == Some(3) && said.contains(why), "{value}: {said}");
+    };
+    refused("depth=80m", "is outside the range of `depth`");
+    refused("deeper.speed=3cm/s", "what runs is `ours_in_it`");
+}
+
+/// A world that is derived is the one that is written whole, to the last number.
+#[test]
+fn what_is_derived_is_what_is_written_whole() {
+    let folder = folder("whole");
+    let library = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/stdlib/scenarios.alb")).unwrap();
+    let duck = library.split("scenario duck_2003(").nth(1).and_then(|rest| rest.split("\n}").next()).unwrap();
+    let whole = format!("scenario whole({}\n}}\n", duck.replace("sigma: 2 m", "sigma: 10 m"));
+    std::fs::write(folder.join("whole.alb"), whole).unwrap();
+    let (derived, whole) = (show(&folder, &["duck_2003_rough", "--no-out"]), show(&folder, &["whole.alb", "--no-out"]));
+    let text = |output: Output| String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text(derived).replace("duck_2003_rough", "whole"), text(whole));
+}
+
 /// Of a survey more than its file: where it lies, how large it is and how deep.
 #[test]
 fn a_surveyed_bottom_is_listed_as_it_came_to_lie() {

@@ -27,7 +27,7 @@ impl Broken {
         for item in modules.iter().flat_map(|module| &module.tree.items) {
             match item {
                 Item::Activity(a) => _ = add(Some(a.name.span), a.name.span.to(a.body.span)),
-                Item::Scenario { name, body, .. } | Item::Vehicle { name, body } => {
+                Item::Scenario { name, body, .. } | Item::Vehicle { name, body, .. } => {
                     add(Some(name.span), name.span.to(body.span));
                 }
                 // Nothing is made of a test.

@@ -222,7 +222,11 @@ impl Script {
 
     /// Whether a scenario has no error.
     pub fn scenario_is_sound(&self, name: &str) -> bool {
-        self.scenario_ids.get(name).is_some_and(|id| !self.broken.holds(self.hir.scenarios[*id].span))
+        self.scenario_ids.get(name).is_some_and(|id| {
+            let scenarios = &self.hir.scenarios;
+            let mut lineage = std::iter::successors(Some(*id), |id| scenarios[*id].base);
+            !lineage.any(|id| self.broken.holds(scenarios[id].span))
+        })
     }
 
     /// The names that the script and its modules declare, and where each is used.

@@ -1,5 +1,6 @@
 //! The first pass: what every module declares, before any body is looked at.
 
+use super::derived::Declared;
 use super::units::UnitsAhead;
 use super::{Checker, ClauseInfo, Def, Lazy, Module, Signature, ends};
 use crate::code::Code;
@@ -77,6 +78,7 @@ impl<'t> Checker<'t> {
         for (m, module) in modules.iter().enumerate() {
             module.tree.items.iter().for_each(|item| self.declare_signature(m, item));
         }
+        self.scenario_params();
         for unused in self.overrides.clone().into_iter().filter(|o| o.found.is_none()) {
             self.unknown_override(&unused);
         }
@@ -85,6 +87,7 @@ impl<'t> Checker<'t> {
             self.module_signal(i);
         }
         self.check_vehicles();
+        self.check_scenarios();
         for (m, module) in modules.iter().enumerate() {
             for item in &module.tree.items {
                 self.check_item(m, item);
@@ -217,8 +220,14 @@ impl<'t> Checker<'t> {
                 }
                 self.define(m, &a.name, Def::Activity(id));
             }
-            Item::Scenario { name, .. } => self.declare_scenario(m, name),
-            Item::Vehicle { name, .. } => self.declare_vehicle(m, name),
+            Item::Scenario { name, params, base, body } => {
+                self.scenario_items.push(Declared { module: m, name, params, base: base.as_ref(), body });
+                self.declare_scenario(m, name);
+            }
+            Item::Vehicle { name, base, body } => {
+                self.vehicle_items.push(Declared { module: m, name, params: &[], base: base.as_ref(), body });
+                self.declare_vehicle(m, name);
+            }
         }
     }
 
@@ -230,6 +239,7 @@ impl<'t> Checker<'t> {
             span: name.span,
             vars: Vec::new(),
             defaults: Vec::new(),
+            base: None,
             clauses: Vec::new(),
         });
         self.define(m, name, Def::Scenario(self.hir.scenarios.len() - 1));
@@ -341,30 +351,6 @@ impl<'t> Checker<'t> {
                     signature.name = full;
                 }
             }
-            Item::Scenario { name, params, .. } => {
-                if let Some(&Def::Scenario(id)) = self.names[m].get(&name.node) {
-                    let infos = self.params(m, params, Some(&name.node));
-                    for info in infos.iter().filter(|info| info.default.is_none() && info.ty != Type::Unknown) {
-                        let message = format!("`{}` of a scenario needs a value", info.name);
-                        let finding = Diagnostic::error(Code::ArgsMissing, info.span, message);
-                        self.report(finding.help("give it a default, which `--set` changes"));
-                    }
-                    let scenario = &mut self.hir.scenarios[id];
-                    for info in infos {
-                        scenario.vars.push(hir::Var {
-                            name: info.name,
-                            kind: hir::VarKind::Param,
-                            ty: info.ty.clone(),
-                            span: info.span,
-                            range: info.range.unwrap_or_else(|| super::result_range::of_type(&info.ty)),
-                            walks_constants: false,
-                            is_momentary: false,
-                            order: None,
-                        });
-                        scenario.defaults.push(info.default);
-                    }
-                }
-            }
             Item::Clause { name, params, .. } => {
                 if let Some(&Def::Clause(id)) = self.names[m].get(&name.node) {
                     self.clause_is_new(m, name);
@@ -394,12 +380,31 @@ impl<'t> Checker<'t> {
                     self.check_activity(m, id, a);
                 }
             }
-            Item::Scenario { name, body, .. } => {
-                if let Some(&Def::Scenario(id)) = self.names[m].get(&name.node) {
-                    self.check_scenario(m, id, body);
-                }
-            }
             _ => {}
+        }
+    }
+
+    /// The parameters that a scenario declares itself.
+    pub(super) fn own_scenario_params(&mut self, m: usize, id: usize, name: &tree::Name, params: &'t [tree::Param]) {
+        let infos = self.params(m, params, Some(&name.node));
+        for info in infos.iter().filter(|info| info.default.is_none() && info.ty != Type::Unknown) {
+            let message = format!("`{}` of a scenario needs a value", info.name);
+            let finding = Diagnostic::error(Code::ArgsMissing, info.span, message);
+            self.report(finding.help("give it a default, which `--set` changes"));
+        }
+        let scenario = &mut self.hir.scenarios[id];
+        for info in infos {
+            scenario.vars.push(hir::Var {
+                name: info.name,
+                kind: hir::VarKind::Param,
+                ty: info.ty.clone(),
+                span: info.span,
+                range: info.range.unwrap_or_else(|| super::result_range::of_type(&info.ty)),
+                walks_constants: false,
+                is_momentary: false,
+                order: None,
+            });
+            scenario.defaults.push(info.default);
         }
     }
 }

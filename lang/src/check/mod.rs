@@ -10,6 +10,7 @@ mod clause;
 mod convert;
 mod declare;
 mod depth;
+mod derived;
 mod ends;
 mod expr;
 mod facts;
@@ -56,6 +57,7 @@ use crate::source::{Source, Span};
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
 use albacore_formats::FileFault;
+use derived::{Declared, Lineage};
 use facts::Facts;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -268,6 +270,10 @@ pub struct Checker<'t> {
     parts_read: usize,
     clauses: Vec<ClauseInfo<'t>>,
     vehicles: Vec<vehicle::VehicleInfo>,
+    /// Scenarios and vehicles as they are written, by their numbers.
+    scenario_items: Vec<Declared<'t>>,
+    vehicle_items: Vec<Declared<'t>>,
+    scenario_lineage: Lineage,
     /// What vehicles bring into the scenario that is being checked.
     fitted: Vec<hir::ClauseUse>,
     fn_signatures: Vec<Signature>,
@@ -328,6 +334,9 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         parts_read: 0,
         clauses: Vec::new(),
         vehicles: Vec::new(),
+        scenario_items: Vec::new(),
+        vehicle_items: Vec::new(),
+        scenario_lineage: Lineage::default(),
         fitted: Vec::new(),
         fn_signatures: Vec::new(),
         units_ahead: UnitsAhead::default(),

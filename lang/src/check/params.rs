@@ -82,6 +82,15 @@ impl<'t> Checker<'t> {
         infos
     }
 
+    /// What `--set` puts in place of the default of a parameter that a scenario has of another.
+    pub(super) fn inherited_default(&mut self, m: usize, owner: &str, param: &hir::Var) -> Option<hir::Expr> {
+        let written = self.take_override(m, owner, &param.name)?;
+        let scope = Scope::new(m, Setting::Constant);
+        let (value, _) = self.within(scope, |c| c.expr_as(&written, &param.ty, "the value"));
+        self.in_range(&value, param.range, &param.name, param.span);
+        Some(value)
+    }
+
     fn take_override(&mut self, m: usize, owner: &str, param: &str) -> Option<tree::Expr> {
         let full = format!("{}.{owner}", self.modules[m].name);
         let is_meant = |o: &Override| o.param == param && o.declarations.iter().any(|d| *d == owner || *d == full);

@@ -1,11 +1,11 @@
 //! Scenarios: clauses with typed arguments. What a clause means is for the simulator; its parameters are declared in
 //! the standard library like those of any function.
 
+use super::derived::{Said, happens};
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::dimension::Dimension;
-use crate::hir::{ClauseArg, ClauseUse};
+use crate::hir::ClauseUse;
 use crate::syntax::tree::{self, Action, ClauseKind, TyKind};
 use crate::types::Type;
 
@@ -90,18 +90,18 @@ impl<'t> Checker<'t> {
         }
     }
 
-    pub(super) fn check_scenario(&mut self, m: usize, id: usize, body: &'t tree::Block) {
+    /// The clauses of a scenario's own block.
+    pub(super) fn scenario_clauses(&mut self, m: usize, id: usize, body: &'t tree::Block) -> Said {
         let mut scope = Scope::new(m, Setting::Constant);
         for var in self.hir.scenarios[id].vars.clone() {
             self.names_used.declare(&tree::Name { node: var.name.clone(), span: var.span }, var.kind);
             scope.visible.push(var.name.clone(), scope.vars.len());
             scope.vars.push(var);
         }
-        let (mut clauses, scope) = self.within(scope, |c| c.clause_lines(body, Standing::Line));
-        self.clauses_once(&clauses);
-        self.fit_out(&mut clauses);
-        self.hir.scenarios[id].clauses = clauses;
+        let (own, scope) = self.within(scope, |c| c.clause_lines(body, Standing::Line));
+        self.clauses_once(&own);
         self.hir.scenarios[id].vars = scope.vars;
+        Said { own, fitted: std::mem::take(&mut self.fitted) }
     }
 
     /// The clauses of a block, each on a line of its own.
@@ -132,14 +132,10 @@ impl<'t> Checker<'t> {
     /// A clause whose first parameter is a name may stand several times: each is another thing. So may one of what happens
     /// from a time to another. All others stand once.
     pub(super) fn clauses_once(&mut self, clauses: &[ClauseUse]) {
-        let time = Type::Quantity(Dimension::TIME);
-        let is_time = |(_, arg): &(String, ClauseArg)| matches!(arg, ClauseArg::Value(value) if value.ty == time);
         for (i, clause) in clauses.iter().enumerate() {
             let first = clauses[..i].iter().find(|c| c.name == clause.name);
             let has_name = clause.args.first().is_some_and(|(param, _)| param == "name");
-            let arg = |name: &str| clause.args.iter().find(|(param, _)| param == name);
-            let happens = arg("from").is_some_and(is_time) && arg("to").is_some();
-            if let Some(first) = first.filter(|_| !has_name && !happens) {
+            if let Some(first) = first.filter(|_| !has_name && !happens(clause)) {
                 let message = format!("a scenario has one `{}`", clause.name);
                 let finding = Diagnostic::error(Code::ScenariosTwice, clause.span, message);
                 self.report(finding.label(first.span, "the first").help("leave one of them out"));

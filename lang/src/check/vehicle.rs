@@ -1,6 +1,7 @@
 //! Vehicles: what belongs to one hull, wherever it swims. A scenario that names one has its hull, and says what it does not
 //! say itself: sensors, limits.
 
+use super::derived::{Declared, Said, derived};
 use super::names::Found;
 use super::scenario::Standing;
 use super::{Checker, Def, Scope, Setting};
@@ -37,19 +38,18 @@ impl<'t> Checker<'t> {
 
     /// Scenarios take from vehicles, so that these come first.
     pub(super) fn check_vehicles(&mut self) {
-        let modules = self.modules;
-        for (m, module) in modules.iter().enumerate() {
-            for item in &module.tree.items {
-                if let Item::Vehicle { name, body } = item
-                    && let Some(&Def::Vehicle(id)) = self.names[m].get(&name.node)
-                {
-                    self.check_vehicle(m, id, name, body);
-                }
+        let all = self.vehicle_items.clone();
+        let lineage = self.lineage(&all, |c, path| c.vehicle_of_path(path));
+        for id in lineage.order {
+            let Declared { module, name, .. } = all[id];
+            if matches!(self.names[module].get(&name.node), Some(Def::Vehicle(known)) if *known == id) {
+                self.check_vehicle(module, id, &all[id], lineage.bases[id]);
             }
         }
     }
 
-    fn check_vehicle(&mut self, m: usize, id: usize, name: &tree::Name, body: &'t tree::Block) {
+    fn check_vehicle(&mut self, m: usize, id: usize, written: &Declared<'t>, base: Option<usize>) {
+        let Declared { name, body, .. } = *written;
         let (mut clauses, _) =
             self.within(Scope::new(m, Setting::Constant), |c| c.clause_lines(body, Standing::Vehicle));
         self.clauses_once(&clauses);
@@ -62,7 +62,8 @@ impl<'t> Checker<'t> {
             }
             is_own
         });
-        let is_whole = clauses.len() == body.clauses.len();
+        // What is unknown of the other is told already.
+        let is_whole = clauses.len() == body.clauses.len() && written.base.is_some() == base.is_some();
         let kind = |c: &Self, used: &ClauseUse| {
             let info = c.clauses.iter().find(|info| info.signature.name == used.name && info.kind.is_some());
             info.and_then(|info| info.kind.clone()).filter(|_| !c.stands_alone(&used.name))
@@ -80,6 +81,12 @@ impl<'t> Checker<'t> {
                 let finding = Diagnostic::error(Code::ScenariosTwice, used.span, message);
                 self.report(finding.label(first.span, "the first").help("leave one of them out"));
             }
+        }
+        if let Some(base) = base.map(|base| self.vehicles[base].clone()) {
+            let is_said = |kind: &String| values.iter().any(|(own, _)| own == kind);
+            let inherited: Vec<_> = base.values.into_iter().filter(|(kind, _)| !is_said(kind)).collect();
+            values.splice(..0, inherited);
+            rest = derived(Said { own: base.clauses, ..Said::default() }, Said { own: rest, ..Said::default() }).own;
         }
         if values.is_empty() && is_whole {
             let kinds = self.vehicle_kinds().join(" or ");
@@ -126,12 +133,8 @@ impl<'t> Checker<'t> {
 
     /// What may be meant by a name that neither a hull nor a vehicle has here: a vehicle of a module, or one that can be imported.
     pub(super) fn help_with_vehicle(&self, written: &str, hulls: &[&str]) -> Option<String> {
-        let own = self.vehicles_of(self.scope.module).into_iter().map(|name| (name.clone(), name));
         let imports = &self.modules[self.scope.module].imports;
-        let imported = imports.iter().flat_map(|(module, &at)| {
-            self.vehicles_of(at).into_iter().map(move |name| (format!("{module}.{name}"), name))
-        });
-        let known: Vec<(String, String)> = own.chain(imported).collect();
+        let known = self.vehicle_paths();
         let library = if imports.contains_key(LIBRARY) { Vec::new() } else { self.library_vehicles() };
         let names = known.iter().map(|(_, name)| name.as_str());
         let near = nearest(written, hulls.iter().copied().chain(names).chain(library.iter().map(String::as_str)));
@@ -152,6 +155,15 @@ impl<'t> Checker<'t> {
                 format!("there is {}{more}", listed(&all))
             }
         })
+    }
+
+    /// The vehicles that can be named here: how, and their names.
+    pub(super) fn vehicle_paths(&self) -> Vec<(String, String)> {
+        let own = self.vehicles_of(self.scope.module).into_iter().map(|name| (name.clone(), name));
+        let imported = self.modules[self.scope.module].imports.iter().flat_map(|(module, &at)| {
+            self.vehicles_of(at).into_iter().map(move |name| (format!("{module}.{name}"), name))
+        });
+        own.chain(imported).collect()
     }
 
     /// The vehicles that a module declares.
@@ -195,12 +207,6 @@ impl<'t> Checker<'t> {
             self.report(Diagnostic::error(Code::ScenariosClause, at, message).help(help));
         }
         given
-    }
-
-    /// Adds what the vehicles that a scenario has named say, where it does not say the same itself.
-    pub(super) fn fit_out(&mut self, clauses: &mut Vec<ClauseUse>) {
-        let said: Vec<String> = clauses.iter().map(|clause| clause.name.clone()).collect();
-        clauses.extend(std::mem::take(&mut self.fitted).into_iter().filter(|clause| !said.contains(&clause.name)));
     }
 }
 

@@ -18,6 +18,8 @@ pub struct Scenario {
     pub vars: Vec<Var>,
     /// Their defaults.
     pub defaults: Vec<Option<Expr>>,
+    /// The scenario that it is derived from.
+    pub base: Option<usize>,
     /// What it says, in order.
     pub clauses: Vec<ClauseUse>,
 }

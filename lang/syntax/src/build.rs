@@ -96,7 +96,7 @@ fn headless(b: &mut Builder, node: Node) -> Option<Item> {
     let name = Name { node: format!("{}…", words.next().unwrap_or("")), span: at };
     let body = block(b, body);
     let kind = match word {
-        "scenario" => return Some(Item::Scenario { name, params: Vec::new(), body }),
+        "scenario" => return Some(Item::Scenario { name, params: Vec::new(), base: None, body }),
         "mission" => ActivityKind::Mission { scenario: None, within: None },
         "strategy" => ActivityKind::Strategy,
         _ => ActivityKind::Behavior,
@@ -146,9 +146,14 @@ fn item(b: &mut Builder, node: Node) -> Option<Item> {
         Rule::scenario => Item::Scenario {
             name: name(inner.next()?),
             params: take(&mut inner, Rule::params).map(|p| params(b, p)).unwrap_or_default(),
+            base: take(&mut inner, Rule::derived_from).and_then(|p| p.parts().next()).map(path),
             body: block(b, inner.next()?),
         },
-        Rule::vehicle => Item::Vehicle { name: name(inner.next()?), body: block(b, inner.next()?) },
+        Rule::vehicle => Item::Vehicle {
+            name: name(inner.next()?),
+            base: take(&mut inner, Rule::derived_from).and_then(|p| p.parts().next()).map(path),
+            body: block(b, inner.next()?),
+        },
         Rule::test_item => {
             Item::Test(Test { name: text(b, inner.next()?), clauses: test_block(b, inner.next()?), span })
         }

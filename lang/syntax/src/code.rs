@@ -161,6 +161,7 @@ codes! {
     }
     scenarios {
         ScenariosClause = "clause",
+        ScenariosDerived = "derived",
         ScenariosOutside = "outside",
         ScenariosTwice = "twice",
         ScenariosUnknown = "unknown",

@@ -15,6 +15,7 @@ const BEFORE_BLOCK: [&str; 16] = [
 /// The habit behind a statement that could be read up to a place; `expected` tells what the grammar would have taken.
 pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habit> {
     tables::rule(before, rest)
+        .or_else(|| tables::derived(before, rest))
         .or_else(|| tables::crossing(before, rest))
         .or_else(|| tables::unbraced(before, rest))
         .or_else(|| tables::requirements(before, rest))

@@ -38,16 +38,48 @@ pub struct File {
 pub enum Item {
     Use(Vec<Path>),
     Const(Const),
-    Enum { name: Name, variants: Vec<Name> },
-    Record { name: Name, fields: Vec<Field> },
-    Unit { name: Name, value: Expr },
-    Input { name: Name, ty: Ty, fields: Vec<Field> },
-    Clause { name: Name, params: Vec<Param>, result: Option<Ty>, of_vehicle: bool },
+    Enum {
+        name: Name,
+        variants: Vec<Name>,
+    },
+    Record {
+        name: Name,
+        fields: Vec<Field>,
+    },
+    Unit {
+        name: Name,
+        value: Expr,
+    },
+    Input {
+        name: Name,
+        ty: Ty,
+        fields: Vec<Field>,
+    },
+    Clause {
+        name: Name,
+        params: Vec<Param>,
+        result: Option<Ty>,
+        of_vehicle: bool,
+    },
     Fn(Function),
-    Signal { name: Name, ty: Option<Ty>, value: Expr },
+    Signal {
+        name: Name,
+        ty: Option<Ty>,
+        value: Expr,
+    },
     Activity(Activity),
-    Scenario { name: Name, params: Vec<Param>, body: Block },
-    Vehicle { name: Name, body: Block },
+    /// `scenario name(params) = base with { … }`.
+    Scenario {
+        name: Name,
+        params: Vec<Param>,
+        base: Option<Path>,
+        body: Block,
+    },
+    Vehicle {
+        name: Name,
+        base: Option<Path>,
+        body: Block,
+    },
     Test(Test),
 }
 

@@ -38,11 +38,11 @@ pub fn declaration(item: &Item, span: Span, written: &Written, comments: &mut Co
             result: Some(written.of(f.result.span)),
             ..whole("fn", &f.name, span, written)
         },
-        Item::Scenario { name, params, body } => {
+        Item::Scenario { name, params, body, .. } => {
             body.clauses.iter().for_each(|clause| drop(comments.above(clause.span.start)));
             Declaration { params: self::params(params, written, comments), ..whole("scenario", name, span, written) }
         }
-        Item::Vehicle { name, body } => {
+        Item::Vehicle { name, body, .. } => {
             body.clauses.iter().for_each(|clause| drop(comments.above(clause.span.start)));
             whole("vehicle", name, span, written)
         }

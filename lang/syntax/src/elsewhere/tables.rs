@@ -1,4 +1,4 @@
-//! Rules of switching tables, and what a mission says before its body.
+//! Rules of switching tables, what a mission says before its body, and scenarios that are derived from others.
 
 use super::{Habit, last_word, line_end, word, write};
 
@@ -88,6 +88,36 @@ pub(super) fn unbraced(before: &str, rest: &str) -> Option<Habit> {
         "recovery" if word(said) != "within" => write(format!("recovery within 10 min {{ {said} }}")),
         _ => None,
     }
+}
+
+/// `scenario a extends b {`, `scenario a = b {`, `scenario a = b(step: 2 s) with {`.
+pub(super) fn derived(before: &str, rest: &str) -> Option<Habit> {
+    let head = before.trim();
+    let kind = word(head);
+    if !matches!(kind, "scenario" | "vehicle") || head.contains('{') {
+        return None;
+    }
+    let said = |message: &str, help: String| Some(Habit { message: Some(message.to_string()), help });
+    if head.contains('=') {
+        return match rest.chars().next() {
+            Some('(') => said(
+                "what is derived takes no values here",
+                format!(
+                    "it has the parameters of the other: write `{head} with {{ … }}`, and `--set` gives them values"
+                ),
+            ),
+            _ if !head.ends_with('=') && !head.ends_with("with") => {
+                said("`with` is missing", format!("write `{head} with {{ … }}`"))
+            }
+            _ => None,
+        };
+    }
+    let is_word = matches!(word(rest), "extends" | "from" | "with" | "of" | "like" | "inherits" | "derives");
+    if !is_word && !rest.starts_with(':') {
+        return None;
+    }
+    let base = line_end(&rest[word(rest).len()..]).trim_start_matches(':').trim();
+    said("what something is derived from stands after `=`", format!("write `{head} = {base} with {{ … }}`"))
 }
 
 /// `requires { depth fresh 5 s, heading fresh 5 s }`.

@@ -1,0 +1,196 @@
+//! Scenarios and vehicles that are derived from others: `scenario rough = duck with { … }` says what `duck` says, but for what it says itself.
+
+use super::{Checker, Def, Scope, Setting};
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{ClauseArg, ClauseUse, ExprKind, TextPart};
+use crate::syntax::tree;
+use crate::types::Type;
+
+/// What is derived is so from what is derived, and so on, so often at most.
+const GENERATIONS_MAX: usize = 16;
+
+/// A scenario or a vehicle as it is written.
+#[derive(Clone, Copy)]
+pub(super) struct Declared<'t> {
+    pub module: usize,
+    pub name: &'t tree::Name,
+    pub params: &'t [tree::Param],
+    pub base: Option<&'t tree::Path>,
+    pub body: &'t tree::Block,
+}
+
+/// What a scenario or a vehicle says, apart from what it has of vehicles that it names.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Said {
+    pub own: Vec<ClauseUse>,
+    pub fitted: Vec<ClauseUse>,
+}
+
+/// All of one kind, in an order in which each comes after what it is derived from; and what that is.
+#[derive(Default)]
+pub(super) struct Lineage {
+    pub order: Vec<usize>,
+    pub bases: Vec<Option<usize>>,
+}
+
+impl<'t> Checker<'t> {
+    /// What each of these is derived from.
+    pub(super) fn lineage(
+        &mut self,
+        all: &[Declared<'t>],
+        named: impl Fn(&mut Self, &tree::Path) -> Option<usize>,
+    ) -> Lineage {
+        let mut bases: Vec<Option<usize>> = all
+            .iter()
+            .map(|declared| {
+                let base = declared.base?;
+                self.within(Scope::new(declared.module, Setting::Constant), |c| named(c, base)).0
+            })
+            .collect();
+        let mut generations = Vec::new();
+        for (id, declared) in all.iter().enumerate() {
+            let ancestors = std::iter::successors(bases[id], |base| bases[*base]).take(GENERATIONS_MAX + 1);
+            let ancestors: Vec<usize> = ancestors.collect();
+            let finding = if ancestors.contains(&id) {
+                let message = format!("`{}` is derived from itself", declared.name.node);
+                Some((message, "derive one of them from another, or write it whole"))
+            } else if ancestors.len() > GENERATIONS_MAX {
+                let message = format!("`{}` is derived through more than {GENERATIONS_MAX} others", declared.name.node);
+                Some((message, "derive it from one that is written whole"))
+            } else {
+                None
+            };
+            if let (Some((message, help)), Some(base)) = (finding, declared.base) {
+                self.report(Diagnostic::error(Code::ScenariosDerived, base.span, message).help(help));
+                bases[id] = None;
+            }
+        }
+        for id in 0..all.len() {
+            generations.push(std::iter::successors(bases[id], |base| bases[*base]).count());
+        }
+        let mut order: Vec<usize> = (0..all.len()).collect();
+        order.sort_by_key(|id| generations[*id]);
+        Lineage { order, bases }
+    }
+
+    /// The parameters of all scenarios: each has those of what it is derived from, and then its own.
+    pub(super) fn scenario_params(&mut self) {
+        let all = self.scenario_items.clone();
+        let lineage = self.lineage(&all, |c, path| c.scenario_named(path));
+        for id in &lineage.order {
+            let Declared { module, name, params, .. } = all[*id];
+            let is_known = matches!(self.names[module].get(&name.node), Some(Def::Scenario(known)) if known == id);
+            if !is_known {
+                continue;
+            }
+            if let Some(base) = lineage.bases[*id] {
+                let (vars, defaults) =
+                    (self.hir.scenarios[base].vars.clone(), self.hir.scenarios[base].defaults.clone());
+                for (var, default) in vars.into_iter().zip(defaults) {
+                    let set = self.inherited_default(module, &name.node, &var);
+                    self.hir.scenarios[*id].defaults.push(set.or(default));
+                    self.hir.scenarios[*id].vars.push(var);
+                }
+            }
+            for param in params {
+                let inherited = self.hir.scenarios[*id].vars.iter().find(|var| var.name == param.name.node);
+                if let Some(inherited) = inherited.map(|var| var.span) {
+                    let message = format!("`{}` is a parameter already", param.name.node);
+                    let finding = Diagnostic::error(Code::NamesTwice, param.name.span, message);
+                    self.report(finding.label(inherited, "here").help("leave it out, or choose another name"));
+                }
+            }
+            self.own_scenario_params(module, *id, name, params);
+        }
+        self.scenario_lineage = lineage;
+    }
+
+    /// The clauses of all scenarios.
+    pub(super) fn check_scenarios(&mut self) {
+        let mut said: Vec<Said> = vec![Said::default(); self.scenario_items.len()];
+        for id in self.scenario_lineage.order.clone() {
+            let Declared { module, name, body, .. } = self.scenario_items[id];
+            if !matches!(self.names[module].get(&name.node), Some(Def::Scenario(known)) if *known == id) {
+                continue;
+            }
+            let own = self.scenario_clauses(module, id, body);
+            let all = match self.scenario_lineage.bases[id] {
+                Some(base) => derived(said[base].clone(), own),
+                None => own,
+            };
+            self.hir.scenarios[id].base = self.scenario_lineage.bases[id];
+            self.hir.scenarios[id].clauses = all.whole();
+            said[id] = all;
+        }
+    }
+
+    /// The vehicle that a path names, to derive another from it.
+    pub(super) fn vehicle_of_path(&mut self, path: &tree::Path) -> Option<usize> {
+        match self.resolve(self.scope.module, path).cloned() {
+            Some(Def::Vehicle(id)) => Some(id),
+            found => {
+                let what = found.map_or_else(
+                    || format!("there is no vehicle `{}`", path.text()),
+                    |def| format!("`{}` is {}, no vehicle", path.text(), def.what()),
+                );
+                let known = self.vehicle_paths();
+                let known: Vec<&str> = known.iter().map(|(path, _)| path.as_str()).collect();
+                let finding = Diagnostic::error(Code::ScenariosUnknown, path.span, what);
+                let finding = match self.suggestion(&path.text(), known) {
+                    Some(help) => finding.help(help),
+                    None => finding,
+                };
+                self.report(finding);
+                None
+            }
+        }
+    }
+}
+
+impl Said {
+    /// All of it. What a vehicle brings stands where nothing else says the same.
+    pub fn whole(&self) -> Vec<ClauseUse> {
+        let is_said = |clause: &&ClauseUse| self.own.iter().any(|own| own.name == clause.name);
+        self.own.iter().chain(self.fitted.iter().filter(|clause| !is_said(clause))).cloned().collect()
+    }
+}
+
+/// What is said by who is derived from another: a clause of the same name, and of the same thing where there may be several, stands in
+/// the place of the other's.
+pub(super) fn derived(base: Said, own: Said) -> Said {
+    let mut all = base.own;
+    let names_vehicle = own.own.iter().any(|clause| clause.name == super::vehicle::CLAUSE);
+    for clause in own.own {
+        match all.iter_mut().find(|other| is_same(other, &clause)) {
+            Some(other) => *other = clause,
+            None => all.push(clause),
+        }
+    }
+    Said { own: all, fitted: if names_vehicle { own.fitted } else { base.fitted } }
+}
+
+/// Whether two clauses say how one thing is. What happens in a time stands beside what else happens.
+fn is_same(a: &ClauseUse, b: &ClauseUse) -> bool {
+    a.name == b.name && !happens(a) && thing(a) == thing(b)
+}
+
+/// Whether a clause is of what happens from a time to another: there may be several.
+pub(super) fn happens(clause: &ClauseUse) -> bool {
+    let time = Type::Quantity(crate::dimension::Dimension::TIME);
+    let arg = |name: &str| clause.args.iter().find(|(param, _)| param == name).map(|(_, arg)| arg);
+    let is_time = |arg: &ClauseArg| matches!(arg, ClauseArg::Value(value) if value.ty == time);
+    arg("from").is_some_and(is_time) && arg("to").is_some()
+}
+
+/// The name of the thing that a clause is about, where there may be several.
+fn thing(clause: &ClauseUse) -> Option<&str> {
+    let (_, ClauseArg::Value(name)) = clause.args.first().filter(|(param, _)| param == "name")? else { return None };
+    match &name.kind {
+        ExprKind::Text(parts) => match parts.as_slice() {
+            [TextPart::Literal(text)] => Some(text),
+            _ => None,
+        },
+        _ => None,
+    }
+}
