@@ -321,7 +321,6 @@ impl<'t> Checker<'t> {
             ExprKind::Becomes(_) | ExprKind::Done => true,
             ExprKind::Var(id) => self.scope.vars[*id].is_momentary,
             ExprKind::Do(Builtin::And, operands) => operands.iter().any(|e| self.is_momentary(e)),
-            ExprKind::Do(Builtin::Or, operands) => operands.iter().all(|e| self.is_momentary(e)),
             _ => false,
         }
     }

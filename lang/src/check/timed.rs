@@ -65,6 +65,13 @@ impl<'t> Checker<'t> {
         let (action, ends, result_ty) = self.action(&timed.action, timed.span)?;
         let duration = timed.duration.as_ref().map(|e| self.duration(e, "the time after `for`"));
         let within = timed.within.as_ref().map(|e| self.duration(e, "the time after `within`"));
+        if let (tree::Action::Wait | tree::Action::Watch, Some(first)) = (&timed.action, timed.at.first()) {
+            let message = "this goes on as it does: nothing is held at what follows `at`";
+            let finding = Diagnostic::error(Code::TimeModifier, first.channel.span.to(first.value.span), message);
+            self.report(
+                finding.help("keep the place with `hold at …`, or the heading with `steer heading: heading at …`"),
+            );
+        }
         let at = self.setpoints(&timed.at);
         self.time_passes();
         // It is first tried on the tick after the statement began.

@@ -52,7 +52,44 @@ pub struct ExpectProgram {
     /// What it takes for granted: where the presence stands, and what to say without it.
     pub needs: Vec<(Slot, String)>,
     /// Named values for the message of a failure.
-    pub watched: Vec<(String, Code, Shape)>,
+    pub watched: Vec<NamedValue>,
+}
+
+/// A value that is told when an expectation does not hold.
+#[derive(Clone, Debug)]
+pub struct NamedValue {
+    /// As it is written.
+    pub name: String,
+    /// The value.
+    pub code: Code,
+    /// Its shape.
+    pub shape: Shape,
+    /// Where the presence of each thing stands that it is made of: without one there is no value.
+    pub needs: Vec<Slot>,
+}
+
+/// A value as it is written, with what it takes.
+fn named<'a>(l: &mut Lowering<'a>, e: &'a Expr) -> NamedValue {
+    NamedValue {
+        name: l.sources.text(e.span).to_string(),
+        code: l.code(e),
+        shape: l.shape(&e.ty),
+        needs: taken_for_present(e).into_iter().map(|id| l.frame.vars[id]).collect(),
+    }
+}
+
+/// The names of optionals whose values an expression reads.
+fn taken_for_present(e: &Expr) -> Vec<VarId> {
+    let mut names = Vec::new();
+    e.visit(&mut |e| {
+        if let ExprKind::Unwrap(inner) = &e.kind
+            && let ExprKind::Var(id) = inner.kind
+        {
+            names.push(id);
+        }
+        true
+    });
+    names
 }
 
 /// Lowers a test.
@@ -83,10 +120,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                 depths(&expect.holds, &test.depths, &mut asked);
                 let mut sides = Vec::new();
                 compared(&expect.holds, &mut sides);
-                let watched = sides
-                    .into_iter()
-                    .map(|e| (l.sources.text(e.span).to_string(), l.code(e), l.shape(&e.ty)))
-                    .collect();
+                let watched = sides.into_iter().map(|e| named(l, e)).collect();
                 ExpectProgram {
                     text: l.sources.text(expect.span).to_string(),
                     place: l.sources.place(expect.span),
@@ -115,7 +149,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     let mut claims = lowering.claims;
     for expect in &expects {
         let depths = expect.depths.iter().map(|(point, _)| point);
-        let watched = expect.watched.iter().map(|(_, code, _)| code);
+        let watched = expect.watched.iter().map(|value| &value.code);
         claims.pieces.extend(depths.chain(watched).chain([&expect.holds]).map(|code| code.entry));
     }
     debug_assert_eq!(program.verify(), Ok(()));

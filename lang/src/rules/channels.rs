@@ -205,6 +205,7 @@ impl Walk<'_> {
             // What is kept is its own setpoint. In an overlay nothing else is needed.
             Action::Keep(channel, e) => {
                 self.limited(*channel, e);
+                self.own(&mut owners, channel.row().axis, Owner::Setpoint, e.span);
                 (false, false)
             }
         };

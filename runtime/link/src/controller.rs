@@ -250,6 +250,11 @@ impl Controller {
         self.control == Control::InControl && status.is_driven()
     }
 
+    /// Whether the vehicle lies on the bottom, by its last word.
+    pub fn is_aground(&self) -> bool {
+        self.grounding.is_aground(self.next_tick)
+    }
+
     /// Takes in bytes, however they are cut.
     pub fn hear(&mut self, bytes: &[u8]) {
         self.received.count.bytes += bytes.len() as u64;

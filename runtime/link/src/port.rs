@@ -102,6 +102,9 @@ impl LinkVehicle {
         }
         self.looked = now;
         self.controller.tell_time(now);
+        if let Some(time) = self.paused {
+            self.controller.was_away(time);
+        }
         self.controller.hear(&bytes);
         received?;
         Ok(!bytes.is_empty())
@@ -287,6 +290,10 @@ impl Vehicle for LinkVehicle {
                 std::thread::sleep(LOOK);
             }
         }
+    }
+
+    fn is_aground(&self) -> bool {
+        self.controller.is_aground()
     }
 
     fn notices(&mut self) -> Vec<String> {

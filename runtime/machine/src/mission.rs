@@ -317,15 +317,16 @@ impl Run {
     }
 
     /// Leaves all that is inside the mission and begins the recovery; without one the mission is over, and so is that of a
-    /// guest while its vehicle runs its own plan.
+    /// guest while its vehicle runs its own plan, or has suspended it.
     pub fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         self.abort = None;
         let wish = self.state.wish;
+        let is_ours = wish == ControlRequest::Drive && self.state.control != Control::Suspended;
         let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
         let (id, base) = (p.mission.activity, p.mission.base);
         let at = base + p.activities[id as usize].header;
         self.leave_body(p, cause);
-        let Some(recovery) = p.mission.recovery.filter(|_| wish == ControlRequest::Drive) else {
+        let Some(recovery) = p.mission.recovery.filter(|_| is_ours) else {
             return self.over(p, outcome);
         };
         self.state.wish = wish;

@@ -27,6 +27,8 @@ struct Dock {
     released: AtomicBool,
     /// The command in which the vehicle's driver panics; none at 0.
     panics_at: u64,
+    /// It says as it is released that it lies on the bottom.
+    grounds: bool,
 }
 
 /// A simulated vehicle whose time is the test's.
@@ -71,6 +73,10 @@ impl Vehicle for Paced {
     fn release(&mut self) -> Result<(), VehicleError> {
         self.dock.released.store(true, Ordering::SeqCst);
         self.vehicle.release()
+    }
+
+    fn is_aground(&self) -> bool {
+        self.dock.grounds && self.dock.released.load(Ordering::SeqCst)
     }
 
     fn notices(&mut self) -> Vec<String> {
@@ -128,6 +134,20 @@ fn live(run: Run, disk: &Disk, waiting_bytes: usize, report: &mut dyn FnMut(Live
 }
 
 const FREE: u64 = u64::MAX;
+
+/// A link is slow: that the vehicle lay on the bottom is heard when the mission has ended.
+#[test]
+fn what_is_heard_of_the_bottom_on_the_way_out_counts() {
+    let plan = plan();
+    let ended = |grounds| {
+        let dock = Dock { allowed: AtomicU64::new(FREE), grounds, ..Dock::default() };
+        let mut run = run(&plan, &Arc::new(dock));
+        let outcome = run.to_end();
+        (outcome, run.outcome())
+    };
+    assert_eq!(ended(false), (Outcome::Completed, Some(Outcome::Completed)));
+    assert_eq!(ended(true), (Outcome::Aground, Some(Outcome::Aground)));
+}
 
 #[test]
 fn a_live_run_leaves_the_same_bytes_as_one_that_is_stepped() {

@@ -206,6 +206,11 @@ pub trait Vehicle {
     /// Gives control back. Always the last act of a mission.
     fn release(&mut self) -> Result<(), VehicleError>;
 
+    /// Whether it has said since the last tick, on the way out perhaps, that it lies on the bottom. A simulated one has said all there is.
+    fn is_aground(&self) -> bool {
+        false
+    }
+
     /// Its own limits, its hull's speed among them.
     fn limits(&self) -> Limits {
         Limits::default()

@@ -92,7 +92,7 @@ impl Generator {
             text += &format!(" within {}", self.time());
             is_named = self.random.percent(70);
         }
-        if self.random.percent(20) && !matches!(feature, "keep") {
+        if self.random.percent(20) && !matches!(feature, "keep" | "wait") {
             self.count("at");
             if self.vertical_is_taken {
                 text += " at speed 1.4 m/s";

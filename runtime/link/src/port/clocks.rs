@@ -27,7 +27,7 @@ impl Clocks {
         let (vehicle, host) = (self.ticks.saturating_add(waiting) as f64, host as f64);
         self.ticks += 1;
         let how = if host > vehicle * SHARE + TICKS {
-            "slow"
+            "slow, or was not heard for a while"
         } else if vehicle > (host * SHARE + TICKS) * self.rate {
             "fast"
         } else {
@@ -64,7 +64,12 @@ mod tests {
         assert_eq!(told(0.96, 1.0), None);
         let (tick, slow) = told(0.5, 1.0).unwrap();
         assert_eq!(tick, 316);
-        assert!(slow.starts_with("the vehicle's clock runs slow: 32 s of it have passed in 63 s"), "{slow}");
+        assert!(
+            slow.starts_with(
+                "the vehicle's clock runs slow, or was not heard for a while: 32 s of it have passed in 63 s"
+            ),
+            "{slow}"
+        );
         let (_, fast) = told(2.0, 1.0).unwrap();
         assert!(fast.starts_with("the vehicle's clock runs fast: 63 s of it have passed in 32 s"), "{fast}");
     }

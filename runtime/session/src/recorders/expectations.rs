@@ -4,7 +4,7 @@ use super::Recorder;
 use super::results::Results;
 use crate::plan::Plan;
 use albacore_geometry::Point;
-use albacore_lang::{ExpectProgram, TestProgram};
+use albacore_lang::{ExpectProgram, NamedValue, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{AREA_WORDS, number};
 use albacore_trace::{Step, TickRecord};
@@ -83,7 +83,11 @@ impl<'t> Expectations<'t> {
             return None;
         }
         let mut found: Vec<String> = Vec::new();
-        for (name, code, shape) in &expect.watched {
+        for NamedValue { name, code, shape, needs } in &expect.watched {
+            if needs.iter().any(|need| evaluation.words(*need, 1)[0] == 0.0) {
+                found.push(format!("{name} is not there"));
+                continue;
+            }
             evaluation.run(&test.program, code.entry);
             let value = number::value(shape, evaluation.words(code.value, shape.words()));
             found.push(format!("{name} = {value}"));
