@@ -109,15 +109,20 @@ impl<'h> Signals<'h> {
         true
     }
 
-    /// Whether what held when a behavior was suspended may hold when it goes on: no edge is in it. One that was done is done then.
-    pub fn outlasts(&self, e: &'h Expr) -> bool {
+    /// Whether what held when a behavior was suspended may hold when it goes on: no edge is in it, or it is that none comes. One that was
+    /// done is done then.
+    pub fn outlasts(&self, (e, holds): Way<'h>) -> bool {
+        matches!(e.kind, ExprKind::Becomes(_)) && !holds || self.has_no_edge(e)
+    }
+
+    fn has_no_edge(&self, e: &'h Expr) -> bool {
         self.walk(e, &mut BTreeSet::new(), |e| !matches!(e.kind, ExprKind::Becomes(_)))
     }
 
     /// Whether what holds goes on to hold at the entry of a behavior, where times begin anew.
     fn is_level(&self, e: &'h Expr) -> bool {
         let is_untimed = |e: &Expr| !matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..) | ExprKind::Done);
-        self.outlasts(e) && self.walk(e, &mut BTreeSet::new(), is_untimed)
+        self.has_no_edge(e) && self.walk(e, &mut BTreeSet::new(), is_untimed)
     }
 
     /// What stands behind the name of a signal.

@@ -162,7 +162,7 @@ impl<'h> Table<'h> {
                 }
                 _ => true,
             };
-            self.signals.outlasts(way.0) && !assigned.iter().any(|change| ends_by(way, &read, *change)) && lasts()
+            self.signals.outlasts(way) && !assigned.iter().any(|change| ends_by(way, &read, *change)) && lasts()
         })
     }
 
