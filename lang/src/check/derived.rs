@@ -9,6 +9,8 @@ use crate::types::Type;
 
 /// What is derived is so from what is derived, and so on, so often at most.
 const GENERATIONS_MAX: usize = 16;
+/// Clauses and parameters that are had from others, in all of a script: a line may bring a thousand.
+const INHERITED_MAX: usize = 1 << 16;
 
 /// A scenario or a vehicle as it is written.
 #[derive(Clone, Copy)]
@@ -48,11 +50,14 @@ impl<'t> Checker<'t> {
                 self.within(Scope::new(declared.module, Setting::Constant), |c| named(c, base)).0
             })
             .collect();
-        let mut generations = Vec::new();
         for (id, declared) in all.iter().enumerate() {
             let ancestors = std::iter::successors(bases[id], |base| bases[*base]).take(GENERATIONS_MAX + 1);
             let ancestors: Vec<usize> = ancestors.collect();
-            let finding = if ancestors.contains(&id) {
+            let goes_round = |id: &usize| ancestors.iter().filter(|other| *other == id).count() > 1;
+            let finding = if !ancestors.contains(&id) && ancestors.last().is_some_and(goes_round) {
+                // Whoever it is derived from is derived from itself, and told so.
+                None
+            } else if ancestors.contains(&id) {
                 let message = format!("`{}` is derived from itself", declared.name.node);
                 Some((message, "derive one of them from another, or write it whole"))
             } else if ancestors.len() > GENERATIONS_MAX {
@@ -66,23 +71,25 @@ impl<'t> Checker<'t> {
                 bases[id] = None;
             }
         }
-        for id in 0..all.len() {
-            generations.push(std::iter::successors(bases[id], |base| bases[*base]).count());
-        }
         let mut order: Vec<usize> = (0..all.len()).collect();
-        order.sort_by_key(|id| generations[*id]);
+        order.sort_by_key(|id| std::iter::successors(bases[*id], |base| bases[*base]).count());
         Lineage { order, bases }
     }
 
     /// The parameters of all scenarios: each has those of what it is derived from, and then its own.
     pub(super) fn scenario_params(&mut self) {
         let all = self.scenario_items.clone();
-        let lineage = self.lineage(&all, |c, path| c.scenario_named(path));
+        let mut lineage = self.lineage(&all, |c, path| c.scenario_named(path));
+        let mut inherited = 0;
         for id in &lineage.order {
             let Declared { module, name, params, .. } = all[*id];
             let is_known = matches!(self.names[module].get(&name.node), Some(Def::Scenario(known)) if known == id);
             if !is_known {
                 continue;
+            }
+            let brought = lineage.bases[*id].map_or(0, |base| self.hir.scenarios[base].vars.len());
+            if self.is_too_much(&mut inherited, brought, &all[*id]) {
+                lineage.bases[*id] = None;
             }
             if let Some(base) = lineage.bases[*id] {
                 let (vars, defaults) =
@@ -109,12 +116,18 @@ impl<'t> Checker<'t> {
     /// The clauses of all scenarios.
     pub(super) fn check_scenarios(&mut self) {
         let mut said: Vec<Said> = vec![Said::default(); self.scenario_items.len()];
+        let mut inherited = 0;
         for id in self.scenario_lineage.order.clone() {
             let Declared { module, name, body, .. } = self.scenario_items[id];
             if !matches!(self.names[module].get(&name.node), Some(Def::Scenario(known)) if *known == id) {
                 continue;
             }
             let own = self.scenario_clauses(module, id, body);
+            let brought = self.scenario_lineage.bases[id].map_or(0, |base| said[base].own.len());
+            let written = self.scenario_items[id];
+            if self.is_too_much(&mut inherited, brought, &written) {
+                self.scenario_lineage.bases[id] = None;
+            }
             let all = match self.scenario_lineage.bases[id] {
                 Some(base) => derived(said[base].clone(), own),
                 None => own,
@@ -123,6 +136,23 @@ impl<'t> Checker<'t> {
             self.hir.scenarios[id].clauses = all.whole();
             said[id] = all;
         }
+    }
+
+    /// Counts what is had from another, and tells once that it is too much.
+    fn is_too_much(&mut self, inherited: &mut usize, brought: usize, written: &Declared<'t>) -> bool {
+        let had = *inherited <= INHERITED_MAX;
+        *inherited = inherited.saturating_add(brought);
+        if brought == 0 || *inherited <= INHERITED_MAX {
+            return false;
+        }
+        if let Some(base) = written.base.filter(|_| had) {
+            let message = format!("with this more than {INHERITED_MAX} clauses or parameters are had from others");
+            let finding = Diagnostic::error(Code::ScenariosDerived, base.span, message);
+            self.report(
+                finding.help("derive fewer, or keep what many of them share in fewer clauses: a grid for pits"),
+            );
+        }
+        true
     }
 
     /// The vehicle that a path names, to derive another from it.
