@@ -173,19 +173,13 @@ impl Test {
         }
         let fails = !problems.is_empty();
         for (seed, trace) in traces {
-            let compared = self.compare(at.path, result, *seed, trace);
-            if fails && !compared.is_empty() {
-                problems.extend(compared.into_iter().filter(|line| !line.contains(ACCEPT)));
-                problems.push("        what fails is not accepted: mend the test or the mission first".to_string());
-            } else {
-                problems.extend(compared);
-            }
+            problems.extend(self.compare(at.path, result, *seed, trace, fails));
         }
         problems
     }
 
-    /// Compares a trace with its snapshot; gives what is wrong, in lines.
-    fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str) -> Vec<String> {
+    /// Compares a trace with its snapshot, of a test that `fails` or does not; gives what is wrong, in lines.
+    fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str, fails: bool) -> Vec<String> {
         let file = snapshot_file(script, result, seed);
         let stored = match stored(&file, trace) {
             Ok(stored) => stored,
@@ -220,7 +214,7 @@ impl Test {
         let Some(stored) = stored else {
             return vec![
                 format!("        seed {seed}: there is no snapshot `{}`", file.display()),
-                format!("        look at the run, then `{}`", self.accepting()),
+                self.advice("look at the run, then", fails),
             ];
         };
         let mut told = Vec::new();
@@ -245,14 +239,22 @@ impl Test {
                 let text = stored.lines().nth(line - 1).unwrap_or_default();
                 told.extend([format!("          {text}"), THEIRS.to_string()]);
             }
-            None => told.push(format!("        when this is right: `{}`", self.accepting())),
+            None => told.push(self.advice("when this is right:", fails)),
         }
         told
     }
 
+    /// What to do about a snapshot that is not as the run: nothing that fails is accepted.
+    fn advice(&self, when: &str, fails: bool) -> String {
+        match fails {
+            true => "        what fails is not accepted: mend the test or the mission first".to_string(),
+            false => format!("        {when} `{}`", self.accepting()),
+        }
+    }
+
     /// The command that accepts what this one has found, as a shell takes it: of what was named, and of nothing else.
     fn accepting(&self) -> String {
-        let mut words = vec![ACCEPT.to_string()];
+        let mut words = vec!["albacore test --accept".to_string()];
         words.extend(self.filter.as_ref().map(|text| format!("--filter={}", quoted(OsStr::new(text)))));
         if self.paths.iter().any(|path| path.as_os_str().as_encoded_bytes().starts_with(b"-")) {
             words.push("--".to_string());
@@ -288,8 +290,6 @@ impl Named<'_> {
     }
 }
 
-/// The command that keeps what a test found.
-const ACCEPT: &str = "albacore test --accept";
 /// What to do about a snapshot that holds more than one.
 const THEIRS: &str = "        move it away, or take what you wrote out of it";
 

@@ -6,6 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::hir::{ClauseArg, ClauseUse, ExprKind, TextPart};
 use crate::syntax::tree;
 use crate::types::Type;
+use std::collections::BTreeMap;
 
 /// What is derived is so from what is derived, and so on, so often at most.
 const GENERATIONS_MAX: usize = 16;
@@ -191,18 +192,19 @@ impl Said {
 pub(super) fn derived(base: Said, own: Said) -> Said {
     let mut all = base.own;
     let names_vehicle = own.own.iter().any(|clause| clause.name == super::vehicle::CLAUSE);
+    let subject = |clause: &ClauseUse| (clause.name.clone(), thing(clause).map(str::to_string));
+    // What happens in a time stands beside what else happens.
+    let mut places = BTreeMap::new();
+    for (at, clause) in all.iter().enumerate().filter(|(_, clause)| !happens(clause)) {
+        places.entry(subject(clause)).or_insert(at);
+    }
     for clause in own.own {
-        match all.iter_mut().find(|other| is_same(other, &clause)) {
-            Some(other) => *other = clause,
+        match places.get(&subject(&clause)) {
+            Some(&at) => all[at] = clause,
             None => all.push(clause),
         }
     }
     Said { own: all, fitted: if names_vehicle { own.fitted } else { base.fitted } }
-}
-
-/// Whether two clauses say how one thing is. What happens in a time stands beside what else happens.
-fn is_same(a: &ClauseUse, b: &ClauseUse) -> bool {
-    a.name == b.name && !happens(a) && thing(a) == thing(b)
 }
 
 /// Whether a clause is of what happens from a time to another: there may be several.

@@ -64,11 +64,8 @@ impl<'t> Checker<'t> {
             let written = param.range.as_ref().and_then(|r| self.constant_range(m, r, &ty));
             let replaced = owner.and_then(|owner| self.take_override(m, owner, &param.name.node));
             let what = if replaced.is_some() { "the value" } else { "the default" };
-            let default = replaced.as_ref().or(param.default.as_ref()).map(|written| {
-                let scope = Scope::new(m, Setting::Constant);
-                let (value, _) = self.within(scope, |c| c.expr_as(written, &ty, what));
-                self.small_constant(&param.name, value)
-            });
+            let written_default = replaced.as_ref().or(param.default.as_ref());
+            let default = written_default.map(|written| self.constant_of(m, &param.name, &ty, written, what));
             // A function may well be given the negative difference of two times; what takes time may not.
             let range = written.or_else(|| owner.and_then(|_| Self::implied_range(&ty)));
             if let Some(default) = &default {
@@ -85,10 +82,16 @@ impl<'t> Checker<'t> {
     /// What `--set` puts in place of the default of a parameter that a scenario has of another.
     pub(super) fn inherited_default(&mut self, m: usize, owner: &str, param: &hir::Var) -> Option<hir::Expr> {
         let written = self.take_override(m, owner, &param.name)?;
-        let scope = Scope::new(m, Setting::Constant);
-        let (value, _) = self.within(scope, |c| c.expr_as(&written, &param.ty, "the value"));
+        let name = tree::Name { node: param.name.clone(), span: param.span };
+        let value = self.constant_of(m, &name, &param.ty, &written, "the value");
         self.in_range(&value, param.range, &param.name, param.span);
         Some(value)
+    }
+
+    /// The value of a parameter as it is written in a module.
+    fn constant_of(&mut self, m: usize, param: &tree::Name, ty: &Type, written: &tree::Expr, what: &str) -> hir::Expr {
+        let (value, _) = self.within(Scope::new(m, Setting::Constant), |c| c.expr_as(written, ty, what));
+        self.small_constant(param, value)
     }
 
     fn take_override(&mut self, m: usize, owner: &str, param: &str) -> Option<tree::Expr> {

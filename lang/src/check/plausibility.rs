@@ -57,10 +57,10 @@ impl<'t> Checker<'t> {
     /// The time after which a mission or its recovery is over: nothing would be left of one that may be 0 s.
     pub(super) fn time_limit(&mut self, e: &tree::Expr, what: &str) -> Expr {
         let value = self.expr_as(e, &Type::Quantity(Dimension::TIME), what);
-        if value.ty == Type::Unknown {
-        } else if value.range.low > 0.0 || value.range.high <= 0.0 {
+        let may_be_over = value.range.low <= 0.0 && value.range.high > 0.0;
+        if value.ty != Type::Unknown && !may_be_over {
             self.not_backwards(&value, what);
-        } else {
+        } else if value.ty != Type::Unknown {
             let how = if value.range.low < 0.0 { "negative" } else { "zero" };
             self.report(
                 Diagnostic::error(Code::RangesDuration, value.span, format!("{what} may be {how}"))

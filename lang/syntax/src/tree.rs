@@ -38,48 +38,16 @@ pub struct File {
 pub enum Item {
     Use(Vec<Path>),
     Const(Const),
-    Enum {
-        name: Name,
-        variants: Vec<Name>,
-    },
-    Record {
-        name: Name,
-        fields: Vec<Field>,
-    },
-    Unit {
-        name: Name,
-        value: Expr,
-    },
-    Input {
-        name: Name,
-        ty: Ty,
-        fields: Vec<Field>,
-    },
-    Clause {
-        name: Name,
-        params: Vec<Param>,
-        result: Option<Ty>,
-        of_vehicle: bool,
-    },
+    Enum { name: Name, variants: Vec<Name> },
+    Record { name: Name, fields: Vec<Field> },
+    Unit { name: Name, value: Expr },
+    Input { name: Name, ty: Ty, fields: Vec<Field> },
+    Clause { name: Name, params: Vec<Param>, result: Option<Ty>, of_vehicle: bool },
     Fn(Function),
-    Signal {
-        name: Name,
-        ty: Option<Ty>,
-        value: Expr,
-    },
+    Signal { name: Name, ty: Option<Ty>, value: Expr },
     Activity(Activity),
-    /// `scenario name(params) = base with { … }`.
-    Scenario {
-        name: Name,
-        params: Vec<Param>,
-        base: Option<Path>,
-        body: Block,
-    },
-    Vehicle {
-        name: Name,
-        base: Option<Path>,
-        body: Block,
-    },
+    Scenario { name: Name, params: Vec<Param>, base: Option<Path>, body: Block },
+    Vehicle { name: Name, base: Option<Path>, body: Block },
     Test(Test),
 }
 

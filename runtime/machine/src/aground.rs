@@ -56,9 +56,17 @@ impl Run {
         self.events.push(Event::Aborted(format!("aground for {AGROUND_MAX_S} s")));
     }
 
-    /// Why a mission that ends so has ended aground, if it has. One that leaves its vehicle on the bottom, or has left it there
-    /// for a while, has not come to its own end, whatever it says.
-    pub fn is_aground_at(&self, outcome: Outcome) -> Option<&'static str> {
+    /// What a mission counts as that ends so. One that leaves its vehicle on the bottom, or has left it there for a while, has not come to
+    /// its own end, whatever it says: an event tells why.
+    pub fn counts_as(&mut self, outcome: Outcome) -> Outcome {
+        let Some(why) = self.why_aground(outcome) else { return outcome };
+        if outcome == Outcome::Completed {
+            self.events.push(Event::Aborted(why.to_string()));
+        }
+        Outcome::Aground
+    }
+
+    fn why_aground(&self, outcome: Outcome) -> Option<&'static str> {
         let Aground { since, ticks, .. } = self.state.aground;
         match outcome {
             Outcome::Completed | Outcome::TimedOut | Outcome::Aborted if since.is_some() => {

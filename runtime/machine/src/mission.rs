@@ -202,6 +202,21 @@ impl Machine {
         }
         &self.run.events
     }
+
+    /// The vehicle has said since the mission's end, and before it was released, that it lies on the bottom: what the mission has ended
+    /// as by that, with the events that say it, if as something else.
+    pub fn end_aground(&mut self) -> Option<Outcome> {
+        self.run.events.clear();
+        let ended = self.outcome()?;
+        self.run.feel_bottom(true);
+        let outcome = self.run.counts_as(ended);
+        if outcome == ended {
+            return None;
+        }
+        self.run.state.phase = Phase::Over(outcome);
+        self.run.events.push(Event::Ended(outcome));
+        Some(outcome)
+    }
 }
 
 impl Run {
@@ -377,10 +392,7 @@ impl Run {
         if matches!(self.state.phase, Phase::Over(_)) {
             return None;
         }
-        let stranded = self.is_aground_at(outcome);
-        if let (Some(how), Outcome::Completed) = (stranded, outcome) {
-            self.events.push(Event::Aborted(how.to_string()));
-        }
+        let counted = self.counts_as(outcome);
         let cause = match outcome {
             Outcome::Completed => Cause::Done,
             Outcome::TimedOut => Cause::TimedOut,
@@ -392,9 +404,8 @@ impl Run {
         }
         self.leave(p, p.mission.activity, base, cause);
         self.events.extend(self.state.allowance.end());
-        let outcome = if stranded.is_some() { Outcome::Aground } else { outcome };
-        self.state.phase = Phase::Over(outcome);
-        self.events.push(Event::Ended(outcome));
+        self.state.phase = Phase::Over(counted);
+        self.events.push(Event::Ended(counted));
         None
     }
 }

@@ -206,7 +206,7 @@ pub trait Vehicle {
     /// Gives control back. Always the last act of a mission.
     fn release(&mut self) -> Result<(), VehicleError>;
 
-    /// Whether it has said since the last tick, on the way out perhaps, that it lies on the bottom. A simulated one has said all there is.
+    /// Whether it lies on the bottom by its last word, which may have come after the last tick. A simulated one says all in its ticks.
     fn is_aground(&self) -> bool {
         false
     }

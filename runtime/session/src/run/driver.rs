@@ -219,12 +219,15 @@ impl Driver {
         }
         let released = self.vehicle.port().release();
         self.hear(record);
+        let aground = if self.vehicle.port().is_aground() { self.machine.end_aground() } else { None };
+        if aground.is_some() {
+            self.note_events(record);
+        }
+        let outcome = aground.unwrap_or(outcome);
         let guest = self.machine.program().mission.guest;
-        let is_ours = !guest || self.asked_for_control;
-        let outcome = self.on_the_way_out(outcome, is_ours, record);
         let (release, trouble) = match released {
             Err(error) => (Release::Failed, Some(error.to_string())),
-            Ok(()) if !is_ours => (Release::NotOurs, None),
+            Ok(()) if guest && !self.asked_for_control => (Release::NotOurs, None),
             Ok(()) => (Release::Done, None),
         };
         let reason = self.reason.clone();
@@ -234,21 +237,6 @@ impl Driver {
         record.step = Step::End(Ending { digest: self.digest.value(), ..ending });
         self.next = Next::Nothing(outcome);
         outcome
-    }
-
-    /// What a run has ended as, when the vehicle has said until its release that it lies on the bottom: as the machine decides it of
-    /// what it says before.
-    fn on_the_way_out(&mut self, outcome: Outcome, is_ours: bool, record: &mut TickRecord) -> Outcome {
-        let ended = matches!(outcome, Outcome::Completed | Outcome::TimedOut | Outcome::Aborted);
-        if !(ended && is_ours && self.vehicle.port().is_aground()) {
-            return outcome;
-        }
-        if outcome == Outcome::Completed {
-            self.reason = "the vehicle lies on the bottom".to_string();
-            record.events.push(Event::Aborted(self.reason.clone()));
-        }
-        record.events.push(Event::Ended(Outcome::Aground));
-        Outcome::Aground
     }
 
     /// What the vehicle gave notice of: no part of the digest, for when it comes is no matter of the run.
