@@ -144,13 +144,26 @@ impl Simulator {
         self.did = command;
         self.vehicle.stick_rudder(ailing.rudder);
         self.vehicle.flood(ailing.water - if self.gives_up() { DROP_WEIGHT_KG } else { 0.0 });
+        let weighed = command.map(|command| self.by_weight(&command, tick));
         self.vehicle
-            .step(tick, command.as_ref(), flow, |p| self.world.water_depth(p))
+            .step(tick, weighed.as_ref(), flow, |p| self.world.water_depth(p))
             .map_err(|why| VehicleError(why.to_string()))?;
         let motion = self.vehicle.motion();
         let altitude = self.world.water_depth(motion.position) - motion.depth;
         self.instruments.step(tick, motion, altitude);
         Ok(())
+    }
+
+    /// The true depth that a command comes to. A hull holds a depth by the weight of the water over it, as its gauge tells it: under a
+    /// wave's crest it holds one that is less. At the surface it stays.
+    fn by_weight(&self, command: &Command, tick: u64) -> Command {
+        let Truth { position, altitude, .. } = self.truth;
+        let head = || self.world.wave_head(position, altitude, (tick as f64 - 1.0) * TICK_S);
+        let vertical = match command.vertical {
+            Vertical::Depth(depth) if depth > 0.0 => Vertical::Depth((depth - head()).max(0.0)),
+            vertical => vertical,
+        };
+        Command { vertical, ..*command }
     }
 
     /// How deep the water is where the vehicle is, m.
