@@ -196,7 +196,7 @@ impl<'t> Checker<'t> {
     }
 
     fn reaction(&mut self, on: &tree::Expr, block: &tree::Block) -> (Expr, hir::Block) {
-        let condition = self.instant(Temporal::Yes, |c| c.condition(on));
+        let condition = self.instant(Temporal::Reaction, |c| c.condition(on));
         let facts = self.shown(&condition, true);
         let block = self.with_setting(Setting::Instant, |c| {
             c.in_block(|c| {

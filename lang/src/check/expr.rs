@@ -329,7 +329,9 @@ impl<'t> Checker<'t> {
     fn watched<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
         let standing = self.scope.standing.known();
         let beside = std::mem::replace(&mut self.scope.facts, standing);
+        let is_watched = std::mem::replace(&mut self.scope.is_watched, true);
         let result = self.on_later_ticks(work);
+        self.scope.is_watched = is_watched;
         self.scope.facts = beside;
         result
     }
@@ -346,11 +348,25 @@ impl<'t> Checker<'t> {
         self.make(condition, Type::Bool, span)
     }
 
+    /// `every T`, where something fires by which it begins anew.
+    fn rhythm(&mut self, time: Expr, span: Span) -> Expr {
+        if !matches!(self.scope.temporal, Temporal::Reaction | Temporal::Rule) || self.scope.is_watched {
+            self.report(
+                Diagnostic::error(Code::TimeRhythm, span, "`every` counts from when its `on` last fired, and here nothing fires")
+                    .help("it stands in the condition of a rule or of a reaction, alone or beside `and` and `or`; elsewhere write `after T`"),
+            );
+            return self.unknown(span);
+        }
+        self.make(ExprKind::Every(Box::new(time)), Type::Bool, span)
+    }
+
     fn unary(&mut self, op: &crate::source::Spanned<Unary>, operand: &tree::Expr, span: Span) -> Expr {
         match op.node {
             Unary::Not | Unary::No => {
                 // `no X for T` is `(not X) for T`: the grammar has made it so.
+                let is_watched = std::mem::replace(&mut self.scope.is_watched, true);
                 let value = self.condition(operand);
+                self.scope.is_watched = is_watched;
                 self.operation(Builtin::Not, vec![value], Type::Bool, span)
             }
             Unary::Becomes => {
@@ -360,6 +376,10 @@ impl<'t> Checker<'t> {
             Unary::After => {
                 let time = self.watched(|c| c.duration(operand, "the time after `after`"));
                 self.temporal("after", ExprKind::After(Box::new(time)), span)
+            }
+            Unary::Every => {
+                let time = self.watched(|c| c.duration(operand, "the time after `every`"));
+                self.rhythm(time, span)
             }
             Unary::Pos => {
                 let value = self.expr(operand, None);

@@ -198,6 +198,8 @@ enum Temporal {
     No,
     /// `X for T`, `becomes`, `after`.
     Yes,
+    /// These and `every`.
+    Reaction,
     /// These and `done`.
     Rule,
 }
@@ -216,6 +218,8 @@ struct Scope {
     module: usize,
     setting: Setting,
     temporal: Temporal,
+    /// In what a temporal operator watches, or behind `not`.
+    is_watched: bool,
     vars: Vec<hir::Var>,
     visible: Visible,
     facts: Facts,
@@ -237,6 +241,7 @@ impl Scope {
             module,
             setting,
             temporal: Temporal::No,
+            is_watched: false,
             vars: Vec::new(),
             visible: Visible::default(),
             facts: Facts::default(),

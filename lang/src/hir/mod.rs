@@ -189,6 +189,8 @@ pub enum ExprKind {
     Becomes(Box<Expr>),
     /// `after T`.
     After(Box<Expr>),
+    /// `every T`, in the condition of a rule or a reaction.
+    Every(Box<Expr>),
 }
 
 /// A piece of a text.

@@ -44,6 +44,12 @@ impl Hir {
 }
 
 impl Activity {
+    /// The conditions of its reactions and rules: of what fires.
+    pub fn conditions_that_fire(&self) -> impl Iterator<Item = &Expr> {
+        let rules: &[super::Rule] = if let Body::Table { rules, .. } = &self.body { rules } else { &[] };
+        self.reactions.iter().map(|(on, _)| on).chain(rules.iter().map(|rule| &rule.on))
+    }
+
     /// Its own blocks of statements: reactions, body, what rules do, recovery.
     pub fn blocks(&self) -> Vec<&Block> {
         let mut blocks: Vec<&Block> = self.reactions.iter().map(|(_, block)| block).collect();
@@ -231,7 +237,8 @@ pub fn children<'e>(e: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
         | ExprKind::IsPresent(a)
         | ExprKind::Part(a, _)
         | ExprKind::Becomes(a)
-        | ExprKind::After(a) => f(a),
+        | ExprKind::After(a)
+        | ExprKind::Every(a) => f(a),
         ExprKind::Else(a, b) | ExprKind::HeldFor(a, b) => {
             f(a);
             f(b);

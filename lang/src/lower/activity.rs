@@ -2,10 +2,11 @@
 
 use super::watch::Timer;
 use super::{Lowering, SortedBy, Sorter, slot};
-use crate::hir::{self, Decl, Expr, ExprKind, Kind, Var, children};
+use crate::hir::{self, Block, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::types::Type;
 use albacore_program::{
-    Abort, Activity, ActivityKind, Body, Code, Compute, Limits, ListOp, Op, Recovery, Require, Slot, Valued, header,
+    Abort, Activity, ActivityKind, Addr, Body, Code, Compute, Limits, ListOp, Op, Recovery, Require, Slot, Valued,
+    header,
 };
 
 /// The words that are compared, at most, before a list is put in order anew.
@@ -134,6 +135,7 @@ impl<'a> Lowering<'a> {
                 _ => Vec::new(),
             })
             .collect();
+        let rhythms = self.place_rhythms(activity);
         let conditions = activity.aborts.iter().map(|(_, c)| c).chain(activity.reactions.iter().map(|(c, _)| c));
         let condition_timers = self.place_timers(conditions);
 
@@ -143,6 +145,9 @@ impl<'a> Lowering<'a> {
         let entry = self.here();
         signal_timers.iter().for_each(|timers| self.reset_timers(timers));
         self.reset_timers(&condition_timers);
+        for last in rhythms {
+            self.emit(Compute::Const { to: last, value: 0.0 });
+        }
         for (decl, timers) in activity.decls.iter().zip(&signal_timers) {
             self.declaration(decl, timers, at);
         }
@@ -157,14 +162,7 @@ impl<'a> Lowering<'a> {
         self.emit(Op::Return);
 
         let aborts = activity.aborts.iter().map(|(why, condition)| self.abort(why, condition)).collect();
-        let reactions = self.here();
-        for (condition, block) in &activity.reactions {
-            let unless = self.jumps_unless(condition);
-            self.stmts(&block.stmts);
-            self.land_all(unless);
-        }
-        self.emit(Op::Return);
-
+        let reactions = self.reactions(&activity.reactions);
         let body = self.activity_body(id, &activity.body);
         if let Some(mission) = &activity.mission {
             self.mission_parts(mission);
@@ -194,6 +192,18 @@ impl<'a> Lowering<'a> {
             result,
         });
         self.program.activities.len() as u32 - 1
+    }
+
+    fn reactions(&mut self, reactions: &[(Expr, Block)]) -> Addr {
+        let entry = self.here();
+        for (condition, block) in reactions {
+            let unless = self.jumps_unless(condition);
+            self.renew_rhythms(condition);
+            self.stmts(&block.stmts);
+            self.land_all(unless);
+        }
+        self.emit(Op::Return);
+        entry
     }
 
     /// Nobody calls a mission: its parameters have their defaults, which `--set` may have changed.

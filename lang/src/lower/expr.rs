@@ -121,7 +121,7 @@ impl<'a> Lowering<'a> {
                     self.land(end);
                 }
             }
-            ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) => {
+            ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) | ExprKind::Every(_) => {
                 let address = std::ptr::from_ref(e) as usize;
                 let from = self.frame.timers.get(&address).copied().unwrap_or(to);
                 self.copy(to, from, 1);

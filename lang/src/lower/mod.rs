@@ -126,6 +126,8 @@ struct Frame {
     temp_most: u64,
     /// The values of temporal operators, by the address of their node.
     timers: BTreeMap<usize, Slot>,
+    /// The age at which what an `every` stands in fired last, by the address of its node.
+    rhythms: BTreeMap<usize, Slot>,
     /// The header of the activity whose code is being lowered, and its result.
     header: Slot,
     result: Slot,

@@ -1,6 +1,7 @@
 //! Switching tables to code: for each behavior its guards, and for each rule what happens when it fires.
 
 use super::Lowering;
+use super::watch::rhythms;
 use crate::hir::{self, Block, Decl, Expr, ExprKind, InputPart, VarId, VarKind, children, mentions_done};
 use crate::types::Type;
 use albacore_program::{Body, Entry, Exit, Op, Rule, Shape, Table, Target, Valued, Watched, WatchedCode};
@@ -49,9 +50,10 @@ impl<'a> Lowering<'a> {
     fn rule(&mut self, id: usize, rule: &hir::Rule, behaviors: &[usize]) -> Rule {
         let mut aborting = None;
         let effect = match (&rule.effect, &rule.target) {
-            (None, target) if !matches!(target, hir::Target::Abort(_)) => None,
+            (None, target) if !matches!(target, hir::Target::Abort(_)) && rhythms(&rule.on).is_empty() => None,
             (effect, target) => {
                 let entry = self.here();
+                self.renew_rhythms(&rule.on);
                 if let Some(block) = effect {
                     self.stmts(&block.stmts);
                     self.remembered(id, block);

@@ -10,6 +10,7 @@ pub(super) enum Timer<'e> {
     HeldFor { node: &'e Expr, since: Slot, value: Slot },
     Becomes { node: &'e Expr, before: Slot, value: Slot },
     After { node: &'e Expr, value: Slot },
+    Every { node: &'e Expr, last: Slot, value: Slot },
 }
 
 impl<'a> Lowering<'a> {
@@ -26,6 +27,7 @@ impl<'a> Lowering<'a> {
             timers.push(match &node.kind {
                 ExprKind::HeldFor(..) => Timer::HeldFor { node, since: self.lasting(1), value },
                 ExprKind::Becomes(_) => Timer::Becomes { node, before: self.lasting(1), value },
+                ExprKind::Every(_) => Timer::Every { node, last: self.last_fired(node), value },
                 _ => Timer::After { node, value },
             });
         }
@@ -38,9 +40,34 @@ impl<'a> Lowering<'a> {
             match timer {
                 Timer::HeldFor { since, .. } => _ = self.emit(Compute::Const { to: *since, value: -1.0 }),
                 Timer::Becomes { before, .. } => _ = self.emit(Compute::Const { to: *before, value: 1.0 }),
-                Timer::After { .. } => {}
+                Timer::After { .. } | Timer::Every { .. } => {}
             }
         }
+    }
+
+    /// Gives each `every` of an activity's rules and reactions its place.
+    pub(super) fn place_rhythms(&mut self, activity: &Activity) -> Vec<Slot> {
+        let nodes = activity.conditions_that_fire().flat_map(rhythms);
+        nodes
+            .map(|node| {
+                let last = self.lasting(1);
+                self.frame.rhythms.insert(std::ptr::from_ref(node) as usize, last);
+                last
+            })
+            .collect()
+    }
+
+    /// Code for when a rule or a reaction of the activity fires: each `every` of its condition counts anew.
+    pub(super) fn renew_rhythms(&mut self, on: &Expr) {
+        for node in rhythms(on) {
+            let (to, owner) = (self.last_fired(node), self.frame.header);
+            self.emit(Compute::Now { to, owner });
+        }
+    }
+
+    /// Where the age of the activity is at which what an `every` stands in fired last.
+    fn last_fired(&mut self, node: &Expr) -> Slot {
+        self.frame.rhythms.get(&(std::ptr::from_ref(node) as usize)).copied().unwrap_or_default()
     }
 
     /// Code that updates timers. They count by the age of the activity whose header is `owner`; `after` counts from
@@ -65,6 +92,13 @@ impl<'a> Lowering<'a> {
                     let from = from.unwrap_or_else(|| l.number(0.0));
                     l.emit(Compute::Elapsed { to: *value, from, ticks, owner });
                 }
+                Timer::Every { node, last, value } => {
+                    let ExprKind::Every(duration) = &node.kind else { return };
+                    let ticks = l.ticks(duration);
+                    // It is the activity's that has the rule, whichever behavior the rule would leave.
+                    let owner = l.frame.header;
+                    l.emit(Compute::Elapsed { to: *value, from: *last, ticks, owner });
+                }
             });
         }
     }
@@ -81,9 +115,17 @@ impl<'a> Lowering<'a> {
 /// The temporal operators of an expression, inner ones first.
 fn temporal_nodes<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
     children(e, &mut |child| temporal_nodes(child, out));
-    if matches!(e.kind, ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_)) {
+    if matches!(e.kind, ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) | ExprKind::Every(_)) {
         out.push(e);
     }
+}
+
+/// Each `every` of a condition.
+pub(super) fn rhythms(on: &Expr) -> Vec<&Expr> {
+    let mut nodes = Vec::new();
+    temporal_nodes(on, &mut nodes);
+    nodes.retain(|node| matches!(node.kind, ExprKind::Every(_)));
+    nodes
 }
 
 /// For each input the most samples that any `hits` of an activity counts back.

@@ -116,12 +116,18 @@ impl<'h> Signals<'h> {
     }
 
     fn has_no_edge(&self, e: &'h Expr) -> bool {
-        self.walk(e, &mut BTreeSet::new(), |e| !matches!(e.kind, ExprKind::Becomes(_)))
+        self.walk(e, &mut BTreeSet::new(), |e| match &e.kind {
+            ExprKind::Becomes(_) => false,
+            ExprKind::Every(time) => is_one_tick(time),
+            _ => true,
+        })
     }
 
     /// Whether what holds goes on to hold at the entry of a behavior, where times begin anew.
     fn is_level(&self, e: &'h Expr) -> bool {
-        let is_untimed = |e: &Expr| !matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..) | ExprKind::Done);
+        let is_untimed = |e: &Expr| {
+            !matches!(e.kind, ExprKind::After(_) | ExprKind::Every(_) | ExprKind::HeldFor(..) | ExprKind::Done)
+        };
         self.has_no_edge(e) && self.walk(e, &mut BTreeSet::new(), is_untimed)
     }
 
@@ -151,10 +157,15 @@ impl<'h> Signals<'h> {
                 ExprKind::Number(_) => return None,
                 ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) if at_once && holds => ahead.push((inner, true)),
                 // One tick has passed since the entry whenever a rule is tried.
-                ExprKind::After(time) if is_one_tick(time) && holds => {}
+                ExprKind::After(time) | ExprKind::Every(time) if is_one_tick(time) && holds => {}
                 ExprKind::After(time) if is_one_tick(time) => return None,
                 ExprKind::HeldFor(inner, time) if is_one_tick(time) && holds => ahead.push((inner, true)),
-                ExprKind::After(_) | ExprKind::Done | ExprKind::HeldFor(..) | ExprKind::Becomes(_) if at_once => {}
+                ExprKind::After(_)
+                | ExprKind::Every(_)
+                | ExprKind::Done
+                | ExprKind::HeldFor(..)
+                | ExprKind::Becomes(_)
+                    if at_once => {}
                 _ if !self.is_level(e) => return None,
                 _ => level = level.with(&Part::of(e, holds))?,
             }

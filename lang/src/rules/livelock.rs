@@ -138,8 +138,7 @@ impl<'h> Table<'h> {
             "what was done when it was suspended is done at once when it goes on: leave out `then back`, or let `do { … }` change what is \
              asked beside `done`"
         } else if mentions_after(&rule.on) {
-            "time goes on counting from the entry: write `becomes after T` for once in each stay. To begin anew each time, leave out \
-             `then back` and come back with a rule `on done`"
+            "time goes on counting from the entry: write `every T`, which counts anew when the rule fires, or `becomes after T` for once in each stay"
         } else {
             "write `becomes …`, or let the behavior end only when the condition no longer holds: `… until not …`"
         }))

@@ -93,6 +93,7 @@ fn prefix(rule: Rule) -> Option<(Unary, u8)> {
         Rule::no => (Unary::No, 4),
         Rule::becomes => (Unary::Becomes, 4),
         Rule::after => (Unary::After, 4),
+        Rule::every => (Unary::Every, 4),
         Rule::neg => (Unary::Neg, 9),
         Rule::pos => (Unary::Pos, 9),
         _ => return None,

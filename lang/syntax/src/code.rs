@@ -208,6 +208,7 @@ codes! {
         TimeInstantLoop = "instant_loop",
         TimeModifier = "modifier",
         TimeMomentary = "momentary",
+        TimeRhythm = "rhythm",
         TimeUnread = "unread",
         TimeVar = "var",
         TimeWith = "with",

@@ -141,6 +141,9 @@ fn unfinished(before: &str, rest: &str) -> Option<Habit> {
         ("after", _, "") if rest.starts_with('{') => {
             "let time go by with `wait for 5 s`, and write what comes then after it; on a rule or a reaction it is `on after 5 s`"
         }
+        ("every", _, "") if rest.starts_with('{') => {
+            "beside a body it is a reaction, which stands before that: `on every 10 min { … }`; a body does it in a loop: `loop { wait for 10 min; … }`"
+        }
         ("for", _, "") if rest.starts_with(',') => "a loop names one value: `for x in LIST { … }`",
         ("wait" | "hold" | "keep" | "steer" | "goto" | "loiter", _, "while") => {
             "what lasts while X holds ends when it does not: `until not (X)`"

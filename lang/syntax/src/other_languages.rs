@@ -159,9 +159,7 @@ fn maneuver(word: &str) -> Option<&'static str> {
         }
         "circle" | "orbit" => "write `loiter POINT, radius: 20 m, turns: 1`",
         "survey" | "lawnmower" | "mow" => "write `for row in AREA.rows(50 m) { follow row }`",
-        "every" | "each" => {
-            "write a loop that waits: `loop { wait for 10 min; … }`; on every tick on which X holds: `on X { … }`"
-        }
+        "each" => "write `on every 10 min { … }`, or `for x in LIST { … }`",
         "set" => "write `with depth 3 m, speed 2 m/s`: it holds to the end of the block",
         _ => return None,
     })

@@ -41,7 +41,7 @@ const CALLED: u16 = 1 << 10;
 const ARGUMENTS: u16 = 1 << 11;
 
 /// Every word that means something somewhere, but for those that guidance laws begin with: these are in the table of laws.
-const WORDS: [Word; 76] = [
+const WORDS: [Word; 77] = [
     // Declarations.
     word("use", RESERVED | ITEM | FRESH),
     word("const", RESERVED | ITEM | FRESH | NAMES),
@@ -101,6 +101,7 @@ const WORDS: [Word; 76] = [
     word("becomes", RESERVED | OPEN),
     word("else", RESERVED | OPEN),
     word("after", RESERVED),
+    word("every", RESERVED),
     word("any", RESERVED),
     word("by", RESERVED),
     word("of", RESERVED),

@@ -5,7 +5,7 @@ use super::expr::{Frame, Scope, block, holds, text, value};
 use super::table::Table;
 use super::timed::{Doing, End, Setpoints, Underway};
 use super::value::Value;
-use super::watch::Watch;
+use super::watch::{Rhythms, Watch};
 use super::world::World;
 use albacore_geometry::Heading;
 use albacore_lang::hir::{Activity, ActivityId, Block, Body, Decl, Hir, Kind, With};
@@ -27,6 +27,8 @@ pub struct Activation<'p> {
     /// Conditions over time: of each declaration, and of aborts and reactions.
     signals: Vec<Watch<'p>>,
     conditions: Watch<'p>,
+    /// Of its reactions, and of its rules.
+    pub rhythms: Rhythms,
     /// Overlays by the `with` that put them on, inner ones last; those of the declarations are the first. With each the
     /// setpoints that come back into force when it ends.
     worn: Vec<(Vec<Activation<'p>>, Setpoints)>,
@@ -59,6 +61,7 @@ impl<'p> Activation<'p> {
             result: None,
             signals: Vec::new(),
             conditions: Watch::default(),
+            rhythms: Rhythms::default(),
             worn: Vec::new(),
             inside,
             is_active: false,
@@ -104,6 +107,7 @@ impl<'p> Activation<'p> {
         let aborts = activity.aborts.iter().map(|(_, condition)| condition);
         let conditions: Vec<_> = aborts.chain(activity.reactions.iter().map(|(condition, _)| condition)).collect();
         self.conditions = Watch::begin(w, &frame, &conditions, self.age);
+        self.conditions.update_rhythms(w, &frame, &self.rhythms, self.age);
         self.react(w);
         match &activity.body {
             // Rule 6: a body that ends without having taken time ends on the next tick.
@@ -161,6 +165,7 @@ impl<'p> Activation<'p> {
             }
         }
         self.conditions.update(w, frame, self.age);
+        self.conditions.update_rhythms(w, frame, &self.rhythms, self.age);
     }
 
     fn scope(&self) -> Scope<'_, 'p> {
@@ -180,6 +185,7 @@ impl<'p> Activation<'p> {
     fn react(&mut self, w: &mut World<'p>) {
         for (condition, block) in &self.activity.reactions {
             if holds(w, self.scope(), condition) {
+                self.rhythms.fire(condition, self.age);
                 at_once(w, &self.frame, block);
             }
         }

@@ -144,7 +144,7 @@ fn computed(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
             }
         }
         // Rule 14: updated on every tick by whoever watches, and only looked at here.
-        ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) => {
+        ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) | ExprKind::Every(_) => {
             Value::truth(s.watch.is_some_and(|watch| watch.says(e)))
         }
     }

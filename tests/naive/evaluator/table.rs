@@ -36,7 +36,8 @@ impl<'p> Table<'p> {
     pub fn enter(&mut self, w: &mut World<'p>, owner: &Activation<'p>, which: usize) -> Result<(), Aborted> {
         let (behaviors, rules) = parts(owner);
         let guards: Vec<&Expr> = rules.iter().filter(|rule| rule.sources.contains(&which)).map(|r| &r.on).collect();
-        let rules = Watch::begin(w, &owner.frame, &guards, 0);
+        let mut rules = Watch::begin(w, &owner.frame, &guards, 0);
+        rules.update_rhythms(w, &owner.frame, &owner.rhythms, owner.age);
         let activity = &w.hir.activities[behaviors[which]];
         let activation = Activation::new(activity, owner.frame.clone(), owner.setpoints, owner.is_overlay);
         self.row.push(Seat { which, activation, rules });
@@ -54,6 +55,7 @@ impl<'p> Table<'p> {
         if !done {
             // Before its own step: the tick that it is about to live.
             seat.rules.update(w, &owner.frame, seat.activation.age + 1);
+            seat.rules.update_rhythms(w, &owner.frame, &owner.rhythms, owner.age);
         }
         for rule in parts(owner).1.iter().filter(|rule| rule.sources.contains(&seat.which)) {
             let scope = Scope { frame: &owner.frame, watch: Some(&seat.rules), done };
@@ -98,6 +100,7 @@ impl<'p> Table<'p> {
         } else {
             self.leave(w, if done { Cause::Done } else { Cause::Rule });
         }
+        owner.rhythms.fire(&rule.on, owner.age);
         if let Some(effect) = &rule.effect {
             at_once(w, &owner.frame, effect);
             remembered(w, &owner.frame, effect.assigned());
@@ -136,6 +139,7 @@ impl<'p> Table<'p> {
                 w.say(format!("resume {}", seat.activation.activity.name));
                 // It lives this tick, and with it the timers of its rules.
                 seat.rules.update(w, &owner.frame, seat.activation.age + 1);
+                seat.rules.update_rhythms(w, &owner.frame, &owner.rhythms, owner.age);
             }
         }
         Ok(false)

@@ -3,6 +3,7 @@
 use super::expr::{Frame, Scope, holds, number};
 use super::world::{World, ticks};
 use albacore_lang::hir::{Expr, ExprKind, children};
+use std::collections::BTreeMap;
 
 /// The conditions over time in some expressions, inner ones first.
 #[derive(Clone, Default)]
@@ -56,15 +57,43 @@ impl<'p> Watch<'p> {
         }
     }
 
+    /// The same for each `every`, whose clock is that of the activation which has the rule or the reaction.
+    pub fn update_rhythms(&mut self, w: &mut World<'p>, frame: &Frame<'p>, rhythms: &Rhythms, age: u64) {
+        for i in 0..self.watched.len() {
+            if let ExprKind::Every(time) = &self.watched[i].node.kind {
+                let time = ticks(number(w, Scope { frame, watch: Some(&*self), done: false }, time));
+                self.watched[i].says = age - rhythms.last(self.watched[i].node) >= time;
+            }
+        }
+    }
+
     /// What a condition over time said when it was updated last.
     pub fn says(&self, node: &Expr) -> bool {
         self.watched.iter().any(|watched| std::ptr::eq(watched.node, node) && watched.says)
     }
 }
 
+/// The age at which what an `every` stands in fired last, by its node. None: not since entry.
+#[derive(Default)]
+pub struct Rhythms(BTreeMap<*const Expr, u64>);
+
+impl Rhythms {
+    fn last(&self, node: &Expr) -> u64 {
+        self.0.get(&std::ptr::from_ref(node)).copied().unwrap_or(0)
+    }
+
+    /// What has this condition fires at an age: each `every` in it counts anew.
+    pub fn fire(&mut self, condition: &Expr, age: u64) {
+        children(condition, &mut |child| self.fire(child, age));
+        if matches!(condition.kind, ExprKind::Every(_)) {
+            self.0.insert(std::ptr::from_ref(condition), age);
+        }
+    }
+}
+
 fn over_time<'p>(e: &'p Expr, found: &mut Vec<&'p Expr>) {
     children(e, &mut |child| over_time(child, found));
-    if matches!(e.kind, ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_)) {
+    if matches!(e.kind, ExprKind::HeldFor(..) | ExprKind::Becomes(_) | ExprKind::After(_) | ExprKind::Every(_)) {
         found.push(e);
     }
 }

@@ -126,7 +126,10 @@ impl Generator {
             self.count(feature);
             let optional = self.named(|name| name.ty.inside().is_some()).filter(|_| self.random.percent(20));
             let Some(optional) = optional else {
-                let condition = self.condition();
+                let condition = match self.random.below(6) {
+                    0 => format!("every {} or {}", self.time(), self.expr(Ty::Bool, 1)),
+                    _ => self.condition(),
+                };
                 self.braces(&format!("on {condition}"), Self::instantly);
                 continue;
             };
@@ -384,8 +387,12 @@ impl Generator {
     /// A guard that is not true from the start and for ever.
     fn over_time(&mut self) -> String {
         let (x, time) = (self.expr(Ty::Bool, 2), self.time());
-        match self.random.below(6) {
+        match self.random.below(8) {
             0 => format!("becomes {x}"),
+            6 | 7 => {
+                self.count("every");
+                format!("(becomes {x}) or every {time}")
+            }
             1 => format!("{x} for {time}"),
             2 => format!("no {x} for {time}"),
             3 => format!("(becomes {x}) or after {time}"),

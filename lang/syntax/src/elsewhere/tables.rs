@@ -38,13 +38,9 @@ pub(super) fn rule(before: &str, rest: &str) -> Option<Habit> {
         let message = format!("`on` is missing before `{next}`");
         return said(&message, format!("write `{head} -> {after} on {}`", line_end(rest)));
     }
-    if has_on && matches!(last_word(after), "every" | "each") {
-        let time = line_end(rest).trim_end_matches("then back").trim();
+    if has_on && last_word(after) == "each" {
         let to = word(after);
-        return said(
-            "a rhythm is no condition",
-            format!("write `{head} -> {to} on after {time}`: the time counts anew whenever `{head}` is entered"),
-        );
+        return said("a rhythm begins with `every`", format!("write `{head} -> {to} on every {}`", line_end(rest)));
     }
     if has_on && rest.starts_with(',') {
         return said(

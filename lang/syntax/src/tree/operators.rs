@@ -10,6 +10,7 @@ pub enum Unary {
     No,
     Becomes,
     After,
+    Every,
 }
 
 /// An operator between its operands.
