@@ -271,8 +271,8 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
             n(0).sqrt()
         }
         B::Floor => whole(n(0).floor()),
-        B::Ceil => whole(n(0).ceil()),
-        B::Round => whole(n(0).round()),
+        B::Ceil => whole(n(0).ceil() + 0.0),
+        B::Round => whole(n(0).round() + 0.0),
         B::Sin => math::sin(n(0)),
         B::Cos => math::cos(n(0)),
         B::Heading => Heading::from_radians(n(0)).radians(),

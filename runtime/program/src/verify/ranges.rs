@@ -103,7 +103,8 @@ impl<'p> Ranges<'p> {
             results: BTreeMap::new(),
             holds_to_it: false,
         };
-        for &piece in own {
+        // The parameters of a mission are written before anything else runs, and never again.
+        for &piece in own.iter().filter(|piece| **piece != program.mission.params) {
             for (slot, words) in ranges.writes(piece) {
                 let end = slot.saturating_add(words).min(unit.words) as usize;
                 for writer in ranges.writers.get_mut(slot as usize..end).unwrap_or_default() {
