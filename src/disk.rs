@@ -16,15 +16,20 @@ pub fn whole(path: &Path, text: &str) -> io::Result<()> {
     replace(path, text.as_bytes()).map(drop)
 }
 
-/// The same for a file that is the person's own: what a link in its place leads to is written, and the link stays. Gives how many
-/// other names the file had (hard links): they keep what it held, for written in place it would not be whole at every moment.
-pub fn rewrite(path: &Path, text: &str) -> io::Result<u64> {
+/// The same for a file that is the person's own, and held a text (none: there was no such file) when it was read: what a link in its place
+/// leads to is written, and the link stays. One that holds something else by now is left alone. Gives how many other names the file
+/// had (hard links): they keep what it held, for written in place it would not be whole at every moment.
+pub fn rewrite(path: &Path, was: Option<&str>, text: &str) -> io::Result<u64> {
     let file = match path.canonicalize() {
         Err(error) if error.kind() == ErrorKind::NotFound && !path.is_symlink() => path.to_path_buf(),
         file => file?,
     };
     let others = names(&file).saturating_sub(1);
-    whole(&file, text)?;
+    replace_if(&file, text.as_bytes(), || match (fs::read(&file), was) {
+        (Ok(there), Some(was)) if there == was.as_bytes() => Ok(()),
+        (Err(error), None) if error.kind() == ErrorKind::NotFound => Ok(()),
+        _ => Err(io::Error::new(ErrorKind::AlreadyExists, "it was changed meanwhile, and is left as it is")),
+    })?;
     Ok(others)
 }
 
@@ -122,6 +127,11 @@ pub fn keep(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// The same, to be gone on with at its end: the file is locked before anybody else can open it.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<File> {
+    replace_if(path, bytes, || Ok(()))
+}
+
+/// The same, if nothing speaks against it when all is written but the name.
+fn replace_if(path: &Path, bytes: &[u8], allow: impl FnOnce() -> io::Result<()>) -> io::Result<File> {
     let there = replaceable(path)?;
     let folder = folder_of(path);
     // Who interrupts finds whole files and no temporary ones.
@@ -129,6 +139,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<File> {
     let part = filled(folder, bytes, there)?;
     // Nobody else knows it yet; where a disk knows no locks there are none.
     let _ = part.as_file().try_lock();
+    allow()?;
     let file = part.persist(path).map_err(|failed| failed.error)?;
     sync_folder(folder);
     Ok(file)
@@ -388,6 +399,22 @@ fn plain(error: io::Error) -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What somebody saved while a text was laid out is kept.
+    #[test]
+    fn what_was_changed_since_it_was_read_is_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("script");
+        fs::write(&path, "saved").unwrap();
+        for was in [Some("read"), None] {
+            let error = rewrite(&path, was, "laid out").unwrap_err();
+            assert!(error.to_string().contains("changed meanwhile"), "{error}");
+        }
+        assert_eq!(fs::read_to_string(&path).unwrap(), "saved");
+        rewrite(&path, Some("saved"), "laid out").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "laid out");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left beside it");
+    }
 
     /// What is written at the end takes no more of the disk than what was written at the start.
     #[test]

@@ -71,7 +71,7 @@ impl Fmt {
         if *formatted == *source.text {
             return Ok(Exit::Well);
         }
-        match disk::rewrite(path, &formatted) {
+        match disk::rewrite(path, Some(&source.text), &formatted) {
             Ok(others) => {
                 message::parted(path, others);
                 Ok(Exit::Well)

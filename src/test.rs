@@ -202,7 +202,7 @@ impl Test {
                 ];
             }
             let made = file.parent().map_or(Ok(()), std::fs::create_dir_all);
-            return match made.and_then(|()| disk::rewrite(&file, trace)) {
+            return match made.and_then(|()| disk::rewrite(&file, stored.as_deref(), trace)) {
                 Ok(others) => {
                     say(&format!("        wrote {}", file.display()));
                     message::parted(&file, others);

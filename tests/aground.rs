@@ -264,7 +264,7 @@ fn what_once_led_aground_does_not() {
             runs += 1;
         }
     });
-    assert!(runs >= 78);
+    assert!(runs >= 90);
 }
 
 /// A vehicle without way obeys no depth: one that has sunk below where its limits let it is given way, as much as they allow.
@@ -311,7 +311,8 @@ fn way_that_cannot_help_is_not_made() {
     let trace = slow("hangs", "still", &[], &[]);
     assert!(!trace.contains("stuck") && !trace.contains("makes way"), "{trace}");
     let trace = slow("waits", "surf", &["most=1cm/s"], &[]);
-    assert!(trace.contains("makes way, 0.01 m/s") && trace.contains("makes no more"), "{trace}");
+    // It is no way to speak of, and goes on for as long as the vehicle sinks.
+    assert!(trace.contains("makes way, 0.01 m/s") && !trace.contains("no longer too deep"), "{trace}");
 }
 
 /// What is wrong for a moment aborts nothing: a first sample too has others to follow it.

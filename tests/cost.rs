@@ -237,6 +237,20 @@ fn a_line_full_of_mistakes_is_checked_in_time() {
     }
 }
 
+/// Nobody looks through all declarations for each of so many names.
+#[test]
+fn names_that_nothing_has_are_told_in_time() {
+    let lines = |line: &dyn Fn(usize) -> String| (0..40_000).map(line).collect::<String>();
+    let scripts = [
+        ("constants", lines(&|i| format!("const c{i}: Int = y{i}\n"))),
+        ("body", format!("mission m {{\n{}}}\n", lines(&|i| format!("let a{i} = b{i}\n")))),
+    ];
+    for (name, script) in scripts {
+        let (output, told) = run_within(&["check"], name, &script, None);
+        assert!(output.status.code() == Some(3) && told.contains("more"), "{name}: {told:.2000}");
+    }
+}
+
 /// What is never closed is not looked for once more by each block that it stands in: at 40 levels that would take years.
 #[test]
 fn brackets_that_do_not_fit_are_told_in_time() {

@@ -125,7 +125,10 @@ fn finish(loader: &mut Loader, wanted: &Wanted) -> Script {
     let echoes = Cascades::of(unread, sources);
     let later = checked.findings.into_iter().filter(|f| !echoes.holds_back(f, sources));
     let declared_below = |finding| declared_below(finding, sources, &modules[MAIN].tree, &checked.names);
-    findings.extend(later.map(|finding| declared_below(missing_use(finding, sources, loader.library))));
+    findings.extend(later.enumerate().map(|(before, finding)| match before < check::HELPED_MAX {
+        true => declared_below(missing_use(finding, sources, loader.library)),
+        false => finding,
+    }));
     for file in checked.files {
         sources.add(file);
     }

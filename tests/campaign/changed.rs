@@ -451,30 +451,3 @@ fn a_table_that_was_cut_at_its_first_line_was_not_changed() {
         assert!(!out.with_extension("csv.found.sums").exists(), "{case}");
     }
 }
-
-/// An attack: a table that was begun in the `bay` of another file was gone on with in the script's own, and told of nothing.
-#[test]
-fn two_worlds_of_one_name_are_told_apart() {
-    let folder = empty("two_worlds");
-    let out = folder.join("t.csv");
-    let world = |fault: &str| {
-        format!(
-            "scenario bay {{\n    bottom(from: 9 m, to: 9 m)\n    vehicle(kinematic, start: point(north: 9 m, east: 0 m))\n{fault}}}\n"
-        )
-    };
-    script(&folder, "late.alb", &world("    fault(heading, wrong, from: 2 s)\n"));
-    let mission = "mission m in bay within 5 min {
-    area op = rectangle(center: point(north: 0 m, east: 0 m), along: 0 deg, length: 400 m, width: 400 m)
-    limits { altitude >= 2 m, speed <= 2.5 m/s }
-    requires { position, course, heading fresh 5 s, else abort }
-    recovery within 5 min { goto op.center }
-    with depth 3 m, speed 1.5 m/s
-    goto op.center
-}
-";
-    let own = script(&folder, "m.alb", &format!("use late\n{}{mission}", world("")));
-    let late = format!("{}#bay", folder.join("late.alb").display());
-    table(&own, "1..3", &out, &["--in", &late]);
-    refused(&own, "1..5", &out, &["--resume"], 2, "was begun with the scenario `bay` of `");
-    assert_eq!(table(&own, "1..5", &out, &["--in", &late, "--resume"]).lines().count(), 6);
-}

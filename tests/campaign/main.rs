@@ -7,6 +7,7 @@ mod changed;
 mod deeds;
 #[path = "../shell/mod.rs"]
 mod shell;
+mod sources;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};

@@ -381,6 +381,7 @@ impl<'t> Checker<'t> {
                 let time = self.watched(|c| c.duration(operand, "the time after `every`"));
                 self.rhythm(time, span)
             }
+            Unary::New => self.new_sample(operand, span),
             Unary::Pos => {
                 let value = self.expr(operand, None);
                 self.signed(value, operand, span, false)

@@ -220,6 +220,23 @@ impl<'t> Checker<'t> {
         None
     }
 
+    /// `new INPUT`.
+    pub(super) fn new_sample(&mut self, input: &tree::Expr, span: Span) -> Expr {
+        let value = self.expr(input, None);
+        match value.kind {
+            ExprKind::Input(id, InputPart::Value) => {
+                Expr { kind: ExprKind::Input(id, InputPart::IsNew), ty: Type::Bool, span, range: Interval::ANY }
+            }
+            _ if value.ty == Type::Unknown => value,
+            _ => {
+                let finding =
+                    Diagnostic::error(Code::TimeSample, input.span, "this is no input, and no sample of it comes");
+                self.report(finding.help("name an input: `new chemical`; for what comes to hold write `becomes …`"));
+                self.unknown(span)
+            }
+        }
+    }
+
     pub(super) fn no_such_name(&mut self, module: usize, name: &tree::Name) {
         let finding = Diagnostic::error(
             Code::NamesUnknown,

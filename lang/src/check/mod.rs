@@ -67,7 +67,7 @@ use visible::Visible;
 
 /// Beyond this many findings no name is searched for what it may have meant: each search looks at all names, and nobody
 /// reads so far.
-const HELPED_MAX: usize = 200;
+pub(crate) const HELPED_MAX: usize = 200;
 
 /// A file with the name by which others import it.
 #[derive(Clone, Debug, Default)]

@@ -210,6 +210,8 @@ pub enum InputPart {
     Field(u32),
     /// Seconds since the latest sample.
     Age,
+    /// Whether a sample has come in this tick.
+    IsNew,
     /// The largest sample since the last tick.
     Peak,
     /// How many of the last samples reached a limit.

@@ -72,7 +72,8 @@ fn same_part(a: &InputPart, b: &InputPart) -> bool {
     match (a, b) {
         (InputPart::Value, InputPart::Value)
         | (InputPart::Peak, InputPart::Peak)
-        | (InputPart::Age, InputPart::Age) => true,
+        | (InputPart::Age, InputPart::Age)
+        | (InputPart::IsNew, InputPart::IsNew) => true,
         (InputPart::Field(x), InputPart::Field(y)) => x == y,
         (InputPart::Hits(x, n), InputPart::Hits(y, m)) => n == m && same_value(x, y),
         _ => false,

@@ -179,6 +179,7 @@ impl<'a> Lowering<'a> {
             InputPart::Field(offset) => self.copy(to, self.input_slot(id, Input::VALUE + offset), words),
             InputPart::Peak => self.copy(to, self.input_slot(id, Input::PEAK), 1),
             InputPart::Age => _ = self.emit(Op::Age { to, input: id as u32 }),
+            InputPart::IsNew => _ = self.emit(Op::IsNew { to, input: id as u32 }),
             InputPart::Hits(limit, of) => self.scratch(|l| {
                 let limit = l.expr(limit);
                 l.emit(Op::Hits { to, input: id as u32, limit, of: *of });

@@ -176,7 +176,7 @@ impl Walk<'_> {
                 read.value.get_or_insert(span);
                 read.field.get_or_insert(span);
             }
-            InputPart::Age | InputPart::Hits(..) => {}
+            InputPart::Age | InputPart::IsNew | InputPart::Hits(..) => {}
         }
     }
 

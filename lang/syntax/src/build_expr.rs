@@ -94,6 +94,7 @@ fn prefix(rule: Rule) -> Option<(Unary, u8)> {
         Rule::becomes => (Unary::Becomes, 4),
         Rule::after => (Unary::After, 4),
         Rule::every => (Unary::Every, 4),
+        Rule::new => (Unary::New, 4),
         Rule::neg => (Unary::Neg, 9),
         Rule::pos => (Unary::Pos, 9),
         _ => return None,

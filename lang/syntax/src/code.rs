@@ -209,6 +209,7 @@ codes! {
         TimeModifier = "modifier",
         TimeMomentary = "momentary",
         TimeRhythm = "rhythm",
+        TimeSample = "sample",
         TimeUnread = "unread",
         TimeVar = "var",
         TimeWith = "with",

@@ -71,6 +71,7 @@ impl Run {
                 Op::Compute(_) => {}
                 Op::Area(op) => self.on_area(op, base),
                 Op::List(op) => self.on_list(p, op, base),
+                Op::IsNew { to, input } => self.set(b(to), truth(self.is_new(&p.inputs[input as usize]))),
                 Op::Age { to, input } => self.set(b(to), self.age_s(&p.inputs[input as usize])),
                 Op::Hits { to, input, limit, of } => {
                     let hits = self.hits(&p.inputs[input as usize], self.get(b(limit)), of);

@@ -112,6 +112,11 @@ impl Run {
         Age::execute([if self.has_sample(input) { self.age_ticks(input) } else { -1.0 }])
     }
 
+    /// Whether a sample has come in this tick.
+    pub fn is_new(&self, input: &Input) -> bool {
+        self.get(input.at + Input::STAMP) == self.state.tick as f64
+    }
+
     /// How many of the last `of` samples reached a limit.
     pub fn hits(&self, input: &Input, limit: f64, of: u32) -> f64 {
         let count = self.get(input.at + Input::COUNT) as u64;

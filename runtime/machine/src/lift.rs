@@ -53,8 +53,12 @@ impl Run {
     pub fn lift(&mut self, asked: f64, p: &Program) -> f64 {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
+        // Somebody else drove since: what way has done or not is not ours.
+        let is_anew = self.state.tick > self.state.lift_tick + 1;
+        self.state.lift_tick = self.state.tick;
         if let Some(by) = self.too_deep(p).filter(|_| speed > 0.0) {
             let now = Deep { by, depth: self.depth(), altitude: self.sounded(), is_low: self.is_low() };
+            let before = if is_anew { before.anew(self.state.tick, now) } else { before };
             self.state.lift = before.after(self.state.tick, now);
         }
         let lifted = self.state.lift.is_lifted();
@@ -84,11 +88,14 @@ impl Deep {
         self.by <= before.by - rise || self.depth <= before.depth - rise || by_altitude
     }
 
-    /// Whether it has sunk further since.
+    /// Whether it has sunk further since than way in vain is forgotten for.
     fn has_sunk_since(&self, before: Deep) -> bool {
         let fall = if self.is_low { SUNK_LOW_M } else { SUNK_M };
-        let by_altitude = self.climbed_since(before).is_some_and(|climbed| climbed <= -fall);
-        self.by > before.by + fall || by_altitude || self.is_low && !before.is_low
+        self.is_deeper_than(before, fall) || self.is_low && !before.is_low
+    }
+
+    fn is_deeper_than(&self, before: Deep, fall: f64) -> bool {
+        self.by > before.by + fall || self.climbed_since(before).is_some_and(|climbed| climbed <= -fall)
     }
 
     /// How much the altitude has grown, m. Only that tells of a vehicle whose depth is exactly the same: it is stuck, perhaps.
@@ -108,11 +115,22 @@ impl Lift {
         matches!(self, Lift::Lifted(..))
     }
 
+    /// The same where others have driven since.
+    fn anew(self, tick: u64, now: Deep) -> Lift {
+        match self {
+            Lift::Clear | Lift::Deep(..) => self,
+            Lift::Lifted(..) => Lift::Lifted(now, tick),
+            Lift::InVain(_) => Lift::Clear,
+        }
+    }
+
     fn after(self, tick: u64, now: Deep) -> Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match (self, now.patience()) {
             (Lift::Lifted(..) | Lift::InVain(_), _) if now.by <= LIFTED_M => Lift::Clear,
             (Lift::Lifted(before, _), _) if now.has_risen_since(before, RISEN_M) => Lift::Lifted(now, tick),
+            // A hull sinks on until its fins bite: it has to rise from where it is deepest, and has its time from then.
+            (Lift::Lifted(before, _), _) if now.is_deeper_than(before, LIFTED_M) => Lift::Lifted(now, tick),
             (Lift::Lifted(before, since), _) if lasts(since) > IN_VAIN_S => match now.has_risen_since(before, LIFTED_M)
             {
                 true => Lift::Lifted(now, tick),

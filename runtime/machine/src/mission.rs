@@ -45,6 +45,7 @@ impl Run {
             declared: Declared::default(),
             bottom: Bottom::default(),
             lift: Lift::default(),
+            lift_tick: 0,
             aground: Aground::default(),
             stands: false,
             depth_before: None,

@@ -38,6 +38,8 @@ pub struct State {
     pub(crate) bottom: Bottom,
     /// The vehicle deeper than it may be.
     pub(crate) lift: Lift,
+    /// The tick in which that was looked at last.
+    pub(crate) lift_tick: u64,
     /// The vehicle on the bottom.
     pub(crate) aground: Aground,
     /// Whether the heading and the depth of the very start have been taken.

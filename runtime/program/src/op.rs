@@ -24,6 +24,8 @@ pub enum Op {
     // ---- inputs
     /// Seconds since the latest sample.
     Age { to: Slot, input: u32 },
+    /// Whether a sample has come in this tick.
+    IsNew { to: Slot, input: u32 },
     /// How many of the last `of` samples reached a limit.
     Hits { to: Slot, input: u32, limit: Slot, of: u32 },
     // ---- flow of control

@@ -53,7 +53,9 @@ impl Program {
                 Op::Report { site } => (*site as usize) < self.reports.len(),
                 Op::Log { text } | Op::Abort { why: text } => (*text as usize) < self.texts.len(),
                 Op::Changed { memory } => (*memory as usize) < self.memories.len(),
-                Op::Age { input, .. } | Op::Hits { input, .. } => (*input as usize) < self.inputs.len(),
+                Op::Age { input, .. } | Op::IsNew { input, .. } | Op::Hits { input, .. } => {
+                    (*input as usize) < self.inputs.len()
+                }
                 _ => true,
             };
             if !is_there {

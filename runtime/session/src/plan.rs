@@ -96,7 +96,7 @@ impl Plan {
                 // The file may be the mission's own, or import what that imports.
                 let mut sources = sources(script);
                 for source in plan.sources {
-                    if sources.iter().all(|known| known.digest != source.digest) {
+                    if sources.iter().all(|known| *known != source) {
                         sources.push(source);
                     }
                 }

@@ -196,6 +196,7 @@ impl<'p> World<'p> {
             InputPart::Age => {
                 Value::Number(sensed.stamp.map_or(1e9, |stamp| (self.tick as f64 - stamp as f64) * TICK_S))
             }
+            InputPart::IsNew => Value::truth(sensed.stamp == Some(self.tick)),
             InputPart::Hits(_, of) => {
                 let last = sensed.all.iter().rev().take(*of as usize);
                 Value::Number(last.filter(|&&x| x >= limit).count() as f64)

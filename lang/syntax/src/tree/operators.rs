@@ -11,6 +11,7 @@ pub enum Unary {
     Becomes,
     After,
     Every,
+    New,
 }
 
 /// An operator between its operands.

@@ -18,6 +18,7 @@ impl Ranges<'_> {
             Op::Compute(computed) => self.compute(at, op, computed, known),
             Op::List(list) => self.on_list(at, op, list, known),
             Op::Area(_) | Op::Keep { .. } | Op::Answer { .. } | Op::Driven { .. } => self.unknown(op, known),
+            Op::IsNew { to, .. } => self.set(known, to, Word::TRUTH),
             Op::Age { to, .. } => self.set(known, to, Word::of(Operator::Age.rule(&[]))),
             Op::Hits { to, of, .. } => self.set(known, to, Word { range: counted(of), is_whole: true }),
             Op::Begin { .. } => self.unknown(op, known),
@@ -185,9 +186,10 @@ impl Ranges<'_> {
 
     /// The result of an instruction, widened where it keeps growing from round to round.
     fn result(&mut self, at: Addr, to: Slot, word: Word, known: &mut Known) {
-        let (was, times) = self.results.get(&at).copied().unwrap_or((word.range, 0));
-        let range = if times < PATIENCE { word.range } else { widened(word.range, was) };
-        self.results.insert(at, (range, times + 1));
+        let (was, grown) = self.results.get(&at).copied().unwrap_or((word.range, 0));
+        let grows = !was.covers(word.range);
+        let range = if grows && grown >= PATIENCE { widened(word.range, was) } else { word.range };
+        self.results.insert(at, (was.or(range), grown + u32::from(grows)));
         self.set(known, to, Word { range, ..word });
     }
 

@@ -17,7 +17,7 @@ pub(super) fn written(op: &Op) -> impl Iterator<Item = (Slot, u32)> {
         Op::Compute(op) => computed(op),
         Op::Area(op) => of_area(op),
         Op::List(op) => of_list(op),
-        Op::Age { to, .. } | Op::Hits { to, .. } => one((to, 1)),
+        Op::Age { to, .. } | Op::IsNew { to, .. } | Op::Hits { to, .. } => one((to, 1)),
         Op::Begin { state, .. } => one((state, GUIDANCE_WORDS)),
         // What keeps its course has one word of its own: whether it does.
         Op::Guide { guide: Guide::Keep, state, ended, .. } => both((state, 1), (ended, 1)),

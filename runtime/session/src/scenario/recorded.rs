@@ -29,15 +29,17 @@ pub struct RecordedPlumeClause {
 pub fn recorded_plume(understood: &mut Understood, clause: RecordedPlumeClause, files: &Files) -> Result<(), Wrong> {
     let RecordedPlumeClause { file: path, kernel, start, start_spread, threshold } = clause;
     let header = files.data(&path, HEADER_BYTES_MAX)?;
-    let header = String::from_utf8(header).map_err(|_| not_utf8(&path))?;
-    let header = RecordingHeader::read(&header).map_err(|e| wrong(&path, e))?;
+    let text = String::from_utf8(header).map_err(|_| not_utf8(&path))?;
+    let header = RecordingHeader::read(&text).map_err(|e| wrong(&path, e))?;
     // The binary lies beside its header.
     let folder = path.rfind('/').map_or("", |slash| &path[..=slash]);
     let binary = format!("{folder}{}", header.binary());
     let bytes = files.data(&binary, RecordingHeader::BINARY_BYTES_MAX)?;
     let recording = header.decode(&bytes).map_err(|error| wrong(&path, error))?;
     let recorded = RecordedPlume { recording: Arc::new(recording), kernel, start, start_spread, threshold };
+    // The header says as much of the world as the binary.
     let mut digest = Digest::new();
+    digest.text(&text);
     digest.text(recorded.recording.sha256());
     understood.files.push(SourceDigest { name: path, digest: digest.value() });
     let scenario = &mut understood.world;

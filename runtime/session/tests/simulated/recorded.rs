@@ -53,6 +53,38 @@ fn a_record_brings_flow_plume_source_and_region() {
     assert!(run.file(&PICTURE).contains("case_a"), "the picture shows the source");
 }
 
+/// A header says where the source is, and more: one that was changed is another record, though its binary is the same.
+#[test]
+fn a_header_that_was_changed_is_another_record() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("changed_header");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let missions = concat!(env!("CARGO_MANIFEST_DIR"), "/../../missions/recorded/");
+    let header = std::fs::read_to_string(format!("{missions}case_a.json")).unwrap();
+    for file in std::fs::read_dir(missions).unwrap() {
+        let file = file.unwrap();
+        std::fs::copy(file.path(), folder.join(file.file_name())).unwrap();
+    }
+    let mut digests = Vec::new();
+    for north in ["431.7", "433.7"] {
+        let changed = header.replace("\"north_m\": 431.7", &format!("\"north_m\": {north}"));
+        std::fs::write(folder.join("case_a.json"), changed).unwrap();
+        let text = script("point(north: 0 m, east: 0 m)", "recorded_plume(\"case_a.json\")")
+            .sources
+            .iter()
+            .next()
+            .unwrap()
+            .text
+            .clone();
+        let name = folder.join("such.alb").display().to_string();
+        let script = load_text(Source { name: name.into(), text });
+        let plan = Plan::new(&script, "such.alb", None, None).unwrap_or_else(|_| panic!("{:?}", findings(&script)));
+        assert_eq!(format!("{}", plan.scenario.environment.sources[0].at.north), north);
+        digests.extend(plan.sources.iter().filter(|source| source.name == "case_a.json").map(|source| source.digest));
+    }
+    assert!(digests.len() == 2 && digests[0] != digests[1], "{digests:?}");
+}
+
 #[test]
 fn records_that_cannot_be_are_told_with_their_file() {
     for (clauses, expected) in [
