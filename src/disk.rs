@@ -33,6 +33,15 @@ pub fn rewrite(path: &Path, was: Option<&str>, text: &str) -> io::Result<u64> {
     Ok(others)
 }
 
+/// What a file is called without its ending, as a text in which no two names are the same: bytes that are no text are written as `%FF`.
+pub fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().as_encoded_bytes();
+    let part = |chunk: std::str::Utf8Chunk| {
+        chunk.invalid().iter().fold(chunk.valid().to_string(), |text, byte| text + &format!("%{byte:02X}"))
+    };
+    stem.utf8_chunks().map(part).collect()
+}
+
 /// How many names a file has.
 #[cfg(unix)]
 pub fn names(path: &Path) -> u64 {
@@ -399,6 +408,17 @@ fn plain(error: io::Error) -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[cfg(unix)]
+    fn no_two_names_are_called_the_same() {
+        use std::os::unix::ffi::OsStrExt;
+        let stems: Vec<String> = [&b"bad\xff.alb"[..], b"bad\xfe.alb", b"depth_\xc3\xa4.alb"]
+            .iter()
+            .map(|name| stem(Path::new(std::ffi::OsStr::from_bytes(name))))
+            .collect();
+        assert_eq!(stems, ["bad%FF", "bad%FE", "depth_\u{e4}"]);
+    }
 
     /// What somebody saved while a text was laid out is kept.
     #[test]

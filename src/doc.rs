@@ -157,7 +157,7 @@ fn module(path: &Path) -> Result<Module, Exit> {
         message::error(&format!("`{}` cannot be read", path.display()), None);
         return Err(Exit::Script);
     };
-    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = disk::stem(path);
     let with_table = page.declarations.iter().filter(|d| d.table.is_some()).map(|d| d.name.clone());
     let diagrams = with_table.filter_map(|name| script.diagram(Some(&name)).ok().map(|d| (name, d))).collect();
     stray(&page, &script.sources);

@@ -332,7 +332,7 @@ fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
 
 /// `missions/snapshots/duck_single-one_source-1.trace`.
 pub fn snapshot_file(script: &Path, test: &TestResult, seed: u64) -> PathBuf {
-    let stem = script.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = disk::stem(script);
     let name = short(format!("{stem}-{}-{seed}", test.file_name));
     script.with_file_name("snapshots").join(format!("{name}.trace"))
 }

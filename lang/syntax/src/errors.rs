@@ -237,7 +237,7 @@ fn kind(rule: Rule) -> String {
         name | label | path => "a name",
         quantity | number | expr | operand | cond | condition | geodetic | paren | list | if_expr | match_expr
         | neg | pos | not | no | becomes | after | every | new | kw_not | kw_no | kw_becomes | kw_after | kw_every
-        | kw_new | v_true | v_false | v_none | v_done | hole_expr | arg => "a value",
+        | w_new | v_true | v_false | v_none | v_done | hole_expr | arg => "a value",
         unit => "a unit",
         text | text_part | hole => "a text",
         op_else | op_or | op_and | op_eq | op_ne | op_le | op_ge | op_lt | op_gt | op_add | op_sub | op_toward

@@ -179,7 +179,9 @@ fn reach(area: &Area) -> String {
     let of = |along: fn(&Point) -> f64| {
         let all = area.corners().iter().map(along);
         let (least, most) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
-        format!("{least:.0} m to {most:.0} m")
+        // Not "-0 m".
+        let whole = |x: f64| x.round() + 0.0;
+        format!("{:.0} m to {:.0} m", whole(least), whole(most))
     };
     format!("{} north and {} east of the origin", of(|p| p.north), of(|p| p.east))
 }
