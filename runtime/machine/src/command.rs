@@ -36,7 +36,7 @@ impl Run {
         } else {
             (course, speed.max(0.0))
         };
-        let command = Command { heading, speed: self.lift(speed, p), vertical };
+        let command = Command { heading, speed: self.lift(speed, vertical, p), vertical };
         self.state.command = Some(command);
         command
     }

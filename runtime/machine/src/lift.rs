@@ -3,7 +3,7 @@
 use crate::Event;
 use crate::state::Run;
 use albacore_program::Program;
-use albacore_vehicle::TICK_S;
+use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 
 /// A vehicle sinks that is deeper than it may be by so much, m, or whose altitude is low, and has not risen by so much in so long, s.
@@ -20,6 +20,40 @@ const LIFTED_M: f64 = 0.2;
 const IN_VAIN_S: f64 = 30.0;
 /// The speed through the water at which fins lift a hull, m/s.
 const LIFT_SPEED: f64 = 1.5;
+
+/// How fast it sinks is measured over so long, s, twice: what jumps does not sink.
+const MEASURED_S: f64 = 4.0;
+/// It sinks by so much at least, m/s, and counts as sinking by so much at most.
+const SINKS: f64 = 0.1;
+const SINKS_MAX: f64 = 0.6;
+/// A hull that sinks goes on for so long, s, until its fins bite: where it will be by then counts as where it is.
+const AHEAD_S: f64 = 40.0;
+
+/// How fast a vehicle has sunk lately.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Sinking {
+    /// The depth, m, in a tick, from which on it is measured.
+    depth: f64,
+    since: u64,
+    /// What was measured last, and before that, m/s.
+    rates: [f64; 2],
+}
+
+impl Sinking {
+    fn after(self, tick: u64, depth: f64) -> Self {
+        let lasts = tick.saturating_sub(self.since) as f64 * TICK_S;
+        match lasts < MEASURED_S {
+            true => self,
+            false => Sinking { depth, since: tick, rates: [(depth - self.depth) / lasts, self.rates[0]] },
+        }
+    }
+
+    /// By how much a vehicle will be deeper when its fins bite, m.
+    fn ahead(self) -> f64 {
+        let rate = self.rates[0].min(self.rates[1]);
+        if rate < SINKS { 0.0 } else { AHEAD_S * rate.min(SINKS_MAX) }
+    }
+}
 
 /// What is known of a vehicle that is deeper than it may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -50,14 +84,25 @@ pub(crate) struct Deep {
 impl Run {
     /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than its limits allow
     /// and does not rise; as far as the limit of speed lets it.
-    pub fn lift(&mut self, asked: f64, p: &Program) -> f64 {
+    pub fn lift(&mut self, asked: f64, vertical: Vertical, p: &Program) -> f64 {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
         // Somebody else drove since: what way has done or not is not ours.
         let is_anew = self.state.tick > self.state.lift_tick + 1;
         self.state.lift_tick = self.state.tick;
+        let (tick, depth) = (self.state.tick, self.depth());
+        self.state.sinking = match is_anew {
+            true => Sinking { depth, since: tick, ..Sinking::default() },
+            false => self.state.sinking.after(tick, depth),
+        };
         if let Some(by) = self.too_deep(p).filter(|_| speed > 0.0) {
-            let now = Deep { by, depth: self.depth(), altitude: self.sounded(), is_low: self.is_low() };
+            // Who dives as told does not sink.
+            let sinks = match vertical {
+                Vertical::Depth(told) => depth > told + SUNK_M,
+                Vertical::Altitude(told) => self.sounded().is_some_and(|altitude| altitude < told - SUNK_M),
+            };
+            let by = if sinks { by + self.state.sinking.ahead() } else { by };
+            let now = Deep { by, depth, altitude: self.sounded(), is_low: self.is_low() };
             let before = if is_anew { before.anew(self.state.tick, now) } else { before };
             self.state.lift = before.after(self.state.tick, now);
         }

@@ -5,7 +5,7 @@ use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::inputs::{MissingInput, senses, wiring};
-use crate::lift::Lift;
+use crate::lift::{Lift, Sinking};
 use crate::rest::Rest;
 use crate::state::{Asked, ControlRequest, Declared, Limits, Overridden, Phase, Requirement, Run, State};
 use crate::trig::Trig;
@@ -46,6 +46,7 @@ impl Run {
             bottom: Bottom::default(),
             lift: Lift::default(),
             lift_tick: 0,
+            sinking: Sinking::default(),
             aground: Aground::default(),
             stands: false,
             depth_before: None,

@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
-use crate::lift::Lift;
+use crate::lift::{Lift, Sinking};
 use crate::rest::Rest;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
@@ -40,6 +40,8 @@ pub struct State {
     pub(crate) lift: Lift,
     /// The tick in which that was looked at last.
     pub(crate) lift_tick: u64,
+    /// How fast the vehicle has sunk lately.
+    pub(crate) sinking: Sinking,
     /// The vehicle on the bottom.
     pub(crate) aground: Aground,
     /// Whether the heading and the depth of the very start have been taken.
