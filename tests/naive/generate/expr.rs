@@ -159,6 +159,7 @@ impl Generator {
         let r = &mut self.random;
         let senses = !self.is_pure;
         match ty {
+            Ty::Bool if senses && r.percent(5) => "(new chemical)",
             Ty::Bool => r.of(&CONDITIONS),
             Ty::Int if senses && r.percent(30) => "chemical.hits($R, of: 4)",
             Ty::Int => r.of(&[
