@@ -109,12 +109,12 @@ impl Ranges<'_> {
             | Compute::And { .. }
             | Compute::Or { .. } => self.test(at, computed, known),
             Compute::HeldFor { to, x, since, .. } => {
-                self.shown(to, known.implications(&self.ground, x).when);
+                self.shown(to, x, known);
                 known.forget(&self.ground, since, 1);
                 self.timer(known, to);
             }
             Compute::Becomes { to, x, before } => {
-                self.shown(to, known.implications(&self.ground, x).when);
+                self.shown(to, x, known);
                 self.set(known, before, Word::TRUTH);
                 self.timer(known, to);
             }
@@ -235,9 +235,20 @@ impl Ranges<'_> {
     }
 
     /// What a timer shows when it is true: as much as whatever updates it.
-    fn shown(&mut self, timer: Slot, mut shows: Vec<(Slot, Interval)>) {
+    fn shown(&mut self, timer: Slot, x: Slot, known: &Known) {
+        // Where what is watched does not hold, neither does the timer: that way it shows nothing.
+        if known.word(&self.ground, x).is_zero() {
+            return;
+        }
+        let implied = known.implications(&self.ground, x).when;
         let stands = |slot: Slot| self.unit.standing.iter().any(|(at, words)| slot >= *at && slot - at < *words);
-        shows.retain(|(of, _)| of & ABSOLUTE != 0 || stands(*of));
+        let mut shows: Vec<(Slot, Interval)> = Vec::new();
+        for (of, range) in implied.into_iter().filter(|(of, _)| of & ABSOLUTE != 0 || stands(*of)) {
+            match shows.iter_mut().find(|(other, _)| *other == of) {
+                Some((_, known)) => *known = known.and(range),
+                None => shows.push((of, range)),
+            }
+        }
         let known = self.timers.entry(timer).or_insert_with(|| Some(shows.clone()));
         if let Some(known) = known {
             known.retain_mut(|(of, range)| match shows.iter().find(|(other, _)| other == of) {
