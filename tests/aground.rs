@@ -315,6 +315,23 @@ fn way_that_cannot_help_is_not_made() {
     assert!(trace.contains("makes way, 0.01 m/s") && !trace.contains("no longer too deep"), "{trace}");
 }
 
+/// Way is made for who sinks: not out of a dive that was asked for, and not for ever where a gauge goes up and down.
+#[test]
+fn way_is_made_for_who_sinks() {
+    let trace = |file: &str| {
+        let path = Path::new("tests/aground").join(file);
+        let script = load(&path, None, &[]).unwrap();
+        assert!(script.is_sound(), "{:?}", script.findings);
+        let mut run = Run::new(&Plan::new(&script, file, None, None).unwrap(), 1).unwrap();
+        run.to_end();
+        run.trace().to_string()
+    };
+    let dives = trace("yoyo.alb");
+    assert!(!dives.contains("makes way"), "{dives}");
+    let noisy = trace("noisy_gauge.alb");
+    assert!(noisy.contains("makes way") && noisy.contains("makes no more"), "{noisy}");
+}
+
 /// What is wrong for a moment aborts nothing: a first sample too has others to follow it.
 #[test]
 fn one_wrong_sample_aborts_nothing() {

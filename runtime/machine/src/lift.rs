@@ -63,8 +63,8 @@ pub(crate) enum Lift {
     Clear,
     /// It is so deep, which has to become less from a tick on.
     Deep(Deep, u64),
-    /// It did not: it makes way, and has to rise from there from a tick on.
-    Lifted(Deep, u64),
+    /// It did not: it makes way, and has to rise from there from a tick on. It was this deep at most since.
+    Lifted(Deep, u64, Deep),
     /// It made way in vain, when it was so deep.
     InVain(Deep),
 }
@@ -91,17 +91,17 @@ impl Run {
         let is_anew = self.state.tick > self.state.lift_tick + 1;
         self.state.lift_tick = self.state.tick;
         let (tick, depth) = (self.state.tick, self.depth());
-        self.state.sinking = match is_anew {
+        // Who dives as told does not sink.
+        let sinks = match vertical {
+            Vertical::Depth(told) => depth > told + SUNK_M,
+            Vertical::Altitude(told) => self.sounded().is_some_and(|altitude| altitude < told - SUNK_M),
+        };
+        self.state.sinking = match is_anew || !sinks {
             true => Sinking { depth, since: tick, ..Sinking::default() },
             false => self.state.sinking.after(tick, depth),
         };
         if let Some(by) = self.too_deep(p).filter(|_| speed > 0.0) {
-            // Who dives as told does not sink.
-            let sinks = match vertical {
-                Vertical::Depth(told) => depth > told + SUNK_M,
-                Vertical::Altitude(told) => self.sounded().is_some_and(|altitude| altitude < told - SUNK_M),
-            };
-            let by = if sinks { by + self.state.sinking.ahead() } else { by };
+            let by = by + self.state.sinking.ahead();
             let now = Deep { by, depth, altitude: self.sounded(), is_low: self.is_low() };
             let before = if is_anew { before.anew(self.state.tick, now) } else { before };
             self.state.lift = before.after(self.state.tick, now);
@@ -164,7 +164,7 @@ impl Lift {
     fn anew(self, tick: u64, now: Deep) -> Lift {
         match self {
             Lift::Clear | Lift::Deep(..) => self,
-            Lift::Lifted(..) => Lift::Lifted(now, tick),
+            Lift::Lifted(..) => Lift::Lifted(now, tick, now),
             Lift::InVain(_) => Lift::Clear,
         }
     }
@@ -173,19 +173,23 @@ impl Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match (self, now.patience()) {
             (Lift::Lifted(..) | Lift::InVain(_), _) if now.by <= LIFTED_M => Lift::Clear,
-            (Lift::Lifted(before, _), _) if now.has_risen_since(before, RISEN_M) => Lift::Lifted(now, tick),
-            // A hull sinks on until its fins bite: it has to rise from where it is deepest, and has its time from then.
-            (Lift::Lifted(before, _), _) if now.is_deeper_than(before, LIFTED_M) => Lift::Lifted(now, tick),
-            (Lift::Lifted(before, since), _) if lasts(since) > IN_VAIN_S => match now.has_risen_since(before, LIFTED_M)
-            {
-                true => Lift::Lifted(now, tick),
-                false => Lift::InVain(now),
-            },
+            (Lift::Lifted(before, _, deepest), _) if now.has_risen_since(before, RISEN_M) => {
+                Lift::Lifted(now, tick, deepest)
+            }
+            // A hull sinks on until its fins bite: it has to rise from where it is deepest, and has its time from then. What goes up and
+            // down, as a gauge does in waves, is deepest once.
+            (Lift::Lifted(_, _, deepest), _) if now.is_deeper_than(deepest, LIFTED_M) => Lift::Lifted(now, tick, now),
+            (Lift::Lifted(before, since, deepest), _) if lasts(since) > IN_VAIN_S => {
+                match now.has_risen_since(before, LIFTED_M) {
+                    true => Lift::Lifted(now, tick, deepest),
+                    false => Lift::InVain(now),
+                }
+            }
             (Lift::Lifted(..), _) => self,
             (Lift::InVain(before), _) if !now.has_sunk_since(before) => self,
             (Lift::Deep(before, since), Some(patience)) if now.by > before.by - RISEN_M => {
                 if lasts(since) > patience {
-                    Lift::Lifted(now, tick)
+                    Lift::Lifted(now, tick, now)
                 } else {
                     self
                 }

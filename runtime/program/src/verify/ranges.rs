@@ -28,8 +28,8 @@ impl Program {
             own.sort_unstable();
             own.dedup();
             let mut ranges = Ranges::new(self, claims, unit, &own);
-            // Twice: what a timer shows is known when all code has been seen once.
-            for holds_to_it in [false, true] {
+            // What a timer shows is known when all code has been seen once, and of what watches a timer once more for each.
+            for holds_to_it in [false, false, false, true] {
                 ranges.holds_to_it = holds_to_it;
                 ranges.unit_code(&own, &guards)?;
             }
