@@ -21,6 +21,7 @@ mod lists;
 mod mission;
 mod requirements;
 mod rest;
+mod sinking;
 mod slope;
 mod state;
 mod trig;

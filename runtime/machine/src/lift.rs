@@ -1,6 +1,7 @@
 //! Way for a vehicle that is deeper than its limits allow and does not rise: fins lift nothing that stands still, or creeps.
 
 use crate::Event;
+use crate::sinking::Sinking;
 use crate::state::Run;
 use albacore_program::Program;
 use albacore_vehicle::{TICK_S, Vertical};
@@ -21,40 +22,6 @@ const IN_VAIN_S: f64 = 30.0;
 /// The speed through the water at which fins lift a hull, m/s.
 const LIFT_SPEED: f64 = 1.5;
 
-/// How fast it sinks is measured over so long, s, twice: what jumps does not sink.
-const MEASURED_S: f64 = 4.0;
-/// It sinks by so much at least, m/s, and counts as sinking by so much at most.
-const SINKS: f64 = 0.1;
-const SINKS_MAX: f64 = 0.6;
-/// A hull that sinks goes on for so long, s, until its fins bite: where it will be by then counts as where it is.
-const AHEAD_S: f64 = 40.0;
-
-/// How fast a vehicle has sunk lately.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Sinking {
-    /// The depth, m, in a tick, from which on it is measured.
-    depth: f64,
-    since: u64,
-    /// What was measured last, and before that, m/s.
-    rates: [f64; 2],
-}
-
-impl Sinking {
-    fn after(self, tick: u64, depth: f64) -> Self {
-        let lasts = tick.saturating_sub(self.since) as f64 * TICK_S;
-        match lasts < MEASURED_S {
-            true => self,
-            false => Sinking { depth, since: tick, rates: [(depth - self.depth) / lasts, self.rates[0]] },
-        }
-    }
-
-    /// By how much a vehicle will be deeper when its fins bite, m.
-    fn ahead(self) -> f64 {
-        let rate = self.rates[0].min(self.rates[1]);
-        if rate < SINKS { 0.0 } else { AHEAD_S * rate.min(SINKS_MAX) }
-    }
-}
-
 /// What is known of a vehicle that is deeper than it may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Lift {
@@ -63,8 +30,14 @@ pub(crate) enum Lift {
     Clear,
     /// It is so deep, which has to become less from a tick on.
     Deep(Deep, u64),
-    /// It did not: it makes way, and has to rise from there from a tick on. It was this deep at most since.
-    Lifted(Deep, u64, Deep),
+    /// It did not: it makes way.
+    Lifted {
+        /// It has to rise from there, from a tick on.
+        from: Deep,
+        since: u64,
+        /// It was so deep at most.
+        deepest: Deep,
+    },
     /// It made way in vain, when it was so deep.
     InVain(Deep),
 }
@@ -97,7 +70,7 @@ impl Run {
             Vertical::Altitude(told) => self.sounded().is_some_and(|altitude| altitude < told - SUNK_M),
         };
         self.state.sinking = match is_anew || !sinks {
-            true => Sinking { depth, since: tick, ..Sinking::default() },
+            true => Sinking::from(tick, depth),
             false => self.state.sinking.after(tick, depth),
         };
         if let Some(by) = self.too_deep(p).filter(|_| speed > 0.0) {
@@ -156,15 +129,20 @@ impl Lift {
         matches!(self, Lift::Clear | Lift::Deep(..))
     }
 
+    /// A vehicle makes way from a tick on that is so deep.
+    fn lifted(now: Deep, tick: u64) -> Lift {
+        Lift::Lifted { from: now, since: tick, deepest: now }
+    }
+
     fn is_lifted(self) -> bool {
-        matches!(self, Lift::Lifted(..))
+        matches!(self, Lift::Lifted { .. })
     }
 
     /// The same where others have driven since.
     fn anew(self, tick: u64, now: Deep) -> Lift {
         match self {
             Lift::Clear | Lift::Deep(..) => self,
-            Lift::Lifted(..) => Lift::Lifted(now, tick, now),
+            Lift::Lifted { .. } => Lift::lifted(now, tick),
             Lift::InVain(_) => Lift::Clear,
         }
     }
@@ -172,24 +150,24 @@ impl Lift {
     fn after(self, tick: u64, now: Deep) -> Lift {
         let lasts = |since: u64| tick.saturating_sub(since) as f64 * TICK_S;
         match (self, now.patience()) {
-            (Lift::Lifted(..) | Lift::InVain(_), _) if now.by <= LIFTED_M => Lift::Clear,
-            (Lift::Lifted(before, _, deepest), _) if now.has_risen_since(before, RISEN_M) => {
-                Lift::Lifted(now, tick, deepest)
+            (Lift::Lifted { .. } | Lift::InVain(_), _) if now.by <= LIFTED_M => Lift::Clear,
+            (Lift::Lifted { from, deepest, .. }, _) if now.has_risen_since(from, RISEN_M) => {
+                Lift::Lifted { from: now, since: tick, deepest }
             }
             // A hull sinks on until its fins bite: it has to rise from where it is deepest, and has its time from then. What goes up and
             // down, as a gauge does in waves, is deepest once.
-            (Lift::Lifted(_, _, deepest), _) if now.is_deeper_than(deepest, LIFTED_M) => Lift::Lifted(now, tick, now),
-            (Lift::Lifted(before, since, deepest), _) if lasts(since) > IN_VAIN_S => {
-                match now.has_risen_since(before, LIFTED_M) {
-                    true => Lift::Lifted(now, tick, deepest),
+            (Lift::Lifted { deepest, .. }, _) if now.is_deeper_than(deepest, LIFTED_M) => Lift::lifted(now, tick),
+            (Lift::Lifted { from, since, deepest }, _) if lasts(since) > IN_VAIN_S => {
+                match now.has_risen_since(from, LIFTED_M) {
+                    true => Lift::Lifted { from: now, since: tick, deepest },
                     false => Lift::InVain(now),
                 }
             }
-            (Lift::Lifted(..), _) => self,
+            (Lift::Lifted { .. }, _) => self,
             (Lift::InVain(before), _) if !now.has_sunk_since(before) => self,
             (Lift::Deep(before, since), Some(patience)) if now.by > before.by - RISEN_M => {
                 if lasts(since) > patience {
-                    Lift::Lifted(now, tick, now)
+                    Lift::lifted(now, tick)
                 } else {
                     self
                 }

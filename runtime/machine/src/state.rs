@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
-use crate::lift::{Lift, Sinking};
+use crate::lift::Lift;
 use crate::rest::Rest;
 use crate::trig::Trig;
 use albacore_geometry::Heading;
@@ -232,6 +232,7 @@ pub(crate) struct Run {
 }
 
 use crate::Event;
+use crate::sinking::Sinking;
 
 /// Where the inputs are that guidance itself reads; absolute slots of their blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
