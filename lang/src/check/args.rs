@@ -9,7 +9,6 @@ use crate::hir::{Builtin, Expr, ExprKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
-use albacore_arithmetic::{Operation, Sqrt};
 use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 use albacore_program::{Channel, Guide};
 use albacore_syntax::other_languages;
@@ -22,10 +21,10 @@ const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg
 const TIME_LIMITS: [&str; 5] = ["timeout", "time_limit", "time", "duration", "within"];
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
-const NUMBER: Type = Type::Quantity(Dimension::NONE);
+pub(super) const NUMBER: Type = Type::Quantity(Dimension::NONE);
 
 /// The functions that every script knows.
-pub(super) const BUILTINS: [&str; 18] = [
+pub(super) const BUILTINS: [&str; 21] = [
     "point",
     "vector",
     "line",
@@ -38,11 +37,14 @@ pub(super) const BUILTINS: [&str; 18] = [
     "max",
     "clamp",
     "sqrt",
+    "exp",
+    "ln",
     "floor",
     "ceil",
     "round",
     "sin",
     "cos",
+    "atan2",
     "number",
 ];
 
@@ -331,7 +333,10 @@ impl<'t> Checker<'t> {
                 };
                 simple(self, &[("x", NUMBER)], op, Type::Int)
             }
+            "exp" => simple(self, &[("x", NUMBER)], Builtin::Exp, NUMBER),
+            "ln" => self.logarithm(args, span),
             "sqrt" => self.square_root(args, span),
+            "atan2" => self.angle_of_parts(args, span),
             "abs" | "min" | "max" | "clamp" => self.ordered(name, args, span),
             _ => {
                 self.no_such_function(name, name_span, expected);
@@ -379,29 +384,6 @@ impl<'t> Checker<'t> {
             return;
         };
         self.report(finding);
-    }
-
-    fn square_root(&mut self, args: &[tree::Arg], span: Span) -> Expr {
-        let Some([x]) = self.positional::<1>("sqrt", args, span) else { return self.unknown(span) };
-        let x = self.expr(&x, None);
-        let Some(root) = x.ty.dimension().and_then(|d| d.power(0.5)) else {
-            if x.ty != Type::Unknown {
-                let name = self.type_name(&x.ty);
-                self.report(Diagnostic::error(
-                    Code::TypesMismatch,
-                    x.span,
-                    format!("{} has no square root", article(&name)),
-                ));
-            }
-            return self.unknown(span);
-        };
-        if !Sqrt::is_defined([x.range]) {
-            self.report(
-                Diagnostic::error(Code::RangesNegative, x.span, "this may be negative, and then it has no square root")
-                    .help("write `sqrt(max(x, 0))`, or `sqrt(abs(x))`"),
-            );
-        }
-        self.operation(Builtin::Sqrt, vec![x], Type::Quantity(root), span)
     }
 
     /// `abs`, `min`, `max`, `clamp`: of anything that has an order.

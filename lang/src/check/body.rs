@@ -137,7 +137,8 @@ impl<'t> Checker<'t> {
         let kind = match &clause.kind {
             ClauseKind::Let { name, ty, value } => return self.let_stmt(name, ty.as_ref(), value, span),
             ClauseKind::Var { name, ty, value } => self.var_stmt(name, ty.as_ref(), value, span),
-            ClauseKind::Assign { name, value } => self.assignment(name, value)?,
+            ClauseKind::Assign { name, index: None, value } => self.assignment(name, value)?,
+            ClauseKind::Assign { name, index: Some(index), value } => self.element_assigned(name, index, value)?,
             ClauseKind::For { name, over, block } => return self.for_stmt(name, over, block, span),
             ClauseKind::While { condition, block } => return self.while_stmt(condition, block, span),
             ClauseKind::Loop(block) => {

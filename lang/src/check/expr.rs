@@ -85,6 +85,7 @@ impl<'t> Checker<'t> {
             K::Member(base, member) => self.member(base, member, span),
             K::Call(callee, args) => self.call(callee, args, span, expected),
             K::Index(base, index) => self.index(base, index, span),
+            K::Changed(base, fields) => self.changed(base, fields, span),
             K::List(elements) => self.list(elements, expected, span),
             K::Unary(op, operand) => self.unary(op, operand, span),
             K::Binary(op, left, right) => self.binary(op, left, right, expected, span),
@@ -252,7 +253,7 @@ impl<'t> Checker<'t> {
 
     fn index(&mut self, base: &tree::Expr, index: &tree::Expr, span: Span) -> Expr {
         let list = self.expr(base, None);
-        let index = self.expr_as(index, &Type::Int, "an index");
+        let index = self.index_of_element(index);
         match list.ty.clone() {
             Type::List(inner, _) => self.operation(Builtin::At, vec![list, index], inner.optional(), span),
             Type::Unknown => self.unknown(span),

@@ -5,7 +5,7 @@ use super::expr::article;
 use super::operators::{TEXTS_DIFFER, TEXTS_HELP};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{ExprKind, Order, Stmt, StmtKind, VarKind};
+use crate::hir::{Expr, ExprKind, Order, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, TyKind};
 use crate::types::Type;
@@ -59,13 +59,7 @@ impl<'t> Checker<'t> {
         };
         let name = tree::Name { node: name.clone(), span: base.span };
         let id = self.assignable(&name)?;
-        let Type::List(inner, _) = self.scope.vars[id].ty.clone() else {
-            let ty = self.type_name(&self.scope.vars[id].ty.clone());
-            let message = format!("`{what}` changes a list, this is {}", article(&ty));
-            let finding = Diagnostic::error(Code::TypesList, base.span, message).here(format!("`{ty}`"));
-            self.report(finding.help(format!("another value is replaced as a whole: `{} = VALUE`", name.node)));
-            return None;
-        };
+        let inner = self.elements_of(id, &name, &format!("`{what}` changes a list"))?;
         self.scope.facts.forget(id);
         let kind = if what == "clear" {
             self.positional::<0>("clear", args, span)?;
@@ -80,5 +74,59 @@ impl<'t> Checker<'t> {
             if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
         };
         Some(Stmt { kind, span })
+    }
+
+    /// `list[index] = value`.
+    pub(super) fn element_assigned(
+        &mut self,
+        name: &tree::Name,
+        index: &tree::Expr,
+        value: &tree::Expr,
+    ) -> Option<StmtKind> {
+        let id = self.assignable(name);
+        let inner = id.and_then(|id| self.elements_of(id, name, "only a list has elements that are assigned"));
+        let index = self.index_of_element(index);
+        let what = format!("an element of `{}`", name.node);
+        let value = self.expr_as(value, &inner.clone().unwrap_or(Type::Unknown), &what);
+        let id = id.filter(|_| inner.is_some())?;
+        let Type::List(_, capacity) = self.scope.vars[id].ty else { return None };
+        if index.range.low >= f64::from(capacity) {
+            let message = format!("`{}` never has such an element: it holds {capacity} at most", name.node);
+            let finding = Diagnostic::error(Code::TypesIndex, index.span, message);
+            self.report(finding.help(format!(
+                "they are counted from 0: the last may be `{}[{}]`",
+                name.node,
+                capacity - 1
+            )));
+        }
+        self.scope.facts.forget(id);
+        Some(StmtKind::Replace(id, index, value))
+    }
+
+    /// What a variable holds whose elements are changed: it must be a list.
+    fn elements_of(&mut self, id: usize, name: &tree::Name, why: &str) -> Option<Type> {
+        match self.scope.vars[id].ty.clone() {
+            Type::List(inner, _) => Some(*inner),
+            Type::Unknown => None,
+            other => {
+                let ty = self.type_name(&other);
+                let message = format!("{why}, this is {}", article(&ty));
+                let finding = Diagnostic::error(Code::TypesList, name.span, message).here(format!("`{ty}`"));
+                self.report(finding.help(format!("another value is replaced as a whole: `{} = VALUE`", name.node)));
+                None
+            }
+        }
+    }
+
+    /// Which element of a list is meant.
+    pub(super) fn index_of_element(&mut self, index: &tree::Expr) -> Expr {
+        let index = self.expr_as(index, &Type::Int, "an index");
+        if index.ty != Type::Unknown && index.range.high < 0.0 {
+            let finding = Diagnostic::error(Code::TypesIndex, index.span, "no element has a negative index");
+            self.report(
+                finding.help("they are counted from 0, which is the first; the last is `list[list.count - 1]`"),
+            );
+        }
+        index
     }
 }

@@ -211,6 +211,7 @@ impl<'a> Work<'a> {
                 sum([self.expr(e), capacity(list), list.map_or(0, |ty| self.moved(ty)), sorted])
             }
             StmtKind::Clear(_) => 0,
+            StmtKind::Replace(var, index, e) => sum([self.exprs([index, e]), self.moved(&e.ty), self.sort(*var, vars)]),
             StmtKind::If(condition, a, b) => {
                 let dearer = self.instant(a, vars).max(self.instant(b, vars));
                 sum([self.expr(condition), dearer])

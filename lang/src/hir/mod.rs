@@ -176,6 +176,8 @@ pub enum ExprKind {
     Call(FnId, Vec<Expr>),
     /// A record's fields in order.
     Record(Vec<Expr>),
+    /// A record with other values in some parts, each so many words from its start.
+    Changed(Box<Expr>, Vec<(u32, Expr)>),
     /// A list's elements in order.
     List(Vec<Expr>),
     /// A part of a value: so many words from its start.
@@ -239,6 +241,9 @@ pub enum Builtin {
     Min,
     Max,
     Sqrt,
+    Exp,
+    Ln,
+    Atan2,
     Floor,
     Ceil,
     Round,
@@ -306,19 +311,48 @@ pub enum StmtKind {
     Insert(VarId, Expr),
     Remove(VarId, Expr),
     Clear(VarId),
+    /// An element of a list, by its index, if there is one.
+    Replace(VarId, Expr, Expr),
     If(Expr, Block, Block),
     Match(Expr, Vec<(Vec<usize>, Block)>, Option<Block>),
-    ForRange { var: VarId, first: Expr, last: Expr, inclusive: bool, body: Block },
-    ForList { var: VarId, list: Expr, body: Block },
-    ForEdges { var: VarId, area: Expr, body: Block },
-    ForRows { var: VarId, area: Expr, step: Expr, near: Expr, body: Block },
-    While { condition: Expr, bind: Option<VarId>, body: Block },
+    ForRange {
+        var: VarId,
+        first: Expr,
+        last: Expr,
+        inclusive: bool,
+        body: Block,
+    },
+    ForList {
+        var: VarId,
+        list: Expr,
+        body: Block,
+    },
+    ForEdges {
+        var: VarId,
+        area: Expr,
+        body: Block,
+    },
+    ForRows {
+        var: VarId,
+        area: Expr,
+        step: Expr,
+        near: Expr,
+        body: Block,
+    },
+    While {
+        condition: Expr,
+        bind: Option<VarId>,
+        body: Block,
+    },
     Loop(Block),
     With(Vec<With>, Block),
     Timed(Box<Timed>),
     Finish(Option<Expr>),
     Abort(Vec<TextPart>),
-    Report { name: String, fields: Vec<(String, Expr)> },
+    Report {
+        name: String,
+        fields: Vec<(String, Expr)>,
+    },
     Log(Vec<TextPart>),
 }
 

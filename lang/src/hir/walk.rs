@@ -177,7 +177,9 @@ impl Block {
                 let number = if let ExprKind::Number(x) = value.kind { Some(x) } else { value.range.constant() };
                 assigned.push((*var, number));
             }
-            StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) => assigned.push((*var, None)),
+            StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) | StmtKind::Replace(var, ..) => {
+                assigned.push((*var, None))
+            }
             _ => {}
         });
         assigned
@@ -246,6 +248,10 @@ pub fn children<'e>(e: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
         ExprKind::Do(_, list) | ExprKind::Call(_, list) | ExprKind::Record(list) | ExprKind::List(list) => {
             list.iter().for_each(f);
         }
+        ExprKind::Changed(whole, fields) => {
+            f(whole);
+            fields.iter().for_each(|(_, e)| f(e));
+        }
         ExprKind::If(condition, a, b) => {
             f(condition);
             block_children(a, f);
@@ -276,6 +282,10 @@ pub fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
     for stmt in &block.stmts {
         match &stmt.kind {
             StmtKind::Set(_, e) | StmtKind::Insert(_, e) | StmtKind::Remove(_, e) => f(e),
+            StmtKind::Replace(_, index, e) => {
+                f(index);
+                f(e);
+            }
             StmtKind::If(e, a, b) => {
                 f(e);
                 block_children(a, f);

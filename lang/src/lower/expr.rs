@@ -91,11 +91,11 @@ impl<'a> Lowering<'a> {
             }
             ExprKind::Do(op, operands) => self.scratch(|l| l.builtin(*op, operands, to)),
             ExprKind::Call(id, args) => self.scratch(|l| l.call(*id, args, to, words)),
-            ExprKind::Record(fields) => {
-                let mut at = to;
-                for field in fields {
-                    self.expr_into(field, at);
-                    at = at.saturating_add(self.words(&field.ty));
+            ExprKind::Record(fields) => self.side_by_side(fields, to),
+            ExprKind::Changed(whole, fields) => {
+                self.expr_into(whole, to);
+                for (at, field) in fields {
+                    self.expr_into(field, to.saturating_add(*at));
                 }
             }
             ExprKind::List(elements) => {
@@ -280,7 +280,7 @@ impl<'a> Lowering<'a> {
             // Emitted above.
             B::Pair | B::Line | B::Add | B::Sub | B::Mul | B::Div | B::AddInt | B::SubInt | B::MulInt => return,
             B::Pow | B::Min | B::Max | B::Neg | B::Abs | B::Sqrt | B::Floor | B::Ceil | B::Round => return,
-            B::Sin | B::Cos | B::Heading | B::Angle => return,
+            B::Exp | B::Ln | B::Atan2 | B::Sin | B::Cos | B::Heading | B::Angle => return,
             B::Rectangle => AreaOp::Rectangle { to, center: a, along: b, length: c, width: d }.into(),
             B::Polygon => AreaOp::Polygon { to: to + 1, points: a, ok: to }.into(),
             B::LineVector => Compute::SubVector { to, a: a + 2, b: a }.into(),

@@ -33,6 +33,12 @@ impl<'a> Lowering<'a> {
                 let (to, words) = (self.frame.vars[*var], self.words(&self.vars[*var].ty));
                 self.emit(Compute::Clear { to, words });
             }
+            StmtKind::Replace(var, index, e) => {
+                let (index, item) = (self.expr(index), self.expr(e));
+                let (list, words) = (self.frame.vars[*var], self.words(&e.ty));
+                self.emit(ListOp::Replace { list, index, item, words });
+                self.sort(*var);
+            }
             StmtKind::If(condition, then, otherwise) => {
                 let unless = self.jumps_unless(condition);
                 self.body(then);

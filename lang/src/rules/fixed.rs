@@ -141,7 +141,7 @@ impl<'h> Fixed<'h> {
     fn look_at(&mut self, unit: Unit, stmt: &'h Stmt) {
         match &stmt.kind {
             StmtKind::Set(var, e) => self.sets((unit, *var), unit, Source::Value(e)),
-            StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) => {
+            StmtKind::Insert(var, _) | StmtKind::Remove(var, _) | StmtKind::Clear(var) | StmtKind::Replace(var, ..) => {
                 self.changed.insert((unit, *var));
             }
             StmtKind::ForEdges { var, area, .. } => self.sets((unit, *var), unit, Source::Edges(area)),

@@ -54,6 +54,7 @@ fn until(hir: &Hir, behavior: ActivityId) -> Option<&Expr> {
                 | StmtKind::Insert(..)
                 | StmtKind::Remove(..)
                 | StmtKind::Clear(_)
+                | StmtKind::Replace(..)
         )
     };
     let mut last = block.stmts.iter().rfind(takes_time)?;

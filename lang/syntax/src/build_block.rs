@@ -71,7 +71,7 @@ fn clause(b: &mut Builder, node: Node) -> Option<ClauseKind> {
             ty: take(&mut inner, Rule::ty).map(|p| ty(b, p)),
             value: expr(b, inner.next()?),
         },
-        Rule::assign => ClauseKind::Assign { name: name(inner.next()?), value: expr(b, inner.next()?) },
+        Rule::assign => assign(b, node)?,
         Rule::reaction => ClauseKind::Reaction { on: cond(b, inner.next()?), block: block(b, inner.next()?) },
         Rule::start => ClauseKind::Start(name(inner.next()?)),
         Rule::area => ClauseKind::Area { name: name(inner.next()?), value: expr(b, inner.next()?) },
@@ -212,6 +212,13 @@ fn override_block(b: &mut Builder, node: Node) -> Option<Override> {
     let offered = take(&mut inner, Rule::when_offered).is_some();
     let answer = take(&mut inner, Rule::mod_within).and_then(|p| p.parts().next()).map(|p| expr(b, p));
     Some(Override { offered, answer, block: block(b, inner.next()?) })
+}
+
+fn assign(b: &mut Builder, node: Node) -> Option<ClauseKind> {
+    let mut inner = node.parts().peekable();
+    let name = name(inner.next()?);
+    let index = take(&mut inner, Rule::index).and_then(|index| Some(expr(b, index.inner().next()?)));
+    Some(ClauseKind::Assign { name, index, value: expr(b, inner.next()?) })
 }
 
 /// Reads the modifiers of a statement, each once at most.

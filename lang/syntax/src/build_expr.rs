@@ -212,6 +212,10 @@ fn operand(b: &mut Builder, node: Node) -> Expr {
         }
         let kind = match suffix.rule() {
             Rule::args => ExprKind::Call(Box::new(value), args(b, suffix)),
+            Rule::changed => {
+                let fields = suffix.parts().last().map(|fields| args(b, fields)).unwrap_or_default();
+                ExprKind::Changed(Box::new(value), fields)
+            }
             Rule::member => match suffix.inner().next() {
                 Some(label) if label.rule() == Rule::label => ExprKind::Member(Box::new(value), name(label)),
                 _ => return half_typed(b, value, suffix),

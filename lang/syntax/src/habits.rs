@@ -370,6 +370,9 @@ pub(super) fn line_end(text: &str) -> &str {
 
 /// Two statements on one line.
 fn crowded(rest: &str) -> Option<Habit> {
+    if rest.starts_with("log(") {
+        return Some(Habit { message: None, help: "the natural logarithm is `ln(x)`; `log` tells".to_string() });
+    }
     super::words::begins_clause(word(rest))
         .then(|| Habit { message: None, help: "a statement begins on a line of its own, or after `;`".to_string() })
 }

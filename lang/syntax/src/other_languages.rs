@@ -57,7 +57,7 @@ pub fn help(word: &str) -> Option<&'static str> {
 /// Functions of other languages, and how ours says what they give.
 pub fn called(name: &str) -> Option<&'static str> {
     Some(match name {
-        "atan2" | "bearing" | "azimuth" | "heading_to" => {
+        "bearing" | "azimuth" | "heading_to" => {
             "the heading from one point to another is `(TO - FROM).toward`, that of a vector `VECTOR.toward`"
         }
         "dist" | "distance_to" | "range_to" => "write `distance(FROM, TO)`",
@@ -69,6 +69,12 @@ pub fn called(name: &str) -> Option<&'static str> {
             "a value stands in a text between `{` and `}`: `\"depth {depth}\"`"
         }
         "pow" | "power" => "write `x^2`",
+        "log10" => "write `ln(x) / ln(10)`",
+        "log2" => "write `ln(x) / ln(2)`",
+        "tan" => "write `sin(angle) / cos(angle)`, which is absent where the cosine is zero",
+        "atan" | "arctan" => "write `atan2(x, 1)`",
+        "asin" | "arcsin" => "write `atan2(x, sqrt(max(0, 1 - x^2)))`",
+        "acos" | "arccos" => "write `atan2(sqrt(max(0, 1 - x^2)), x)`",
         _ => return None,
     })
 }

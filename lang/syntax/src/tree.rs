@@ -1,7 +1,9 @@
 //! The syntax tree: what was written, every node with its place.
 
+mod expr;
 mod operators;
 
+pub use expr::{Expr, ExprKind, MatchArm, TextPart};
 pub use operators::{Binary, Unary};
 
 use crate::source::{Span, Spanned};
@@ -189,25 +191,69 @@ pub struct Clause {
 pub enum ClauseKind {
     Behavior(Activity),
     With(Vec<WithItem>),
-    Signal { name: Name, ty: Option<Ty>, value: Expr },
-    Memory { name: Name, ty: Ty, init: Option<Expr> },
-    Let { name: Name, ty: Option<Ty>, value: Timed },
-    Var { name: Name, ty: Option<Ty>, value: Expr },
-    Assign { name: Name, value: Expr },
-    Reaction { on: Expr, block: Block },
+    Signal {
+        name: Name,
+        ty: Option<Ty>,
+        value: Expr,
+    },
+    Memory {
+        name: Name,
+        ty: Ty,
+        init: Option<Expr>,
+    },
+    Let {
+        name: Name,
+        ty: Option<Ty>,
+        value: Timed,
+    },
+    Var {
+        name: Name,
+        ty: Option<Ty>,
+        value: Expr,
+    },
+    /// `name = value`, or one element of a list, `name[index] = value`.
+    Assign {
+        name: Name,
+        index: Option<Expr>,
+        value: Expr,
+    },
+    Reaction {
+        on: Expr,
+        block: Block,
+    },
     Start(Name),
     Rule(SwitchingRule),
-    Area { name: Name, value: Expr },
+    Area {
+        name: Name,
+        value: Expr,
+    },
     Limits(Vec<Expr>),
     Requires(Vec<Require>),
-    Recovery { within: Option<Expr>, block: Block },
+    Recovery {
+        within: Option<Expr>,
+        block: Block,
+    },
     Amend(Block),
-    Abort { why: Expr, on: Option<Expr> },
+    Abort {
+        why: Expr,
+        on: Option<Expr>,
+    },
     Finish(Option<Expr>),
-    Report { name: Expr, value: Expr, fields: Vec<(Name, Expr)> },
+    Report {
+        name: Expr,
+        value: Expr,
+        fields: Vec<(Name, Expr)>,
+    },
     Log(Expr),
-    For { name: Name, over: ForOver, block: Block },
-    While { condition: Condition, block: Block },
+    For {
+        name: Name,
+        over: ForOver,
+        block: Block,
+    },
+    While {
+        condition: Condition,
+        block: Block,
+    },
     Loop(Block),
     Timed(Timed),
 }
@@ -346,82 +392,6 @@ pub struct Arg {
     pub label: Option<Name>,
     /// The value.
     pub value: Expr,
-}
-
-/// An expression.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Expr {
-    /// What it is.
-    pub kind: ExprKind,
-    /// Where it stands.
-    pub span: Span,
-}
-
-impl Expr {
-    /// The list that this changes: `LIST.insert(x)`, `LIST.remove(x)` and `LIST.clear()` are statements.
-    pub fn list_changed(&self) -> Option<&Expr> {
-        let ExprKind::Call(callee, _) = &self.kind else { return None };
-        let ExprKind::Member(list, change) = &callee.kind else { return None };
-        matches!(change.node.as_str(), "insert" | "remove" | "clear").then_some(list)
-    }
-}
-
-/// What an expression is.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs, reason = "each variant is what it says")]
-pub enum ExprKind {
-    /// `whole` is the whole number that is written, however it is spelt and before it is rounded to `value`: `u64::MAX` stands for
-    /// any that is larger, none for one with a fraction.
-    Number {
-        value: f64,
-        whole: Option<u64>,
-        unit: Option<Name>,
-    },
-    Geodetic {
-        latitude_deg: f64,
-        longitude_deg: f64,
-    },
-    Text(Vec<TextPart>),
-    Bool(bool),
-    None,
-    Done,
-    Name(String),
-    Member(Box<Expr>, Name),
-    Call(Box<Expr>, Vec<Arg>),
-    Index(Box<Expr>, Box<Expr>),
-    List(Vec<Expr>),
-    Paren(Box<Expr>),
-    Unary(Spanned<Unary>, Box<Expr>),
-    Binary(Spanned<Binary>, Box<Expr>, Box<Expr>),
-    HasHeldFor(Box<Expr>, Box<Expr>),
-    If {
-        condition: Box<Condition>,
-        then: Block,
-        otherwise: Option<Block>,
-    },
-    Match {
-        on: Box<Expr>,
-        arms: Vec<MatchArm>,
-    },
-}
-
-/// `a, b { … }` of a `match`; no names means `else`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MatchArm {
-    /// The variants.
-    pub names: Vec<Name>,
-    /// What is done.
-    pub block: Block,
-    /// All of it.
-    pub span: Span,
-}
-
-/// A piece of a text.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs, reason = "each variant is what it says")]
-pub enum TextPart {
-    Literal(String),
-    Hole(Expr),
 }
 
 /// `test "…" { … }`.

@@ -13,6 +13,7 @@ mod interval;
 mod numbers;
 mod operation;
 mod time_and_counts;
+mod transcendental;
 mod vectors;
 mod whole;
 
@@ -21,6 +22,7 @@ pub use interval::Interval;
 pub use numbers::{Abs, Add, Div, Max, Min, Mul, Neg, Pow, Sqrt, Sub};
 pub use operation::{Operation, Operator};
 pub use time_and_counts::{Age, NEVER_S, Ticks, counted};
+pub use transcendental::{Atan2, Exp, Ln};
 pub use vectors::{Dot, Length, Spread};
 pub use whole::{AddInt, Ceil, Floor, MulInt, Round, SubInt};
 

@@ -1,6 +1,7 @@
 //! The arithmetic of quantities.
 
 use crate::interval::corners;
+use crate::transcendental::moved;
 use crate::{Interval, LARGEST, Operation, bounded};
 use albacore_geometry::math;
 
@@ -76,16 +77,6 @@ impl Operation<2> for Div {
 /// `a ^ b`, of a `b` that is not negative, and whole where `a` may be negative. Its rounding is the library's.
 pub struct Pow;
 
-/// How many units in the last place a power may be off, with room to spare.
-const POWER_ULPS: usize = 4;
-
-impl Pow {
-    /// A bound of a power, moved outward by what the library's rounding may be.
-    fn moved(x: f64, outward: impl Fn(f64) -> f64) -> f64 {
-        bounded((0..POWER_ULPS).fold(x, |x, _| outward(x)))
-    }
-}
-
 impl Operation<2> for Pow {
     #[inline]
     fn execute([a, b]: [f64; 2]) -> f64 {
@@ -98,8 +89,8 @@ impl Operation<2> for Pow {
             return Interval::exactly(Self::execute([base, power]));
         }
         let (least, most) = a.magnitudes();
-        let below = Self::moved(Self::execute([least, power]), f64::next_down).max(0.0);
-        let above = |magnitude: f64| Self::moved(Self::execute([magnitude, power]), f64::next_up);
+        let below = moved(Self::execute([least, power]), f64::next_down).max(0.0);
+        let above = |magnitude: f64| moved(Self::execute([magnitude, power]), f64::next_up);
         let is_odd = power % 2.0 == 1.0;
         match (a.low < 0.0 && is_odd, a.high < 0.0 && is_odd) {
             (_, true) => Interval::new(-above(-a.low), -below),

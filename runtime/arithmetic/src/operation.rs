@@ -2,8 +2,8 @@
 
 use crate::Interval;
 use crate::{
-    Abs, Add, AddInt, Age, Ceil, Cos, Div, Dot, Floor, Length, Max, Min, Mul, MulInt, Neg, Pow, Round, Sin, Spread,
-    Sqrt, Sub, SubInt, Ticks, WrapAngle, WrapHeading,
+    Abs, Add, AddInt, Age, Atan2, Ceil, Cos, Div, Dot, Exp, Floor, Length, Ln, Max, Min, Mul, MulInt, Neg, Pow, Round,
+    Sin, Spread, Sqrt, Sub, SubInt, Ticks, WrapAngle, WrapHeading,
 };
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +60,7 @@ macro_rules! operators {
 operators! {
     Add of 2, Sub of 2, Mul of 2, Div of 2, Pow of 2, Neg of 1, Abs of 1, Min of 2, Max of 2, Sqrt of 1,
     AddInt of 2, SubInt of 2, MulInt of 2, Floor of 1, Ceil of 1, Round of 1,
-    Sin of 1, Cos of 1, WrapHeading of 1, WrapAngle of 1,
+    Exp of 1, Ln of 1, Atan2 of 2, Sin of 1, Cos of 1, WrapHeading of 1, WrapAngle of 1,
     Length of 2, Dot of 4, Spread of 2, Age of 1, Ticks of 1,
 }
 

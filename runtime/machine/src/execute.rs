@@ -193,6 +193,7 @@ impl Run {
             ListOp::PushSorted { list, item, words, capacity, sort } => {
                 self.push_sorted(p, b(list), b(item), words, capacity, (sort, base));
             }
+            ListOp::Replace { list, index, item, words } => self.replace(b(list), b(index), b(item), words),
             ListOp::Remove { list, item, words } => self.remove(b(list), b(item), words),
             ListOp::At { to, list, index, words } => self.element(b(to), b(list), b(index), words),
             ListOp::Top { to, list, count, words } => self.top(b(to), b(list), b(count), words),

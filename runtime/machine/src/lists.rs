@@ -122,6 +122,14 @@ impl Run {
         self.get(by.value)
     }
 
+    /// Another element in the place of one; nothing where there is none.
+    pub fn replace(&mut self, list: Slot, index: Slot, item: Slot, words: u32) {
+        let index = self.get(index);
+        if index >= 0.0 && index < self.get(list) {
+            self.copy(list + 1 + index as u32 * words, item, words);
+        }
+    }
+
     pub fn remove(&mut self, list: Slot, item: Slot, words: u32) {
         let count = self.count(list);
         let found = (0..count).find(|i| self.slice(list + 1 + i * words, words) == self.slice(item, words));

@@ -152,6 +152,14 @@ fn perform(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &Stmt) {
             }
             s.frame.set(*var, Value::List(list));
         }
+        StmtKind::Replace(var, index, e) => {
+            let (index, element) = (number(w, s, index), value(w, s, e));
+            let mut list = s.frame.get(*var).list().to_vec();
+            if let Some(place) = (index >= 0.0).then(|| list.get_mut(index as usize)).flatten() {
+                *place = element;
+            }
+            s.frame.set(*var, Value::List(sorted(w, s.frame, *var, list)));
+        }
         StmtKind::Clear(var) => s.frame.set(*var, Value::List(Vec::new())),
         StmtKind::Report { name, fields } => {
             if !w.may_report(stmt) {

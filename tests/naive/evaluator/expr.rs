@@ -123,6 +123,7 @@ fn computed(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
             block(w, Scope::of(&frame), &function.body)
         }
         ExprKind::Record(fields) => Value::Parts(values(w, s, fields)),
+        ExprKind::Changed(whole, fields) => changed(w, s, whole, fields),
         ExprKind::List(elements) => Value::List(values(w, s, elements)),
         ExprKind::Part(inner, at) => match value(w, s, inner) {
             Value::List(elements) => Value::Number(elements.len() as f64),
@@ -148,6 +149,17 @@ fn computed(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
             Value::truth(s.watch.is_some_and(|watch| watch.says(e)))
         }
     }
+}
+
+/// A record with other values in some parts.
+fn changed(w: &mut World<'_>, s: Scope<'_, '_>, whole: &Expr, fields: &[(u32, Expr)]) -> Value {
+    let shape = w.shape(&whole.ty);
+    let mut words = value(w, s, whole).words(&shape);
+    for (at, field) in fields {
+        let (at, changed) = (*at as usize, value(w, s, field).words(&w.shape(&field.ty)));
+        words[at..at + changed.len()].copy_from_slice(&changed);
+    }
+    Value::read(&shape, &words)
 }
 
 /// Instantaneous statements, and the value after them.
@@ -254,10 +266,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::AddInt => whole(n(0) + n(1)),
         B::SubInt => whole(n(0) - n(1)),
         B::MulInt => whole(n(0) * n(1)),
-        B::Div => {
-            assert!(n(1) != 0.0, "the checker has shown that no divisor is zero");
-            fits(n(0) / n(1))
-        }
+        B::Div => where_defined(n(1) != 0.0, fits(n(0) / n(1))),
         B::Quotient | B::VectorQuotient if n(1) == 0.0 => return Value::Maybe(None),
         B::Quotient => return Value::Number(fits(n(0) / n(1))).present(),
         B::VectorQuotient => return fitting(fits(1.0 / n(1)) * at(0).vector()).present(),
@@ -266,10 +275,10 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Abs => n(0).abs(),
         B::Min => n(0).min(n(1)),
         B::Max => n(0).max(n(1)),
-        B::Sqrt => {
-            assert!(n(0) >= 0.0, "the checker has shown that no root is of what is negative");
-            n(0).sqrt()
-        }
+        B::Sqrt => where_defined(n(0) >= 0.0, n(0).sqrt()),
+        B::Exp => fits(math::exp(n(0))),
+        B::Ln => where_defined(n(0) > 0.0, math::ln(n(0))),
+        B::Atan2 => math::atan2(n(0) + 0.0, n(1) + 0.0),
         B::Floor => whole(n(0).floor()),
         B::Ceil => whole(n(0).ceil() + 0.0),
         B::Round => whole(n(0).round() + 0.0),
@@ -316,6 +325,12 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         }
     };
     Value::Number(number)
+}
+
+/// What not every number has, of one that has it: no divisor is zero, no root of what is negative, no logarithm of what is not positive.
+fn where_defined(is_defined: bool, result: f64) -> f64 {
+    assert!(is_defined, "the checker has shown that there is a result");
+    result
 }
 
 /// An element, or none; an optional of an optional is one.

@@ -48,6 +48,23 @@ const LENGTHS: [&str; 17] = [
     "twice($L, $I)",
 ];
 
+/// What makes a ratio.
+const RATIOS: [&str; 13] = [
+    "($R + $R)",
+    "($R - $R)",
+    "($R * $R)",
+    "($L / 7 m)",
+    "share($L, $L)",
+    "sin($A)",
+    "cos($A)",
+    "exp($R)",
+    "ln(max(abs($R), 1e-9))",
+    "($I / 3)",
+    "max($R, $R)",
+    "(-$R)",
+    "(abs($R) ^ 0.5)",
+];
+
 impl Generator {
     /// An expression of a type, so many operations deep.
     pub(super) fn expr(&mut self, ty: Ty, deep: usize) -> String {
@@ -171,29 +188,23 @@ impl Generator {
                 "floor($R)",
                 "round($R * 3)",
                 "($i.first else $I)",
-                "($i[$I] else $I)",
+                "($i[abs($I)] else $I)",
                 "$q.count",
                 "$i.top($I).count",
                 "many($I, $M)",
             ]),
             Ty::Length => r.of(&LENGTHS),
             Ty::Ratio if senses && r.percent(20) => "(chemical.age / 3 s)",
-            Ty::Ratio => r.of(&[
-                "($R + $R)",
-                "($R - $R)",
-                "($R * $R)",
-                "($L / 7 m)",
-                "share($L, $L)",
-                "sin($A)",
-                "cos($A)",
-                "($I / 3)",
-                "max($R, $R)",
-                "(-$R)",
-                "(abs($R) ^ 0.5)",
+            Ty::Ratio => r.of(&RATIOS),
+            Ty::Angle => r.of(&[
+                "($A + $A)",
+                "atan2($L, $L)",
+                "($A - $A)",
+                "($H - $H)",
+                "($R * $A)",
+                "(-$A)",
+                "clamp($A, -30 deg, 40 deg)",
             ]),
-            Ty::Angle => {
-                r.of(&["($A + $A)", "($A - $A)", "($H - $H)", "($R * $A)", "(-$A)", "clamp($A, -30 deg, 40 deg)"])
-            }
             Ty::Heading => r.of(&["($H + $A)", "($H - $A)", "($V).toward", "($P - $P).toward", "turned($H, $M)"]),
             Ty::Point if self.has_area && senses && r.percent(30) => {
                 r.of(&["op.corner(toward: $H)", "op.exit($P, toward: $H)", "op.nearest_edge($P).line.end"])
@@ -205,7 +216,7 @@ impl Generator {
                 "($p else $P)",
                 "($q.first else $P)",
                 "$F.at",
-                "($q[$I] else $P)",
+                "($q[abs($I)] else $P)",
             ]),
             Ty::Vector if senses && r.percent(20) => "(flow * 20 s)",
             Ty::Vector => {
@@ -219,9 +230,11 @@ impl Generator {
             ]),
             Ty::Depth => r.of(&["max($D, 2 m)", "min($D, 15 m)", "clamp($D, 1 m, 12 m)", "($D + position.sigma)"]),
             Ty::Mode => "mode_of($I)",
-            Ty::Found => "Found(at: $P, size: $L, mode: $M)",
-            Ty::MaybeLength => r.of(&["near($P, $L)", "near($q[$I] else $P, $L)", "one_of([$L, none, $l], $I)"]),
-            Ty::MaybePoint => r.of(&["$q.first", "$q[$I]", "$q.top($I)[$I]", "place_of([$p, $P, none], $I)"]),
+            Ty::Found => {
+                r.of(&["Found(at: $P, size: $L, mode: $M)", "($F with (size: $L))", "($F with (mode: $M, at: $P))"])
+            }
+            Ty::MaybeLength => r.of(&["near($P, $L)", "near($q[abs($I)] else $P, $L)", "one_of([$L, none, $l], $I)"]),
+            Ty::MaybePoint => r.of(&["$q.first", "$q[abs($I)]", "$q.top($I)[abs($I)]", "place_of([$p, $P, none], $I)"]),
             Ty::MaybeFound => "found_if($B, $F)",
             Ty::Ints => "$i",
             Ty::Points => "$q",

@@ -418,7 +418,7 @@ impl Generator {
             Ty::Ints | Ty::Points => {
                 let of = if memory.ty == Ty::Ints { Ty::Int } else { Ty::Point };
                 let element = self.expr(of, 2);
-                match self.random.below(6) {
+                match self.random.below(7) {
                     0 => {
                         self.count("clear");
                         self.line(&format!("{text}.clear()"));
@@ -426,6 +426,11 @@ impl Generator {
                     1 => {
                         self.count("remove");
                         self.line(&format!("{text}.remove({element})"));
+                    }
+                    2 => {
+                        self.count("replace");
+                        let index = self.expr(Ty::Int, 1);
+                        self.line(&format!("{text}[clamp({index}, 0, 2)] = {element}"));
                     }
                     _ => {
                         self.count("insert");

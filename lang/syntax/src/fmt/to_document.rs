@@ -151,7 +151,7 @@ impl<'a> Builder<'a> {
                 let items: Vec<_> = node.inner().collect();
                 self.chain(&items)
             }
-            Rule::params | Rule::clause_params | Rule::args | Rule::list => self.list(node),
+            Rule::params | Rule::clause_params | Rule::args | Rule::others | Rule::list => self.list(node),
             Rule::if_expr => self.choice(node),
             Rule::match_expr => Doc::Anchor(vec![self.sequence(node)]),
             Rule::text => self.leaf(node),
@@ -212,7 +212,7 @@ impl<'a> Builder<'a> {
         let (rule, start, end) = (node.rule(), node.start(), node.end());
         let mut before = Vec::new();
         self.lead(&mut before, start);
-        let tight = if rule == Rule::list { RIGHT } else { BOTH };
+        let tight = if matches!(rule, Rule::list | Rule::others) { RIGHT } else { BOTH };
         let open = self.bare(start, start + 1, tight, None);
         let mut docs = Vec::new();
         let (mut any, mut comma) = (false, None);

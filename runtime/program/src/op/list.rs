@@ -45,6 +45,17 @@ pub enum ListOp {
         /// The code that sorts.
         sort: Addr,
     },
+    /// Another element in the place of one, if there is one there.
+    Replace {
+        /// The list.
+        list: Slot,
+        /// Which element.
+        index: Slot,
+        /// What takes its place.
+        item: Slot,
+        /// The words of an element.
+        words: u32,
+    },
     /// Removes the first element equal to `item`.
     Remove {
         /// The list.

@@ -2,7 +2,7 @@
 
 use super::Unsound;
 use super::known::{Implications, Known, Word, widened};
-use super::ranges::{PATIENCE, Ranges};
+use super::ranges::{PATIENCE, Ranges, Results};
 use super::written::written;
 use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, Op, Param, Slot};
 use albacore_arithmetic::{Div, Interval, Operation, Operator, counted};
@@ -16,7 +16,7 @@ impl Ranges<'_> {
         }
         match *op {
             Op::Compute(computed) => self.compute(at, op, computed, known),
-            Op::List(list) => self.on_list(at, op, list, known),
+            Op::List(list) => self.on_list(op, list, known),
             Op::Area(_) | Op::Keep { .. } | Op::Answer { .. } | Op::Driven { .. } => self.unknown(op, known),
             Op::IsNew { to, .. } => self.set(known, to, Word::TRUTH),
             Op::Age { to, .. } => self.set(known, to, Word::of(Operator::Age.rule(&[]))),
@@ -93,13 +93,13 @@ impl Ranges<'_> {
             }
             Compute::One { operator, to, a } => {
                 let a = word(known, a);
-                let is_whole = is_whole(operator, a.is_whole);
-                self.result(at, to, Word { range: operator.rule(&[a.range]), is_whole }, known);
+                let range = self.result(at, operator, [a.range, Interval::ANY]);
+                self.set(known, to, Word { range, is_whole: is_whole(operator, a.is_whole) });
             }
             Compute::Two { operator, to, a, b } => {
                 let (a, b) = (word(known, a), word(known, b));
-                let is_whole = is_whole(operator, a.is_whole && b.is_whole);
-                self.result(at, to, Word { range: operator.rule(&[a.range, b.range]), is_whole }, known);
+                let range = self.result(at, operator, [a.range, b.range]);
+                self.set(known, to, Word { range, is_whole: is_whole(operator, a.is_whole && b.is_whole) });
             }
             Compute::Quotient { to, a, b } => self.quotient(known, to, range(known, a), range(known, b)),
             Compute::Lt { .. }
@@ -107,7 +107,7 @@ impl Ranges<'_> {
             | Compute::Eq { .. }
             | Compute::Not { .. }
             | Compute::And { .. }
-            | Compute::Or { .. } => self.test(at, computed, known),
+            | Compute::Or { .. } => self.test(computed, known),
             Compute::HeldFor { to, x, since, .. } => {
                 self.shown(to, x, known);
                 known.forget(&self.ground, since, 1);
@@ -120,7 +120,7 @@ impl Ranges<'_> {
             }
             Compute::Elapsed { to, .. } => self.set(known, to, Word::TRUTH),
             Compute::Now { to, .. } => {
-                self.result(at, to, Word { range: Interval::NOT_NEGATIVE, is_whole: true }, known);
+                self.set(known, to, Word { range: Interval::NOT_NEGATIVE, is_whole: true });
             }
             Compute::AddVector { .. }
             | Compute::SubVector { .. }
@@ -150,7 +150,7 @@ impl Ranges<'_> {
     }
 
     /// A test, and what its outcome tells of what it looks at.
-    fn test(&mut self, at: Addr, test: Compute, known: &mut Known) {
+    fn test(&mut self, test: Compute, known: &mut Known) {
         let (to, implications) = match test {
             Compute::Lt { to, a, b } | Compute::Le { to, a, b } => {
                 let strict = matches!(test, Compute::Lt { .. });
@@ -164,7 +164,7 @@ impl Ranges<'_> {
                 let unless = [not_zero(a, right), not_zero(b, left)].into_iter().flatten().collect();
                 (to, Implications { when: vec![(a, right), (b, left)], unless })
             }
-            Compute::Eq { to, .. } => return self.result(at, to, Word::TRUTH, known),
+            Compute::Eq { to, .. } => return self.set(known, to, Word::TRUTH),
             Compute::Not { to, a } => {
                 let Implications { when, unless } = known.implications(&self.ground, a);
                 (to, Implications { when: unless, unless: when })
@@ -184,13 +184,20 @@ impl Ranges<'_> {
         known.set(&self.ground, to, Word::TRUTH, without(implications, to));
     }
 
-    /// The result of an instruction, widened where it keeps growing from round to round.
-    fn result(&mut self, at: Addr, to: Slot, word: Word, known: &mut Known) {
-        let (was, grown) = self.results.get(&at).copied().unwrap_or((word.range, 0));
-        let grows = !was.covers(word.range);
-        let range = if grows && grown >= PATIENCE { widened(word.range, was) } else { word.range };
-        self.results.insert(at, (was.or(range), grown + u32::from(grows)));
-        self.set(known, to, Word { range, ..word });
+    /// The range of an operation's result, widened where it keeps growing from round to round: but no further than its operands can
+    /// bring it that have stayed as they were, such as a constant.
+    fn result(&mut self, at: Addr, operator: Operator, operands: [Interval; 2]) -> Interval {
+        let range = operator.rule(&operands);
+        let before = self.results.get(&at).copied();
+        let Results { of, given, grown } = before.unwrap_or(Results { of: operands, given: range, grown: 0 });
+        let of = [0, 1].map(|i| if of[i] == operands[i] { of[i] } else { Interval::ANY });
+        let grows = !given.covers(range);
+        let range = match grows && grown >= PATIENCE {
+            true => widened(range, given).and(operator.rule(&of)),
+            false => range,
+        };
+        self.results.insert(at, Results { of, given: given.or(range), grown: grown + u32::from(grows) });
+        range
     }
 
     /// Where other code runs, or time passes.
@@ -269,7 +276,7 @@ impl Ranges<'_> {
         }
     }
 
-    fn on_list(&mut self, at: Addr, op: &Op, of: ListOp, known: &mut Known) {
+    fn on_list(&mut self, op: &Op, of: ListOp, known: &mut Known) {
         let count = |known: &Known, list| known.range(&self.ground, list).high.clamp(0.0, f64::from(u32::MAX));
         let (list, most) = match of {
             ListOp::At { to, list, words, .. } => {
@@ -282,16 +289,18 @@ impl Ranges<'_> {
                 return;
             }
             ListOp::Spread { to, .. } => {
-                return self.result(at, to, Word::of(Operator::Spread.rule(&[])), known);
+                return self.set(known, to, Word::of(Operator::Spread.rule(&[])));
             }
             ListOp::Push { list, capacity, .. } | ListOp::PushSorted { list, capacity, .. } => {
                 (list, f64::from(capacity))
             }
-            ListOp::Sort { list, .. } | ListOp::Remove { list, .. } => (list, count(known, list)),
+            ListOp::Sort { list, .. } | ListOp::Remove { list, .. } | ListOp::Replace { list, .. } => {
+                (list, count(known, list))
+            }
             ListOp::Top { to, list, .. } => (to, count(known, list)),
         };
         self.unknown(op, known);
-        if let ListOp::Sort { list, .. } | ListOp::Remove { list, .. } = of {
+        if let ListOp::Sort { list, .. } | ListOp::Remove { list, .. } | ListOp::Replace { list, .. } = of {
             let (list, words) = self.list(list);
             self.forget(known, list, words);
         }
@@ -307,6 +316,7 @@ fn without_result(operator: Operator) -> &'static str {
     match operator {
         Operator::Div => "it may divide by zero",
         Operator::Sqrt => "it may take the root of a negative number",
+        Operator::Ln => "it may take the logarithm of what is not positive",
         Operator::Pow => "a power may have no value",
         Operator::Ticks => "a time may be negative",
         _ => "an operation may have no result",

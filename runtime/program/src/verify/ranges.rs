@@ -16,6 +16,17 @@ use std::collections::{BTreeMap, BTreeSet};
 /// So often a result, and what ways into a place tell, is taken as it is; then what still grows is widened.
 pub(super) const PATIENCE: u32 = 3;
 
+/// What an operation has given in the rounds that were followed.
+#[derive(Clone, Copy)]
+pub(super) struct Results {
+    /// Of what: an operand that was not always the same can be any.
+    pub of: [Interval; 2],
+    /// All of it.
+    pub given: Interval,
+    /// How often it grew.
+    pub grown: u32,
+}
+
 impl Program {
     /// Computes all ranges anew, and holds the code to what is claimed.
     pub fn verify_ranges(&self, claims: &Claims) -> Result<(), Unsound> {
@@ -68,8 +79,8 @@ pub(super) struct Ranges<'p> {
     writers: Vec<Writer>,
     /// What timers show, as far as it is known.
     pub(super) timers: BTreeMap<Slot, Option<Vec<(Slot, Interval)>>>,
-    /// The results of instructions in the piece at hand, and how often they were computed.
-    pub(super) results: BTreeMap<Addr, (Interval, u32)>,
+    /// What operations of the piece at hand have given.
+    pub(super) results: BTreeMap<Addr, Results>,
     pub(super) holds_to_it: bool,
 }
 
@@ -132,6 +143,10 @@ impl<'p> Ranges<'p> {
                     open.push(key);
                     let (list, length) = self.list(list);
                     writes.extend([(it, words), (list.saturating_add(1), length.saturating_sub(1))]);
+                }
+                Op::List(ListOp::Replace { list, .. }) => {
+                    let (list, length) = self.list(list);
+                    writes.push((list.saturating_add(1), length.saturating_sub(1)));
                 }
                 Op::List(ListOp::Remove { list, .. }) => writes.push(self.list(list)),
                 _ => writes.extend(written(op)),

@@ -102,7 +102,9 @@ fn of_list(op: ListOp) -> Rows {
         ListOp::Push { list, words, capacity, .. } | ListOp::PushSorted { list, words, capacity, .. } => {
             one((list, words.saturating_mul(capacity).saturating_add(1)))
         }
-        ListOp::Remove { list, words, .. } => one((list, words.saturating_add(1))),
+        ListOp::Remove { list, words, .. } | ListOp::Replace { list, words, .. } => {
+            one((list, words.saturating_add(1)))
+        }
         ListOp::Sort { list, words, it, .. } => both((list, words.saturating_add(1)), (it, words)),
         ListOp::At { to, words, .. } | ListOp::Top { to, words, .. } => one((to, words.saturating_add(1))),
         ListOp::Spread { to, .. } => one((to, 1)),
