@@ -212,8 +212,11 @@ impl Run {
         let known = self.heard_lately(p);
         let (deepest, bounded) = (self.deepest(), self.bounds_vertical());
         let floor = self.floor(p, altitude.0).min(deepest);
-        self.tell_of_bottom(known.is_none() && altitude.0 > 0.0, floor);
-        let must_rise = self.is_low() || floor < deepest && self.depth() > floor + PASSED_M;
+        let is_lost = known.is_none() && altitude.0 > 0.0;
+        self.tell_of_bottom(is_lost, floor);
+        // Who is told to be deeper than any command can have led has a depth that is told wrong: with a bottom that is lost, it goes up.
+        let is_passed = self.depth() > floor + PASSED_M;
+        let must_rise = self.is_low() || is_passed && (floor < deepest || is_lost);
         let up = self.leads_up(floor);
         let given = match (asked, known) {
             (Vertical::Depth(_), _) if must_rise => Vertical::Depth(up),

@@ -86,7 +86,8 @@ impl Evaluator<'_> {
         let is_low = self.bottom.altitude(&self.w).is_some_and(|altitude| altitude < lowest - low_by);
         // So does what the vehicle does not keep to.
         let depth = self.w.depth().unwrap_or(0.0);
-        let is_low = is_low || deepest < high && depth > deepest + 1.0;
+        let is_lost = known.is_none() && lowest > 0.0;
+        let is_low = is_low || (deepest < high || is_lost) && depth > deepest + 1.0;
         let given = match asked {
             Vertical::Depth(_) if is_low => Vertical::Depth(low.min(deepest)),
             Vertical::Altitude(asked) => {
