@@ -82,6 +82,18 @@ fn a_vehicle_is_slow_to_give_way_and_takes_itself_back() {
     vehicle.says("override taken back");
 }
 
+/// ... and may be asked once more in the same tick.
+#[test]
+fn a_vehicle_that_has_taken_itself_back_is_asked_again() {
+    let folder = empty("again");
+    let vehicle = Vehicle::serve_world(&format!("{EXCURSION}#slow_to_trust"), "pty:?dialect=recon", &folder);
+    let out = folder.join("run");
+    let output = vehicle.mission(&["--mission", "once_more", "--out"]).arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}\n{}", stderr(&output), vehicle.said());
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert!(trace.contains("taken_back, completed"), "{trace}");
+}
+
 #[test]
 fn a_vehicle_whose_guest_is_killed_goes_back_to_its_legs() {
     let folder = empty("killed");

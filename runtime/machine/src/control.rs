@@ -52,6 +52,7 @@ impl Run {
     pub fn ask_for_control(&mut self, offered: bool) {
         if !offered {
             self.state.wish = ControlRequest::Ask;
+            self.asks = true;
         }
     }
 

@@ -72,6 +72,7 @@ impl Run {
             is_lost: false,
             abort: None,
             deserted: None,
+            asks: false,
             senses: senses(p),
             chart: None,
             trig: Trig::new(),
@@ -114,11 +115,18 @@ impl Machine {
         self.run.events.clear();
         self.run.abort = None;
         self.run.deserted = None;
+        self.run.asks = false;
     }
 
     /// What the mission wants of its vehicle from here on.
     pub fn wish(&self) -> ControlRequest {
         self.run.state.wish
+    }
+
+    /// Whether an override has begun in the last tick to ask for control that the vehicle has not given by then: whatever it has
+    /// answered is the answer to another.
+    pub fn asks_anew(&self) -> bool {
+        self.run.asks && !matches!(self.run.state.control, Control::InControl | Control::Suspended)
     }
 
     /// Lets a mission that has not begun begin at a later tick, in control, and know what was sensed before: ticks and their
@@ -181,6 +189,7 @@ impl Machine {
         let Machine { program, wiring, run } = self;
         let p = program.as_ref();
         run.events.clear();
+        run.asks = false;
         run.state.overridden = Overridden::default();
         run.state.way_back = None;
         run.events.extend(run.state.allowance.tick());

@@ -1,12 +1,13 @@
 //! The state of a run: one plain value.
 
-use crate::Outcome;
 use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::lift::Lift;
 use crate::rest::Rest;
+use crate::sinking::Sinking;
 use crate::trig::Trig;
+use crate::{Event, Outcome};
 use albacore_geometry::Heading;
 use albacore_guidance::parameters::TURN_RATE_MAX;
 use albacore_program::{Axis, Channel, LATENCY_MAX_S, LATENCY_PATIENCE_S, Slot, setpoints};
@@ -225,14 +226,13 @@ pub(crate) struct Run {
     pub abort: Option<String>,
     /// The outcome of that, where it is another than that the script aborted it.
     pub deserted: Option<Outcome>,
+    /// In this tick an override asks for control.
+    pub asks: bool,
     pub senses: Senses,
     /// What is known of the water's depth beforehand.
     pub chart: Option<Chart>,
     pub trig: Trig,
 }
-
-use crate::Event;
-use crate::sinking::Sinking;
 
 /// Where the inputs are that guidance itself reads; absolute slots of their blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

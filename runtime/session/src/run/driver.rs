@@ -171,7 +171,7 @@ impl Driver {
         let doubts = self.trust.look(record.tick, &mut record.snapshot, self.machine.state().command.as_ref());
         record.command = self.machine.step(&record.snapshot);
         let sent = record.command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
-        let sent = sent.and_then(|()| self.follow_wish());
+        let sent = sent.and_then(|()| self.ask_anew()).and_then(|()| self.follow_wish());
         record.step = Step::Tick;
         self.note_events(record);
         self.digest.take(record);
@@ -196,6 +196,15 @@ impl Driver {
         }
         self.asked_for_control = wants;
         if wants { self.vehicle.port().take_over() } else { self.vehicle.port().give_back() }
+    }
+
+    /// One override follows another in the same tick, and the vehicle has left the first or has not answered it: it is asked again.
+    fn ask_anew(&mut self) -> Result<(), VehicleError> {
+        if !self.asked_for_control || !self.machine.asks_anew() {
+            return Ok(());
+        }
+        self.asked_for_control = false;
+        self.vehicle.port().give_back()
     }
 
     /// Ends the run. The release is always the last act; then it is only written down.
