@@ -320,7 +320,8 @@ impl<'t> Checker<'t> {
             for item in &module.tree.items {
                 if let Item::Record { name, .. } = item
                     && let Some(&Def::Record(id)) = self.names[m].get(&name.node)
-                    && !self.types.has_parts_at_most(&Type::Record(id), PARTS_MAX)
+                    // With the record itself.
+                    && !self.types.has_parts_at_most(&Type::Record(id), PARTS_MAX + 1)
                 {
                     self.types.records[id].fields.clear();
                     let message = format!("the record `{}` has more than {PARTS_MAX} parts", name.node);

@@ -32,7 +32,7 @@ impl<'t> Checker<'t> {
     }
 
     fn read_signature(&mut self, id: usize, m: usize, function: &'t tree::Function) {
-        if self.waiting == WAITING_MAX {
+        if self.waiting > WAITING_MAX {
             let message = format!(
                 "the parameters of `{}` call more than {WAITING_MAX} functions, one in another",
                 function.name.node
@@ -96,8 +96,9 @@ impl<'t> Checker<'t> {
                 );
                 self.unknown(name.span)
             }
-            &Lazy::Unchecked { name, .. } if self.waiting == WAITING_MAX => {
-                let message = format!("`{}` is made of more than {WAITING_MAX} others declared after it", name.node);
+            &Lazy::Unchecked { name, .. } if self.waiting > WAITING_MAX => {
+                let message =
+                    format!("more than {WAITING_MAX} others that are declared before `{}` wait for it", name.node);
                 let finding = Diagnostic::error(Code::LimitsConstants, name.span, message);
                 self.report(finding.help("declare first what others are made of"));
                 self.unknown(name.span)

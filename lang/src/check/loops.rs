@@ -93,10 +93,10 @@ impl<'t> Checker<'t> {
         });
         // Written so that a bound that is no number counts as none.
         let exact = first.range.low.abs().max(end.abs()) < INT_MAX;
-        let bounded = exact && end - first.range.low <= ROUNDS_MAX;
+        let counts = end - first.range.low < ROUNDS_MAX;
+        let bounded = exact && counts;
         // A bound that is wrong has been told of.
         if !bounded && first.ty != Type::Unknown && last.ty != Type::Unknown {
-            let counts = end - first.range.low <= ROUNDS_MAX;
             let help = if counts && first.range.constant().is_some() && last.range.constant().is_some() {
                 format!("whole numbers end at {INT_MAX}: count to less, and add in the loop")
             } else {

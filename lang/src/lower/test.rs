@@ -182,6 +182,10 @@ fn depths<'e>(e: &Expr, known: &'e [(Expr, VarId)], out: &mut Vec<&'e (Expr, Var
 /// Both sides of the comparisons of a condition, constants left out.
 fn compared<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
     match &e.kind {
+        // A comparison that is written as one value, such as `area.contains(place)`.
+        ExprKind::Do(Builtin::Lt | Builtin::Le | Builtin::Eq, sides) if sides.iter().any(|s| s.span == e.span) => {
+            out.push(e);
+        }
         ExprKind::Do(Builtin::Lt | Builtin::Le | Builtin::Eq, sides) => {
             out.extend(sides.iter().filter(|s| s.range.constant().is_none()));
         }

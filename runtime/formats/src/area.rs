@@ -2,6 +2,7 @@
 
 mod corners;
 mod geojson;
+mod json;
 mod kml;
 
 use crate::FileFault;

@@ -3,11 +3,14 @@
 use super::document::{Clause, Column, Comment, Doc, Indent, Word};
 use crate::{ConcreteTree, Node, Rule};
 
+/// What editors of other systems put before a text in UTF-8.
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
 /// The document of a file.
 pub fn file<'a>(source: &'a str, tree: &'a ConcreteTree) -> Doc<'a> {
     let starts = std::iter::once(0).chain(source.match_indices('\n').map(|(at, _)| at + 1)).collect();
     let comments = tree.comments().map(|c| (c.start as usize, c.end as usize)).collect();
-    let at = if source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let at = if source.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len_utf8() } else { 0 };
     let mut builder =
         Builder { source, starts, comments, seen: 0, at, led: None, tight: false, after: None, blocks: 0 };
     let items = tree.root(source).inner().collect();
@@ -68,16 +71,25 @@ impl<'a> Builder<'a> {
         self.seen += 1;
         let line_start = self.starts.get(self.line(start) - 1).copied().unwrap_or(0);
         let column = self.slice(line_start, start).chars().count();
-        Some(Comment { text: self.slice(start, end).trim_end(), column, alone: self.at == 0 || self.breaks(start) })
+        Some(Comment {
+            text: self.slice(start, end).trim_end(),
+            column,
+            alone: !self.has_begun() || self.breaks(start),
+        })
     }
 
     /// Whether a blank line stands between the last word or comment and a place.
     fn blank(&self, start: usize) -> bool {
-        self.at > 0 && self.line(start) > self.line(self.at - 1) + 1
+        self.has_begun() && self.line(start) > self.line(self.at - 1) + 1
+    }
+
+    /// Whether a word or a comment has come: a byte-order mark is neither.
+    fn has_begun(&self) -> bool {
+        self.at > if self.source.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len_utf8() } else { 0 }
     }
 
     fn breaks(&self, start: usize) -> bool {
-        self.at > 0 && self.line(start) > self.line(self.at - 1)
+        self.has_begun() && self.line(start) > self.line(self.at - 1)
     }
 
     /// Sees to what stands before a word: comments and line ends.

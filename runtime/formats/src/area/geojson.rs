@@ -1,6 +1,7 @@
 //! GeoJSON (RFC 7946): its polygons, wherever they stand. Positions are longitude, latitude, and maybe a height, in degrees on
 //! WGS 84 (section 4).
 
+use super::json::Json;
 use super::{Contents, Name, Polygon, Position, fault, opened, shortened};
 use crate::FileFault;
 use serde_json::Value;
@@ -13,7 +14,7 @@ const WGS_84: [&str; 5] = ["CRS84", "CRS84H", "WGS84", "4326", "4979"];
 
 /// The polygons of a text.
 pub(super) fn contents(text: &str) -> Result<Contents, FileFault> {
-    let value: Value = serde_json::from_str(text)
+    let Json(value) = serde_json::from_str(text)
         .map_err(|error| fault(format!("this is no JSON: {error}"), "export the area again as GeoJSON"))?;
     let mut contents = Contents::default();
     object(&value, "", None, &mut contents)?;
@@ -91,14 +92,21 @@ fn polygon(rings: &[Value], place: &str, name: Option<&Name>) -> Result<Polygon,
 fn ring(positions: &Value, place: &str) -> Result<Vec<Position>, FileFault> {
     let positions = positions.as_array().ok_or_else(|| missing(place, "is no list of positions"))?;
     let corner = |(i, value): (usize, &Value)| {
-        position(value).ok_or_else(|| missing(&format!("{place}[{i}]"), "is no longitude and latitude"))
+        position(value)
+            .ok_or_else(|| missing(&format!("{place}[{i}]"), "is not a longitude, a latitude and perhaps a height"))
     };
     positions.iter().enumerate().map(corner).collect::<Result<_, FileFault>>().map(opened)
 }
 
+/// More numbers than three (section 3.1.1 lets readers ignore them) are two positions that run together.
 fn position(value: &Value) -> Option<Position> {
-    let (longitude, latitude) = (value.get(0)?.as_f64()?, value.get(1)?.as_f64()?);
-    Some(Position { latitude_deg: latitude, longitude_deg: longitude })
+    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
+    match numbers?[..] {
+        [longitude, latitude] | [longitude, latitude, _] => {
+            Some(Position { latitude_deg: latitude, longitude_deg: longitude })
+        }
+        _ => None,
+    }
 }
 
 fn missing(path: &str, what: &str) -> FileFault {

@@ -109,7 +109,7 @@ fn ring(ring: Option<Node>, without: impl FnOnce() -> FileFault) -> Result<Vec<P
     let coordinates = ring.and_then(|ring| child(ring, "coordinates")).ok_or_else(without)?;
     ring.map_or(Ok(()), |ring| alone(ring, "coordinates", "this ring has `coordinates` twice"))?;
     let corner = |tuple: &str| {
-        let no_position = "is no longitude and latitude with a comma between them";
+        let no_position = "is not a longitude, a latitude and perhaps a height with commas between them";
         let what = || broken(coordinates, &format!("`{}` {no_position}", shortened(tuple)));
         position(tuple).ok_or_else(what)
     };
@@ -117,9 +117,14 @@ fn ring(ring: Option<Node>, without: impl FnOnce() -> FileFault) -> Result<Vec<P
 }
 
 fn position(tuple: &str) -> Option<Position> {
-    let mut numbers = tuple.split(',').map(|number| number.parse::<f64>().ok());
-    let (longitude, latitude) = (numbers.next()??, numbers.next()??);
-    Some(Position { latitude_deg: latitude, longitude_deg: longitude })
+    let number = |number: &str| number.parse::<f64>().ok().filter(|number| number.is_finite());
+    let numbers: Option<Vec<f64>> = tuple.split(',').map(number).collect();
+    match numbers?[..] {
+        [longitude, latitude] | [longitude, latitude, _] => {
+            Some(Position { latitude_deg: latitude, longitude_deg: longitude })
+        }
+        _ => None,
+    }
 }
 
 fn is(node: Node, name: &str) -> bool {

@@ -128,13 +128,23 @@ fn what_is_no_polygon_is_told_with_its_place() {
     let empty = geojson(&[("{}", r#"{"type": "Polygon", "coordinates": []}"#)]);
     let place = "`features[0].geometry.coordinates[0]` is no list of positions";
     refused("a.json", &empty, None, place, help);
-    let text = geojson(&[("{}", r#"{"type": "Polygon", "coordinates": [[[0, 0], [0, "1"]]]}"#)]);
-    let place = "`features[0].geometry.coordinates[0][1]` is no longitude and latitude";
-    refused("a.json", &text, None, place, help);
+    let place = "`features[0].geometry.coordinates[0][1]` is not a longitude, a latitude and perhaps a height";
+    for wrong in [r#"0, "1""#, "0", "0, 1, null", "0, 1, 0, 1", "0, 1, 0, 0, 1, 0"] {
+        let ring = format!(r#"{{"type": "Polygon", "coordinates": [[[0, 0], [{wrong}]]]}}"#);
+        refused("a.json", &geojson(&[("{}", &ring)]), None, place, help);
+    }
+    let twice = r#"{"type": "Polygon", "coordinates": [], "coordinates": []}"#;
+    let message = "this is no JSON: `coordinates` stands twice in one object at line 1 column 57";
+    refused("a.json", twice, None, message, help);
     let flat = r#"{"type": "GeometryCollection", "geometries": [{"type": "MultiPolygon", "coordinates": [1]}]}"#;
     refused("a.json", flat, None, "`geometries[0].coordinates[0]` is no list of rings", help);
-    let tuple = "line 4: `-75.74;36.18` is no longitude and latitude with a comma between them";
-    refused("a.kml", &kml(&placemark("box", "-75.74;36.18")), None, tuple, help);
+    for tuple in
+        ["-75.74;36.18", "-75.738,36.182,0,-75.742,36.182,0", "-75.738,36.182,-75.742,36.182", "-75.74,36.18,nan"]
+    {
+        let said =
+            format!("line 4: `{tuple}` is not a longitude, a latitude and perhaps a height with commas between them");
+        refused("a.kml", &kml(&placemark("box", tuple)), None, &said, help);
+    }
     let hollow = "line 3: this polygon has no outline with `coordinates`";
     refused("a.kml", &kml("<Placemark><Polygon/></Placemark>"), None, hollow, help);
     let square = placemark("box", KML_SQUARE);

@@ -29,6 +29,12 @@ impl Udp {
     /// To a vehicle at a host's port, from a port of ours; 0 is any.
     pub fn call(host: &str, port: u16, local: u16, framing: &'static Framing) -> Result<Self, LinkError> {
         let peer = resolved(host, port)?;
+        if peer.ip().is_unspecified() {
+            return Err(LinkError::new(
+                format!("`{host}` is where a vehicle listens, on all addresses of its computer, and no vehicle's own"),
+                "write the address of that computer, such as 192.168.1.20; 127.0.0.1 is this one",
+            ));
+        }
         let any: SocketAddr = if peer.is_ipv4() { ([0, 0, 0, 0], local).into() } else { ([0_u16; 8], local).into() };
         Ok(Udp { peer: Some(peer), ..Udp::new(bound(any)?, false, framing) })
     }
