@@ -23,6 +23,8 @@ pub enum Type {
     Heading,
     Depth,
     Altitude,
+    /// A moment, counted from the beginning of 1970, UTC.
+    Date,
     Point,
     Vector(Dimension),
     Area,
@@ -120,6 +122,7 @@ impl TypeTable {
             Type::Heading => "Heading".into(),
             Type::Depth => "Depth".into(),
             Type::Altitude => "Altitude".into(),
+            Type::Date => "Date".into(),
             Type::Point => "Point".into(),
             Type::Vector(d) if *d == Dimension::LENGTH => "Vector".into(),
             Type::Vector(d) if *d == Dimension::SPEED => "Velocity".into(),
@@ -155,6 +158,7 @@ impl TypeTable {
             Type::Heading => Shape::Heading,
             Type::Depth => Shape::Depth,
             Type::Altitude => Shape::Altitude,
+            Type::Date => Shape::Date,
             Type::Point => Shape::Point,
             Type::Vector(d) => Shape::Vector(d.display()),
             Type::Area => Shape::Area,
@@ -206,5 +210,5 @@ impl TypeTable {
 
 /// Whether values of a type are one number each, of which a range is known.
 pub fn is_number(ty: &Type) -> bool {
-    matches!(ty, Type::Int | Type::Sign | Type::Quantity(_) | Type::Heading | Type::Depth | Type::Altitude)
+    matches!(ty, Type::Int | Type::Sign | Type::Quantity(_) | Type::Heading | Type::Depth | Type::Altitude | Type::Date)
 }

@@ -2,6 +2,7 @@
 
 use super::Checker;
 use super::expr::article;
+use super::operators::ANGLE;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart};
 use crate::syntax::tree::Binary;
@@ -50,7 +51,7 @@ fn scaling(has: Dimension, wants: Dimension) -> Option<Scaling> {
 
 /// Two quantities that should be of one dimension: which side to change, and how. What is written as a number is changed
 /// more easily than what is computed.
-pub(super) fn sides_help(a: &Expr, d: Dimension, b: &Expr, e: Dimension) -> String {
+fn sides_help(a: &Expr, d: Dimension, b: &Expr, e: Dimension) -> String {
     let (left, right) = (a.range.constant().is_some(), b.range.constant().is_some());
     if left && !right {
         scaling_help(d, e, "the left-hand side", true)
@@ -68,11 +69,12 @@ pub(super) fn sides_help(a: &Expr, d: Dimension, b: &Expr, e: Dimension) -> Stri
 }
 
 /// What goes with a type in an operation, when nothing closer can be said.
-pub(super) fn partner(op: Binary, a: &Type, b: &Type) -> Option<&'static str> {
+fn partner(op: Binary, a: &Type, b: &Type) -> Option<&'static str> {
     let of = |ty: &Type| {
         Some(match ty {
             Type::Depth => "a depth is changed by a length: `depth + 2 m`",
             Type::Altitude => "an altitude is changed by a length: `altitude + 2 m`",
+            Type::Date => "a date is changed by a time, `utc + 2 h`; from one to another is `DATE - DATE`",
             Type::Heading => "a heading is turned by an angle: `heading + 20 deg`",
             Type::Point => "a point is moved by a vector, `POINT + VECTOR`; from one to another leads `POINT - POINT`",
             Type::Vector(_) => "vectors are added to points, and to vectors of their own kind",
@@ -89,8 +91,18 @@ pub(super) fn partner(op: Binary, a: &Type, b: &Type) -> Option<&'static str> {
     }
 }
 
+/// What a date is calculated with.
+fn of_dates(is_compared: bool) -> String {
+    match is_compared {
+        true => {
+            "a date is compared with a date, such as `2026-08-14T05:00Z`; how long it is since is `utc - DATE`".into()
+        }
+        false => "a date is changed by a time: `utc + 2 h`; `DATE - DATE` is a time".into(),
+    }
+}
+
 /// A number that was meant in metres.
-pub(super) fn in_metres(side: &str, number: &Expr) -> String {
+fn in_metres(side: &str, number: &Expr) -> String {
     match number.range.constant() {
         Some(x) => format!("give the number on the {side} a unit: `{x} m`"),
         None => format!("give the number on the {side} a unit, such as `m`"),
@@ -98,7 +110,7 @@ pub(super) fn in_metres(side: &str, number: &Expr) -> String {
 }
 
 /// Whether a vector is written as a length toward a heading.
-pub(super) fn is_toward(vector: &Expr) -> bool {
+fn is_toward(vector: &Expr) -> bool {
     match &vector.kind {
         ExprKind::Do(Builtin::Toward, _) => true,
         ExprKind::Do(Builtin::AddVector | Builtin::SubVector, parts) => parts.iter().any(is_toward),
@@ -107,6 +119,86 @@ pub(super) fn is_toward(vector: &Expr) -> bool {
 }
 
 impl Checker<'_> {
+    /// What to write instead of an operation that its operands do not have.
+    pub(super) fn operator_help(&self, op: Binary, a: &Expr, b: &Expr) -> Option<String> {
+        use Type::*;
+        let takes_metres = op.compares() || matches!(op, Binary::Add | Binary::Sub);
+        let is_number = |x: &Type| x.dimension().is_some_and(Dimension::is_none);
+        Some(match (op, &a.ty, &b.ty) {
+            (Binary::Add, Text, _) | (Binary::Add, _, Text) => {
+                "write one text, with values between `{` and `}`: `\"{a} and {b}\"`".into()
+            }
+            (Binary::Add | Binary::Sub, Heading, x) | (Binary::Add, x, Heading)
+                if x.dimension() == Some(Dimension::NONE) =>
+            {
+                "give the number a unit: `deg`".into()
+            }
+            (_, None, _) | (_, _, None) if op.compares() => self.never_absent(if a.ty == None { b } else { a }),
+            (_, Heading, _) | (_, _, Heading) if op.compares() => {
+                "a heading is a direction: compare the angle between two, `abs(heading - north) < 3 deg`".into()
+            }
+            (Binary::Add, Heading, Heading) => {
+                "a heading is turned by an angle: `HEADING + ANGLE`; the angle between two is `HEADING - HEADING`"
+                    .into()
+            }
+            (Binary::Mul, Heading, Quantity(d)) | (Binary::Mul, Quantity(d), Heading) if *d == Dimension::LENGTH => {
+                "so far in a direction is `LENGTH toward HEADING`".into()
+            }
+            (Binary::Mul | Binary::Div, Heading, _) | (Binary::Mul, _, Heading) => {
+                "a heading is turned by an angle: `HEADING + ANGLE`".into()
+            }
+            (Binary::Mul | Binary::Div, Point, _) | (Binary::Mul, _, Point) => {
+                "the way between two points, `POINT - POINT`, is a vector, which can be multiplied and divided".into()
+            }
+            (Binary::Add | Binary::Sub, Point, Quantity(d)) if *d == Dimension::LENGTH => {
+                "say in which direction: `POINT + LENGTH toward HEADING`".into()
+            }
+            (Binary::Add | Binary::Sub, Point | Vector(_), Vector(d))
+            | (Binary::Add | Binary::Sub, Vector(d), Point | Vector(_))
+                if d.is_none() =>
+            {
+                "a direction alone has no length: give the number before `toward` a unit, such as `8 m toward north`"
+                    .into()
+            }
+            (Binary::Add | Binary::Sub, Vector(_), t) if *t == ANGLE && !is_toward(a) => self.turned(op, a),
+            (Binary::Add | Binary::Sub, Point | Vector(_), t) if *t == ANGLE => {
+                "`toward` holds tighter than `+` and `-`: write `LENGTH toward (HEADING + ANGLE)`".into()
+            }
+            (Binary::Sub, Vector(_), Point) => "the vector from one point to another is `POINT - POINT`".into(),
+            (Binary::Add, Point, Point) => {
+                "a point is moved by a vector: `POINT + VECTOR`; `POINT - POINT` is a vector".into()
+            }
+            (_, Date, _) | (_, _, Date) if takes_metres => of_dates(op.compares()),
+            (_, Depth, Altitude) | (_, Altitude, Depth) => {
+                "depth is counted from the surface and altitude from the bottom; `water_depth` is both together".into()
+            }
+            (Binary::Add, Depth, Depth) | (Binary::Add, Altitude, Altitude) => {
+                "it is changed by a length: `depth + 2 m`; the difference of two is a length".into()
+            }
+            (_, Depth | Altitude, Quantity(d)) | (_, Quantity(d), Depth | Altitude)
+                if op.compares() && *d == Dimension::LENGTH =>
+            {
+                "compare with a depth or an altitude, such as `top + 1 m`, or with a constant".into()
+            }
+            (_, Depth | Altitude, x) if takes_metres && is_number(x) => in_metres("right", b),
+            (_, x, Depth | Altitude) if takes_metres && is_number(x) => in_metres("left", a),
+            (Binary::Add | Binary::Sub, x, y)
+            | (Binary::Lt | Binary::Le | Binary::Gt | Binary::Ge | Binary::Eq | Binary::Ne, x, y) => {
+                let (Some(d), Some(e)) = (x.dimension(), y.dimension()) else {
+                    return partner(op, x, y).map(str::to_string);
+                };
+                if d.is_none() {
+                    return Some(format!("give the number on the left a unit, such as `{}`", e.unit()));
+                }
+                if e.is_none() {
+                    return Some(format!("give the number on the right a unit, such as `{}`", d.unit()));
+                }
+                sides_help(a, d, b, e)
+            }
+            (op, x, y) => return partner(op, x, y).map(str::to_string),
+        })
+    }
+
     /// How a value is called in a mend: by its name, where it has one.
     fn called<'a>(&'a self, value: &Expr, otherwise: &'a str) -> &'a str {
         match value.kind {
@@ -152,6 +244,7 @@ impl Checker<'_> {
             Type::Heading => "a direction is asked for, such as `90 deg`, `north` or `flow.toward`",
             Type::Depth => "a depth is asked for, such as `3 m` or `depth + 1 m`",
             Type::Altitude => "an altitude is asked for, such as `3 m` or `altitude + 1 m`",
+            Type::Date => "a date is asked for, such as `2026-08-14T05:00Z`, `utc` or `utc + 2 h`",
             Type::Point => {
                 "a place is asked for, such as `position`, `op.center`, `36.18°N 75.74°W` or `point(north: 4 m, east: 2 m)`"
             }

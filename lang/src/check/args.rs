@@ -405,7 +405,7 @@ impl<'t> Checker<'t> {
         self.unlabelled(name, args);
         let first = self.expr(&args[0].value, None);
         let ordered = matches!(first.ty, Type::Int | Type::Sign | Type::Quantity(_))
-            || name != "abs" && matches!(first.ty, Type::Depth | Type::Altitude);
+            || name != "abs" && matches!(first.ty, Type::Depth | Type::Altitude | Type::Date);
         if !ordered {
             if first.ty != Type::Unknown {
                 let ty = self.type_name(&first.ty);

@@ -197,6 +197,7 @@ impl<'t> Checker<'t> {
                         let message = format!("this is {}, no condition", article(&name));
                         let is_time = matches!(other, Type::Quantity(dimension) if *dimension == Dimension::TIME);
                         Diagnostic::error(Code::TypesCondition, span, message).help(match is_time {
+                            _ if *other == Type::Date => "compare it with the vehicle's clock: `utc >= DATE`",
                             true => "how long something lasts is written with `for` or `within`: `wait for 10 s`",
                             false => "compare it with something, such as `x > 0 m`",
                         })

@@ -43,7 +43,7 @@ impl<'t> Checker<'t> {
             (
                 Some(x),
                 ExprKind::Do(..),
-                Type::Quantity(_) | Type::Int | Type::Heading | Type::Depth | Type::Altitude,
+                Type::Quantity(_) | Type::Int | Type::Heading | Type::Depth | Type::Altitude | Type::Date,
             ) if !ty.is_optional() => ExprKind::Number(x),
             _ => kind,
         };
@@ -70,6 +70,7 @@ impl<'t> Checker<'t> {
                 let kind = ExprKind::Geodetic { latitude_deg: *latitude_deg, longitude_deg: *longitude_deg };
                 self.make(kind, Type::Point, span)
             }
+            K::Date(seconds) => self.make(ExprKind::Number(*seconds), Type::Date, span),
             K::Text(parts) => self.text_value(parts, span),
             K::Bool(b) => {
                 let number = ExprKind::Number(f64::from(u8::from(*b)));

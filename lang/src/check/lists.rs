@@ -23,7 +23,8 @@ impl<'t> Checker<'t> {
             let key = c.expr(key, None);
             (it, key)
         });
-        if !matches!(key.ty, Type::Int | Type::Quantity(_) | Type::Depth | Type::Altitude | Type::Unknown) {
+        if !matches!(key.ty, Type::Int | Type::Quantity(_) | Type::Depth | Type::Altitude | Type::Date | Type::Unknown)
+        {
             let name = self.type_name(&key.ty);
             self.report(
                 Diagnostic::error(

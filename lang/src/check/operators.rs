@@ -1,7 +1,6 @@
 //! Operators between two operands: the whole table of what can be calculated with what.
 
 use super::Checker;
-use super::advice::{in_metres, is_toward, partner, sides_help};
 use super::expr::article;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -12,12 +11,13 @@ use crate::syntax::tree::{self, Binary};
 use crate::types::Type;
 use albacore_arithmetic::{Div, Operation, Pow};
 
-const ANGLE: Type = Type::Quantity(Dimension::ANGLE);
+pub(super) const ANGLE: Type = Type::Quantity(Dimension::ANGLE);
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 /// Why nothing that holds a text is compared, and what is compared in its place.
 pub(super) const TEXTS_DIFFER: &str = "texts are not compared: two that read the same may be made of different parts";
 pub(super) const TEXTS_HELP: &str =
     "keep what decides beside the text: an `enum` of what there is, a number, or whether there is one (`… != none`)";
+const TIME: Type = Type::Quantity(Dimension::TIME);
 const VECTOR: Type = Type::Vector(Dimension::LENGTH);
 
 impl<'t> Checker<'t> {
@@ -161,6 +161,7 @@ impl<'t> Checker<'t> {
             }
             (Depth, t) | (t, Depth) if *t == LENGTH => (Builtin::Add, Depth),
             (Altitude, t) | (t, Altitude) if *t == LENGTH => (Builtin::Add, Altitude),
+            (Date, t) | (t, Date) if *t == TIME => (Builtin::Add, Date),
             (Point, t) | (t, Point) if *t == VECTOR => (Builtin::AddVector, Point),
             (Vector(x), Vector(y)) if x == y => (Builtin::AddVector, Vector(*x)),
             (x, y) => match (x.dimension(), y.dimension()) {
@@ -186,6 +187,8 @@ impl<'t> Checker<'t> {
             (Depth, Depth) | (Altitude, Altitude) => (Builtin::Sub, LENGTH),
             (Depth, t) if *t == LENGTH => (Builtin::Sub, Depth),
             (Altitude, t) if *t == LENGTH => (Builtin::Sub, Altitude),
+            (Date, Date) => (Builtin::Sub, TIME),
+            (Date, t) if *t == TIME => (Builtin::Sub, Date),
             (Point, Point) => (Builtin::SubVector, VECTOR),
             (Point, t) if *t == VECTOR => (Builtin::SubVector, Point),
             (Vector(x), Vector(y)) if x == y => (Builtin::SubVector, Vector(*x)),
@@ -399,91 +402,13 @@ impl<'t> Checker<'t> {
         });
         self.unknown(span)
     }
-
-    fn operator_help(&self, op: Binary, a: &Expr, b: &Expr) -> Option<String> {
-        use Type::*;
-        let takes_metres = op.compares() || matches!(op, Binary::Add | Binary::Sub);
-        let is_number = |x: &Type| x.dimension().is_some_and(Dimension::is_none);
-        Some(match (op, &a.ty, &b.ty) {
-            (Binary::Add, Text, _) | (Binary::Add, _, Text) => {
-                "write one text, with values between `{` and `}`: `\"{a} and {b}\"`".into()
-            }
-            (Binary::Add | Binary::Sub, Heading, x) | (Binary::Add, x, Heading)
-                if x.dimension() == Some(Dimension::NONE) =>
-            {
-                "give the number a unit: `deg`".into()
-            }
-            (_, None, _) | (_, _, None) if op.compares() => self.never_absent(if a.ty == None { b } else { a }),
-            (_, Heading, _) | (_, _, Heading) if op.compares() => {
-                "a heading is a direction: compare the angle between two, `abs(heading - north) < 3 deg`".into()
-            }
-            (Binary::Add, Heading, Heading) => {
-                "a heading is turned by an angle: `HEADING + ANGLE`; the angle between two is `HEADING - HEADING`"
-                    .into()
-            }
-            (Binary::Mul, Heading, Quantity(d)) | (Binary::Mul, Quantity(d), Heading) if *d == Dimension::LENGTH => {
-                "so far in a direction is `LENGTH toward HEADING`".into()
-            }
-            (Binary::Mul | Binary::Div, Heading, _) | (Binary::Mul, _, Heading) => {
-                "a heading is turned by an angle: `HEADING + ANGLE`".into()
-            }
-            (Binary::Mul | Binary::Div, Point, _) | (Binary::Mul, _, Point) => {
-                "the way between two points, `POINT - POINT`, is a vector, which can be multiplied and divided".into()
-            }
-            (Binary::Add | Binary::Sub, Point, Quantity(d)) if *d == Dimension::LENGTH => {
-                "say in which direction: `POINT + LENGTH toward HEADING`".into()
-            }
-            (Binary::Add | Binary::Sub, Point | Vector(_), Vector(d))
-            | (Binary::Add | Binary::Sub, Vector(d), Point | Vector(_))
-                if d.is_none() =>
-            {
-                "a direction alone has no length: give the number before `toward` a unit, such as `8 m toward north`"
-                    .into()
-            }
-            (Binary::Add | Binary::Sub, Vector(_), t) if *t == ANGLE && !is_toward(a) => self.turned(op, a),
-            (Binary::Add | Binary::Sub, Point | Vector(_), t) if *t == ANGLE => {
-                "`toward` holds tighter than `+` and `-`: write `LENGTH toward (HEADING + ANGLE)`".into()
-            }
-            (Binary::Sub, Vector(_), Point) => "the vector from one point to another is `POINT - POINT`".into(),
-            (Binary::Add, Point, Point) => {
-                "a point is moved by a vector: `POINT + VECTOR`; `POINT - POINT` is a vector".into()
-            }
-            (_, Depth, Altitude) | (_, Altitude, Depth) => {
-                "depth is counted from the surface and altitude from the bottom; `water_depth` is both together".into()
-            }
-            (Binary::Add, Depth, Depth) | (Binary::Add, Altitude, Altitude) => {
-                "it is changed by a length: `depth + 2 m`; the difference of two is a length".into()
-            }
-            (_, Depth | Altitude, Quantity(d)) | (_, Quantity(d), Depth | Altitude)
-                if op.compares() && *d == Dimension::LENGTH =>
-            {
-                "compare with a depth or an altitude, such as `top + 1 m`, or with a constant".into()
-            }
-            (_, Depth | Altitude, x) if takes_metres && is_number(x) => in_metres("right", b),
-            (_, x, Depth | Altitude) if takes_metres && is_number(x) => in_metres("left", a),
-            (Binary::Add | Binary::Sub, x, y)
-            | (Binary::Lt | Binary::Le | Binary::Gt | Binary::Ge | Binary::Eq | Binary::Ne, x, y) => {
-                let (Some(d), Some(e)) = (x.dimension(), y.dimension()) else {
-                    return partner(op, x, y).map(str::to_string);
-                };
-                if d.is_none() {
-                    return Some(format!("give the number on the left a unit, such as `{}`", e.unit()));
-                }
-                if e.is_none() {
-                    return Some(format!("give the number on the right a unit, such as `{}`", d.unit()));
-                }
-                sides_help(a, d, b, e)
-            }
-            (op, x, y) => return partner(op, x, y).map(str::to_string),
-        })
-    }
 }
 
 /// Whether values of two types can be compared, by their order or only by `==` and `!=`.
 fn are_comparable(a: &Expr, b: &Expr, equality: bool) -> bool {
     use Type::*;
     match (&a.ty, &b.ty) {
-        (x, y) if x == y => equality || matches!(x, Quantity(_) | Int | Depth | Altitude),
+        (x, y) if x == y => equality || matches!(x, Quantity(_) | Int | Depth | Altitude | Date),
         (Depth | Altitude, t) if *t == LENGTH => b.range.constant().is_some(),
         (t, Depth | Altitude) if *t == LENGTH => a.range.constant().is_some(),
         (Heading, t) if *t == ANGLE && equality => b.range.constant().is_some(),

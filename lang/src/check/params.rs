@@ -10,6 +10,7 @@ use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_arithmetic::LARGEST;
+use albacore_program::calendar;
 use std::collections::BTreeMap;
 
 /// A parameter set from outside, as by `--set cpt_2005.beta=30deg`.
@@ -314,6 +315,7 @@ impl<'t> Checker<'t> {
             Type::Quantity(d) if !d.is_none() => d.display(),
             Type::Heading => Dimension::ANGLE.display(),
             Type::Depth | Type::Altitude => Dimension::LENGTH.display(),
+            Type::Date => return calendar::written(x),
             _ => return short(x),
         };
         format!("{} {}", short(digits(x / display.scale)), display.unit)
@@ -322,7 +324,7 @@ impl<'t> Checker<'t> {
 
 /// Whether the values of a type lie in an order, so that a range can hold them.
 fn can_have_a_range(ty: &Type) -> bool {
-    matches!(ty.present(), Type::Int | Type::Quantity(_) | Type::Heading | Type::Depth | Type::Altitude)
+    matches!(ty.present(), Type::Int | Type::Quantity(_) | Type::Heading | Type::Depth | Type::Altitude | Type::Date)
 }
 
 /// A number without rows of zeros.

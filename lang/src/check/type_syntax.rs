@@ -132,6 +132,7 @@ impl<'t> Checker<'t> {
             "Heading" => Some(Type::Heading),
             "Depth" => Some(Type::Depth),
             "Altitude" => Some(Type::Altitude),
+            "Date" => Some(Type::Date),
             "Point" => Some(Type::Point),
             "Vector" => Some(Type::Vector(Dimension::LENGTH)),
             "Velocity" => Some(Type::Vector(Dimension::SPEED)),
@@ -185,7 +186,7 @@ impl<'t> Checker<'t> {
     }
 }
 
-const SIMPLE_TYPES: [&str; 14] = [
+const SIMPLE_TYPES: [&str; 15] = [
     "Bool",
     "Int",
     "Sign",
@@ -193,6 +194,7 @@ const SIMPLE_TYPES: [&str; 14] = [
     "Heading",
     "Depth",
     "Altitude",
+    "Date",
     "Point",
     "Vector",
     "Velocity",

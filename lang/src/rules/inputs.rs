@@ -17,8 +17,8 @@ const BY_THE_MACHINE: [&str; 4] = [senses::FLOW, senses::DEPTH, senses::ALTITUDE
 /// Inputs that a `hold` keeps its place by, where they have come; without them it lies still.
 const BY_HOLD: [&str; 2] = [senses::POSITION, senses::COURSE];
 
-/// Inputs that are never too old: they tell how things stand with the vehicle, and that of one not heard from as well.
-const OF_THE_LINK: [&str; 2] = [senses::CONTROL, senses::VEHICLE_MODE];
+/// Inputs that are never too old: they tell how things stand with the mission and its vehicle, and that of one not heard from as well.
+const NEVER_OLD: [&str; 3] = [senses::CONTROL, senses::ELAPSED, senses::VEHICLE_MODE];
 
 /// So many places are shown where an input is read.
 const PLACES_MAX: usize = 3;
@@ -47,7 +47,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = computed_first(activity, parts);
     let Walk { read, holds, .. } = walk(hir, mission);
-    let known = |input: &usize| OF_THE_LINK.contains(&hir.inputs[*input].name.as_str());
+    let known = |input: &usize| NEVER_OLD.contains(&hir.inputs[*input].name.as_str());
     let mut unrequired = Vec::new();
     for (&input, read) in read.iter().filter(|(input, _)| !known(input)) {
         let name = hir.inputs[input].name.as_str();

@@ -9,6 +9,7 @@ use super::{errors, places};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
+use albacore_program::calendar;
 
 /// An expression has this many operands and operators at most, and an operand this many suffixes.
 const TERMS_MAX: usize = 256;
@@ -284,6 +285,14 @@ fn primary(b: &mut Builder, node: Node) -> Expr {
                 longitude_deg: halves.next().unwrap_or(0.0),
             }
         }
+        Rule::date => match calendar::read(node.text()) {
+            Ok(seconds) => ExprKind::Date(seconds),
+            Err(why) => {
+                let finding = Diagnostic::error(Code::TypesDate, span, "this is no date");
+                b.refused.push(finding.help(why));
+                ExprKind::Name(String::new())
+            }
+        },
         Rule::text => return text(b, node),
         Rule::list => ExprKind::List(node.inner().map(|p| expr(b, p)).collect()),
         Rule::paren => match node.inner().next() {

@@ -218,6 +218,7 @@ codes! {
         TypesCapacity = "capacity",
         TypesComparison = "comparison",
         TypesCondition = "condition",
+        TypesDate = "date",
         TypesDifference = "difference",
         TypesEmpty = "empty",
         TypesFor = "for",

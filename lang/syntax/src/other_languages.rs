@@ -27,8 +27,8 @@ pub fn help(word: &str) -> Option<&'static str> {
         "mod" | "rem" | "fmod" => "for the remainder of whole numbers write `a - b * floor(a / b)`",
         "len" | "length" | "size" | "numel" => "the number of elements of a list is `LIST.count`",
         "pi" | "PI" => "angles have units: half a turn is `180 deg`",
-        "now" | "time" | "clock" | "elapsed" => {
-            "no clock is read: `after 5 min` holds from five minutes after the entry on, as in `until after 5 min`"
+        "now" | "time" | "clock" | "date" | "today" | "timestamp" => {
+            "the mission's time is `elapsed`, and the date `utc`; `after 5 min` holds from five minutes after the entry on, as in `until after 5 min`"
         }
         "rand" | "random" => "nothing in a mission is left to chance: the same script does the same",
         "int" | "float" | "double" | "string" | "bool" | "auto" | "local" => {

@@ -2,7 +2,7 @@
 
 use crate::state::{Asked, ControlRequest, Run};
 use crate::{Event, Outcome};
-use albacore_program::{Channel, Input, OverrideEnd, Program};
+use albacore_program::{Channel, OverrideEnd, Program};
 use albacore_vehicle::{Command, Control};
 
 impl Run {
@@ -13,9 +13,7 @@ impl Run {
             self.events.push(Event::Control(control));
         }
         if let Some(at) = self.senses.control {
-            self.set(at + Input::VALUE, number(control));
-            self.set(at + Input::PEAK, number(control));
-            self.set(at + Input::STAMP, self.state.tick as f64);
+            self.tell(at, number(control));
         }
     }
 

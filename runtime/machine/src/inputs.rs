@@ -5,7 +5,7 @@ use albacore_arithmetic::{Age, Operation};
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_program::{Input, Program, Slot, senses};
 use albacore_vehicle::measurements::{ALTITUDE, POSITION};
-use albacore_vehicle::{Measurement, Sample};
+use albacore_vehicle::{Measurement, Sample, TICK_S};
 
 /// An input that a mission requires and the vehicle does not deliver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,8 +33,7 @@ impl std::error::Error for MissingInput {}
 pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<Vec<Option<u32>>, MissingInput> {
     for require in &program.mission.requires {
         let name = &program.inputs[require.input as usize].name;
-        // Who drives is told with every snapshot, and by no measurement.
-        if name != senses::CONTROL && !measurements.iter().any(|c| c.name == *name) {
+        if !senses::ALWAYS_THERE.contains(&&**name) && !measurements.iter().any(|c| c.name == *name) {
             let delivered = measurements.iter().map(|c| c.name.clone()).collect();
             return Err(MissingInput { name: name.clone(), delivered });
         }
@@ -55,10 +54,26 @@ pub(crate) fn senses(program: &Program) -> Senses {
         depth: at(senses::DEPTH),
         altitude: at(senses::ALTITUDE),
         control: at(senses::CONTROL),
+        elapsed: at(senses::ELAPSED),
     }
 }
 
 impl Run {
+    /// Lets an input that no measurement brings have a value in this tick; `at` is its block.
+    pub fn tell(&mut self, at: Slot, value: f64) {
+        self.set(at + Input::VALUE, value);
+        self.set(at + Input::PEAK, value);
+        self.set(at + Input::STAMP, self.state.tick as f64);
+    }
+
+    /// Lets the input `elapsed` show how long the mission has lasted: since the first tick on which we drive.
+    pub fn tell_elapsed(&mut self) {
+        if let Some(at) = self.senses.elapsed {
+            let ticks = self.state.drives_since.map_or(0, |since| self.state.tick - since);
+            self.tell(at, ticks as f64 * TICK_S);
+        }
+    }
+
     /// Takes in the samples of a tick. A sample that no value of its input can be is as if it had not come: the checker's
     /// ranges hold for what is taken in.
     pub fn take_in(&mut self, program: &Program, wiring: &[Option<u32>], samples: &[Sample]) {

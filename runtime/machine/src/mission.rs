@@ -59,6 +59,7 @@ impl Run {
             lag: Lag::default(),
             within: None,
             began: 0,
+            drives_since: None,
             host_began: 0,
             overridden: Overridden::default(),
             way_back: None,
@@ -196,6 +197,7 @@ impl Machine {
         run.state.lag = snapshot.lag;
         run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
+        run.tell_elapsed();
         run.feel_bottom(snapshot.aground);
         let command = run.live(p);
         if !matches!(run.state.phase, Phase::Over(_)) {
@@ -256,6 +258,7 @@ impl Run {
             Phase::Over(_) => None,
             Phase::Waiting => {
                 self.state.phase = Phase::Awaiting;
+                self.state.drives_since = Some(self.state.tick);
                 self.begin_to_count();
                 self.execute(p, p.mission.params, p.mission.base);
                 self.take_requirements(p);

@@ -66,6 +66,8 @@ pub struct State {
     /// which we drive.
     pub(crate) within: Option<f64>,
     pub(crate) began: u64,
+    /// The first tick on which we drive.
+    pub(crate) drives_since: Option<u64>,
     /// The same by the host's clock, where it counts.
     pub(crate) host_began: u64,
     /// Channels that overlays set in this tick.
@@ -244,6 +246,7 @@ pub(crate) struct Senses {
     pub depth: Option<Slot>,
     pub altitude: Option<Slot>,
     pub control: Option<Slot>,
+    pub elapsed: Option<Slot>,
 }
 
 impl Run {

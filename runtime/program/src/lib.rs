@@ -5,6 +5,7 @@
 //! can ever be called has its place before launch, and the whole state of a run is one array of words.
 
 mod activity;
+pub mod calendar;
 mod cause;
 mod guide;
 pub mod number;
@@ -35,7 +36,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 8;
+pub const PROGRAM_VERSION: u32 = 9;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

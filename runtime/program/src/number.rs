@@ -1,6 +1,6 @@
 //! The one place where numbers become text: fixed decimals for each unit, so that traces compare line by line.
 
-use crate::{AREA_CORNER_WORDS, Display, Shape, Text, TextPart};
+use crate::{AREA_CORNER_WORDS, Display, Shape, Text, TextPart, calendar};
 use albacore_geometry::{Heading, Point, math};
 use albacore_vehicle::TICK_S;
 
@@ -14,6 +14,8 @@ const METRE_DECIMALS: u8 = 1;
 const SPEED_DECIMALS: u8 = 2;
 /// Decimals of angles in degrees.
 const DEGREE_DECIMALS: u8 = 1;
+/// Decimals of a ratio that is no share.
+const RATIO_DECIMALS: u8 = 3;
 /// Decimals of a number that is printed briefly, and the size below which it is printed with an exponent instead.
 const BRIEF_DECIMALS: u8 = 4;
 const SMALL: f64 = 1e-3;
@@ -62,7 +64,7 @@ pub fn point(p: Point) -> String {
 
 /// A compass direction in degrees, without the unit: `291.0`. In [0, 360) as printed: 359.96 is `0.0`.
 pub fn compass(angle_rad: f64) -> String {
-    Printer { texts: &[], number: fixed, is_brief: false }.compass(angle_rad)
+    Printer { texts: &[], number: fixed }.compass(angle_rad)
 }
 
 /// A compass direction: `291.0 deg`.
@@ -86,7 +88,7 @@ pub fn value(shape: &Shape, words: &[f64]) -> String {
 
 /// As [`value`], for a program whose texts are known.
 pub fn value_with(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
-    Printer { texts, number: fixed, is_brief: false }.value(shape, words)
+    Printer { texts, number: fixed }.value(shape, words)
 }
 
 /// As [`value_with`], for a place within a text: a text as it stands, without quotes.
@@ -100,7 +102,7 @@ pub fn within_text(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
 
 /// As [`value_with`], for a person who asks for one value: as many digits as it takes, and no more: `20 m`, `0.3333 m`.
 pub fn brief(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
-    Printer { texts, number: |x, _| shortest(x), is_brief: true }.value(shape, words)
+    Printer { texts, number: |x, _| shortest(x) }.value(shape, words)
 }
 
 /// A number to four decimals, and with an exponent when it is small; without zeros at the end.
@@ -121,7 +123,6 @@ fn shortest(x: f64) -> String {
 struct Printer<'a> {
     texts: &'a [Text],
     number: fn(f64, u8) -> String,
-    is_brief: bool,
 }
 
 impl Printer<'_> {
@@ -135,12 +136,13 @@ impl Printer<'_> {
             Shape::Bool => (first != 0.0).to_string(),
             Shape::Int => fixed(first, 0),
             // More than all of something is no share of it.
-            Shape::Quantity(display) if self.is_brief && display.unit == "%" && first.abs() > 1.0 => {
-                (self.number)(first, display.decimals)
+            Shape::Quantity(display) if display.unit == "%" && first.abs() > 1.0 => {
+                (self.number)(first, RATIO_DECIMALS)
             }
             Shape::Quantity(display) => with_unit((self.number)(first / display.scale, display.decimals), display),
             Shape::Heading => format!("{} deg", self.compass(first)),
             Shape::Depth | Shape::Altitude => format!("{} m", metre(first)),
+            Shape::Date => calendar::written(first),
             Shape::Point => place(0),
             Shape::Vector(display) => {
                 let part = |i: usize| (self.number)(word(i) / display.scale, display.decimals);

@@ -21,5 +21,9 @@ pub const FLOW: &str = measurements::name(measurements::FLOW);
 pub const BATTERY: &str = measurements::name(measurements::BATTERY);
 /// Who drives: told with every snapshot, and by no measurement.
 pub const CONTROL: &str = "control";
+/// How long the mission has lasted: counted by the machine, and told by no measurement.
+pub const ELAPSED: &str = "elapsed";
+/// Inputs that are there in every tick, whatever the vehicle measures.
+pub const ALWAYS_THERE: [&str; 2] = [CONTROL, ELAPSED];
 /// What the vehicle's own mission is about.
 pub const VEHICLE_MODE: &str = measurements::name(measurements::VEHICLE_MODE);

@@ -19,6 +19,8 @@ pub enum Shape {
     Depth,
     /// Metres above the bottom.
     Altitude,
+    /// Seconds since the beginning of 1970, UTC.
+    Date,
     /// North and east, in metres.
     Point,
     /// North and east components.
@@ -106,7 +108,8 @@ impl Shape {
     /// How many words it takes.
     pub fn words(&self) -> u32 {
         match self {
-            Shape::Bool | Shape::Int | Shape::Quantity(_) | Shape::Heading | Shape::Depth | Shape::Altitude => 1,
+            Shape::Bool | Shape::Int | Shape::Quantity(_) | Shape::Heading => 1,
+            Shape::Depth | Shape::Altitude | Shape::Date => 1,
             Shape::Text | Shape::Enum(_) => 1,
             Shape::Point | Shape::Vector(_) => 2,
             Shape::Line => 4,

@@ -107,8 +107,8 @@ fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
 /// What the mission requires and the vehicle has no sensor for.
 fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
     let told = world.measurements();
-    // Who drives is told with every snapshot, and by no measurement.
-    let is_told = |input: &str| input == senses::CONTROL || told.iter().any(|measurement| measurement.name == input);
+    let is_told =
+        |input: &str| senses::ALWAYS_THERE.contains(&input) || told.iter().any(|measurement| measurement.name == input);
     let finding = |(input, span): (&str, Span)| {
         let message = format!("the vehicle of `{scenario}` has no sensor for `{input}`");
         let instrument = measurements::ALL.iter().find(|row| row.name == input).and_then(|row| row.instrument);
@@ -116,7 +116,7 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
             Some(clause) => {
                 let of_clause = measurements::ALL.iter().filter(|row| row.instrument == Some(clause));
                 let brings: Vec<&str> = of_clause.map(|row| row.name).collect();
-                format!("let `{scenario}` have a `{clause}()`, which measures {}", brings.join(" and "))
+                format!("give `{scenario}` the clause `{clause}`, which tells {}", brings.join(" and "))
             }
             None => "no simulated vehicle has one: run the mission on a vehicle that tells it".to_string(),
         };

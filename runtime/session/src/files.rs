@@ -11,8 +11,9 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::LazyLock;
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 13] = [
+const STDLIB: [(&str, &str); 14] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
+    ("calendar", include_str!("../../../stdlib/calendar.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
     ("craft", include_str!("../../../stdlib/craft.alb")),
     ("faults", include_str!("../../../stdlib/faults.alb")),

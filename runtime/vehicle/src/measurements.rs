@@ -130,6 +130,8 @@ measurements! {
     TEMPERATURE: MeasurementInfo::of("temperature", Quantity::Temperature).of_instrument("ctd");
     /// The practical salinity of the water.
     SALINITY: MeasurementInfo::of("salinity", Quantity::Salinity).of_instrument("ctd");
+    /// The date, by the vehicle's clock.
+    UTC: MeasurementInfo::of("utc", Quantity::Date).of_instrument("date");
 }
 
 /// A measurement of ours by its number.

@@ -25,6 +25,8 @@ pub enum Quantity {
     Salinity,
     /// The place of a word in its list.
     Word,
+    /// Seconds since the beginning of 1970, UTC.
+    Date,
 }
 
 impl Quantity {
@@ -49,7 +51,7 @@ impl Quantity {
             Quantity::Ratio => (-0.1..=1.1).contains(&a),
             Quantity::Temperature => (-5.0..=50.0).contains(&a),
             Quantity::Salinity => (-1.0..=60.0).contains(&a),
-            Quantity::Word => a >= 0.0,
+            Quantity::Word | Quantity::Date => a >= 0.0,
         }
     }
 
@@ -80,6 +82,7 @@ impl Quantity {
             Quantity::Height => format!("{difference:.1} m off"),
             Quantity::Ratio => format!("{:.0} % off", 100.0 * difference),
             Quantity::Temperature => format!("{difference:.1} C off"),
+            Quantity::Date => format!("{difference:.1} s off"),
             Quantity::Salinity | Quantity::Word => format!("{difference:.1} off"),
         }
     }

@@ -121,6 +121,7 @@ impl<'p> Evaluator<'p> {
         self.w.way_back = None;
         self.w.earn();
         self.w.sense(self.sensors, &snapshot.samples);
+        self.w.tell_elapsed(if self.phase == Phase::Waiting { 0 } else { self.w.tick - self.began });
         self.bottom.hear(&self.w);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
         self.lain += u64::from(snapshot.aground);

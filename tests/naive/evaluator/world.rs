@@ -186,6 +186,15 @@ impl<'p> World<'p> {
         }
     }
 
+    /// Rule 1: how long the mission has lasted, as its script may read it.
+    pub fn tell_elapsed(&mut self, ticks: u64) {
+        if let Some(id) = self.hir.inputs.iter().position(|input| input.name == "elapsed") {
+            let elapsed = ticks as f64 * TICK_S;
+            let sensed = &mut self.inputs[id];
+            (sensed.peak, sensed.latest[0], sensed.stamp) = (elapsed, elapsed, Some(self.tick));
+        }
+    }
+
     /// What is read of an input; `limit` is that of `hits`.
     pub fn input(&self, id: usize, part: &InputPart, limit: f64, ty: &Type) -> Value {
         let sensed = &self.inputs[id];

@@ -194,6 +194,7 @@ impl Generator {
                 "many($I, $M)",
             ]),
             Ty::Length => r.of(&LENGTHS),
+            Ty::Ratio if senses && r.percent(10) => "(elapsed / 7 s)",
             Ty::Ratio if senses && r.percent(20) => "(chemical.age / 3 s)",
             Ty::Ratio => r.of(&RATIOS),
             Ty::Angle => r.of(&[

@@ -36,6 +36,8 @@ pub enum ExprKind {
         latitude_deg: f64,
         longitude_deg: f64,
     },
+    /// Seconds since the beginning of 1970, UTC.
+    Date(f64),
     Text(Vec<TextPart>),
     Bool(bool),
     None,

@@ -206,7 +206,9 @@ impl<'a> Deserializer<'a> for Value<'a> {
         match self.shape {
             Shape::Bool => visitor.visit_bool(self.word(0) != 0.0),
             Shape::Int => visitor.visit_i64(self.word(0) as i64),
-            Shape::Quantity(_) | Shape::Heading | Shape::Depth | Shape::Altitude => visitor.visit_f64(self.word(0)),
+            Shape::Quantity(_) | Shape::Heading | Shape::Depth | Shape::Altitude | Shape::Date => {
+                visitor.visit_f64(self.word(0))
+            }
             Shape::Point | Shape::Vector(_) => visitor.visit_map(Components { value: self, names: &["north", "east"] }),
             Shape::Area => visitor.visit_map(Corners(Some(Items {
                 value: self.at(1),

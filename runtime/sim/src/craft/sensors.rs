@@ -3,6 +3,7 @@
 
 mod adcp;
 mod battery;
+mod clock;
 mod compass;
 mod ctd;
 mod delay;
@@ -16,6 +17,7 @@ mod sounder;
 
 pub use adcp::{Adcp, Looks};
 pub use battery::Battery;
+pub use clock::Date;
 pub use compass::Compass;
 pub use ctd::Ctd;
 pub use dvl::Dvl;
@@ -31,6 +33,7 @@ use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::{Measurement, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
+use clock::Clock;
 use ctd::CtdProbe;
 use fluorometer::ChemicalSensor;
 use onboard::OnboardNavigation;
@@ -64,6 +67,8 @@ pub struct InstrumentSetup {
     pub ctd: Option<Ctd>,
     /// The battery and its gauge.
     pub battery: Battery,
+    /// The date on which runs begin; none: the vehicle tells none.
+    pub date: Option<Date>,
 }
 
 /// Whether a vehicle has an instrument: one that it may lack is an `Option`.
@@ -119,6 +124,7 @@ clauses! {
     "gps" Gps => gps in Some;
     "ctd" Ctd => ctd in Some;
     "battery" Battery => battery;
+    "date" Date => date in Some;
 }
 
 impl InstrumentSetup {
@@ -145,6 +151,7 @@ pub(crate) struct Instruments {
     fluorometer: ChemicalSensor,
     ctd: Option<CtdProbe>,
     battery: BatteryGauge,
+    clock: Option<Clock>,
 }
 
 impl Instruments {
@@ -158,11 +165,12 @@ impl Instruments {
             fluorometer: ChemicalSensor::new(&setup.fluorometer, seed),
             ctd: setup.ctd.as_ref().map(|ctd| CtdProbe::new(ctd, seed)),
             battery: BatteryGauge::new(&setup.battery, seed),
+            clock: setup.date.clone().map(Clock),
         }
     }
 
     /// All of them, in the order in which a snapshot holds what they tell: a part of every recorded run.
-    fn in_order(&mut self) -> [&mut dyn Instrument; 7] {
+    fn in_order(&mut self) -> [&mut dyn Instrument; 8] {
         [
             &mut self.navigation,
             &mut self.pressure,
@@ -171,6 +179,7 @@ impl Instruments {
             &mut self.fluorometer,
             &mut self.ctd,
             &mut self.battery,
+            &mut self.clock,
         ]
     }
 

@@ -71,7 +71,7 @@ impl Sensor {
             Quantity::Height => 20_000.0,
             Quantity::Flow => 20.0,
             Quantity::Ratio => 3.0,
-            Quantity::Temperature | Quantity::Salinity | Quantity::Word => 1000.0,
+            Quantity::Temperature | Quantity::Salinity | Quantity::Word | Quantity::Date => 1000.0,
         }
     }
 
@@ -90,7 +90,7 @@ impl Sensor {
             Quantity::Speed => [(a + size * 0.5).max(0.0), b, c, d],
             Quantity::Height => [(a + size * 2.0).max(0.0), b, c, d],
             Quantity::Ratio => [(a + size * 0.05).clamp(0.0, 1.0), b, c, d],
-            Quantity::Temperature | Quantity::Salinity | Quantity::Word => [a + size, b, c, d],
+            Quantity::Temperature | Quantity::Salinity | Quantity::Word | Quantity::Date => [a + size, b, c, d],
         }
     }
 }
