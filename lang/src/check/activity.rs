@@ -92,23 +92,26 @@ impl<'t> Checker<'t> {
             ActivityKind::Behavior => Kind::Behavior,
             ActivityKind::Strategy => Kind::Strategy,
             ActivityKind::Mission { .. } => Kind::Mission,
-            ActivityKind::Overlay { verb, channel } => match (verb.node.as_str(), channel.node.as_str()) {
-                ("amends", "course") => Kind::AmendsCourse,
-                ("sets", axis) if Axis::named(axis).is_some() => {
-                    Axis::named(axis).map_or(Kind::AmendsCourse, Kind::Sets)
-                }
-                _ => {
-                    self.report(
+            ActivityKind::Overlay { does: None } => Kind::Beside,
+            ActivityKind::Overlay { does: Some((verb, channel)) } => {
+                match (verb.node.as_str(), channel.node.as_str()) {
+                    ("amends", "course") => Kind::AmendsCourse,
+                    ("sets", axis) if Axis::named(axis).is_some() => {
+                        Axis::named(axis).map_or(Kind::AmendsCourse, Kind::Sets)
+                    }
+                    _ => {
+                        self.report(
                         Diagnostic::error(
                             Code::ChannelsUnknown,
                             channel.span,
                             format!("an overlay cannot {} `{}`", verb.node.trim_end_matches('s'), channel.node),
                         )
-                        .help("overlays `amends course`, `sets vertical` or `sets speed`"),
+                        .help("an overlay `amends course`, `sets vertical` or `sets speed`; one that only looks on says nothing of it"),
                     );
-                    Kind::AmendsCourse
+                        Kind::AmendsCourse
+                    }
                 }
-            },
+            }
         }
     }
 

@@ -24,15 +24,27 @@ impl<'t> Checker<'t> {
             let known =
                 foreign.entry(kind).or_insert_with(|| First::new(hir, move |activity| first_foreign(activity, kind)));
             let has_foreign = self.foreign_in(hir, id, known);
-            let Kind::Sets(axis) = kind else { continue };
+            let what = match kind {
+                Kind::Sets(axis) => format!("that sets the {}", axis.name()),
+                Kind::Beside => "that runs beside".to_string(),
+                _ => continue,
+            };
             if let Some(place) = aborts.of(id) {
-                let message = format!("an overlay that sets the {} cannot say `abort` in its body", axis.name());
+                let message = format!("an overlay {what} cannot say `abort` in its body");
                 self.report(
                     Diagnostic::error(Code::ChannelsOther, place, message)
                         .label(overlay.span, "this overlay")
                         .help("write `abort \"why\" on CONDITION` at its top: in the recovery the overlay goes on, without it"),
                 );
             }
+            if kind == Kind::Beside && matches!(overlay.body, Body::Table { .. }) && can_end(id, hir, known_ends) {
+                let message = format!("`{}` ends, and what it is put on goes on", overlay.name);
+                self.report(
+                    Diagnostic::error(Code::ChannelsEnds, overlay.span, message)
+                        .help("let the last behavior of its table `wait`, and leave the `finish` out"),
+                );
+            }
+            let Kind::Sets(axis) = kind else { continue };
             if can_end(id, hir, known_ends) {
                 self.report(
                     Diagnostic::error(
@@ -69,6 +81,11 @@ impl<'t> Checker<'t> {
             Kind::Sets(axis) => (
                 format!("an overlay that sets the {} does nothing else", axis.name()),
                 format!("it holds statements such as `{}` and `wait`", axis.example()),
+            ),
+            Kind::Beside => (
+                "an overlay without a channel commands nothing".to_string(),
+                "it holds `wait`, `log`, `report` and what takes no time; one that commands `sets vertical`, `sets speed` or `amends course`"
+                    .to_string(),
             ),
             _ => (
                 "an overlay that amends the course does nothing else".to_string(),

@@ -12,6 +12,8 @@ pub enum Kind {
     Behavior,
     Strategy,
     AmendsCourse,
+    /// An overlay that commands nothing.
+    Beside,
     Sets(Axis),
     Mission,
 }

@@ -179,6 +179,7 @@ impl<'a> Lowering<'a> {
                 Kind::Behavior => ActivityKind::Behavior,
                 Kind::Strategy => ActivityKind::Strategy,
                 Kind::AmendsCourse => ActivityKind::AmendsCourse,
+                Kind::Beside => ActivityKind::Beside,
                 Kind::Sets(axis) => ActivityKind::Sets(axis),
                 Kind::Mission => ActivityKind::Mission,
             },

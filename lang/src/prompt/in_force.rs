@@ -93,7 +93,7 @@ impl Prompt {
                 Channel::named(&setpoint.channel.node).map(|channel| channel.row().axis)
             }
             tree::WithItem::Overlay(overlay) => match &self.activity(callee(overlay))?.1.kind {
-                tree::ActivityKind::Overlay { channel, .. } => Axis::named(&channel.node),
+                tree::ActivityKind::Overlay { does: Some((_, channel)) } => Axis::named(&channel.node),
                 _ => None,
             },
         }

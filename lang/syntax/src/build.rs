@@ -169,8 +169,10 @@ pub(super) fn activity<'a>(b: &mut Builder, rule: Rule, inner: impl Iterator<Ite
     let kind = match rule {
         Rule::strategy => ActivityKind::Strategy,
         Rule::overlay => {
-            let mut kind = inner.next()?.inner();
-            ActivityKind::Overlay { verb: self::name(kind.next()?), channel: self::name(kind.next()?) }
+            let mut does = take(&mut inner, Rule::overlay_kind).into_iter().flat_map(Node::inner);
+            ActivityKind::Overlay {
+                does: does.next().zip(does.next()).map(|(verb, channel)| (self::name(verb), self::name(channel))),
+            }
         }
         Rule::mission => ActivityKind::Mission {
             scenario: take(&mut inner, Rule::in_scenario).and_then(|p| p.parts().next()).map(path),

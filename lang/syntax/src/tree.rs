@@ -148,8 +148,14 @@ pub enum TyKind {
 pub enum ActivityKind {
     Behavior,
     Strategy,
-    Overlay { verb: Name, channel: Name },
-    Mission { scenario: Option<Path>, within: Option<Expr> },
+    /// Its verb and channel, `amends course`; one without runs beside.
+    Overlay {
+        does: Option<(Name, Name)>,
+    },
+    Mission {
+        scenario: Option<Path>,
+        within: Option<Expr>,
+    },
 }
 
 /// `behavior`, `strategy`, `overlay` or `mission`.

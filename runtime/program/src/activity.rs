@@ -44,6 +44,8 @@ pub enum ActivityKind {
     Strategy,
     /// Amends the course of whatever is active beneath it.
     AmendsCourse,
+    /// Commands nothing.
+    Beside,
     /// Owns an axis of the command.
     Sets(Axis),
     /// The top.

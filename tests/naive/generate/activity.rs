@@ -51,7 +51,7 @@ impl Generator {
     }
 
     /// Parameters with their types; the later ones have defaults.
-    fn params(&mut self) -> (String, Vec<Ty>, usize) {
+    pub(super) fn params(&mut self) -> (String, Vec<Ty>, usize) {
         let types: Vec<Ty> = (0..self.random.below(4)).map(|_| self.any_type()).collect();
         let needed = self.random.below(types.len() + 1);
         let mut written = Vec::new();
@@ -78,7 +78,7 @@ impl Generator {
     }
 
     /// Memories, signals, reactions.
-    fn declarations(&mut self, most: usize) {
+    pub(super) fn declarations(&mut self, most: usize) {
         for _ in 0..self.random.below(most + 1) {
             match self.random.below(5) {
                 0 => {
@@ -121,7 +121,7 @@ impl Generator {
         }
     }
 
-    fn reactions(&mut self, feature: &'static str, most: usize) {
+    pub(super) fn reactions(&mut self, feature: &'static str, most: usize) {
         for _ in 0..self.random.below(most + 1) {
             self.count(feature);
             let optional = self.named(|name| name.ty.inside().is_some()).filter(|_| self.random.percent(20));
@@ -145,7 +145,7 @@ impl Generator {
         }
     }
 
-    fn aborts(&mut self, percent: usize) {
+    pub(super) fn aborts(&mut self, percent: usize) {
         if self.random.percent(percent) {
             self.count("abort on");
             let condition = self.filled("(abs($L) > 30 m) and $B for 900 ms", 1);
@@ -153,46 +153,6 @@ impl Generator {
             let condition = format!("({}) for 900 ms", condition.trim_end_matches(" for 900 ms"));
             self.line(&format!("abort \"enough\" on {condition}"));
         }
-    }
-
-    fn bend(&mut self) {
-        let name = self.fresh("bend");
-        let before = self.names.clone();
-        let (params, types, needed) = self.params();
-        self.braces(&format!("overlay {name}{params} amends course"), |g| {
-            g.declarations(2);
-            g.reactions("reaction of an overlay", 1);
-            g.aborts(6);
-            g.braces("amend", |g| {
-                g.declare("asked", Ty::Heading, false);
-                let course = g.expr(Ty::Heading, 2);
-                let condition = g.expr(Ty::Bool, 2);
-                g.line(&format!("if {condition} {{ {course} }} else {{ asked }}"));
-            });
-        });
-        self.names = before;
-        self.bends.push(Callable { name, params: types, needed, result: None });
-    }
-
-    fn vertical(&mut self) {
-        let name = self.fresh("saw");
-        let before = self.names.clone();
-        let (params, types, needed) = self.params();
-        self.braces(&format!("overlay {name}{params} sets vertical"), |g| {
-            g.declarations(2);
-            g.reactions("reaction of an overlay", 1);
-            g.braces("loop", |g| {
-                let (depth, condition, time) = (g.expr(Ty::Depth, 1), g.condition(), g.time());
-                g.line(&format!("keep depth max({depth}, 1 m) until {condition} within {time}"));
-                let time = g.time();
-                g.line(&format!("keep altitude 6 m for {time}"));
-                if g.random.percent(40) {
-                    g.line("wait for 300 ms");
-                }
-            });
-        });
-        self.names = before;
-        self.verticals.push(Callable { name, params: types, needed, result: None });
     }
 
     fn result(&mut self) -> Option<Ty> {

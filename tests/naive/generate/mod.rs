@@ -2,6 +2,7 @@
 
 mod activity;
 mod expr;
+mod overlay;
 mod stmt;
 
 use crate::random::Random;

@@ -404,7 +404,7 @@ impl Generator {
         }
     }
 
-    fn log(&mut self) {
+    pub(super) fn log(&mut self) {
         self.count("log");
         let (a, b) = (self.any_type(), self.any_type());
         let (a, b) = (self.expr(a, 1), self.expr(b, 1));
