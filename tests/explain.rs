@@ -14,13 +14,14 @@ const PAGE_LINES_MAX: usize = 40;
 const PAGE_COLUMNS_MAX: usize = 80;
 
 /// What no single script can show: several files, the command line, the prompt, or a script longer than a page.
-const IN_WORDS: [&str; 16] = [
+const IN_WORDS: [&str; 17] = [
     "areas::file",
     "areas::swapped",
     "imports::cycle",
     "imports::many",
     "imports::twice",
     "limits::calls",
+    "limits::capacities",
     "limits::instructions",
     "limits::missions",
     "limits::rules",

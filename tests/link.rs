@@ -94,6 +94,18 @@ fn a_vehicle_that_has_taken_itself_back_is_asked_again() {
     assert!(trace.contains("taken_back, completed"), "{trace}");
 }
 
+/// A guest that is held lives on all the same.
+#[test]
+fn a_vehicle_takes_itself_back_from_a_guest_that_is_held() {
+    let folder = empty("held");
+    let vehicle = Vehicle::serve_world(&format!("{EXCURSION}#held_and_taken"), "pty:?dialect=recon", &folder);
+    let out = folder.join("run");
+    let output = vehicle.mission(&["--mission", "held", "--out"]).arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}\n{}", stderr(&output), vehicle.said());
+    let trace = std::fs::read_to_string(out.join("trace.txt")).unwrap();
+    assert!(trace.contains("stale") && trace.contains("log      taken_back"), "{trace}");
+}
+
 #[test]
 fn a_vehicle_whose_guest_is_killed_goes_back_to_its_legs() {
     let folder = empty("killed");

@@ -77,26 +77,25 @@ impl<'t> Checker<'t> {
                 (None, None) if failed => {}
                 (None, None) => {
                     failed = true;
-                    let ty = self.type_name(&param.ty);
-                    let finding = Diagnostic::error(
-                        Code::ArgsMissing,
-                        span,
-                        format!("`{what}` needs `{}`, {}", param.name, article(&ty)),
-                    )
-                    .help(format!("write `{}: …`", param.name));
-                    let finding = match declared {
-                        Some(_) => finding.label(param.span, "declared here"),
-                        None => finding,
-                    };
-                    self.report(finding);
+                    self.missing_argument(what, param, span, declared);
                 }
             }
         }
         (!failed).then_some(values)
     }
 
+    pub(super) fn missing_argument(&mut self, what: &str, param: &ParamInfo, span: Span, declared: Option<Span>) {
+        let ty = self.type_name(&param.ty);
+        let message = format!("`{what}` needs `{}`, {}", param.name, article(&ty));
+        let finding = Diagnostic::error(Code::ArgsMissing, span, message).help(format!("write `{}: …`", param.name));
+        self.report(match declared {
+            Some(_) => finding.label(param.span, "declared here"),
+            None => finding,
+        });
+    }
+
     /// What is written for each parameter, and whether something fitted none.
-    fn by_parameter<'e>(
+    pub(super) fn by_parameter<'e>(
         &mut self,
         what: &str,
         params: &[ParamInfo],
@@ -225,6 +224,9 @@ impl<'t> Checker<'t> {
         match def {
             Def::Fn(id) => {
                 let signature = self.fn_signature(*id);
+                if self.takes_any_capacity(*id) {
+                    return self.call_of_any_capacity(*id, args, span);
+                }
                 // That its defaults lead back to it has been told.
                 if signature.result.is_none() {
                     return self.unknown(span);

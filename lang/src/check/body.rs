@@ -1,5 +1,6 @@
 //! Blocks and the statements in them.
 
+use super::capacities::Capacities;
 use super::expr::article;
 use super::{Checker, Driving, Setting, flow};
 use crate::code::Code;
@@ -14,8 +15,14 @@ use std::collections::BTreeSet;
 impl<'t> Checker<'t> {
     pub(super) fn check_fn(&mut self, m: usize, f: &'t tree::Function) {
         let Some(&super::Def::Fn(id)) = self.names[m].get(&f.name.node) else { return };
+        let capacities = self.nominal_capacities(id);
+        self.fn_body(id, m, f, capacities);
+    }
+
+    /// The body of a function, by its signature.
+    pub(super) fn fn_body(&mut self, id: usize, m: usize, f: &'t tree::Function, capacities: Capacities) {
         let signature = self.fn_signatures[id].clone();
-        let scope = super::Scope::new(m, Setting::Function);
+        let scope = super::Scope { capacities, ..super::Scope::new(m, Setting::Function) };
         let result = signature.result.clone().unwrap_or(Type::Unknown);
         let (body, scope) = self.within(scope, |c| {
             c.declare_params(&f.params, &signature.params);

@@ -149,6 +149,9 @@ impl<'t> Checker<'t> {
     fn help_with_unit(&self, value: &Expr, wanted: &Type) -> Option<String> {
         let constant = value.range.constant();
         Some(match (&value.ty, wanted) {
+            (Type::List(a, n), Type::List(b, m)) if a == b && n < m && !matches!(value.kind, ExprKind::List(_)) => {
+                format!("lists of different capacities are of different types: declare it with room for {m}")
+            }
             (Type::List(a, _), Type::List(b, m)) if a == b || matches!(value.kind, ExprKind::List(_)) => {
                 format!("it holds {m} at most: leave elements out, or declare it longer")
             }

@@ -100,6 +100,7 @@ impl<'t> Checker<'t> {
                 }
             }
         }
+        self.check_made_functions();
         self.holes_are_read();
         if self.recursion() || self.calls_too_deep() {
             return;
@@ -119,17 +120,8 @@ impl<'t> Checker<'t> {
 
     /// Every declaration gets its index before any body is checked: bodies refer to one another.
     fn make_room(&mut self) {
-        let empty = hir::Block::default;
         for signature in &self.fn_signatures {
-            let result = signature.result.clone().unwrap_or(Type::Unknown);
-            self.hir.fns.push(hir::Function {
-                name: signature.name.clone(),
-                span: signature.span,
-                vars: Vec::new(),
-                params: 0,
-                result,
-                body: empty(),
-            });
+            self.hir.fns.push(hir::Function::empty(&signature.name, signature.span));
         }
         for signature in &self.activity_signatures {
             self.hir.activities.push(hir::Activity::empty(&signature.name, signature.span));

@@ -5,6 +5,7 @@ mod advice;
 mod area_file;
 mod args;
 mod body;
+mod capacities;
 mod choice;
 mod clause;
 mod convert;
@@ -235,6 +236,8 @@ struct Scope {
     value_from: Option<usize>,
     /// The last expression of a block, whose value is the block's.
     tail: Option<Span>,
+    /// What names of capacities stand for, in a function of lists of any.
+    capacities: capacities::Capacities,
 }
 
 impl Scope {
@@ -252,6 +255,7 @@ impl Scope {
             driving: None,
             value_from: None,
             tail: None,
+            capacities: Vec::new(),
         }
     }
 }
@@ -284,6 +288,7 @@ pub struct Checker<'t> {
     /// What vehicles bring into the scenario that is being checked.
     fitted: Vec<hir::ClauseUse>,
     fn_signatures: Vec<Signature>,
+    templates: capacities::Templates<'t>,
     /// Units whose turn comes yet.
     units_ahead: UnitsAhead<'t>,
     /// The functions whose signatures are not read yet.
@@ -346,6 +351,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         scenario_lineage: Lineage::default(),
         fitted: Vec::new(),
         fn_signatures: Vec::new(),
+        templates: capacities::Templates::default(),
         units_ahead: UnitsAhead::default(),
         fns_ahead: BTreeMap::new(),
         activity_signatures: Vec::new(),

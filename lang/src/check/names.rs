@@ -131,6 +131,9 @@ impl<'t> Checker<'t> {
             self.names_used.refer(span, declared);
             return self.variable(id, span);
         }
+        if let Some(capacity) = self.capacity_named(name) {
+            return self.make(ExprKind::Number(f64::from(capacity)), Type::Int, span);
+        }
         // What can only be called is no value: a behavior `flow` leaves the input `flow` what it is.
         let value = self.lookup_if(self.scope.module, name, |def| !def.can_be_called());
         let is_value = value.is_some();

@@ -88,7 +88,7 @@ impl<'t> Checker<'t> {
         let inner = match &ty.kind {
             TyKind::List { element, capacity, .. } => {
                 let element = self.written_type(m, element);
-                let scope = Scope::new(m, Setting::Constant);
+                let scope = Scope { capacities: self.scope.capacities.clone(), ..Scope::new(m, Setting::Constant) };
                 let (capacity, _) = self.within(scope, |c| c.expr_as(capacity, &Type::Int, "the capacity"));
                 match capacity.range.constant() {
                     Some(n) if (1.0..=LIST_CAPACITY_MAX).contains(&n) => Type::List(Box::new(element), n as u32),

@@ -113,6 +113,20 @@ pub struct Function {
     pub body: Block,
 }
 
+impl Function {
+    /// One that is declared, and not checked yet.
+    pub fn empty(name: &str, span: Span) -> Self {
+        Function {
+            name: name.to_string(),
+            span,
+            vars: Vec::new(),
+            params: 0,
+            result: Type::Unknown,
+            body: Block::default(),
+        }
+    }
+}
+
 /// Statements, and the value of the last when it is one.
 #[derive(Clone, Debug, Default)]
 pub struct Block {

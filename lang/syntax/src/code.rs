@@ -89,6 +89,7 @@ codes! {
     }
     limits {
         LimitsCalls = "calls",
+        LimitsCapacities = "capacities",
         LimitsConstants = "constants",
         LimitsInstructions = "instructions",
         LimitsMemory = "memory",

@@ -185,7 +185,7 @@ impl Vehicle for LinkVehicle {
 
     fn ready(&mut self) -> Result<bool, VehicleError> {
         // That was told, and a mission that is under way ends of it. One that is not would wait for ever.
-        if matches!(self.controller.control(), Control::Released | Control::TimedOut) {
+        if self.controller.control() == Control::TimedOut {
             return Err(VehicleError(format!("before the mission began: {}", self.controller.why())));
         }
         self.catch_up()?;

@@ -103,6 +103,8 @@ struct Still {
     way: f64,
     /// Where the vehicle was, as far as it was known.
     at: Option<Point>,
+    /// The least that depth and altitude came to since, m. A depth that is stuck makes of a rise deeper water.
+    water: f64,
 }
 
 impl Heard {
@@ -126,7 +128,7 @@ impl Run {
         let way = self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
         self.state.bottom.way += way;
         self.state.bottom.lone_way += way;
-        let still = Still { depth: self.depth(), way: 0.0, at: self.place() };
+        let still = Still { depth: self.depth(), way: 0.0, at: self.place(), water: f64::MAX };
         self.state.bottom.still = match self.state.bottom.still.filter(|before| before.depth == still.depth) {
             Some(before) => Some(Still { way: before.way + way, ..before }),
             None => Some(still),
@@ -144,6 +146,9 @@ impl Run {
             _ => false,
         };
         let water = depth + altitude;
+        if let Some(still) = &mut self.state.bottom.still {
+            still.water = still.water.min(water);
+        }
         let again = last.is_some_and(|last| last.altitude == altitude) && !held;
         let before = self.state.bottom.heard.filter(|_| again);
         let (at, way) = (self.place(), self.way());
@@ -192,6 +197,11 @@ impl Run {
     /// The way since the depth changed last, m.
     fn still_way(&self) -> f64 {
         self.state.bottom.still.map_or(0.0, |still| self.way_from(still.way, still.at))
+    }
+
+    /// The least water, m, that was sounded since the depth changed last.
+    fn still_water(&self) -> f64 {
+        self.state.bottom.still.map_or(f64::MAX, |still| still.water)
     }
 
     fn way_from(&self, commanded: f64, from: Option<Point>) -> f64 {
@@ -383,7 +393,7 @@ impl Run {
     /// How deep the vehicle may go by a least altitude, m.
     fn floor(&self, p: &Program, altitude_min: f64) -> f64 {
         let floor = match (self.heard_before(), self.heard_lately(p)) {
-            (_, Some(heard)) => heard.water - self.ahead(altitude_min),
+            (_, Some(heard)) => heard.water.min(self.still_water()) - self.ahead(altitude_min),
             _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
             (Some(heard), None) => {
                 let lasts = (self.state.tick - heard.tick) as f64 * TICK_S;

@@ -351,7 +351,7 @@ impl Run {
     pub fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         self.abort = None;
         let wish = self.state.wish;
-        let is_ours = wish == ControlRequest::Drive && self.state.control != Control::Suspended;
+        let is_ours = self.drives();
         let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
         let (id, base) = (p.mission.activity, p.mission.base);
         let at = base + p.activities[id as usize].header;

@@ -59,12 +59,11 @@ pub(crate) struct Sounding {
     event: Option<EchoState>,
 }
 
-/// The last echo: when and how deep the vehicle was, and how deep it has been since, m; and the ticks from one echo to the next.
+/// The last echo: when it came, the least depth of the vehicle since, m, and the ticks from one echo to the next.
 #[derive(Clone, Copy, Debug)]
 struct Echo {
     tick: u64,
-    depth: f64,
-    deepest: f64,
+    shallowest: f64,
     period: Option<f64>,
 }
 
@@ -89,7 +88,7 @@ impl Sounding {
     pub fn dive(&mut self, depth: f64) {
         self.depth = Some(depth);
         if let Some(echo) = &mut self.echo {
-            echo.deepest = echo.deepest.max(depth);
+            echo.shallowest = echo.shallowest.min(depth);
         }
     }
 
@@ -117,12 +116,13 @@ impl Sounding {
         self.disbelieved.is_none()
     }
 
-    /// Takes in that there is an echo, and gives how far the vehicle has dived without one, if that was long.
+    /// Takes in that there is an echo, and gives how far the vehicle has dived without one, if that was long: one that is late may tell of any
+    /// depth since the last, and tells of too much water below where that was less than now.
     fn hear(&mut self, tick: u64, depth: f64) -> Option<f64> {
-        let now = Echo { tick, depth, deepest: depth, period: None };
+        let now = Echo { tick, shallowest: depth, period: None };
         let before = self.echo.replace(now)?;
         let gap = tick.saturating_sub(before.tick) as f64;
-        let dived = before.deepest - before.depth;
+        let dived = depth - before.shallowest;
         let was_silent = before.period.is_some_and(|period| gap > SILENT_PERIODS * period);
         let period = before.period.map_or(gap, |period| if was_silent { period } else { gap.max(FORGETS * period) });
         self.echo = Some(Echo { period: Some(period), ..now });

@@ -11,12 +11,13 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::LazyLock;
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 14] = [
+const STDLIB: [(&str, &str); 15] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("calendar", include_str!("../../../stdlib/calendar.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
     ("craft", include_str!("../../../stdlib/craft.alb")),
     ("faults", include_str!("../../../stdlib/faults.alb")),
+    ("filters", include_str!("../../../stdlib/filters.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("instruments", include_str!("../../../stdlib/instruments.alb")),
     ("links", include_str!("../../../stdlib/links.alb")),

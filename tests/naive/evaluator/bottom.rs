@@ -43,6 +43,8 @@ pub(super) struct Bottom {
     way: f64,
     /// The depth, the way that was commanded since it changed, and where that was.
     still: (f64, f64, Option<Point>),
+    /// The least sum of depth and altitude since, m.
+    least: Option<f64>,
 }
 
 impl Evaluator<'_> {
@@ -67,7 +69,9 @@ impl Evaluator<'_> {
             _ => echo,
         });
         let floor = match (known, echo) {
-            (Some(echo), _) => Some(echo.water - self.ahead(lowest)),
+            (Some(echo), _) => {
+                Some(self.bottom.least.map_or(echo.water, |least| echo.water.min(least)) - self.ahead(lowest))
+            }
             (None, _) if lowest == 0.0 && matches!(asked, Vertical::Depth(_)) => None,
             (None, Some(echo)) => {
                 Some(echo.depth.min(echo.water - self.ahead(lowest) - 0.25 * self.bottom.gone(&self.w)))
@@ -177,13 +181,17 @@ impl Bottom {
         }
         match w.depth().unwrap_or(0.0) {
             depth if depth == self.still.0 => self.still.1 += way,
-            depth => self.still = (depth, 0.0, w.place(FRESH_TICKS)),
+            depth => {
+                self.still = (depth, 0.0, w.place(FRESH_TICKS));
+                self.least = None;
+            }
         }
         let Some(altitude) = w.lately("altitude", 0) else { return };
         let before = self.altitude.replace((w.tick, altitude, w.depth().unwrap_or(0.0)));
         let Some(depth) = w.lately("depth", FRESH_TICKS) else { return };
         let (gone, place) = (self.gone(w), w.place(FRESH_TICKS));
         let sum = depth + altitude;
+        self.least = Some(self.least.map_or(sum, |least| least.min(sum)));
         let goal = self.commanded.map(|command| command.vertical);
         let held = matches!(goal, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
         // Another tells of the same bottom, but for 2 m and for what 20 m of way at most may change.

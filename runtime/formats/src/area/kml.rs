@@ -96,10 +96,15 @@ fn uncrowded(text: &str) -> Result<(), FileFault> {
 
 fn polygon(node: Node, name: Option<Name>, place: String) -> Result<Polygon, FileFault> {
     alone(node, "outerBoundaryIs", "this polygon has two outlines")?;
-    let outline = child(node, "outerBoundaryIs").and_then(|outer| child(outer, "LinearRing"));
+    let outer = child(node, "outerBoundaryIs");
+    outer.map_or(Ok(()), |outer| alone(outer, "LinearRing", "this outline has two rings"))?;
+    let outline = outer.and_then(|outer| child(outer, "LinearRing"));
     let corners = ring(outline, || broken(node, "this polygon has no outline with `coordinates`"))?;
     let inner = node.children().filter(|below| is(*below, "innerBoundaryIs"));
-    let hole = |inner: Node| ring(child(inner, "LinearRing"), || broken(inner, "this hole has no `coordinates`"));
+    let hole = |inner: Node| {
+        alone(inner, "LinearRing", "this hole has two rings: each hole has an `innerBoundaryIs` of its own")?;
+        ring(child(inner, "LinearRing"), || broken(inner, "this hole has no `coordinates`"))
+    };
     let holes = inner.map(hole).collect::<Result<_, FileFault>>()?;
     Ok(Polygon { name, place, corners, holes })
 }
@@ -108,6 +113,9 @@ fn polygon(node: Node, name: Option<Name>, place: String) -> Result<Polygon, Fil
 fn ring(ring: Option<Node>, without: impl FnOnce() -> FileFault) -> Result<Vec<Position>, FileFault> {
     let coordinates = ring.and_then(|ring| child(ring, "coordinates")).ok_or_else(without)?;
     ring.map_or(Ok(()), |ring| alone(ring, "coordinates", "this ring has `coordinates` twice"))?;
+    if let Some(inside) = coordinates.children().find(Node::is_element) {
+        return Err(broken(inside, "`coordinates` holds something else than positions"));
+    }
     let corner = |tuple: &str| {
         let no_position = "is not a longitude, a latitude and perhaps a height with commas between them";
         let what = || broken(coordinates, &format!("`{}` {no_position}", shortened(tuple)));

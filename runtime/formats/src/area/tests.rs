@@ -159,6 +159,11 @@ fn what_is_no_polygon_is_told_with_its_place() {
         "line 7: this polygon has two outlines",
         help,
     );
+    let two = "line 7: this outline has two rings";
+    refused("a.kml", &twice("<LinearRing>", "</LinearRing>"), None, two, help);
+    let broken = KML_SQUARE.replacen("36.18", "36.1<br/>8", 1);
+    let inside = "line 5: `coordinates` holds something else than positions";
+    refused("a.kml", &kml(&placemark("box", &broken)), None, inside, help);
     refused(
         "a.kml",
         &twice("<coordinates>", "</coordinates>"),

@@ -98,3 +98,22 @@ fn what_is_kept_may_stay_the_same() {
     let swell = (0..2000).map(|i| (3.0 + if i / 45 % 2 == 0 { 1.6 } else { -1.6 }, 5.0));
     assert_eq!(told(Vertical::Depth(3.0), swell), []);
 }
+
+/// One that comes back at the surface after a silence in which the vehicle dived tells of no depth that it has left.
+#[test]
+fn a_silence_that_ends_where_it_began_says_nothing() {
+    let mut sounding = Sounding::default();
+    let mut hear = |tick: u64, depth: f64, echo: bool| {
+        sounding.dive(depth);
+        !echo || sounding.believes(tick, 20.0 - depth, None, false)
+    };
+    assert!((0..20).all(|tick| hear(tick, 0.0, true)));
+    for (tick, depth) in (20..60).zip((0..20).chain((0..20).rev())) {
+        hear(tick, 0.2 * f64::from(depth), false);
+    }
+    assert!((60..80).all(|tick| hear(tick, 0.0, true)), "at the surface again");
+    for (tick, depth) in (80..100).zip(0..20) {
+        hear(tick, 0.2 * f64::from(depth), false);
+    }
+    assert!(!hear(100, 4.0, true), "4 m deeper than when it fell silent");
+}

@@ -1,0 +1,206 @@
+//! Functions that take lists of any capacity: `fn mean(of: [Ratio; n]) -> Ratio?`. For each capacity that one is called with there is a
+//! function of its own, which is checked like any other: in it `n` is a number.
+
+use super::{Checker, ParamInfo, Signature};
+use crate::code::Code;
+use crate::diagnostic::Diagnostic;
+use crate::hir::{self, Expr, ExprKind};
+use crate::source::Span;
+use crate::syntax::tree::{self, TyKind};
+use crate::types::Type;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The functions that are made of those of any capacity at most, by all scripts together.
+const INSTANCES_MAX: usize = 256;
+/// The capacity with which such a function is checked though nobody calls it.
+const NOMINAL: u32 = 8;
+/// What a list that is written out may hold, until it is known what it is written for.
+const ANY: u32 = 1024;
+
+/// Names of capacities, and what they are.
+pub(super) type Capacities = Vec<(String, u32)>;
+
+/// A function of lists of any capacity.
+#[derive(Clone)]
+struct Template<'t> {
+    module: usize,
+    function: &'t tree::Function,
+    /// What it calls the capacities, in the order in which they come.
+    names: Vec<String>,
+}
+
+/// The functions of lists of any capacity, and those that are made of them.
+#[derive(Default)]
+pub(super) struct Templates<'t> {
+    of: BTreeMap<usize, Template<'t>>,
+    made: BTreeMap<(usize, Vec<u32>), usize>,
+    /// Those whose bodies are still to be checked, by the function that they are made of.
+    ahead: Vec<(usize, usize, Vec<u32>)>,
+}
+
+/// What an argument is, and what is written.
+type Given<'e> = (Option<&'e tree::Expr>, Option<Expr>);
+
+impl<'t> Checker<'t> {
+    /// The names in a function's parameters that are no constants, and stand for the capacities of lists.
+    pub(super) fn take_capacities(&mut self, id: usize, m: usize, function: &'t tree::Function) -> Capacities {
+        let params: BTreeSet<&str> = function.params.iter().map(|param| param.name.node.as_str()).collect();
+        let mut names: Vec<String> = Vec::new();
+        for name in function.params.iter().filter_map(|param| capacity(&param.ty)) {
+            let is_new = !names.iter().any(|known| known == name) && !params.contains(name);
+            if is_new && self.lookup(m, name).is_none() {
+                names.push(name.to_string());
+            }
+        }
+        if names.is_empty() {
+            return Vec::new();
+        }
+        let nominal: Vec<u32> = names.iter().map(|_| NOMINAL).collect();
+        self.templates.made.insert((id, nominal.clone()), id);
+        self.templates.of.insert(id, Template { module: m, function, names: names.clone() });
+        names.into_iter().zip(nominal).collect()
+    }
+
+    /// The capacities in the body of a function that is checked as it is declared.
+    pub(super) fn nominal_capacities(&self, id: usize) -> Capacities {
+        let names = self.templates.of.get(&id).map(|template| template.names.clone()).unwrap_or_default();
+        names.into_iter().map(|name| (name, NOMINAL)).collect()
+    }
+
+    pub(super) fn takes_any_capacity(&self, id: usize) -> bool {
+        self.templates.of.contains_key(&id)
+    }
+
+    /// A capacity by its name.
+    pub(super) fn capacity_named(&self, name: &str) -> Option<u32> {
+        self.scope.capacities.iter().find(|(known, _)| known == name).map(|(_, capacity)| *capacity)
+    }
+
+    /// A call of a function of lists of any capacity: that of those which are given.
+    pub(super) fn call_of_any_capacity(&mut self, id: usize, args: &[tree::Arg], span: Span) -> Expr {
+        let Some(template) = self.templates.of.get(&id).cloned() else { return self.unknown(span) };
+        let signature = self.fn_signatures[id].clone();
+        let (written, failed) = self.by_parameter(&signature.name, &signature.params, args, true);
+        let mut capacities: Vec<u32> = template.names.iter().map(|_| 1).collect();
+        let mut given: Vec<Given> = Vec::new();
+        for ((written, param), declared) in written.iter().zip(&signature.params).zip(&template.function.params) {
+            let place = capacity(&declared.ty).and_then(|name| template.names.iter().position(|known| known == name));
+            let (Some(place), Some(written), Type::List(inner, _)) = (place, written, &param.ty) else {
+                given.push((*written, None));
+                continue;
+            };
+            let value = self.expr(written, Some(&Type::List(inner.clone(), ANY)));
+            if let Type::List(_, capacity) = value.ty {
+                capacities[place] = capacities[place].max(capacity);
+            }
+            given.push((Some(written), Some(value)));
+        }
+        let Some(made) = self.made_of(id, &template, capacities, span) else { return self.unknown(span) };
+        let signature = self.fn_signatures[made].clone();
+        let result = signature.result.clone().unwrap_or(Type::Unknown);
+        match self.values(&signature, given, failed, span) {
+            Some(values) => self.make(ExprKind::Call(made, values), result, span),
+            None => self.unknown(span),
+        }
+    }
+
+    /// The values of parameters, of which some are known already.
+    fn values(&mut self, signature: &Signature, given: Vec<Given>, failed: bool, span: Span) -> Option<Vec<Expr>> {
+        let what = &signature.name;
+        let mut failed = failed;
+        let mut values = Vec::new();
+        for (param, given) in signature.params.iter().zip(given) {
+            let asked = format!("`{}` of `{what}`", param.name);
+            let value = match (given, &param.default) {
+                ((_, Some(value)), _) => Some(self.coerce(value, &param.ty, &asked)),
+                ((Some(written), None), _) => Some(self.expr_as(written, &param.ty, &asked)),
+                ((None, None), Some(default)) => {
+                    values.push(self.default(default));
+                    continue;
+                }
+                ((None, None), None) => None,
+            };
+            match value {
+                Some(value) => {
+                    if let Some(range) = param.range {
+                        self.in_range(&value, range, &param.name, param.span);
+                    }
+                    values.push(value);
+                }
+                None => {
+                    if !failed {
+                        self.missing_argument(what, param, span, Some(signature.span));
+                    }
+                    failed = true;
+                }
+            }
+        }
+        (!failed).then_some(values)
+    }
+
+    /// The function that is made of another for some capacities.
+    fn made_of(&mut self, id: usize, template: &Template<'t>, capacities: Vec<u32>, span: Span) -> Option<usize> {
+        let key = (id, capacities);
+        if let Some(made) = self.templates.made.get(&key) {
+            return Some(*made);
+        }
+        if self.templates.made.len() >= INSTANCES_MAX {
+            let message = format!("functions are called with lists of more than {INSTANCES_MAX} capacities");
+            let finding = Diagnostic::error(Code::LimitsCapacities, span, message);
+            self.report(finding.help("declare lists that are given to one function with one capacity"));
+            return None;
+        }
+        let made = self.fn_signatures.len();
+        self.templates.made.insert(key.clone(), made);
+        self.templates.ahead.push((made, id, key.1.clone()));
+        let named = Signature::named(&template.function.name);
+        self.fn_signatures.push(named);
+        let (params, result) = self.signature_for(template, &key.1);
+        let signature = &mut self.fn_signatures[made];
+        (signature.params, signature.result) = (params, Some(result));
+        // Before there is room for any it gets its own with the others.
+        if self.hir.fns.len() == made {
+            let signature = &self.fn_signatures[made];
+            self.hir.fns.push(hir::Function::empty(&signature.name, signature.span));
+        }
+        Some(made)
+    }
+
+    fn signature_for(&mut self, template: &Template<'t>, capacities: &[u32]) -> (Vec<ParamInfo>, Type) {
+        let named = template.names.iter().cloned().zip(capacities.iter().copied()).collect();
+        let outer = std::mem::replace(&mut self.scope.capacities, named);
+        let params = self.params(template.module, &template.function.params, None);
+        let result = self.written_type(template.module, &template.function.result);
+        self.scope.capacities = outer;
+        (params, result)
+    }
+
+    /// The bodies of functions that calls have made.
+    pub(super) fn check_made_functions(&mut self) {
+        while let Some((made, id, capacities)) = self.templates.ahead.pop() {
+            let Some(template) = self.templates.of.get(&id).cloned() else { continue };
+            let named = template.names.iter().cloned().zip(capacities).collect();
+            let before = self.findings.len();
+            self.fn_body(made, template.module, template.function, named);
+            // What is wrong with it for any capacity has been told.
+            let new = self.findings.split_off(before);
+            for finding in new {
+                let is_known = |old: &Diagnostic| old.code == finding.code && old.span() == finding.span();
+                if !self.findings.iter().any(is_known) {
+                    self.findings.push(finding);
+                }
+            }
+        }
+    }
+}
+
+/// The name that stands for the capacity of a list.
+fn capacity(ty: &tree::Ty) -> Option<&str> {
+    match &ty.kind {
+        TyKind::List { capacity, .. } => match &capacity.kind {
+            tree::ExprKind::Name(name) => Some(name),
+            _ => None,
+        },
+        TyKind::Named { .. } => None,
+    }
+}
