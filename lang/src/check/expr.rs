@@ -59,7 +59,9 @@ impl<'t> Checker<'t> {
         use tree::ExprKind as K;
         let span = e.span;
         match &e.kind {
-            K::Number { value, whole, unit } => self.number(*value, *whole, unit.as_ref(), span),
+            K::Number { value, whole, is_counted, unit } => {
+                self.number(*value, (*whole, *is_counted), unit.as_ref(), span)
+            }
             K::Geodetic { latitude_deg, longitude_deg } => {
                 if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 {
                     self.report(
@@ -96,14 +98,21 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn number(&mut self, value: f64, whole: Option<u64>, unit: Option<&tree::Name>, span: Span) -> Expr {
-        let is_counted = value <= INT_MAX && whole.is_none_or(|whole| whole <= INT_MAX as u64);
+    /// A number: its value, the whole number that it is and whether it is spelt as one, and its unit.
+    fn number(
+        &mut self,
+        value: f64,
+        (whole, is_counted): (Option<u64>, bool),
+        unit: Option<&tree::Name>,
+        span: Span,
+    ) -> Expr {
+        let can_be_counted = value <= INT_MAX && whole.is_none_or(|whole| whole <= INT_MAX as u64);
         if !value.is_finite() {
             let finding = Diagnostic::error(Code::TypesNumber, span, "this number is too large to be held");
             self.report(finding.help("the largest is about 1e150"));
             return self.unknown(span);
         }
-        if unit.is_none() && !is_counted {
+        if unit.is_none() && !can_be_counted {
             self.report(
                 Diagnostic::error(Code::TypesNumber, span, "this whole number is too large to be counted exactly")
                     .help(format!(
@@ -124,7 +133,7 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         }
         match unit {
-            None if whole.is_some() => self.make(ExprKind::Number(value), Type::Int, span),
+            None if is_counted => self.make(ExprKind::Number(value), Type::Int, span),
             None => self.make(ExprKind::Number(value), Type::Quantity(Dimension::NONE), span),
             Some(word) => match self.unit(self.scope.module, word) {
                 Some(unit) if self.sensible_quantity(value * unit.scale, span) => {

@@ -276,7 +276,8 @@ fn primary(b: &mut Builder, node: Node) -> Expr {
             let mut inner = node.inner();
             let text = inner.next().map_or("0", |number| number.text());
             let unit = inner.next().map(|u| name(u));
-            ExprKind::Number { value: text.parse().unwrap_or(0.0), whole: whole(text), unit }
+            let is_counted = text.bytes().all(|b| b.is_ascii_digit());
+            ExprKind::Number { value: text.parse().unwrap_or(0.0), whole: whole(text), is_counted, unit }
         }
         Rule::geodetic => {
             let mut halves = node.inner().map(|half| degrees(b, half));

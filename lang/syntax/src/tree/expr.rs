@@ -30,6 +30,8 @@ pub enum ExprKind {
     Number {
         value: f64,
         whole: Option<u64>,
+        /// It is spelt with digits alone: without a unit it counts something.
+        is_counted: bool,
         unit: Option<Name>,
     },
     Geodetic {
