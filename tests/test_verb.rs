@@ -263,6 +263,62 @@ test "fails without a report" {
 }
 "#;
 
+/// The last report of a name, how many there were, how the mission ended, and a source by its name.
+const ENDINGS: &str = r#"
+mission north(lasting: Duration = 35 s) in dyed within 1 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+    limits { depth <= 10 m, speed <= 2.5 m/s }
+    requires { position, heading fresh 5 s, else abort }
+    recovery within 10 s { wait }
+    with depth 3 m, speed 1.5 m/s
+    on every 10 s { report "tick": position }
+    abort "for long enough" on after lasting
+    steer north
+}
+
+scenario dyed = still_water with {
+    region(rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m))
+    flow(10 cm/s toward 90 deg)
+    plume()
+    source("north", at: point(north: 100 m, east: 0 m))
+}
+
+test "holds" {
+    run north in dyed seeds 1..2
+    expect aborted and not completed and not timed_out
+    expect times_reported("tick") == 3
+    expect last_reported_at("tick") > 30 s and last_reported_at("tick") < 31 s
+    expect distance(last_reported("tick"), reported("tick")) > 25 m
+    expect has_reported("tick") and last_reported("tick").north > reported("tick").north
+    expect always times_reported("tick") <= 3
+    expect truth.source("north").north == 100 m
+}
+
+test "holds at the end of its time" {
+    run north(lasting: 2 min) in dyed seeds 1..2
+    expect timed_out and not aborted
+}
+
+test "fails" {
+    run north in dyed seeds 1..2
+    expect completed and time > 1 s
+    expect timed_out or aground
+    expect truth.source("south").north == 100 m
+    expect times_reported("tick") == 4
+}
+"#;
+
+#[test]
+fn how_it_ended_and_what_was_reported_last_can_be_asked_for() {
+    let project = Project::new("endings", "10 s", "5 m");
+    std::fs::write(project.0.join("north.alb"), ENDINGS).unwrap();
+    let (code, said) = project.test(&["--filter", "holds"]);
+    assert_eq!((code, said.contains("2 passed, 0 failed")), (Some(0), true), "{said}");
+    let (code, said) = project.test(&["--filter", "fails"]);
+    assert_eq!(code, Some(1), "{said}");
+    insta::assert_snapshot!(said);
+}
+
 #[test]
 fn what_was_reported_and_when_is_known_behind_a_has_reported_too() {
     let project = Project::new("reports", "10 s", "5 m");

@@ -5,7 +5,7 @@ use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval, TestNames, VarKind};
+use crate::hir::{Builtin, Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, VarKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
@@ -14,10 +14,16 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// What stands after `truth`.
-const TRUTHS: [&str; 5] = ["position", "nearest_source", "start", "deepest", "depth_at"];
+const TRUTHS: [&str; 6] = ["position", "nearest_source", "source", "start", "deepest", "depth_at"];
+/// The questions for a report.
+const QUESTIONS: [&str; 6] =
+    ["reported", "reported_at", "has_reported", "last_reported", "last_reported_at", "times_reported"];
 
 /// No run lasts longer, s: three years.
 const RUN_MAX_S: f64 = 1e8;
+
+/// No run reports more often: so many lines in each of its ticks.
+const REPORTS_MAX: f64 = 1e12;
 
 /// What is said without a source.
 const NO_SOURCE: &str = "the scenario has no source";
@@ -33,8 +39,8 @@ pub(super) struct TestScope {
     mission: usize,
     /// The types of what that reports, by name.
     reports: Rc<Reports>,
-    /// The variables that hold where and when something was reported, by its name.
-    report_vars: [BTreeMap<String, usize>; 2],
+    /// The variables that hold what is asked of a report, by its name.
+    report_vars: BTreeMap<(ReportPart, String), usize>,
     /// What its expectations speak of.
     pub names: TestNames<usize>,
     /// The points whose true water depth they ask for, and the variables of the answers.
@@ -54,17 +60,17 @@ impl<'t> Checker<'t> {
             start: var(self, "truth.start", Type::Point),
             deepest: var(self, "truth.deepest", Type::Point.optional()),
             time: var(self, "time", Type::Quantity(Dimension::TIME)),
-            completed: var(self, "completed", Type::Bool),
+            outcomes: OUTCOMES.map(|name| var(self, name, Type::Bool)),
             area: var(self, "the mission's area", Type::Area),
-            reported: Vec::new(),
-            reported_at: Vec::new(),
+            reports: Vec::new(),
+            sources: Vec::new(),
         };
         // It has run for no time yet, or for some.
         self.scope.vars[vars.time].range = Interval::new(0.0, RUN_MAX_S);
         self.test = Some(TestScope {
             mission,
             reports: self.reports_of(mission),
-            report_vars: Default::default(),
+            report_vars: BTreeMap::new(),
             names: vars,
             depths: Vec::new(),
             needs: Vec::new(),
@@ -174,6 +180,9 @@ impl<'t> Checker<'t> {
     ) -> Option<Expr> {
         self.test.as_ref()?;
         let is_truth = matches!(&base.kind, tree::ExprKind::Name(name) if name == "truth");
+        if is_truth && member.node == "source" {
+            return Some(self.true_source(args, span));
+        }
         if !is_truth || member.node != "depth_at" {
             return None;
         }
@@ -192,11 +201,24 @@ impl<'t> Checker<'t> {
         full.rsplit('.').next().unwrap_or(full)
     }
 
-    /// `reported("source")`: where that was first reported, `reported_at("source")`: when, `has_reported("source")`: whether.
-    /// Where no `has_reported` shows that there is one, an expectation without such a report fails, and says so.
+    /// `truth.source("north")`: where a source truly is, by its name.
+    fn true_source(&mut self, args: &[tree::Arg], span: Span) -> Expr {
+        let Some([name]) = self.positional::<1>("source", args, span) else { return self.unknown(span) };
+        let name = self.plain_text(&name);
+        let without = format!("the scenario has no source \"{name}\"");
+        let id = self.declare_hidden(format!("source \"{name}\""), VarKind::Signal, Type::Point.optional(), span);
+        if let Some(test) = &mut self.test {
+            test.names.sources.push((name, id));
+        }
+        self.taken_for_granted(id, without, span)
+    }
+
+    /// `reported("source")`: where that was first reported, `reported_at("source")`: when, `has_reported("source")`: whether; with `last_`
+    /// the last of its reports, and `times_reported("source")` how many there were. Where no `has_reported` shows that there is one, an
+    /// expectation without such a report fails, and says so.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test.as_ref()?;
-        if !matches!(name, "reported" | "reported_at" | "has_reported") {
+        if !QUESTIONS.contains(&name) {
             return None;
         }
         let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
@@ -206,7 +228,8 @@ impl<'t> Checker<'t> {
         // What is reported as a place each time is one whenever it was reported.
         let all_places = values.iter().all(is_place);
         let never = !values.is_empty() && !values.iter().any(is_place);
-        if let Some(ty) = values.first().filter(|_| name == "reported" && never).map(|ty| self.type_name(ty)) {
+        let asks_for_place = matches!(name, "reported" | "last_reported");
+        if let Some(ty) = values.first().filter(|_| asks_for_place && never).map(|ty| self.type_name(ty)) {
             let what = format!("what is reported as \"{what}\" is no place: it is {}", article(&ty));
             self.report(
                 Diagnostic::error(Code::TestsReport, text.span, what)
@@ -214,33 +237,44 @@ impl<'t> Checker<'t> {
             );
             return Some(self.unknown(span));
         }
-        let at = self.report_var(&what, true, text.span);
-        let place = all_places.then(|| self.report_var(&what, false, text.span));
-        Some(match name {
-            "has_reported" => {
-                let at = self.is_known(at, span);
-                match place {
-                    Some(place) => {
-                        let place = self.is_known(place, span);
-                        self.operation(Builtin::And, vec![at, place], Type::Bool, span)
-                    }
-                    None => at,
-                }
+        let none = format!("nothing was reported as \"{what}\"");
+        let no_place = |which: &str| format!("the {which} report \"{what}\" has no place, or there is none");
+        let part = match name {
+            "times_reported" => {
+                let count = self.report_var(&what, ReportPart::Count, text.span);
+                return Some(self.variable(count, span));
             }
-            "reported_at" => self.taken_for_granted(at, format!("nothing was reported as \"{what}\""), span),
-            _ if all_places => {
-                let place = self.report_var(&what, false, text.span);
-                self.taken_for_granted(place, format!("nothing was reported as \"{what}\""), span)
-            }
-            _ => {
-                let place = self.report_var(&what, false, text.span);
-                self.taken_for_granted(
-                    place,
-                    format!("the first report \"{what}\" has no place, or there is none"),
-                    span,
-                )
-            }
-        })
+            "has_reported" => return Some(self.has_reported(&what, all_places, text.span, span)),
+            "reported_at" => ReportPart::FirstTime,
+            "last_reported_at" => ReportPart::LastTime,
+            "last_reported" => ReportPart::LastPlace,
+            _ => ReportPart::FirstPlace,
+        };
+        // Whether it was reported is known with when.
+        let var = self.report_var(&what, part, text.span);
+        let without = match (part, all_places) {
+            (ReportPart::FirstPlace, false) => no_place("first"),
+            (ReportPart::LastPlace, false) => no_place("last"),
+            _ => none,
+        };
+        Some(self.taken_for_granted(var, without, span))
+    }
+
+    /// Whether something was reported: then its first report and its last are known, and their places, where each is one.
+    fn has_reported(&mut self, what: &str, all_places: bool, named: Span, span: Span) -> Expr {
+        let parts: &[ReportPart] = match all_places {
+            true => &[ReportPart::FirstTime, ReportPart::FirstPlace, ReportPart::LastTime, ReportPart::LastPlace],
+            false => &[ReportPart::FirstTime, ReportPart::LastTime],
+        };
+        let known: Vec<Expr> = parts
+            .iter()
+            .map(|part| {
+                let var = self.report_var(what, *part, named);
+                self.is_known(var, span)
+            })
+            .collect();
+        let both = |a: Expr, b: Expr| self.operation(Builtin::And, vec![a, b], Type::Bool, span);
+        known.into_iter().reduce(both).unwrap_or_else(|| self.unknown(span))
     }
 
     /// The value of something that may be absent: unless it is known to be there, the expectation fails without it.
@@ -261,18 +295,24 @@ impl<'t> Checker<'t> {
         self.make(ExprKind::IsPresent(Box::new(value)), Type::Bool, span)
     }
 
-    /// The variable that holds where or when something was reported: one for each name.
-    fn report_var(&mut self, what: &str, when: bool, span: Span) -> usize {
-        let known = self.test.as_ref().and_then(|test| test.report_vars[usize::from(when)].get(what));
-        if let Some(id) = known {
+    /// The variable that holds what is asked of a report: one for each name.
+    fn report_var(&mut self, what: &str, part: ReportPart, span: Span) -> usize {
+        let key = (part, what.to_string());
+        if let Some(id) = self.test.as_ref().and_then(|test| test.report_vars.get(&key)) {
             return *id;
         }
-        let (ty, of) = if when { (Type::Quantity(Dimension::TIME), "at") } else { (Type::Point, "place") };
-        let id = self.declare_hidden(format!("report \"{what}\" {of}"), VarKind::Signal, ty.optional(), span);
+        let ty = match part {
+            ReportPart::FirstPlace | ReportPart::LastPlace => Type::Point.optional(),
+            ReportPart::FirstTime | ReportPart::LastTime => Type::Quantity(Dimension::TIME).optional(),
+            ReportPart::Count => Type::Int,
+        };
+        let id = self.declare_hidden(format!("report \"{what}\" {part:?}"), VarKind::Signal, ty, span);
+        if part == ReportPart::Count {
+            self.scope.vars[id].range = Interval::new(0.0, REPORTS_MAX);
+        }
         if let Some(TestScope { names, report_vars, .. }) = &mut self.test {
-            report_vars[usize::from(when)].insert(what.to_string(), id);
-            let table = if when { &mut names.reported_at } else { &mut names.reported };
-            table.push((what.to_string(), id));
+            names.reports.push((part, what.to_string(), id));
+            report_vars.insert(key, id);
         }
         id
     }

@@ -83,14 +83,32 @@ pub struct TestNames<T> {
     pub deepest: T,
     /// Seconds since the run began.
     pub time: T,
-    /// Whether the mission came to its own end.
-    pub completed: T,
+    /// How the mission ended, for each of [`OUTCOMES`].
+    pub outcomes: [T; OUTCOMES.len()],
     /// The mission's area.
     pub area: T,
-    /// By name, where it was first reported, if it was.
-    pub reported: Vec<(String, T)>,
-    /// By name, the seconds until it was first reported, if it was.
-    pub reported_at: Vec<(String, T)>,
+    /// What was reported, by name.
+    pub reports: Vec<(ReportPart, String, T)>,
+    /// The true place of a source, by its name, if there is one.
+    pub sources: Vec<(String, T)>,
+}
+
+/// How a run of a test may have ended, by the names of the outcomes. One that has failed holds to nothing.
+pub const OUTCOMES: [&str; 6] = ["completed", "timed_out", "aborted", "refused", "released_by_vehicle", "aground"];
+
+/// What a test asks of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ReportPart {
+    /// Where it was first, if it was a place.
+    FirstPlace,
+    /// The seconds until it was first, if it was.
+    FirstTime,
+    /// Where it was last, if that was a place.
+    LastPlace,
+    /// The seconds until it was last, if it was.
+    LastTime,
+    /// How often it was.
+    Count,
 }
 
 /// An expectation.
@@ -118,17 +136,17 @@ pub enum When {
 impl<T: Copy> TestNames<T> {
     /// The same names for something else.
     pub fn map<U>(&self, f: impl Fn(T) -> U) -> TestNames<U> {
-        let each = |list: &[(String, T)]| list.iter().map(|(name, x)| (name.clone(), f(*x))).collect();
+        let report = |(part, name, x): &(ReportPart, String, T)| (*part, name.clone(), f(*x));
         TestNames {
             position: f(self.position),
             nearest_source: f(self.nearest_source),
             start: f(self.start),
             deepest: f(self.deepest),
             time: f(self.time),
-            completed: f(self.completed),
+            outcomes: self.outcomes.map(&f),
             area: f(self.area),
-            reported: each(&self.reported),
-            reported_at: each(&self.reported_at),
+            reports: self.reports.iter().map(report).collect(),
+            sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
         }
     }
 }

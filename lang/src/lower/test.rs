@@ -5,6 +5,7 @@ use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children, test_file_name};
 use crate::source::Sources;
+use crate::types::Type;
 use crate::types::TypeTable;
 use albacore_program::{Code, Program, Shape, Slot};
 
@@ -189,6 +190,8 @@ fn compared<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
         ExprKind::Do(Builtin::Lt | Builtin::Le | Builtin::Eq, sides) => {
             out.extend(sides.iter().filter(|s| s.range.constant().is_none()));
         }
+        // Whether the mission has ended so.
+        ExprKind::Var(_) if e.ty == Type::Bool => out.push(e),
         _ => children(e, &mut |child| compared(child, out)),
     }
 }

@@ -97,8 +97,10 @@ pub fn clause(name: &str) -> Option<&'static str> {
 /// How the end of a run is called elsewhere.
 pub fn end_of_run(name: &str) -> Option<&'static str> {
     Some(match name {
-        "outcome" | "status" | "result" | "success" | "succeeded" | "finished" => "write `expect completed`",
-        "aborted" | "failed" | "failure" => "write `expect not completed`",
+        "status" | "result" | "success" | "succeeded" | "finished" => "write `expect completed`",
+        "outcome" | "failed" | "failure" => {
+            "write how it ended: `expect completed`, `aborted`, `timed_out`, `aground`, or `not completed`"
+        }
         _ => return None,
     })
 }

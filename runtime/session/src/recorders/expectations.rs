@@ -1,9 +1,10 @@
 //! What a test expects of a run, looked at as the run goes.
 
 use super::Recorder;
-use super::results::Results;
+use super::results::{Reported, Results};
 use crate::plan::Plan;
 use albacore_geometry::Point;
+use albacore_lang::hir::{OUTCOMES, ReportPart};
 use albacore_lang::{ExpectProgram, NamedValue, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{AREA_WORDS, number};
@@ -108,7 +109,7 @@ impl<'t> Expectations<'t> {
     fn set_slots(&mut self) {
         let (slots, results, position, time) = (&self.test.slots, &self.results, self.position, self.time_s());
         let start = results.start.unwrap_or(Point::ORIGIN);
-        let completed = results.outcome() == Some(Outcome::Completed);
+        let outcome = results.outcome().map(Outcome::name);
         let nearest = results.nearest_source(results.reports.latest.unwrap_or(position));
         let evaluation = &mut self.evaluation;
         evaluation.set(slots.position, &[position.north, position.east]);
@@ -116,16 +117,31 @@ impl<'t> Expectations<'t> {
         evaluation.set(slots.deepest, &if_any(results.deepest));
         evaluation.set(slots.time, &[time]);
         evaluation.set(slots.area, &self.area);
-        evaluation.set(slots.completed, &[f64::from(u8::from(completed))]);
-        evaluation.set(slots.nearest_source, &if_any(nearest));
-        let first = |name: &str| results.reports.listed.iter().find(|report| report.name == name);
-        let place = |report: &crate::Report| Some(Point::new(report.north_m?, report.east_m?));
-        for (name, slot) in &slots.reported {
-            evaluation.set(*slot, &if_any(first(name).and_then(place)));
+        for (name, slot) in OUTCOMES.iter().zip(slots.outcomes) {
+            evaluation.set(slot, &[f64::from(u8::from(outcome == Some(name)))]);
         }
-        for (name, slot) in &slots.reported_at {
-            let first = first(name);
-            evaluation.set(*slot, &[f64::from(u8::from(first.is_some())), first.map_or(0.0, |report| report.t_s)]);
+        evaluation.set(slots.nearest_source, &if_any(nearest));
+        for (name, slot) in &slots.sources {
+            evaluation.set(*slot, &if_any(results.source(name)));
+        }
+        for (part, name, slot) in &slots.reports {
+            let told = results.reports.named(name);
+            let place = |report: &Reported| if_any(report.place).to_vec();
+            let time = |report: &Reported| vec![1.0, report.t_s];
+            let words = match (part, told) {
+                (ReportPart::Count, told) => vec![told.map_or(0.0, |told| told.count as f64)],
+                (_, None) => vec![0.0; 3],
+                (ReportPart::FirstPlace, Some(told)) => place(&told.first),
+                (ReportPart::LastPlace, Some(told)) => place(&told.last),
+                (ReportPart::FirstTime, Some(told)) => time(&told.first),
+                (ReportPart::LastTime, Some(told)) => time(&told.last),
+            };
+            let width = match part {
+                ReportPart::FirstPlace | ReportPart::LastPlace => 3,
+                ReportPart::FirstTime | ReportPart::LastTime => 2,
+                ReportPart::Count => 1,
+            };
+            evaluation.set(*slot, &words[..width]);
         }
     }
 }

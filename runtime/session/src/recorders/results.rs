@@ -7,7 +7,7 @@ use albacore_geometry::{Area, Point};
 use albacore_machine::{Event, Outcome};
 use albacore_trace::{Ending, Release, Step, TickRecord};
 use albacore_vehicle::TICK_S;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Reports that a result lists; of more only the first of each place of the program that reports, and their number.
@@ -25,9 +25,38 @@ pub(crate) struct Reports {
     /// The place that was reported last.
     pub latest: Option<Point>,
     sites: BTreeSet<u32>,
+    /// All of them, those that are not listed too, by their names.
+    named: BTreeMap<String, Named>,
+}
+
+/// Something that was reported: when, and where, if it was a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reported {
+    pub t_s: f64,
+    pub place: Option<Point>,
+}
+
+/// The reports of a name.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Named {
+    pub first: Reported,
+    pub last: Reported,
+    pub count: u64,
 }
 
 impl Reports {
+    /// What was reported by a name, if anything was.
+    pub fn named(&self, name: &str) -> Option<&Named> {
+        self.named.get(name)
+    }
+
+    fn count(&mut self, name: &str, reported: Reported) {
+        match self.named.get_mut(name) {
+            Some(named) => (named.last, named.count) = (reported, named.count + 1),
+            None => _ = self.named.insert(name.to_string(), Named { first: reported, last: reported, count: 1 }),
+        }
+    }
+
     /// Whether there is room for one more, of a place of the program.
     fn admits(&mut self, site: u32) -> bool {
         let first = self.sites.insert(site);
@@ -133,7 +162,13 @@ impl Results {
         }
     }
 
-    /// The place of a true source that is nearest to another.
+    /// Where a source truly is, by its name; of a leak where it begins.
+    pub fn source(&self, name: &str) -> Option<Point> {
+        let sources = &self.plan.scenario.environment.sources;
+        sources.iter().find(|source| source.name == name).map(|source| source.at)
+    }
+
+    /// The true source nearest to a place.
     pub fn nearest_source(&self, to: Point) -> Option<Point> {
         let sources = self.plan.scenario.environment.sources.iter().map(|source| source.nearest(to));
         sources.min_by(|a, b| a.distance(to).total_cmp(&b.distance(to)))
@@ -163,6 +198,7 @@ impl Results {
         let at = site.fields.first().and_then(|(_, value)| value.shape.first_point());
         let place = at.and_then(|at| Some(Point::new(*words.get(at)?, *words.get(at + 1)?)));
         self.reports.latest = place.or(self.reports.latest);
+        self.reports.count(&site.name, Reported { t_s: tick as f64 / (1.0 / TICK_S), place });
         if !self.reports.admits(id) {
             return;
         }
