@@ -93,7 +93,11 @@ impl Show {
 /// All numbers, clause by clause.
 fn listing(shown: &Shown) -> Lines {
     let mut lines = Lines::default();
-    lines.add(&format!("scenario {}", shown.name));
+    let like = match shown.bases.as_slice() {
+        [] => String::new(),
+        bases => format!("  (like {})", bases.join(", which is like ")),
+    };
+    lines.add(&format!("scenario {}{like}", shown.name));
     for clause in &shown.clauses {
         let unsaid = match clause.source {
             ValueSource::Said => "",

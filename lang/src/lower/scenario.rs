@@ -17,6 +17,8 @@ pub const SAME_PLANE_M: f64 = 50_000.0;
 pub struct ScenarioProgram {
     /// Its name.
     pub name: String,
+    /// The scenarios that it is like, the nearest first, by their names.
+    pub bases: Vec<String>,
     /// Where it is declared.
     pub span: Span,
     /// Where the local frame touches the globe.
@@ -110,6 +112,9 @@ pub fn scenario(
     program.mission.activity = entry;
     Ok(ScenarioProgram {
         name: scenario.name.clone(),
+        bases: std::iter::successors(scenario.base, |id| hir.scenarios[*id].base)
+            .map(|id| hir.scenarios[id].name.clone())
+            .collect(),
         span: scenario.span,
         origin: lowering.origin,
         places,

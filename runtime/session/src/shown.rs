@@ -16,6 +16,8 @@ use clause_formatter::ClauseFormatter;
 pub struct Shown {
     /// Its name.
     pub name: String,
+    /// The scenarios that it is like, the nearest first.
+    pub bases: Vec<String>,
     /// What it says, in order, and after it what holds without being said.
     pub clauses: Vec<ShownClause>,
     /// Clauses of which there is none.
@@ -82,7 +84,7 @@ impl Shown {
         }
         let filaments = world.has_plume().then(|| simulator.filaments().count());
         let svg = view::svg(&lowered.name, &world, &simulator, seed);
-        Ok(Shown { name: lowered.name, clauses, absent, filaments, svg })
+        Ok(Shown { name: lowered.name, bases: lowered.bases, clauses, absent, filaments, svg })
     }
 }
 
