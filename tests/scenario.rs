@@ -83,7 +83,7 @@ fn what_is_derived_is_what_is_written_whole() {
     std::fs::write(folder.join("whole.alb"), whole).unwrap();
     let (derived, whole) = (show(&folder, &["duck_2003_rough", "--no-out"]), show(&folder, &["whole.alb", "--no-out"]));
     let text = |output: Output| String::from_utf8(output.stdout).unwrap();
-    assert_eq!(text(derived).replace("duck_2003_rough", "whole"), text(whole));
+    assert_eq!(text(derived).replace("duck_2003_rough  (like duck_2003)", "whole"), text(whole));
 }
 
 /// Of a survey more than its file: where it lies, how large it is and how deep.
@@ -100,7 +100,7 @@ fn the_library_has_worlds_that_can_be() {
     let names = library.lines().filter_map(|line| line.strip_prefix("scenario ")?.split(['(', ' ']).next());
     let shown: Vec<String> = names.map(|name| listed(&[name, "--no-out"])).collect();
     assert!(shown.len() >= 9, "{}", shown.len());
-    let rough = shown.iter().find(|text| text.starts_with("scenario duck_2003_rough\n")).unwrap();
+    let rough = shown.iter().find(|text| text.starts_with("scenario duck_2003_rough  (like duck_2003)\n")).unwrap();
     assert!(rough.contains("sigma             10 m\n"), "{rough}");
 }
 
