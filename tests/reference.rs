@@ -47,13 +47,19 @@ fn the_examples_of_the_reference_are_checked() {
     all_hold(REFERENCE, 20);
 }
 
+#[test]
+fn the_answers_of_the_cookbook_are_checked() {
+    all_hold("docs/cookbook.md", 20);
+}
+
 /// A test that is shown passes, but for its snapshot, which a page cannot hold.
 #[test]
 fn the_tests_of_the_examples_pass() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples-run");
     std::fs::create_dir_all(&folder).unwrap();
     let mut run = 0;
-    for example in examples(REFERENCE).into_iter().filter(|e| e.text.lines().any(|line| line.starts_with("test \""))) {
+    let pages = [REFERENCE, "docs/cookbook.md"].into_iter().flat_map(examples);
+    for example in pages.filter(|e| e.text.lines().any(|line| line.starts_with("test \""))) {
         let path = folder.join("example.alb");
         std::fs::write(&path, &example.text).unwrap();
         let script = albacore_session::load(&path, None, &[]).unwrap();
