@@ -99,6 +99,8 @@ struct Heard {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Still {
     depth: f64,
+    /// For how many ticks another depth was commanded all the same.
+    elsewhere: u64,
     /// The way through the water that was commanded since, m.
     way: f64,
     /// Where the vehicle was, as far as it was known.
@@ -128,9 +130,15 @@ impl Run {
         let way = self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
         self.state.bottom.way += way;
         self.state.bottom.lone_way += way;
-        let still = Still { depth: self.depth(), way: 0.0, at: self.place(), water: f64::MAX };
+        let still = Still { depth: self.depth(), elsewhere: 0, way: 0.0, at: self.place(), water: f64::MAX };
+        let is_elsewhere = self.state.command.is_some_and(|command| match command.vertical {
+            Vertical::Depth(goal) => (goal - still.depth).abs() > HELD_M,
+            Vertical::Altitude(_) => false,
+        });
         self.state.bottom.still = match self.state.bottom.still.filter(|before| before.depth == still.depth) {
-            Some(before) => Some(Still { way: before.way + way, ..before }),
+            Some(before) => {
+                Some(Still { way: before.way + way, elsewhere: before.elsewhere + u64::from(is_elsewhere), ..before })
+            }
             None => Some(still),
         };
         let told = |at: Option<u32>, ticks: f64| {
@@ -199,9 +207,10 @@ impl Run {
         self.state.bottom.still.map_or(0.0, |still| self.way_from(still.way, still.at))
     }
 
-    /// The least water, m, that was sounded since the depth changed last.
+    /// The least water, m, that was sounded since the depth changed last, of one that should have changed since.
     fn still_water(&self) -> f64 {
-        self.state.bottom.still.map_or(f64::MAX, |still| still.water)
+        let is_stuck = |still: &Still| still.elsewhere as f64 * TICK_S > LIMIT_FRESH_S;
+        self.state.bottom.still.filter(is_stuck).map_or(f64::MAX, |still| still.water)
     }
 
     fn way_from(&self, commanded: f64, from: Option<Point>) -> f64 {

@@ -43,8 +43,8 @@ pub(super) struct Bottom {
     way: f64,
     /// The depth, the way that was commanded since it changed, and where that was.
     still: (f64, f64, Option<Point>),
-    /// The least sum of depth and altitude since, m.
-    least: Option<f64>,
+    /// For how many ticks another depth was commanded all the same, and the least sum of depth and altitude since, m.
+    least: (u64, Option<f64>),
 }
 
 impl Evaluator<'_> {
@@ -70,7 +70,9 @@ impl Evaluator<'_> {
         });
         let floor = match (known, echo) {
             (Some(echo), _) => {
-                Some(self.bottom.least.map_or(echo.water, |least| echo.water.min(least)) - self.ahead(lowest))
+                let (elsewhere, least) = self.bottom.least;
+                let least = least.filter(|_| elsewhere > FRESH_TICKS);
+                Some(least.map_or(echo.water, |least| echo.water.min(least)) - self.ahead(lowest))
             }
             (None, _) if lowest == 0.0 && matches!(asked, Vertical::Depth(_)) => None,
             (None, Some(echo)) => {
@@ -180,10 +182,15 @@ impl Bottom {
             *since += way;
         }
         match w.depth().unwrap_or(0.0) {
-            depth if depth == self.still.0 => self.still.1 += way,
+            depth if depth == self.still.0 => {
+                self.still.1 += way;
+                let goal = self.commanded.map(|command| command.vertical);
+                let is_elsewhere = matches!(goal, Some(Vertical::Depth(goal)) if (goal - depth).abs() > 0.5);
+                self.least.0 += u64::from(is_elsewhere);
+            }
             depth => {
                 self.still = (depth, 0.0, w.place(FRESH_TICKS));
-                self.least = None;
+                self.least = (0, None);
             }
         }
         let Some(altitude) = w.lately("altitude", 0) else { return };
@@ -191,7 +198,7 @@ impl Bottom {
         let Some(depth) = w.lately("depth", FRESH_TICKS) else { return };
         let (gone, place) = (self.gone(w), w.place(FRESH_TICKS));
         let sum = depth + altitude;
-        self.least = Some(self.least.map_or(sum, |least| least.min(sum)));
+        self.least.1 = Some(self.least.1.map_or(sum, |least| least.min(sum)));
         let goal = self.commanded.map(|command| command.vertical);
         let held = matches!(goal, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
         // Another tells of the same bottom, but for 2 m and for what 20 m of way at most may change.
