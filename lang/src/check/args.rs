@@ -48,6 +48,13 @@ pub(super) const BUILTINS: [&str; 21] = [
     "number",
 ];
 
+/// What is given for a parameter.
+pub(super) enum Given<'e> {
+    Written(&'e tree::Expr),
+    /// It has been looked at already.
+    Known(Expr),
+}
+
 impl<'t> Checker<'t> {
     /// Puts arguments in the order of the parameters. `None` when that failed and has been reported.
     pub(super) fn arguments(
@@ -62,24 +69,43 @@ impl<'t> Checker<'t> {
             self.report(finding);
             return None;
         }
-        let (given, mut failed) = self.by_parameter(what, params, args, declared.is_some());
+        let (given, failed) = self.by_parameter(what, params, args, declared.is_some());
+        let given = given.into_iter().map(|written| written.map(Given::Written)).collect();
+        self.values(what, params, given, failed, (span, declared))
+    }
+
+    /// The values of parameters, of which some may be known already; `places` are those of the call and of what is called, if that is
+    /// declared. `None` when that failed, or had before, and has been reported.
+    pub(super) fn values(
+        &mut self,
+        what: &str,
+        params: &[ParamInfo],
+        given: Vec<Option<Given>>,
+        mut failed: bool,
+        places: (Span, Option<Span>),
+    ) -> Option<Vec<Expr>> {
         let mut values = Vec::new();
         for (param, given) in params.iter().zip(given) {
-            match (given, &param.default) {
-                (Some(written), _) => {
-                    let value = self.expr_as(written, &param.ty, &format!("`{}` of `{what}`", param.name));
-                    if let Some(range) = param.range {
-                        self.in_range(&value, range, &param.name, param.span);
-                    }
-                    values.push(value);
+            let asked = || format!("`{}` of `{what}`", param.name);
+            let value = match (given, &param.default) {
+                (Some(Given::Written(written)), _) => self.expr_as(written, &param.ty, &asked()),
+                (Some(Given::Known(value)), _) => self.coerce(value, &param.ty, &asked()),
+                (None, Some(default)) => {
+                    values.push(self.default(default));
+                    continue;
                 }
-                (None, Some(default)) => values.push(self.default(default)),
-                (None, None) if failed => {}
                 (None, None) => {
+                    if !failed {
+                        self.missing_argument(what, param, places.0, places.1);
+                    }
                     failed = true;
-                    self.missing_argument(what, param, span, declared);
+                    continue;
                 }
+            };
+            if let Some(range) = param.range {
+                self.in_range(&value, range, &param.name, param.span);
             }
+            values.push(value);
         }
         (!failed).then_some(values)
     }

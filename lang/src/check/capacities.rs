@@ -1,6 +1,7 @@
 //! Functions that take lists of any capacity: `fn mean(of: [Ratio; n]) -> Ratio?`. For each capacity that one is called with there is a
 //! function of its own, which is checked like any other: in it `n` is a number.
 
+use super::args::Given;
 use super::{Checker, ParamInfo, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -37,9 +38,6 @@ pub(super) struct Templates<'t> {
     /// Those whose bodies are still to be checked, by the function that they are made of.
     ahead: Vec<(usize, usize, Vec<u32>)>,
 }
-
-/// What an argument is, and what is written.
-type Given<'e> = (Option<&'e tree::Expr>, Option<Expr>);
 
 impl<'t> Checker<'t> {
     /// The names in a function's parameters that are no constants, and stand for the capacities of lists.
@@ -82,60 +80,26 @@ impl<'t> Checker<'t> {
         let signature = self.fn_signatures[id].clone();
         let (written, failed) = self.by_parameter(&signature.name, &signature.params, args, true);
         let mut capacities: Vec<u32> = template.names.iter().map(|_| 1).collect();
-        let mut given: Vec<Given> = Vec::new();
+        let mut given: Vec<Option<Given>> = Vec::new();
         for ((written, param), declared) in written.iter().zip(&signature.params).zip(&template.function.params) {
             let place = capacity(&declared.ty).and_then(|name| template.names.iter().position(|known| known == name));
             let (Some(place), Some(written), Type::List(inner, _)) = (place, written, &param.ty) else {
-                given.push((*written, None));
+                given.push(written.map(Given::Written));
                 continue;
             };
             let value = self.expr(written, Some(&Type::List(inner.clone(), ANY)));
             if let Type::List(_, capacity) = value.ty {
                 capacities[place] = capacities[place].max(capacity);
             }
-            given.push((Some(written), Some(value)));
+            given.push(Some(Given::Known(value)));
         }
         let Some(made) = self.made_of(id, &template, capacities, span) else { return self.unknown(span) };
         let signature = self.fn_signatures[made].clone();
         let result = signature.result.clone().unwrap_or(Type::Unknown);
-        match self.values(&signature, given, failed, span) {
+        match self.values(&signature.name, &signature.params, given, failed, (span, Some(signature.span))) {
             Some(values) => self.make(ExprKind::Call(made, values), result, span),
             None => self.unknown(span),
         }
-    }
-
-    /// The values of parameters, of which some are known already.
-    fn values(&mut self, signature: &Signature, given: Vec<Given>, failed: bool, span: Span) -> Option<Vec<Expr>> {
-        let what = &signature.name;
-        let mut failed = failed;
-        let mut values = Vec::new();
-        for (param, given) in signature.params.iter().zip(given) {
-            let asked = format!("`{}` of `{what}`", param.name);
-            let value = match (given, &param.default) {
-                ((_, Some(value)), _) => Some(self.coerce(value, &param.ty, &asked)),
-                ((Some(written), None), _) => Some(self.expr_as(written, &param.ty, &asked)),
-                ((None, None), Some(default)) => {
-                    values.push(self.default(default));
-                    continue;
-                }
-                ((None, None), None) => None,
-            };
-            match value {
-                Some(value) => {
-                    if let Some(range) = param.range {
-                        self.in_range(&value, range, &param.name, param.span);
-                    }
-                    values.push(value);
-                }
-                None => {
-                    if !failed {
-                        self.missing_argument(what, param, span, Some(signature.span));
-                    }
-                    failed = true;
-                }
-            }
-        }
-        (!failed).then_some(values)
     }
 
     /// The function that is made of another for some capacities.
