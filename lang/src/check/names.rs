@@ -97,6 +97,8 @@ impl<'t> Checker<'t> {
         };
         if let Some(span) = earlier {
             self.report(finding("something").label(span, "declared here"));
+        } else if self.capacity_named(&name.node).is_some() {
+            self.report(finding("a capacity"));
         } else if let Some(def) = self.lookup(self.scope.module, &name.node)
             && !def.shares_its_name()
         {

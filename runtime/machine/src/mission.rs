@@ -139,6 +139,7 @@ impl Machine {
         }
         self.run.state.tick = tick;
         self.run.hear_control(Control::InControl);
+        self.run.tell_elapsed();
         self.run.events.clear();
     }
 

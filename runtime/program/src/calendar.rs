@@ -48,7 +48,8 @@ pub fn written(seconds: f64) -> String {
     }
     let of_day = (seconds - days * DAY_S) as i64;
     let days = days as i64;
-    let mut year = 1970 + days.div_euclid(366);
+    // One year too early at most, and some before 1970.
+    let mut year = 1969 + days.div_euclid(if days < 0 { 365 } else { 366 });
     while days_before_year(year + 1) <= days {
         year += 1;
     }
@@ -88,6 +89,7 @@ mod tests {
     fn what_is_written_is_read() {
         for (text, seconds) in [
             ("1970-01-01T00:00:00Z", 0.0),
+            ("1970-12-31T23:59:59Z", 31_535_999.0),
             ("2000-02-29T12:00:00Z", 951_825_600.0),
             ("2001-09-09T01:46:40Z", 1e9),
             ("2026-08-14T05:00:00Z", 1_786_683_600.0),
@@ -97,6 +99,9 @@ mod tests {
             assert_eq!((read(text), written(seconds)), (Ok(seconds), text.to_string()));
             assert_eq!(written(seconds + 0.9), text);
         }
+        assert_eq!(written(-1.0), "1969-12-31T23:59:59Z");
+        assert_eq!(written(-3.6e9), "1855-12-03T08:00:00Z");
+        assert_eq!(written(-62_135_596_800.0), "0001-01-01T00:00:00Z");
         assert_eq!(read("2026-08-14T05:00Z"), read("2026-08-14T05:00:00Z"));
         for day in (0..84_000).map(|day| f64::from(day) * DAY_S) {
             assert_eq!(read(&written(day)), Ok(day));
