@@ -2,6 +2,7 @@
 //! function of its own, which is checked like any other: in it `n` is a number.
 
 use super::args::Given;
+use super::type_syntax::LIST_CAPACITY_MAX;
 use super::{Checker, ParamInfo, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -15,8 +16,6 @@ use std::collections::{BTreeMap, BTreeSet};
 const INSTANCES_MAX: usize = 256;
 /// The capacity with which such a function is checked though nobody calls it.
 const NOMINAL: u32 = 8;
-/// What a list that is written out may hold, until it is known what it is written for.
-const ANY: u32 = 1024;
 
 /// Names of capacities, and what they are.
 pub(super) type Capacities = Vec<(String, u32)>;
@@ -87,7 +86,8 @@ impl<'t> Checker<'t> {
                 given.push(written.map(Given::Written));
                 continue;
             };
-            let value = self.expr(written, Some(&Type::List(inner.clone(), ANY)));
+            // A list that is written out may hold any number, until it is known what it is written for.
+            let value = self.expr(written, Some(&Type::List(inner.clone(), LIST_CAPACITY_MAX)));
             if let Type::List(_, capacity) = value.ty {
                 capacities[place] = capacities[place].max(capacity);
             }

@@ -10,7 +10,7 @@ use crate::types::Type;
 use albacore_wording::nearest;
 
 /// Lists hold this many elements at most.
-const LIST_CAPACITY_MAX: f64 = 1024.0;
+pub(super) const LIST_CAPACITY_MAX: u32 = 1024;
 
 impl<'t> Checker<'t> {
     /// The unit that a word names in a module, if it names one.
@@ -91,7 +91,9 @@ impl<'t> Checker<'t> {
                 let scope = Scope { capacities: self.scope.capacities.clone(), ..Scope::new(m, Setting::Constant) };
                 let (capacity, _) = self.within(scope, |c| c.expr_as(capacity, &Type::Int, "the capacity"));
                 match capacity.range.constant() {
-                    Some(n) if (1.0..=LIST_CAPACITY_MAX).contains(&n) => Type::List(Box::new(element), n as u32),
+                    Some(n) if (1.0..=f64::from(LIST_CAPACITY_MAX)).contains(&n) => {
+                        Type::List(Box::new(element), n as u32)
+                    }
                     _ => {
                         if capacity.ty != Type::Unknown {
                             self.report(

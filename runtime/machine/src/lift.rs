@@ -60,10 +60,10 @@ impl Run {
     pub fn lift(&mut self, asked: f64, vertical: Vertical, p: &Program) -> f64 {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
-        // Somebody else drove since: what way has done or not is not ours.
-        let is_anew = self.state.tick > self.state.lift_tick + 1;
-        self.state.lift_tick = self.state.tick;
         let (tick, depth) = (self.state.tick, self.depth());
+        // Somebody else drove since: what way has done or not is not ours.
+        let is_anew = tick > self.state.lift_tick + 1;
+        self.state.lift_tick = tick;
         // Who dives as told does not sink.
         let sinks = match vertical {
             Vertical::Depth(told) => depth > told + SUNK_M,
@@ -76,8 +76,8 @@ impl Run {
         if let Some(by) = self.too_deep(p).filter(|_| speed > 0.0) {
             let by = by + self.state.sinking.ahead();
             let now = Deep { by, depth, altitude: self.sounded(), is_low: self.is_low() };
-            let before = if is_anew { before.anew(self.state.tick, now) } else { before };
-            self.state.lift = before.after(self.state.tick, now);
+            let before = if is_anew { before.anew(tick, now) } else { before };
+            self.state.lift = before.after(tick, now);
         }
         let lifted = self.state.lift.is_lifted();
         if lifted != before.is_lifted() {

@@ -198,7 +198,8 @@ impl Results {
         let at = site.fields.first().and_then(|(_, value)| value.shape.first_point());
         let place = at.and_then(|at| Some(Point::new(*words.get(at)?, *words.get(at + 1)?)));
         self.reports.latest = place.or(self.reports.latest);
-        self.reports.count(&site.name, Reported { t_s: tick as f64 / (1.0 / TICK_S), place });
+        let t_s = tick as f64 / (1.0 / TICK_S);
+        self.reports.count(&site.name, Reported { t_s, place });
         if !self.reports.admits(id) {
             return;
         }
@@ -207,7 +208,7 @@ impl Results {
         let sought = place.and_then(|p| self.sought(p));
         self.reports.listed.push(Report {
             name: site.name.clone(),
-            t_s: tick as f64 / (1.0 / TICK_S),
+            t_s,
             north_m: place.map(|p| p.north),
             east_m: place.map(|p| p.east),
             latitude_deg: globe.map(|g| g.latitude_deg()),
