@@ -21,8 +21,11 @@ struct Parts {
 
 impl<'t> Checker<'t> {
     pub(super) fn check_activity(&mut self, m: usize, id: usize, a: &'t tree::Activity) {
+        if self.baseless.contains(&a.name.span) {
+            return;
+        }
         let signature = self.activity_signatures[id].clone();
-        let scope = Scope::new(m, Setting::Body);
+        let scope = Scope { derived: self.derived(a), ..Scope::new(m, Setting::Body) };
         let ((mut activity, params), scope) = self.within(scope, |c| {
             c.declare_params(&a.params, &signature.params);
             let params = c.scope.vars.len();
@@ -54,7 +57,7 @@ impl<'t> Checker<'t> {
         let (declarations, statements) = split(&a.body.clauses);
         let mut parts = Parts::default();
         for clause in declarations {
-            self.declaration(clause, kind, &mut parts);
+            self.in_part(clause.span, |c| c.declaration(clause, kind, &mut parts));
         }
         let is_table = statements
             .iter()
@@ -90,7 +93,7 @@ impl<'t> Checker<'t> {
     fn kind(&mut self, a: &tree::Activity) -> Kind {
         match &a.kind {
             ActivityKind::Behavior => Kind::Behavior,
-            ActivityKind::Strategy => Kind::Strategy,
+            ActivityKind::Strategy { .. } => Kind::Strategy,
             ActivityKind::Mission { .. } => Kind::Mission,
             ActivityKind::Overlay { does: None } => Kind::Beside,
             ActivityKind::Overlay { does: Some((verb, channel)) } => {

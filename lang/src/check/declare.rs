@@ -112,9 +112,12 @@ impl<'t> Checker<'t> {
         self.overlays_do_one_thing(&hir, &mut known_ends);
         for activity in &hir.activities {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
-                self.check_table(&hir, &mut known_ends, activity, (behaviors, *start, rules));
+                self.in_strategy(activity.span, |c| {
+                    c.check_table(&hir, &mut known_ends, activity, (behaviors, *start, rules));
+                });
             }
         }
+        self.tell_inherited();
         self.hir = hir;
     }
 
@@ -332,7 +335,10 @@ impl<'t> Checker<'t> {
             Item::Activity(a) => {
                 if let Some(&Def::Activity(id)) = self.names[m].get(&a.name.node) {
                     let params = self.params(m, &a.params, Some(&a.name.node));
-                    let result = a.result.as_ref().map(|ty| self.written_type(m, ty));
+                    let result = a.result.as_ref().map(|ty| self.written_type(self.home(ty.span, m), ty));
+                    if let ActivityKind::Strategy { base: Some(base) } = &a.kind {
+                        self.resolve(m, base);
+                    }
                     if matches!(a.kind, ActivityKind::Mission { .. }) {
                         self.mission_params(a);
                     }

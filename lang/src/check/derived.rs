@@ -37,21 +37,20 @@ pub(super) struct Lineage {
     pub bases: Vec<Option<usize>>,
 }
 
-impl<'t> Checker<'t> {
-    /// What each of these is derived from.
-    pub(super) fn lineage(
-        &mut self,
-        all: &[Declared<'t>],
-        named: impl Fn(&mut Self, &tree::Path) -> Option<usize>,
-    ) -> Lineage {
-        let mut bases: Vec<Option<usize>> = all
-            .iter()
-            .map(|declared| {
-                let base = declared.base?;
-                self.within(Scope::new(declared.module, Setting::Constant), |c| named(c, base)).0
-            })
-            .collect();
-        for (id, declared) in all.iter().enumerate() {
+/// Declarations of one kind, each with the path of its base and with the one that this names.
+pub(super) struct Bases<'t> {
+    /// The code of what cannot be.
+    pub code: Code,
+    pub names: Vec<(&'t tree::Name, Option<&'t tree::Path>)>,
+    pub bases: Vec<Option<usize>>,
+}
+
+impl Bases<'_> {
+    /// In what order they come, and those that are derived from themselves or through too many others.
+    pub fn lineage(self) -> (Lineage, Vec<Diagnostic>) {
+        let Bases { code, names, mut bases } = self;
+        let mut findings = Vec::new();
+        for (id, &(tree::Name { node: name, .. }, base)) in names.iter().enumerate() {
             let ancestors = std::iter::successors(bases[id], |base| bases[*base]).take(GENERATIONS_MAX + 1);
             let ancestors: Vec<usize> = ancestors.collect();
             let goes_round = |id: &usize| ancestors.iter().filter(|other| *other == id).count() > 1;
@@ -59,22 +58,41 @@ impl<'t> Checker<'t> {
                 // Whoever it is derived from is derived from itself, and told so.
                 None
             } else if ancestors.contains(&id) {
-                let message = format!("`{}` is derived from itself", declared.name.node);
+                let message = format!("`{name}` is derived from itself");
                 Some((message, "derive one of them from another, or write it whole"))
             } else if ancestors.len() > GENERATIONS_MAX {
-                let message = format!("`{}` is derived through more than {GENERATIONS_MAX} others", declared.name.node);
+                let message = format!("`{name}` is derived through more than {GENERATIONS_MAX} others");
                 Some((message, "derive it from one that is written whole"))
             } else {
                 None
             };
-            if let (Some((message, help)), Some(base)) = (finding, declared.base) {
-                self.report(Diagnostic::error(Code::ScenariosDerived, base.span, message).help(help));
+            if let (Some((message, help)), Some(base)) = (finding, base) {
+                findings.push(Diagnostic::error(code, base.span, message).help(help));
                 bases[id] = None;
             }
         }
-        let mut order: Vec<usize> = (0..all.len()).collect();
+        let mut order: Vec<usize> = (0..names.len()).collect();
         order.sort_by_key(|id| std::iter::successors(bases[*id], |base| bases[*base]).count());
-        Lineage { order, bases }
+        (Lineage { order, bases }, findings)
+    }
+}
+
+impl<'t> Checker<'t> {
+    /// What each of these is derived from.
+    pub(super) fn lineage(
+        &mut self,
+        all: &[Declared<'t>],
+        named: impl Fn(&mut Self, &tree::Path) -> Option<usize>,
+    ) -> Lineage {
+        let bases = all.iter().map(|declared| {
+            let base = declared.base?;
+            self.within(Scope::new(declared.module, Setting::Constant), |c| named(c, base)).0
+        });
+        let bases = bases.collect();
+        let names = all.iter().map(|declared| (declared.name, declared.base)).collect();
+        let (lineage, unsound) = Bases { code: Code::ScenariosDerived, names, bases }.lineage();
+        self.findings.extend(unsound);
+        lineage
     }
 
     /// The parameters of all scenarios: each has those of what it is derived from, and then its own.

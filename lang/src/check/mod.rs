@@ -44,6 +44,7 @@ mod unused;
 mod value;
 mod vehicle;
 mod visible;
+mod whole;
 
 pub use ends::never_ends;
 pub(crate) use flow::{goes_round, takes_time};
@@ -56,7 +57,7 @@ use crate::dimension::Unit;
 use crate::hir::{self, Hir, Interval};
 use crate::names::Names;
 use crate::prompt::Known;
-use crate::source::{Source, Span};
+use crate::source::{FileId, Source, Span};
 use crate::syntax::tree;
 use crate::types::{EnumId, RecordId, Type, TypeTable};
 use albacore_formats::FileFault;
@@ -236,6 +237,8 @@ struct Scope {
     value_from: Option<usize>,
     /// The last expression of a block, whose value is the block's.
     tail: Option<Span>,
+    /// A strategy that is derived: what it says itself, and the modules in which its parts stand.
+    derived: Option<whole::Derived>,
     /// What names of capacities stand for, in a function of lists of any.
     capacities: capacities::Capacities,
 }
@@ -255,6 +258,7 @@ impl Scope {
             driving: None,
             value_from: None,
             tail: None,
+            derived: None,
             capacities: Vec::new(),
         }
     }
@@ -263,6 +267,10 @@ impl Scope {
 /// Checks modules.
 pub struct Checker<'t> {
     modules: &'t [Module],
+    /// In which module the parts of strategies stand, by their files; empty where none is derived.
+    homes: BTreeMap<FileId, usize>,
+    /// The places of the names of strategies that are derived from none.
+    baseless: BTreeSet<Span>,
     library: &'t dyn Library,
     /// The files of data that the scripts name, each read once.
     files: BTreeMap<String, Result<Vec<u8>, FileFault>>,
@@ -307,6 +315,10 @@ pub struct Checker<'t> {
     /// The test that is being checked, while its expectations are.
     test: Option<truth::TestScope>,
     findings: Vec<Diagnostic>,
+    /// By the places of their names, where strategies that are derived stand, and where they name their bases.
+    derived_strategies: BTreeMap<Span, (Span, Span)>,
+    /// What is wrong with parts of a base where another strategy has them.
+    inherited_findings: Vec<(Diagnostic, Span)>,
     /// What was declared, and what of it was read.
     names_used: unused::NamesUsed,
 }
@@ -331,8 +343,12 @@ pub struct Checked {
 
 /// Checks all modules. Their files of data come from the library.
 pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>) -> Checked {
+    let whole::Whole { modules, homes, baseless, findings } = whole::strategies(modules);
+    let modules = modules.as_ref();
     let mut checker = Checker {
         modules,
+        homes,
+        baseless,
         library,
         files: BTreeMap::new(),
         holed: area_file::Holed::default(),
@@ -364,7 +380,9 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         tests_named: BTreeMap::new(),
         reports: None,
         test: None,
-        findings: Vec::new(),
+        findings,
+        derived_strategies: BTreeMap::new(),
+        inherited_findings: Vec::new(),
         names_used: unused::NamesUsed::default(),
     };
     checker.run();

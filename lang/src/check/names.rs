@@ -99,11 +99,11 @@ impl<'t> Checker<'t> {
             self.report(finding("something").label(span, "declared here"));
         } else if self.capacity_named(&name.node).is_some() {
             self.report(finding("a capacity"));
-        } else if let Some(def) = self.lookup(self.scope.module, &name.node)
-            && !def.shares_its_name()
-        {
-            let finding = finding(def.what());
-            self.report(finding);
+        } else {
+            let homes = self.scope.derived.iter().flat_map(|derived| &derived.homes);
+            let mut known = homes.chain([&self.scope.module]).filter_map(|&m| self.lookup(m, &name.node));
+            let hidden = known.find(|def| !def.shares_its_name()).map(|def| finding(def.what()));
+            self.findings.extend(hidden);
         }
         self.names_used.declare(name, kind);
         self.declare_hidden(name.node.clone(), kind, ty, name.span)

@@ -61,12 +61,14 @@ impl<'t> Checker<'t> {
                 .help("choose another name, or leave it out");
                 self.report(finding);
             }
-            let ty = self.written_type(m, &param.ty);
-            let written = param.range.as_ref().and_then(|r| self.constant_range(m, r, &ty));
+            // That of another strategy is written in the module of that.
+            let home = self.home(param.name.span, m);
+            let ty = self.written_type(home, &param.ty);
+            let written = param.range.as_ref().and_then(|r| self.constant_range(home, r, &ty));
             let replaced = owner.and_then(|owner| self.take_override(m, owner, &param.name.node));
             let what = if replaced.is_some() { "the value" } else { "the default" };
             let written_default = replaced.as_ref().or(param.default.as_ref());
-            let default = written_default.map(|written| self.constant_of(m, &param.name, &ty, written, what));
+            let default = written_default.map(|written| self.constant_of(home, &param.name, &ty, written, what));
             // A function may well be given the negative difference of two times; what takes time may not.
             let range = written.or_else(|| owner.and_then(|_| Self::implied_range(&ty)));
             if let Some(default) = &default {

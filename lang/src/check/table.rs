@@ -44,7 +44,7 @@ impl<'t> Checker<'t> {
                     }
                     self.names_used.define(&b.name, "a behavior");
                     names.push(&b.name);
-                    behaviors.push(self.nested(id, b));
+                    behaviors.push(self.in_part(clause.span, |c| c.nested(id, b)));
                 }
                 ClauseKind::Start(name) => {
                     if start.replace(name).is_some() {
@@ -70,7 +70,7 @@ impl<'t> Checker<'t> {
         let mut room = Room::of(&names);
         let mut rules = Vec::new();
         for rule in &written {
-            let sources = self.sources(rule, &names);
+            let sources = self.in_part(rule.sources_span, |c| c.sources(rule, &names));
             // A table that is too large is not looked at further: what it lacks may be among what was left out.
             if let Some(message) = room.lacks(&sources, &names) {
                 self.report(
@@ -79,7 +79,7 @@ impl<'t> Checker<'t> {
                 );
                 return Body::Sequence(hir::Block::default());
             }
-            rules.extend(self.rule(rule, sources, &names, result));
+            rules.extend(self.in_part(rule.sources_span, |c| c.rule(rule, sources, &names, result)));
         }
         let start = match start {
             Some(name) => self.behavior_named(name, &names),

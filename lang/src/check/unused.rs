@@ -21,12 +21,21 @@ pub(super) struct NamesUsed {
     /// The names by which a module's declarations were asked for. Looking a name up changes nothing else: hence the cells.
     mentioned: RefCell<BTreeSet<(usize, String)>>,
     imported: RefCell<BTreeSet<(usize, String)>>,
+    /// What is looked at stands in the base of a strategy: its names have been seen to there.
+    inherited: bool,
 }
 
 impl NamesUsed {
     pub fn declare(&mut self, name: &Name, kind: VarKind) {
         self.define(name, what_of(kind));
-        self.declared.push((name.clone(), kind));
+        if !self.inherited {
+            self.declared.push((name.clone(), kind));
+        }
+    }
+
+    /// Whether what comes stands in the base of a strategy; gives what was so before.
+    pub fn inherit(&mut self, inherited: bool) -> bool {
+        std::mem::replace(&mut self.inherited, inherited)
     }
 
     pub fn define(&self, name: &Name, what: &'static str) {
@@ -35,7 +44,9 @@ impl NamesUsed {
 
     /// The name at a place is the one that is declared at another.
     pub fn refer(&self, place: Span, declared: Span) {
-        self.names.borrow_mut().refer(place, declared);
+        if !self.inherited {
+            self.names.borrow_mut().refer(place, declared);
+        }
     }
 
     pub fn into_names(self) -> Names {
@@ -88,7 +99,7 @@ impl Checker<'_> {
             Item::Signal { name, .. } => (name, "never read", "read it, or remove it"),
             Item::Fn(f) => (&f.name, "never called", "call it, or remove it"),
             Item::Activity(a) => match a.kind {
-                ActivityKind::Behavior | ActivityKind::Strategy => {
+                ActivityKind::Behavior | ActivityKind::Strategy { .. } => {
                     (&a.name, "never called", "call it from the mission, or remove it")
                 }
                 ActivityKind::Overlay { .. } => (&a.name, "never put on", "put it on: `with NAME(…)`, or remove it"),

@@ -122,11 +122,16 @@ impl Left {
 
 impl Script {
     /// What an activity of a lowered mission calls its parameters, signals, memories and area, with the places of their
-    /// values from the base of its frame. `words` are the words from that base on.
-    pub fn names_of(&self, program: &Program, activity: u32, words: &[f64]) -> Vec<Named> {
-        let Some(lowered) = program.activities.get(activity as usize) else { return Vec::new() };
-        let is_it = |a: &hir::Activity| a.name == lowered.name && self.sources.place(a.span) == lowered.place;
-        let Some(found) = self.hir.activities.iter().find(|a| is_it(a)) else { return Vec::new() };
+    /// values from the base of its frame. `words` are the words from that base on, `outer` is the activity around it.
+    pub fn names_of(&self, program: &Program, outer: Option<u32>, activity: u32, words: &[f64]) -> Vec<Named> {
+        let lowered = |activity: u32| program.activities.get(activity as usize);
+        let is = |a: &hir::Activity, id: u32| {
+            lowered(id).is_some_and(|lowered| a.name == lowered.name && self.sources.place(a.span) == lowered.place)
+        };
+        // A strategy that is derived has behaviors that stand in its base.
+        let is_in = |owner: hir::ActivityId| outer.is_some_and(|outer| is(&self.hir.activities[owner], outer));
+        let is_it = |a: &&hir::Activity| is(a, activity) && a.owner.is_none_or(is_in);
+        let Some(found) = self.hir.activities.iter().find(is_it) else { return Vec::new() };
         // A nested behavior shares the frame of its strategy.
         let vars = &self.hir.activities[found.owner.unwrap_or_else(|| self.index_of(found))].vars;
         let declared = found.decls.iter().filter_map(|decl| match decl {

@@ -98,7 +98,7 @@ fn headless(b: &mut Builder, node: Node) -> Option<Item> {
     let kind = match word {
         "scenario" => return Some(Item::Scenario { name, params: Vec::new(), base: None, body }),
         "mission" => ActivityKind::Mission { scenario: None, within: None },
-        "strategy" => ActivityKind::Strategy,
+        "strategy" => ActivityKind::Strategy { base: None },
         _ => ActivityKind::Behavior,
     };
     Some(Item::Activity(Activity { kind, name, params: Vec::new(), result: None, body }))
@@ -167,7 +167,9 @@ pub(super) fn activity<'a>(b: &mut Builder, rule: Rule, inner: impl Iterator<Ite
     let params = take(&mut inner, Rule::params).map(|p| params(b, p)).unwrap_or_default();
     let result = take(&mut inner, Rule::ty).map(|p| ty(b, p));
     let kind = match rule {
-        Rule::strategy => ActivityKind::Strategy,
+        Rule::strategy => ActivityKind::Strategy {
+            base: take(&mut inner, Rule::derived_from).and_then(|p| p.parts().next()).map(path),
+        },
         Rule::overlay => {
             let mut does = take(&mut inner, Rule::overlay_kind).into_iter().flat_map(Node::inner);
             ActivityKind::Overlay {

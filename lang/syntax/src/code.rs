@@ -148,6 +148,7 @@ codes! {
     }
     rules {
         RulesBack = "back",
+        RulesDerived = "derived",
         RulesDone = "done",
         RulesEnding = "ending",
         RulesForever = "forever",

@@ -147,7 +147,10 @@ pub enum TyKind {
 #[allow(missing_docs, reason = "each variant is the keyword of its name")]
 pub enum ActivityKind {
     Behavior,
-    Strategy,
+    /// What it is derived from.
+    Strategy {
+        base: Option<Path>,
+    },
     /// Its verb and channel, `amends course`; one without runs beside.
     Overlay {
         does: Option<(Name, Name)>,

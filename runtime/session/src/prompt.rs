@@ -172,9 +172,11 @@ impl Prompt {
         };
         if let Some(task) = self.now.task.as_ref().filter(|task| task.left.is_none()) {
             let words = &task.machine.state().words;
-            for (id, base) in task.machine.frames().into_iter().rev() {
+            let frames = task.machine.frames();
+            for (at, &(id, base)) in frames.iter().enumerate().rev() {
+                let outer = at.checked_sub(1).map(|outer| frames[outer].0);
                 let frame = words.get(base as usize..).unwrap_or(&[]);
-                self.script.names_of(task.machine.program(), id, frame).into_iter().for_each(&mut add);
+                self.script.names_of(task.machine.program(), outer, id, frame).into_iter().for_each(&mut add);
             }
         }
         self.now.names().iter().cloned().for_each(&mut add);

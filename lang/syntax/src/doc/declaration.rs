@@ -60,7 +60,7 @@ fn whole(word: &'static str, name: &tree::Name, span: Span, written: &Written) -
 fn activity(a: &Activity, span: Span, written: &Written, comments: &mut Comments) -> Declaration {
     let word = match a.kind {
         ActivityKind::Behavior => "behavior",
-        ActivityKind::Strategy => "strategy",
+        ActivityKind::Strategy { .. } => "strategy",
         ActivityKind::Overlay { .. } => "overlay",
         ActivityKind::Mission { .. } => "mission",
     };

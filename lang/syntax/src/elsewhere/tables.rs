@@ -1,4 +1,4 @@
-//! Rules of switching tables, what a mission says before its body, and scenarios that are derived from others.
+//! Rules of switching tables, what a mission says before its body, and what is derived from others.
 
 use super::{Habit, last_word, line_end, word, write};
 
@@ -86,11 +86,11 @@ pub(super) fn unbraced(before: &str, rest: &str) -> Option<Habit> {
     }
 }
 
-/// `scenario a extends b {`, `scenario a = b {`, `scenario a = b(step: 2 s) with {`.
+/// `scenario a extends b {`, `strategy a extends b {`, `scenario a = b {`, `scenario a = b(step: 2 s) with {`.
 pub(super) fn derived(before: &str, rest: &str) -> Option<Habit> {
     let head = before.trim();
     let kind = word(head);
-    if !matches!(kind, "scenario" | "vehicle") || head.contains('{') {
+    if !matches!(kind, "scenario" | "strategy" | "vehicle") || head.contains('{') {
         return None;
     }
     let said = |message: &str, help: String| Some(Habit { message: Some(message.to_string()), help });
