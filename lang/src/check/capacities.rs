@@ -108,7 +108,8 @@ impl<'t> Checker<'t> {
         if let Some(made) = self.templates.made.get(&key) {
             return Some(*made);
         }
-        if self.templates.made.len() >= INSTANCES_MAX {
+        // Each is there once for nobody.
+        if self.templates.made.len() >= INSTANCES_MAX + self.templates.of.len() {
             let message = format!("functions are called with lists of more than {INSTANCES_MAX} capacities");
             let finding = Diagnostic::error(Code::LimitsCapacities, span, message);
             self.report(finding.help("declare lists that are given to one function with one capacity"));

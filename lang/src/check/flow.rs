@@ -17,6 +17,29 @@ pub(crate) fn takes_time(block: &Block) -> bool {
     })
 }
 
+/// How long a block takes at least, s, by the times that its statements name. Calls are not asked.
+pub(crate) fn least_time(block: &Block) -> f64 {
+    let of = |stmt: &Stmt| match &stmt.kind {
+        StmtKind::Timed(timed) => least_time_of(timed),
+        StmtKind::With(_, body) => least_time(body),
+        StmtKind::If(_, a, b) => least_time(a).min(least_time(b)),
+        _ => first_round(stmt).map_or(0.0, least_time),
+    };
+    block.stmts.iter().map(of).sum()
+}
+
+fn least_time_of(timed: &Timed) -> f64 {
+    let ends_by_itself = match &timed.action {
+        Action::Guide(guide, args) => guidance_ends(*guide, args),
+        Action::Keep(..) | Action::Watch => false,
+        Action::Call(..) | Action::Override(_) => true,
+    };
+    if ends_by_itself || timed.until.is_some() {
+        return 0.0;
+    }
+    [&timed.duration, &timed.within].into_iter().flatten().map(|time| time.range.low).reduce(f64::min).unwrap_or(0.0)
+}
+
 /// What a loop does that goes round at least once: over the edges of an area, a range that holds a number, a list that is written out.
 fn first_round(stmt: &Stmt) -> Option<&Block> {
     match &stmt.kind {

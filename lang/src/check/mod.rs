@@ -47,7 +47,7 @@ mod visible;
 mod whole;
 
 pub use ends::never_ends;
-pub(crate) use flow::{goes_round, takes_time};
+pub(crate) use flow::{goes_round, least_time, takes_time};
 pub use params::Override;
 pub(crate) use plausibility::range_of_var;
 

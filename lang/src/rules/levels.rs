@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The most parts of a condition that are looked at, and the most ways in which it can hold: what is larger counts as unknown.
 const MOST: usize = 64;
+/// Rings of more rules are not looked for: whoever reads of one has to find its rules.
+pub const RING_MAX: usize = 8;
 
 /// The signals of a strategy, by their variables.
 pub struct Signals<'h>(BTreeMap<VarId, &'h Expr>);
@@ -18,6 +20,8 @@ pub struct Level<'h> {
     parts: Vec<Part<'h>>,
     /// How much there is to compare.
     weight: usize,
+    /// It holds where this many ticks have gone by since it held last: a rhythm goes on wherever the table is.
+    ticks: usize,
 }
 
 /// One demand on the state.
@@ -158,6 +162,9 @@ impl<'h> Signals<'h> {
                 ExprKind::HeldFor(inner, _) | ExprKind::Becomes(inner) if at_once && holds => ahead.push((inner, true)),
                 // One tick has passed since the entry whenever a rule is tried.
                 ExprKind::After(time) | ExprKind::Every(time) if is_one_tick(time) && holds => {}
+                ExprKind::Every(time) if holds && !at_once && ticks(time) <= RING_MAX as f64 => {
+                    level.ticks = level.ticks.max(ticks(time) as usize);
+                }
                 ExprKind::After(time) if is_one_tick(time) => return None,
                 ExprKind::HeldFor(inner, time) if is_one_tick(time) && holds => ahead.push((inner, true)),
                 ExprKind::After(_)
@@ -179,7 +186,12 @@ impl<'h> Level<'h> {
     /// Both at once; `None` when no state has room for both.
     pub fn and(&self, other: &Level<'h>) -> Option<Self> {
         let both = other.parts.iter().try_fold(self.clone(), |level, part| level.with(part))?;
-        Some(Level { weight: self.weight + other.weight, ..both })
+        Some(Level { weight: self.weight + other.weight, ticks: self.ticks.max(other.ticks), ..both })
+    }
+
+    /// Whether it holds again after so many ticks.
+    pub fn holds_after(&self, ticks: usize) -> bool {
+        self.ticks <= ticks
     }
 
     /// How much work it is at most to hold this beside another.
@@ -198,20 +210,21 @@ impl<'h> Level<'h> {
 
     /// Whether the other holds whenever this does.
     pub fn implies(&self, other: &Level<'h>) -> bool {
-        other.parts.iter().all(|part| match part {
-            Part::Bound(x, range) => {
-                let own = self.parts.iter().find_map(|own| match own {
-                    Part::Bound(y, own) if same(x, y) => Some(*own),
-                    _ => None,
-                });
-                range.covers(own.unwrap_or(x.range))
-            }
-            Part::Truth(x, holds) => self.parts.iter().any(|own| match own {
-                Part::Truth(y, true) if *holds && is_weaker(x, y) => true,
-                Part::Truth(y, other) => same(x, y) && holds == other,
-                Part::Bound(..) => false,
-            }),
-        })
+        other.ticks == 0
+            && other.parts.iter().all(|part| match part {
+                Part::Bound(x, range) => {
+                    let own = self.parts.iter().find_map(|own| match own {
+                        Part::Bound(y, own) if same(x, y) => Some(*own),
+                        _ => None,
+                    });
+                    range.covers(own.unwrap_or(x.range))
+                }
+                Part::Truth(x, holds) => self.parts.iter().any(|own| match own {
+                    Part::Truth(y, true) if *holds && is_weaker(x, y) => true,
+                    Part::Truth(y, other) => same(x, y) && holds == other,
+                    Part::Bound(..) => false,
+                }),
+            })
     }
 
     /// With one more demand, if there is room for it.
@@ -349,7 +362,12 @@ fn meet(a: &Expr, b: &Expr) -> bool {
 
 /// Whether a time is over after a tick.
 fn is_one_tick(time: &Expr) -> bool {
-    Ticks::rule([time.range]).high <= 1.0
+    ticks(time) <= 1.0
+}
+
+/// After how many ticks a time is surely over.
+fn ticks(time: &Expr) -> f64 {
+    Ticks::rule([time.range]).high
 }
 
 fn same(a: &Expr, b: &Expr) -> bool {

@@ -1,7 +1,7 @@
 //! Rules that undo each other: a table that switches to and fro, or round in a ring, on what goes on to hold gets nowhere.
 
-use super::levels::{Level, Signals, Way};
-use crate::check::{never_ends, takes_time};
+use super::levels::{Level, RING_MAX, Signals, Way};
+use crate::check::{least_time, never_ends, takes_time};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{
@@ -14,8 +14,6 @@ use std::collections::BTreeSet;
 const WORK: usize = 1 << 23;
 /// ... of which a look at all that is assigned on a way takes so much.
 const WAY_WORK: usize = 1 << 10;
-/// Rings of more rules are not looked for: whoever reads of one has to find its rules.
-const RING_MAX: usize = 8;
 
 /// The warnings on a switching table.
 pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
@@ -37,7 +35,7 @@ pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
         signals,
         work,
     };
-    let comes_again = rules.iter().filter_map(|rule| table.comes_again(rule));
+    let comes_again = rules.iter().filter_map(|rule| table.comes_again(rule).or_else(|| table.starves(rule)));
     comes_again.chain(table.rings().into_iter().map(|ring| table.undoes(&ring))).collect()
 }
 
@@ -145,6 +143,24 @@ impl<'h> Table<'h> {
         }))
     }
 
+    /// A rhythm that is over before what it leads to is done: what it left goes on for one tick of each round.
+    fn starves(&self, rule: &'h Rule) -> Option<Diagnostic> {
+        let Target::Behavior(to) = rule.target else { return None };
+        let Body::Sequence(block) = &self.hir.activities[self.behaviors[to]].body else { return None };
+        let is_over = |way: &Way<'h>| match &way.0.kind {
+            ExprKind::Every(time) => way.1 && time.range.high <= least_time(block),
+            _ => false,
+        };
+        if !rule.back || !self.signals.ways(&rule.on).iter().any(is_over) {
+            return None;
+        }
+        let name = &self.hir.activities[self.behaviors[to]].name;
+        let message =
+            format!("this is due again before `{name}` is done: what it leaves goes on for one tick at a time");
+        let finding = Diagnostic::warning(Code::RulesLivelock, rule.on_span, message);
+        Some(finding.help("the rhythm goes on meanwhile: write a longer one, or let the behavior take less"))
+    }
+
     /// Whether a guard may still hold when what it led to is done: it has a way without an edge that neither the end of that
     /// behavior nor what is assigned on the way excludes.
     fn lasts(&self, guard: &'h Expr, end: Option<&'h Expr>, way: impl Iterator<Item = (usize, &'h Rule)>) -> bool {
@@ -221,6 +237,7 @@ impl<'h> Table<'h> {
         }
         if to == way[0].1 {
             return self.work.takes(WAY_WORK)
+                && state.holds_after(way.len())
                 && self.is_undisturbed(way)
                 && way.iter().all(|step| self.is_tried(*step, state));
         }
@@ -294,7 +311,7 @@ impl<'h> Table<'h> {
             ));
         }
         finding.help(if ring.iter().any(|(rule, _)| is_timed(&self.rules[*rule].on)) {
-            "a time of one tick, 0.1 s, is over whenever a rule is tried: write a longer one"
+            "a time of one tick, 0.1 s, is over whenever a rule is tried, and a rhythm goes on in all behaviors: write longer ones"
         } else {
             "write `becomes …` in each, or conditions that exclude each other, with room between: `> 4 m` and `< 2 m`"
         })
@@ -308,7 +325,7 @@ fn ends_by((e, holds): Way, read: &BTreeSet<VarId>, (var, value): (VarId, Option
 }
 
 fn is_timed(e: &Expr) -> bool {
-    e.contains(|e| matches!(e.kind, ExprKind::After(_) | ExprKind::HeldFor(..)))
+    e.contains(|e| matches!(e.kind, ExprKind::After(_) | ExprKind::Every(_) | ExprKind::HeldFor(..)))
 }
 
 fn mentions_after(e: &Expr) -> bool {

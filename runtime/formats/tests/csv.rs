@@ -187,7 +187,11 @@ fn heads_that_say_too_little_or_what_cannot_be() {
     wrong("", "the file is empty");
     wrong("# metres\n1,2\n", "line 1 gives no `lat` or `north`");
     wrong(&SMALL.replace(" metres", ""), "line 1 does not say in which unit the depths are");
-    wrong(&SMALL.replace("metres", "feet"), "line 1 says `feet`: depths are read in metres");
+    for unit in ["feet", "fathoms", "yards", "mm", "centimetres", "centimeters", "decimeter", "Kilometres"] {
+        wrong(&SMALL.replace("metres", unit), &format!("line 1 says `{unit}`: depths are read in metres"));
+        let said = format!("metres, elevations in [{unit}]");
+        wrong(&SMALL.replace("metres", &said), &format!("line 1 says `[{unit}]`: depths are read in metres"));
+    }
     wrong(&SMALL.replace("n=3 ", "n=x "), "line 1: `east` is not followed by its ends and its count");
     // Which of the two points is the one of the number?
     wrong(&SMALL.replace("0..20", "0...5"), "line 1: `east` is not followed by its ends and its count");

@@ -6,6 +6,7 @@
 //! come it rises to the surface, but for what a chart says.
 
 use crate::Event;
+use crate::least::LeastOfLate;
 use crate::slope::{SLOPE_MAX, Slope};
 use crate::state::{Limits, Run};
 use albacore_geometry::Point;
@@ -38,6 +39,8 @@ const LOW_SHARE: f64 = 0.25;
 const LOW_MAX_M: f64 = 0.5;
 /// A depth or an altitude is told to be held that is given otherwise than asked by more than this, m: it follows the bottom.
 const TOLD_M: f64 = 0.5;
+/// Who is asked to be shallower by more than this, m, is asked to rise.
+const RISE_M: f64 = 2.0;
 /// A chart is asked for so many standard deviations of the position around it, and for so much more, m.
 const CHART_SIGMAS: f64 = 3.0;
 const CHART_MARGIN_M: f64 = 10.0;
@@ -64,6 +67,8 @@ pub(crate) struct Bottom {
     below: f64,
     /// The depth that is told again and again, if it is.
     still: Option<Still>,
+    /// The water that was told since a rise was asked for, m: a depth that is told late makes of it deeper water.
+    in_rise: LeastOfLate,
     /// It was told that the bottom is lost.
     lost: bool,
     /// Where the vehicle is is not known: a chart tells nothing of the water there.
@@ -141,6 +146,9 @@ impl Run {
             }
             None => Some(still),
         };
+        if self.is_asked_to_rise() {
+            self.state.bottom.in_rise.begin(tick);
+        }
         let told = |at: Option<u32>, ticks: f64| {
             let at = at.filter(|at| self.get(at + Input::STAMP) >= 0.0)?;
             (tick as f64 - self.get(at + Input::STAMP) <= ticks).then(|| self.get(at + Input::VALUE))
@@ -157,6 +165,7 @@ impl Run {
         if let Some(still) = &mut self.state.bottom.still {
             still.water = still.water.min(water);
         }
+        self.state.bottom.in_rise.add(tick, water);
         let again = last.is_some_and(|last| last.altitude == altitude) && !held;
         let before = self.state.bottom.heard.filter(|_| again);
         let (at, way) = (self.place(), self.way());
@@ -187,6 +196,14 @@ impl Run {
             bottom.water_max = bottom.water_max.max(water);
         }
         (bottom.heard, bottom.lone, bottom.way) = (Some(heard_now), None, 0.0);
+    }
+
+    /// Whether the mission asks for a depth above that of the vehicle, or for a greater altitude than it has.
+    fn is_asked_to_rise(&self) -> bool {
+        match self.state.asked.vertical {
+            Vertical::Depth(asked) => asked < self.depth() - RISE_M,
+            Vertical::Altitude(asked) => self.sounded().is_some_and(|altitude| asked > altitude + RISE_M),
+        }
     }
 
     /// Where the vehicle is, unless that is not known any more.
@@ -237,6 +254,7 @@ impl Run {
         let is_passed = self.depth() > floor + PASSED_M;
         let must_rise = self.is_low() || is_passed && (floor < deepest || is_lost);
         let up = self.leads_up(floor);
+        let floor = if known.is_some() { floor.min(self.floor_in_rise(altitude.0)) } else { floor };
         let given = match (asked, known) {
             (Vertical::Depth(_), _) if must_rise => Vertical::Depth(up),
             (Vertical::Altitude(metres), Some(Heard { water_now: water, .. })) => {
@@ -412,6 +430,11 @@ impl Run {
             (None, None) => self.charted().map_or(self.unheard(), |water| water - altitude_min),
         };
         floor.max(0.0)
+    }
+
+    /// How deep the vehicle may go by the water that was told since a rise, if the depth is told late, m.
+    fn floor_in_rise(&self, altitude_min: f64) -> f64 {
+        (self.state.bottom.in_rise.least(self.state.tick) - self.ahead(altitude_min)).max(0.0)
     }
 
     /// The altitude here at which a least altitude, m, will hold ahead.

@@ -16,6 +16,7 @@ mod event;
 mod execute;
 mod guide;
 mod inputs;
+mod least;
 mod lift;
 mod lists;
 mod mission;

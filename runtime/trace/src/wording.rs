@@ -95,7 +95,7 @@ impl Wording {
             Event::Unwritten(lines) => ("limit", format!("log and report  {lines} more not written")),
             Event::Restless(rule) => {
                 let place = self.names.program.rules.get(*rule as usize).map_or("?", |rule| rule.place.as_str());
-                ("rules", format!("switch without rest, the last at {place}: do they undo each other?"))
+                ("rules", format!("switch without rest, the last at {place}: what they leave gets no time"))
             }
             Event::Settled => ("rules", "no longer switch without rest".to_string()),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),

@@ -1,6 +1,7 @@
 //! Section 8: what is known of the bottom, and how far down the limits of depth and altitude allow.
 
 use super::mission::Evaluator;
+use super::rise::Rise;
 use super::world::World;
 use albacore_geometry::Point;
 use albacore_program::Channel;
@@ -45,6 +46,7 @@ pub(super) struct Bottom {
     still: (f64, f64, Option<Point>),
     /// For how many ticks another depth was commanded all the same, and the least sum of depth and altitude since, m.
     least: (u64, Option<f64>),
+    rise: Rise,
 }
 
 impl Evaluator<'_> {
@@ -87,13 +89,12 @@ impl Evaluator<'_> {
         if lost != std::mem::replace(&mut self.bottom.lost, lost) {
             self.w.say(if lost { format!("bottom lost {:?}", deepest + 0.0) } else { "bottom found".into() });
         }
-        // What is measured too low leads up, whatever the depth is told to be.
-        let low_by = (0.25 * lowest).min(0.5);
-        let is_low = self.bottom.altitude(&self.w).is_some_and(|altitude| altitude < lowest - low_by);
-        // So does what the vehicle does not keep to.
+        // What the vehicle does not keep to leads up.
         let depth = self.w.depth().unwrap_or(0.0);
         let is_lost = known.is_none() && lowest > 0.0;
-        let is_low = is_low || (deepest < high || is_lost) && depth > deepest + 1.0;
+        let is_low = self.is_low(lowest) || (deepest < high || is_lost) && depth > deepest + 1.0;
+        let least = self.bottom.rise.least(self.w.tick).filter(|_| known.is_some());
+        let deepest = least.map_or(deepest, |least| deepest.min((least - self.ahead(lowest)).max(0.0)));
         let given = match asked {
             Vertical::Depth(_) if is_low => Vertical::Depth(low.min(deepest)),
             Vertical::Altitude(asked) => {
@@ -131,6 +132,12 @@ impl Evaluator<'_> {
         given
     }
 
+    /// What is measured too low leads up, whatever the depth is told to be.
+    fn is_low(&self, lowest: f64) -> bool {
+        let low_by = (0.25 * lowest).min(0.5);
+        self.bottom.altitude(&self.w).is_some_and(|altitude| altitude < lowest - low_by)
+    }
+
     /// Says what became of the depth or the altitude that is asked for. That one is told otherwise for the sake of the other begins with 50 cm.
     fn say_held(&mut self, asked: Vertical, given: Vertical, sum: Option<f64>) {
         let (channel, other, wanted) = match asked {
@@ -162,6 +169,16 @@ impl Bottom {
         apart(w, self.echo.and_then(|echo| echo.place)).max(self.way)
     }
 
+    /// Whether what is asked for is a rise of more than 2 m.
+    fn rises(&self, w: &World, asked: Vertical) -> bool {
+        match asked {
+            Vertical::Depth(asked) => asked < w.depth().unwrap_or(0.0) - 2.0,
+            Vertical::Altitude(asked) => {
+                self.altitude.is_some_and(|(tick, altitude, _)| w.tick - tick <= FRESH_TICKS && asked > altitude + 2.0)
+            }
+        }
+    }
+
     /// By how much the bottom may have fallen since the depth changed, m.
     fn hidden(&self, w: &World) -> f64 {
         let (_, way, place) = self.still;
@@ -175,7 +192,7 @@ impl Bottom {
         (w.tick - tick <= FRESH_TICKS).then_some(altitude - sunk)
     }
 
-    pub fn hear(&mut self, w: &World) {
+    pub fn hear(&mut self, w: &World, asked: Vertical) {
         let way = self.commanded.map_or(0.0, |command| command.speed) * TICK_S;
         self.way += way;
         if let Some((_, since)) = &mut self.other {
@@ -193,12 +210,16 @@ impl Bottom {
                 self.least = (0, None);
             }
         }
+        if self.rises(w, asked) {
+            self.rise.asked(w.tick);
+        }
         let Some(altitude) = w.lately("altitude", 0) else { return };
         let before = self.altitude.replace((w.tick, altitude, w.depth().unwrap_or(0.0)));
         let Some(depth) = w.lately("depth", FRESH_TICKS) else { return };
         let (gone, place) = (self.gone(w), w.place(FRESH_TICKS));
         let sum = depth + altitude;
         self.least.1 = Some(self.least.1.map_or(sum, |least| least.min(sum)));
+        self.rise.told(w.tick, sum);
         let goal = self.commanded.map(|command| command.vertical);
         let held = matches!(goal, Some(Vertical::Altitude(goal)) if (altitude - goal).abs() < 0.5);
         // Another tells of the same bottom, but for 2 m and for what 20 m of way at most may change.

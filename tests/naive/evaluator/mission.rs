@@ -122,7 +122,8 @@ impl<'p> Evaluator<'p> {
         self.w.earn();
         self.w.sense(self.sensors, &snapshot.samples);
         self.w.tell_elapsed(if self.phase == Phase::Waiting { 0 } else { self.w.tick - self.began });
-        self.bottom.hear(&self.w);
+        let asked = self.w.asked.vertical;
+        self.bottom.hear(&self.w, asked);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
         self.lain += u64::from(snapshot.aground);
         self.lain_driven += u64::from(snapshot.aground && snapshot.control == Control::InControl);

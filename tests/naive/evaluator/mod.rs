@@ -10,6 +10,7 @@ mod expr;
 mod mission;
 mod origin;
 mod rest;
+mod rise;
 mod table;
 mod timed;
 mod value;

@@ -47,6 +47,7 @@ pub(super) fn contents(text: &str) -> Result<Contents, FileFault> {
         if is(node, "Polygon") {
             let placemark = node.ancestors().take(PLACEMARK_DEPTH_MAX).find(|above| is(*above, "Placemark"));
             if placemark.map(|placemark| placemark.id()) != named.0 {
+                placemark.map_or(Ok(()), |placemark| alone(placemark, "name", "this placemark has two names"))?;
                 let name = placemark.and_then(|placemark| child(placemark, "name"));
                 named = (placemark.map(|p| p.id()), name.map(|name| Name(text_of(name).trim().into())));
             }

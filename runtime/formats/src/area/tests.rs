@@ -159,6 +159,8 @@ fn what_is_no_polygon_is_told_with_its_place() {
         "line 7: this polygon has two outlines",
         help,
     );
+    let two_names = "line 3: this placemark has two names";
+    refused("a.kml", &twice("<name>", "</name>"), None, two_names, help);
     let two = "line 7: this outline has two rings";
     refused("a.kml", &twice("<LinearRing>", "</LinearRing>"), None, two, help);
     let broken = KML_SQUARE.replacen("36.18", "36.1<br/>8", 1);

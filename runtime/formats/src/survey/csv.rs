@@ -23,21 +23,13 @@ const HEAD: &str = "begin it with a line such as `# lon 140.0..144.9 n=60 lat 10
 const FILL: &str = "fill it, such as with `gdal_fillnodata`, or cut out a part without such cells";
 /// The unit that is read.
 const METRES: [&str; 5] = ["metres", "meters", "metre", "meter", "m"];
-/// Units of depth that are not read.
-const OTHER_UNITS: [&str; 12] = [
-    "feet",
-    "foot",
-    "ft",
-    "fathom",
-    "fathoms",
-    "fm",
-    "km",
-    "kilometres",
-    "kilometers",
-    "cm",
-    "centimetres",
-    "decimetres",
+/// Units of length that are not read, in one and in many; those of metres come with what stands before these.
+const OTHER_UNITS: [&str; 20] = [
+    "feet", "foot", "ft", "fathom", "fathoms", "fm", "yard", "yards", "yd", "yds", "inch", "inches", "mile", "miles",
+    "nmi", "mm", "cm", "dm", "hm", "km",
 ];
+/// What makes another unit of a metre.
+const PREFIXES: [&str; 6] = ["milli", "centi", "deci", "deca", "hecto", "kilo"];
 
 /// What a head line says.
 #[derive(Default)]
@@ -170,7 +162,7 @@ impl<'a> Head<'a> {
                 "east->west" => {
                     faults.add("line 1 says `east->west`: cells run from west to east", "turn each row round");
                 }
-                other if OTHER_UNITS.contains(&other) => {
+                other if is_other_unit(other) => {
                     faults.add(format!("line 1 says `{word}`: depths are read in metres"), "convert them to metres");
                 }
                 other => {
@@ -296,7 +288,15 @@ impl<'a> Head<'a> {
 
 /// Whether a word is a unit of depth.
 fn is_unit(word: &str) -> bool {
-    METRES.contains(&word) || OTHER_UNITS.contains(&word)
+    METRES.contains(&word) || is_other_unit(word)
+}
+
+/// Whether a word of small letters is a unit of length that is not read: `cm`, `[feet]`, `decimeters`.
+fn is_other_unit(word: &str) -> bool {
+    let word = word.trim_matches(|c: char| !c.is_alphanumeric());
+    let of_metres =
+        |prefix: &&str| word.strip_prefix(*prefix).is_some_and(|unit| unit != "m" && METRES.contains(&unit));
+    OTHER_UNITS.contains(&word) || PREFIXES.iter().any(of_metres)
 }
 
 impl<'a> Side<'a> {
