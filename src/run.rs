@@ -318,6 +318,13 @@ fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
         0 => {}
         more => lines.add(&format!("  and {more} more reports, in the trace")),
     }
+    if let Some(rows) = summary.recorded_rows {
+        let more = match summary.recorded_rows_left_out {
+            0 => String::new(),
+            more => format!(", and {more} more than are kept"),
+        };
+        lines.add(&format!("  recorded {rows} rows{more}"));
+    }
     lines.add(&format!("  digest {}", summary.digest));
     if let Some(picture) = picture {
         lines.add(&format!("  picture {}", picture.display()));

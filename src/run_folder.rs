@@ -10,7 +10,7 @@ use crate::exit::Exit;
 use crate::made::{Comment, Made};
 use crate::message;
 use crate::synced::WRITTEN_INTO;
-use albacore_session::{PICTURE, RUN_FILES, Run, Summary};
+use albacore_session::{Form, PICTURE, Run, RunFile, Summary};
 use folder::{Folder, JOURNAL, RECORD, Refusal};
 pub use folder::{Place, is_of_a_run};
 pub use record::{Record, RunRequest};
@@ -146,13 +146,17 @@ impl RunFolder {
         let Some((folder, record)) = self.files.as_mut() else { return Left::default() };
         let (path, room) = (folder.path.clone(), folder.record.room());
         record.ends(summary);
-        RUN_FILES.iter().for_each(|file| record.loses(file.name, "not written yet"));
+        run.files().for_each(|file| record.loses(file.name, "not written yet"));
+        // No mark can stand in a table: it stands here instead, before there is one.
+        let table = run.files().find(|file| file.form == Form::Table).map(|file| run.file(file));
+        if let Some(table) = &table {
+            record.recorded(table);
+        }
         let begun = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.write(&text));
         let (is_there, mut troubles) = (folder.is_there(), Vec::new());
         if is_there {
-            for file in &RUN_FILES {
-                let comment = if file.is_markup { Comment::Markup } else { Comment::Line };
-                match disk::make(&path.join(file.name), &Made::new(run.file(file), comment)) {
+            for file in run.files() {
+                match keep(&path.join(file.name), file, run, table.as_deref()) {
                     Ok(()) => record.has(file.name),
                     Err(error) => {
                         record.loses(file.name, &error);
@@ -161,7 +165,7 @@ impl RunFolder {
                 }
             }
         } else {
-            RUN_FILES.iter().for_each(|file| record.loses(file.name, "the run's folder may be another's by then"));
+            run.files().for_each(|file| record.loses(file.name, "the run's folder may be another's by then"));
             if folder.is_recorded() {
                 record.also_loses(JOURNAL, GONE);
             }
@@ -226,6 +230,16 @@ impl RunFolder {
     pub fn has_failed(&self) -> bool {
         self.failed
     }
+}
+
+/// Writes one of the files of a run, where nothing is yet.
+fn keep(path: &Path, file: &RunFile, run: &Run, table: Option<&str>) -> io::Result<()> {
+    let comment = match (file.form, table) {
+        (Form::Table, Some(table)) => return disk::keep(path, table.as_bytes()),
+        (Form::Markup, _) => Comment::Markup,
+        (Form::Lines | Form::Table, _) => Comment::Line,
+    };
+    disk::make(path, &Made::new(run.file(file), comment))
 }
 
 /// What became of a file that has the name of a run's file no more.

@@ -147,7 +147,7 @@ fn a_folder_that_holds_a_run_is_refused() {
         assert_eq!(bytes(&out), before, "{words}");
     }
     // What no run left so stays, and a link does.
-    for name in ["journal", "run.json", "trace.txt", "run.svg"] {
+    for name in ["journal", "run.json", "trace.txt", "run.svg", "recorded.csv"] {
         let out = project.join(format!("only-{name}"));
         std::fs::create_dir(&out).unwrap();
         std::os::unix::fs::symlink("../out/notes.txt", out.join(name)).unwrap();
@@ -182,7 +182,7 @@ fn who_replaces_a_run_removes_only_its_files() {
 #[test]
 fn who_replaces_a_run_removes_nothing_that_no_run_made() {
     let project = project("theirs");
-    for name in ["journal", "run.json", "trace.txt", "run.svg"] {
+    for name in ["journal", "run.json", "trace.txt", "run.svg", "recorded.csv"] {
         for is_alone in [true, false] {
             let out = project.join(format!("{name}-{is_alone}"));
             std::fs::create_dir(&out).unwrap();

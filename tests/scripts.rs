@@ -19,6 +19,7 @@ mod mixups;
 mod names;
 mod new;
 mod pages;
+mod recorded;
 mod reference;
 mod repl;
 mod resilience;

@@ -285,6 +285,12 @@ impl Script {
         requires.map(|require| (self.hir.inputs[require.input].name.as_str(), require.span)).collect()
     }
 
+    /// The inputs that a mission records, each with the place where it says so first.
+    pub fn recorded(&self, mission: &str) -> Vec<(&str, source::Span)> {
+        let recorded = self.mission_id(mission).map(|id| rules::inputs_recorded(&self.hir, id)).unwrap_or_default();
+        recorded.into_iter().map(|(input, span)| (self.hir.inputs[input].name.as_str(), span)).collect()
+    }
+
     /// The checked program, its types, and where a mission stands in it.
     pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
         let id = self.mission_id(mission)?;

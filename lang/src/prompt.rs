@@ -439,6 +439,7 @@ fn needs_a_table(kind: &tree::ClauseKind) -> bool {
             | Limits(_)
             | Requires(_)
             | Recovery { .. }
+            | Recording { .. }
             | Amend(_)
             | Finish(_)
             | Memory { .. }

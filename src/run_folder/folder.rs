@@ -1,10 +1,10 @@
 //! The folder of one run: whoever creates the journal in it has it, and has it alone.
 
-use super::record::is_record;
+use super::record::{is_record, is_recorded};
 use crate::clock::Utc;
 use crate::disk::{self, Reserved};
 use crate::exit::Exit;
-use albacore_session::{RUN_FILES, is_journal, is_journal_as_left};
+use albacore_session::{RECORDED, RUN_FILES, is_journal, is_journal_as_left};
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind, Seek};
 use std::path::{Path, PathBuf};
@@ -163,7 +163,12 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
 /// Whether a file beside a journal is as a run has left it.
 fn is_left(path: &Path) -> bool {
     let is_file = path.symlink_metadata().is_ok_and(|there| there.is_file());
-    is_file && if path.ends_with(RECORD) { is_record(path) } else { disk::spare(path).is_ok() }
+    is_file
+        && match path.file_name() {
+            Some(name) if name == RECORD => is_record(path),
+            Some(name) if name == RECORDED.name => is_recorded(&path.with_file_name(RECORD), path),
+            _ => disk::spare(path).is_ok(),
+        }
 }
 
 /// Creates the journal: of several runs that do so at once, one succeeds.
@@ -225,7 +230,7 @@ mod tests {
     /// Whoever is killed while he replaces a run leaves nothing of it beside another journal, and its record only beside all of it.
     #[test]
     fn a_run_is_replaced_from_its_record_to_its_journal() {
-        for allowed in 0..4 {
+        for allowed in 0..2 + RUN_FILES.len() {
             let folder = tempfile::tempdir().unwrap();
             // As they are when they have just been created.
             let files = || beside_journal().chain([JOURNAL]);

@@ -5,7 +5,7 @@ use crate::clock::Utc;
 use crate::made::{is_as_summed, summed};
 use crate::output;
 use crate::plan::{ScriptDigest, scripts, world_script};
-use albacore_session::{Outcome, Plan, SOURCE_BYTES_MAX, Summary, read_file};
+use albacore_session::{Digest, Outcome, Plan, RECORDED_BYTES_MAX, SOURCE_BYTES_MAX, Summary, read_file};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -36,6 +36,9 @@ pub struct Record {
     reason: String,
     ticks: Option<u64>,
     digest: Option<String>,
+    /// The digest of what was recorded, if anything was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recorded: Option<String>,
     /// The files that are not whole, or not there, and why.
     lost: BTreeMap<&'static str, String>,
     /// The digest of all before it.
@@ -48,6 +51,21 @@ pub fn is_record(path: &Path) -> bool {
     // One that has just been created is empty.
     let blanks = bytes.iter().rev().take_while(|b| **b == b' ').count();
     bytes.is_empty() || is_as_summed(&bytes[..bytes.len() - blanks])
+}
+
+/// Whether a table of what was recorded is as the run has left it whose record this is. One that has just been created is empty.
+pub fn is_recorded(record: &Path, table: &Path) -> bool {
+    let read = |path, most: usize| read_file(path, most as u64).ok();
+    let Some(rows) = read(table, RECORDED_BYTES_MAX) else { return false };
+    let told = read(record, SOURCE_BYTES_MAX).and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok());
+    rows.is_empty() || told.is_some_and(|told| told["recorded"] == digest(&rows))
+}
+
+/// The digest of a table.
+fn digest(table: &[u8]) -> String {
+    let mut digest = Digest::new();
+    digest.bytes(table);
+    digest.to_string()
 }
 
 /// What the command line asked for.
@@ -85,6 +103,7 @@ impl Record {
             reason: String::new(),
             ticks: None,
             digest: None,
+            recorded: None,
             lost: BTreeMap::new(),
             sum: "",
         }
@@ -114,6 +133,11 @@ impl Record {
         self.reason.clone_from(&summary.reason);
         self.ticks = Some(summary.ticks);
         self.digest = Some(summary.digest.clone());
+    }
+
+    /// What was recorded.
+    pub fn recorded(&mut self, table: &str) {
+        self.recorded = Some(digest(table.as_bytes()));
     }
 
     /// The run could not be begun.
@@ -177,6 +201,7 @@ mod tests {
             reason: "\u{202e}why".repeat(10_000),
             ticks: None,
             digest: None,
+            recorded: None,
             lost: BTreeMap::new(),
             sum: "",
         };

@@ -16,6 +16,7 @@ struct Parts {
     decls: Vec<Decl>,
     aborts: Vec<(Vec<hir::TextPart>, Expr)>,
     reactions: Vec<(Expr, hir::Block)>,
+    recordings: Vec<hir::Recording>,
     mission: Mission,
 }
 
@@ -84,6 +85,7 @@ impl<'t> Checker<'t> {
             decls: parts.decls,
             aborts: parts.aborts,
             reactions: parts.reactions,
+            recordings: parts.recordings,
             body,
             mission: (kind == Kind::Mission).then_some(parts.mission),
             ..hir::Activity::empty(&a.name.node, a.name.span)
@@ -122,6 +124,17 @@ impl<'t> Checker<'t> {
         match &clause.kind {
             ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. } => {
                 self.mission_part(clause, kind, parts);
+            }
+            ClauseKind::Recording { inputs, rate } => {
+                if !matches!(kind, Kind::Behavior | Kind::Strategy | Kind::Mission) {
+                    return self.misplaced(
+                        clause.span,
+                        "an overlay records nothing",
+                        "move it to the mission, or to the behavior beside which the overlay runs",
+                    );
+                }
+                let recording = self.recording(inputs, rate, &parts.recordings);
+                parts.recordings.extend(recording);
             }
             ClauseKind::With(items) => {
                 let with = self.with_setting(Setting::Instant, |c| c.with_items(items));
@@ -310,6 +323,7 @@ fn split(clauses: &[Clause]) -> (Vec<&Clause>, Vec<&Clause>) {
                 | ClauseKind::Limits(_)
                 | ClauseKind::Requires(_)
                 | ClauseKind::Recovery { .. }
+                | ClauseKind::Recording { .. }
         )
     };
     // `with` is a declaration until the first statement: later it holds for the rest of its block only.

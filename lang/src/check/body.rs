@@ -480,6 +480,10 @@ fn no_statement(kind: &ClauseKind) -> Option<(String, &'static str)> {
             "`amend` stands in an overlay that amends the course",
             "write `overlay NAME amends course { amend { … } }`",
         ),
+        ClauseKind::Recording { .. } => (
+            "what is recorded stands beside the declarations",
+            "move it out of this block, to the top of the mission, strategy or behavior",
+        ),
         ClauseKind::Area { .. } | ClauseKind::Limits(_) | ClauseKind::Requires(_) | ClauseKind::Recovery { .. } => {
             ("this stands in a mission only, beside its declarations", "move it to the top of the mission")
         }

@@ -142,33 +142,7 @@ impl Checker<'_> {
         let fresh = self.duration(&require.fresh, "the time after `fresh`");
         let hold_for = require.hold_for.as_ref().map(|e| self.duration(e, "the time after `hold for`"));
         for name in &require.inputs {
-            let input = match self.lookup(self.scope.module, &name.node) {
-                Some(super::Def::Input(id)) => {
-                    self.refer_to(name.span, self.scope.module, &name.node, |_| true);
-                    *id
-                }
-                other => {
-                    let finding = match other {
-                        Some(def) => Diagnostic::error(
-                            Code::MissionsRequires,
-                            name.span,
-                            format!("`{}` is {}, no input", name.node, def.what()),
-                        ),
-                        None => Diagnostic::error(
-                            Code::MissionsRequires,
-                            name.span,
-                            format!("there is no input `{}`", name.node),
-                        ),
-                    };
-                    let known: Vec<String> = self.hir.inputs.iter().map(|i| i.name.clone()).collect();
-                    let finding = match self.nearest(&name.node, known.iter().map(String::as_str)) {
-                        Some(near) => finding.help(format!("did you mean `{near}`?")),
-                        None => finding,
-                    };
-                    self.report(finding);
-                    continue;
-                }
-            };
+            let Some(input) = self.input_named(name, Code::MissionsRequires) else { continue };
             if mission.requires.iter().any(|r| r.input == input) {
                 let message = format!("`{}` is required twice", name.node);
                 let finding = Diagnostic::error(Code::MissionsTwice, name.span, message);

@@ -30,6 +30,7 @@ mod operators;
 mod overlay;
 mod params;
 mod plausibility;
+mod recording;
 mod records;
 mod recursion;
 mod result_range;

@@ -45,10 +45,21 @@ pub struct Activity {
     pub aborts: Vec<(Vec<TextPart>, Expr)>,
     /// `on X { }`.
     pub reactions: Vec<(Expr, Block)>,
+    /// `record a, b at 1 Hz`.
+    pub recordings: Vec<Recording>,
     /// What it does.
     pub body: Body,
     /// What belongs to a mission alone.
     pub mission: Option<Mission>,
+}
+
+/// What is recorded while an activity is active.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// The inputs, each with where it is named.
+    pub inputs: Vec<(InputId, Span)>,
+    /// How often, Hz.
+    pub rate: f64,
 }
 
 /// A declaration of an activity.
@@ -163,6 +174,7 @@ impl Activity {
             decls: Vec::new(),
             aborts: Vec::new(),
             reactions: Vec::new(),
+            recordings: Vec::new(),
             body: Body::Sequence(Block::default()),
             mission: None,
         }

@@ -8,7 +8,7 @@ mod same;
 mod simulated;
 mod walk;
 
-pub use activity::{Activity, Body, Decl, Kind, Mission, Require, Rule, Target, leaving};
+pub use activity::{Activity, Body, Decl, Kind, Mission, Recording, Require, Rule, Target, leaving};
 pub use albacore_arithmetic::Interval;
 pub use first::{First, is_control};
 pub use position::middle;

@@ -5,8 +5,8 @@ use super::{Lowering, SortedBy, Sorter, slot};
 use crate::hir::{self, Block, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::types::Type;
 use albacore_program::{
-    Abort, Activity, ActivityKind, Addr, Body, Code, Compute, Limits, ListOp, Op, Recovery, Require, Slot, Valued,
-    header,
+    Abort, Activity, ActivityKind, Addr, Body, Code, Compute, Limits, ListOp, Op, Recording, Recovery, Require, Slot,
+    Valued, header,
 };
 
 /// The words that are compared, at most, before a list is put in order anew.
@@ -23,6 +23,8 @@ impl<'a> Lowering<'a> {
         self.constants_at = Some(slot(self.input_words()));
         let unit = self.unit(id);
         let base = self.input_words().saturating_add(self.program.constants.len() as u64);
+        // What a mission says comes before what is said by what it calls.
+        self.program.recordings.sort_by_key(|recording| recording.activity != unit.activity);
         let mission = &mut self.program.mission;
         mission.name = activity.name.clone();
         mission.activity = unit.activity;
@@ -192,7 +194,18 @@ impl<'a> Lowering<'a> {
             overlays,
             result,
         });
-        self.program.activities.len() as u32 - 1
+        self.recorded(&activity.recordings)
+    }
+
+    /// What is recorded while the activity is active that was lowered last; gives the index of that.
+    fn recorded(&mut self, recordings: &[hir::Recording]) -> u32 {
+        let activity = self.program.activities.len() as u32 - 1;
+        for hir::Recording { inputs, rate } in recordings {
+            let labels = |input: usize| self.hir.inputs[input].fields.iter().map(|(label, _)| label.clone()).collect();
+            let inputs = inputs.iter().map(|&(input, _)| (input as u32, labels(input))).collect();
+            self.program.recordings.push(Recording { activity, inputs, rate: *rate });
+        }
+        activity
     }
 
     fn reactions(&mut self, reactions: &[(Expr, Block)]) -> Addr {

@@ -323,6 +323,7 @@ impl<'a> Lowering<'a> {
             calls: p.calls.len(),
             overlays: p.overlays.len(),
             rules: p.rules.len(),
+            recordings: p.recordings.len(),
             reports: p.reports.len(),
             texts: p.texts.len(),
             memories: p.memories.len(),
@@ -339,6 +340,7 @@ impl<'a> Lowering<'a> {
         p.calls.truncate(mark.calls);
         p.overlays.truncate(mark.overlays);
         p.rules.truncate(mark.rules);
+        p.recordings.truncate(mark.recordings);
         p.reports.truncate(mark.reports);
         p.texts.truncate(mark.texts);
         p.memories.truncate(mark.memories);
@@ -432,6 +434,7 @@ struct Mark {
     calls: usize,
     overlays: usize,
     rules: usize,
+    recordings: usize,
     reports: usize,
     texts: usize,
     memories: usize,

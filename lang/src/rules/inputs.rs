@@ -28,6 +28,8 @@ struct Walk<'a> {
     seen: BTreeSet<usize>,
     /// For each input that is read the first place where it is.
     read: BTreeMap<usize, Read>,
+    /// For each that is recorded the first place where that is said.
+    recorded: BTreeMap<usize, Span>,
     /// Whether it holds anywhere.
     holds: bool,
 }
@@ -46,7 +48,7 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
     let activity = &hir.activities[mission];
     let Some(parts) = &activity.mission else { return Vec::new() };
     let mut findings = computed_first(activity, parts);
-    let Walk { read, holds, .. } = walk(hir, mission);
+    let Walk { read, recorded, holds, .. } = walk(hir, mission);
     let known = |input: &usize| NEVER_OLD.contains(&hir.inputs[*input].name.as_str());
     let mut unrequired = Vec::new();
     for (&input, read) in read.iter().filter(|(input, _)| !known(input)) {
@@ -66,7 +68,8 @@ pub(super) fn check(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
         }
     }
     findings.extend(missing(activity, &unrequired, !parts.requires.is_empty()));
-    for require in parts.requires.iter().filter(|require| !read.contains_key(&require.input)) {
+    let is_used = |input| read.contains_key(input) || recorded.contains_key(input);
+    for require in parts.requires.iter().filter(|require| !is_used(&require.input)) {
         let name = &hir.inputs[require.input].name;
         if BY_THE_MACHINE.contains(&name.as_str()) || holds && BY_HOLD.contains(&name.as_str()) {
             continue;
@@ -127,8 +130,13 @@ pub fn read(hir: &Hir, mission: usize) -> BTreeMap<usize, Span> {
     walk(hir, mission).read.into_iter().filter_map(|(input, read)| Some((input, read.value?))).collect()
 }
 
+/// The inputs that a mission records, with all that it calls, and for each the first place where it says so.
+pub fn recorded(hir: &Hir, mission: usize) -> BTreeMap<usize, Span> {
+    walk(hir, mission).recorded
+}
+
 fn walk(hir: &Hir, mission: usize) -> Walk<'_> {
-    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new(), holds: false };
+    let mut walk = Walk { hir, seen: BTreeSet::new(), read: BTreeMap::new(), recorded: BTreeMap::new(), holds: false };
     walk.activity(mission);
     walk
 }
@@ -192,6 +200,9 @@ impl Walk<'_> {
             }
             true
         });
+        for (input, span) in activity.recordings.iter().flat_map(|recording| &recording.inputs) {
+            self.recorded.entry(*input).or_insert(*span);
+        }
         for decl in &activity.decls {
             if let Decl::With(items) = decl {
                 self.with(items);

@@ -22,7 +22,7 @@ pub use places::{FAR_M, operating_area};
 pub use reports::check as tests_reports;
 pub use swapped::{hemisphere, of_mission as swapped};
 
-pub use inputs::read as inputs_read;
+pub use inputs::{read as inputs_read, recorded as inputs_recorded};
 
 use crate::diagnostic::Diagnostic;
 use crate::hir::Hir;

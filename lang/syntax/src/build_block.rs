@@ -8,6 +8,7 @@ use super::{NESTING_MAX, Rule};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
+use std::iter::Peekable;
 
 /// A block, or the lines of a prompt, which have no braces.
 pub(super) fn block(b: &mut Builder, node: Node) -> Block {
@@ -81,6 +82,7 @@ fn clause(b: &mut Builder, node: Node) -> Option<ClauseKind> {
             within: take(&mut inner, Rule::mod_within).and_then(|p| p.parts().next()).map(|p| expr(b, p)),
             block: block(b, inner.next()?),
         },
+        Rule::recording => recording(b, &mut inner)?,
         Rule::amend => ClauseKind::Amend(block(b, inner.next()?)),
         Rule::abort => ClauseKind::Abort { why: text(b, inner.next()?), on: inner.next().map(|p| cond(b, p)) },
         Rule::finish => ClauseKind::Finish(inner.find(|p| p.rule() == Rule::expr).map(|p| expr(b, p))),
@@ -112,6 +114,11 @@ fn clause(b: &mut Builder, node: Node) -> Option<ClauseKind> {
         Rule::switching => ClauseKind::Rule(switching_rule(b, inner, span)?),
         _ => return None,
     })
+}
+
+fn recording<'a>(b: &mut Builder, inner: &mut Peekable<impl Iterator<Item = Node<'a>>>) -> Option<ClauseKind> {
+    let inputs = std::iter::from_fn(|| take(inner, Rule::name)).map(name).collect();
+    Some(ClauseKind::Recording { inputs, rate: expr(b, inner.next()?) })
 }
 
 fn with_item(b: &mut Builder, node: Node) -> Option<WithItem> {

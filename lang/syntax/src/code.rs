@@ -108,6 +108,7 @@ codes! {
         MissionsLimit = "limit",
         MissionsLimits = "limits",
         MissionsOrigin = "origin",
+        MissionsRecord = "record",
         MissionsRecovery = "recovery",
         MissionsRequires = "requires",
         MissionsTwice = "twice",

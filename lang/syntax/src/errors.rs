@@ -12,10 +12,35 @@ use pest::Parser;
 use pest::error::{Error, ErrorVariant, InputLocation};
 use std::collections::BTreeSet;
 
-/// Whether a line at the left margin begins an item: `vehicle ours {` does, and `vehicle(…)` is a clause of a scenario.
+/// Whether a line at the left margin begins an item: `vehicle ours {` does, and `vehicle(…)` is a clause of a scenario, `record depth at 1 Hz`
+/// one of a mission.
 pub(super) fn line_begins_item(line: &str) -> bool {
-    let word = line.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
-    begins_item(word) && !line[word.len()..].trim_start_matches([' ', '\t']).starts_with('(')
+    let first = habits::word(line);
+    let after = line[first.len()..].trim_start_matches([' ', '\t']);
+    begins_item(first) && !after.starts_with('(') && !(first == "record" && names_inputs(after))
+}
+
+/// Whether what follows on `record` are inputs, and not the name of a type and its fields.
+pub(super) fn names_inputs(after: &str) -> bool {
+    let rest = after[habits::word(after).len()..].trim_start_matches([' ', '\t']);
+    rest.starts_with(',') || habits::word(rest) == "at"
+}
+
+/// `record` says two things: what a mission records, and of what a record is made. Which stands where the other belongs, and what to say.
+fn misplaced_record(place: Place, word: &str, after: &str) -> Option<(&'static str, &'static str)> {
+    let after_name = after[habits::word(after).len()..].trim_start_matches([' ', '\t']);
+    match place {
+        _ if word != "record" => None,
+        Place::Item if names_inputs(after) => Some((
+            "what is recorded is said by a mission, a strategy or a behavior",
+            "move it to the top of one; a type of your own is `record NAME { FIELD: TYPE }`",
+        )),
+        Place::Clause if after_name.starts_with('{') => Some((
+            "a type is declared outside every block",
+            "move it to the left margin; inputs are recorded by `record temperature, salinity at 1 Hz`",
+        )),
+        _ => None,
+    }
 }
 
 /// The names that a text declares, of what is called as a statement or as a value.
@@ -45,6 +70,12 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
     if let Some((end, habit)) = untyped_memory(stretch).or_else(|| nameable(valueless(stretch)?)) {
         let span = Span { file, start: start as u32, end: (start + end) as u32 };
         return Diagnostic::error(Code::SyntaxExpected, span, habit.message.unwrap_or_default()).help(habit.help);
+    }
+    if let Some((message, help)) =
+        misplaced_record(bad.place, &word, stretch[word.len()..].trim_start_matches([' ', '\t']))
+    {
+        let span = Span { file, start: start as u32, end: (start + word.len()) as u32 };
+        return Diagnostic::error(Code::SyntaxMisplaced, span, message).help(help);
     }
     let error = Grammar::parse(rule, stretch).err();
     let offset = error.as_ref().map_or(0, |e| match e.location {

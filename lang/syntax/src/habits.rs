@@ -144,6 +144,9 @@ fn unfinished(before: &str, rest: &str) -> Option<Habit> {
         ("every", _, "") if rest.starts_with('{') => {
             "beside a body it is a reaction, which stands before that: `on every 10 min { … }`; a body does it in a loop: `loop { wait for 10 min; … }`"
         }
+        ("record", _, "every") => "how often is a rate: `record temperature at 0.1 Hz` is every ten seconds",
+        ("record", _, "") if rest.starts_with('.') => "an input is recorded whole: with all that it tells",
+        ("record", last, "") if last != "at" => "say how often: `record temperature, salinity at 1 Hz`",
         ("for", _, "") if rest.starts_with(',') => "a loop names one value: `for x in LIST { … }`",
         ("wait" | "hold" | "keep" | "steer" | "goto" | "loiter", _, "while") => {
             "what lasts while X holds ends when it does not: `until not (X)`"

@@ -242,6 +242,11 @@ pub enum ClauseKind {
         within: Option<Expr>,
         block: Block,
     },
+    /// `record a, b at 1 Hz`.
+    Recording {
+        inputs: Vec<Name>,
+        rate: Expr,
+    },
     Amend(Block),
     Abort {
         why: Expr,

@@ -46,7 +46,7 @@ const WORDS: [Word; 78] = [
     word("use", RESERVED | ITEM | FRESH),
     word("const", RESERVED | ITEM | FRESH | NAMES),
     word("enum", RESERVED | ITEM | NAMES),
-    word("record", RESERVED | ITEM | NAMES | CALLED | ARGUMENTS),
+    word("record", RESERVED | ITEM | CLAUSE | NAMES | CALLED | ARGUMENTS),
     word("unit", ITEM | NAMES),
     word("input", ITEM | NAMES),
     word("fn", RESERVED | ITEM | NAMES | CALLED | ARGUMENTS),

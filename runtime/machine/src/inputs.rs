@@ -7,11 +7,13 @@ use albacore_program::{Input, Program, Slot, senses};
 use albacore_vehicle::measurements::{ALTITUDE, POSITION};
 use albacore_vehicle::{Measurement, Sample, TICK_S};
 
-/// An input that a mission requires and the vehicle does not deliver.
+/// An input that a mission requires or records, and the vehicle does not deliver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissingInput {
     /// The input.
     pub name: String,
+    /// What the mission does with it.
+    pub wanted: &'static str,
     /// What the vehicle delivers.
     pub delivered: Vec<String>,
 }
@@ -20,7 +22,8 @@ impl std::fmt::Display for MissingInput {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             f,
-            "the mission requires `{}`, which this vehicle does not deliver; it delivers {}",
+            "the mission {} `{}`, which this vehicle does not deliver; it delivers {}",
+            self.wanted,
             self.name,
             self.delivered.join(", ")
         )
@@ -31,11 +34,14 @@ impl std::error::Error for MissingInput {}
 
 /// For each measurement of the vehicle the input that reads it.
 pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<Vec<Option<u32>>, MissingInput> {
-    for require in &program.mission.requires {
-        let name = &program.inputs[require.input as usize].name;
+    let required = program.mission.requires.iter().map(|require| (require.input, "requires"));
+    let recorded =
+        program.recordings.iter().flat_map(|recording| &recording.inputs).map(|(input, _)| (*input, "records"));
+    for (input, wanted) in required.chain(recorded) {
+        let name = &program.inputs[input as usize].name;
         if !senses::ALWAYS_THERE.contains(&&**name) && !measurements.iter().any(|c| c.name == *name) {
             let delivered = measurements.iter().map(|c| c.name.clone()).collect();
-            return Err(MissingInput { name: name.clone(), delivered });
+            return Err(MissingInput { name: name.clone(), wanted, delivered });
         }
     }
     let input =

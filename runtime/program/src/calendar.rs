@@ -60,6 +60,16 @@ pub fn written(seconds: f64) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
+/// A date to the nearest tenth of a second: `2026-08-14T05:00:30.2Z`.
+pub fn written_to_tenths(seconds: f64) -> String {
+    let tenths = (seconds * 10.0).round();
+    let whole = (tenths / 10.0).floor();
+    match written(whole).strip_suffix('Z') {
+        Some(text) => format!("{text}.{}Z", tenths - whole * 10.0),
+        None => written(whole),
+    }
+}
+
 fn is_leap(year: i64) -> bool {
     year % 4 == 0 && (year % 100 != 0 || year % 400 == 0)
 }

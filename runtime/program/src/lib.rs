@@ -36,7 +36,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 9;
+pub const PROGRAM_VERSION: u32 = 10;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -51,6 +51,8 @@ pub struct Program {
     pub overlays: Vec<OverlaySite>,
     /// Switching rules, in textual order.
     pub rules: Vec<Rule>,
+    /// What is recorded.
+    pub recordings: Vec<Recording>,
     /// Places that report.
     pub reports: Vec<ReportSite>,
     /// Texts with their holes: of `log` and `abort`.
@@ -118,6 +120,9 @@ pub const LIMIT_PATIENCE_S: f64 = 30.0;
 /// The least limit on the rate of turn, rad/s: a tenth of a degree a second. No vehicle that goes anywhere turns more slowly.
 pub const TURN_RATE_MIN: f64 = 0.1 * (std::f64::consts::PI / 180.0);
 
+/// The most rows of what is recorded in a second: one a tick, Hz.
+pub const RECORD_RATE_MAX: f64 = 1.0 / albacore_vehicle::TICK_S;
+
 /// What no command may exceed: each is code, run at the mission's start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
@@ -158,6 +163,17 @@ pub struct Recovery {
     pub activity: ActivityId,
     /// Its time limit, in ticks.
     pub within: Option<Code>,
+}
+
+/// Inputs that are recorded while an activity is active; what a mission records, to the end of its run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Recording {
+    /// Of which activity.
+    pub activity: ActivityId,
+    /// Indices into [`Program::inputs`], each with the labels of its further fields.
+    pub inputs: Vec<(u32, Vec<String>)>,
+    /// How often, Hz.
+    pub rate: f64,
 }
 
 /// An input of a program.

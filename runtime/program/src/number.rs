@@ -23,6 +23,8 @@ const SMALL: f64 = 1e-3;
 const LIST_ELEMENTS_MAX: usize = 6;
 /// Numbers from here on are printed with an exponent.
 const PLAIN_MAX: f64 = 1e15;
+/// Digits of a number that a program reads: more than any instrument of ours tells.
+const DATA_DIGITS: usize = 9;
 /// What stands for a number that is missing or is none.
 const UNKNOWN: &str = "?";
 
@@ -39,6 +41,17 @@ pub fn fixed(x: f64, decimals: u8) -> String {
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_string(),
         _ => text,
+    }
+}
+
+/// A number for a table of data: to nine digits, without zeros at the end, and with an exponent when it is small or large.
+pub fn digits(x: f64) -> String {
+    let text = format!("{x:.*e}", DATA_DIGITS - 1);
+    let rounded: f64 = text.parse().unwrap_or(x);
+    match rounded.abs() {
+        0.0 => "0".to_string(),
+        size if (SMALL * SMALL..PLAIN_MAX).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
     }
 }
 

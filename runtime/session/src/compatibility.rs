@@ -104,7 +104,7 @@ fn far_zones(script: &Script, mission: &str, scenario: &str, world: &Scenario) -
     world.environment.no_go.iter().filter_map(far).collect()
 }
 
-/// What the mission requires and the vehicle has no sensor for.
+/// What the mission requires or records, and the vehicle has no sensor for.
 fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
     let told = world.measurements();
     let is_told =
@@ -122,7 +122,10 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
         };
         Diagnostic::error(Code::ScenariosWorld, span, message).help(help)
     };
-    script.requirements(mission).into_iter().filter(|(input, _)| !is_told(input)).map(finding).collect()
+    let required = script.requirements(mission);
+    let is_required = |input: &str| required.iter().any(|(other, _)| *other == input);
+    let recorded = script.recorded(mission).into_iter().filter(|(input, _)| !is_required(input));
+    required.iter().copied().chain(recorded).filter(|(input, _)| !is_told(input)).map(finding).collect()
 }
 
 /// A flow that the mission requires, and that the profiler takes for an error.

@@ -61,7 +61,7 @@ impl PastRun {
 
     /// The result; how long it took by the clock is not in the journal.
     pub fn summary(&self) -> Summary {
-        self.memory.results.summary(0.0)
+        self.memory.summary(0.0)
     }
 
     /// The behavior trace.

@@ -5,16 +5,19 @@ pub(crate) mod digest;
 pub(crate) mod expectations;
 pub(crate) mod journal;
 pub(crate) mod notices;
+pub(crate) mod recorded;
 pub(crate) mod results;
 pub(crate) mod trace;
 pub(crate) mod track;
 
 use crate::picture;
 use crate::plan::Plan;
+use crate::summary::Summary;
 use albacore_geometry::Point;
 use albacore_trace::TickRecord;
 use albacore_vehicle::{Measurement, Snapshot};
 use notices::Notices;
+use recorded::Recorded;
 use results::Results;
 use trace::Trace;
 use track::Track;
@@ -59,18 +62,38 @@ impl<R: Recorder> Recorder for Option<R> {
 pub struct RunFile {
     /// What it is called in the run's folder.
     pub name: &'static str,
-    /// Whether it is SVG, HTML or the like; else its lines stand for themselves.
-    pub is_markup: bool,
+    /// What it holds.
+    pub form: Form,
+    /// Whether a run leaves it.
+    pub(crate) is_left: fn(&InMemory) -> bool,
     pub(crate) make: fn(&InMemory, &WorldAtEnd) -> String,
+}
+
+/// What a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Lines that stand for themselves.
+    Lines,
+    /// SVG, HTML or the like.
+    Markup,
+    /// Rows of numbers, among which nothing else may stand.
+    Table,
 }
 
 /// What the mission did.
 pub const TRACE: RunFile =
-    RunFile { name: "trace.txt", is_markup: false, make: |run, _| run.trace.lines().to_string() };
+    RunFile { name: "trace.txt", form: Form::Lines, is_left: |_| true, make: |run, _| run.trace.lines().to_string() };
 /// Where it went.
-pub const PICTURE: RunFile = RunFile { name: "run.svg", is_markup: true, make: picture::of_run };
+pub const PICTURE: RunFile = RunFile { name: "run.svg", form: Form::Markup, is_left: |_| true, make: picture::of_run };
+/// What it recorded.
+pub const RECORDED: RunFile = RunFile {
+    name: "recorded.csv",
+    form: Form::Table,
+    is_left: |run| run.recorded.is_wanted(),
+    make: |run, _| run.recorded.text().to_string(),
+};
 /// All of them, in the order in which they are written.
-pub const RUN_FILES: [RunFile; 2] = [TRACE, PICTURE];
+pub const RUN_FILES: [RunFile; 3] = [TRACE, PICTURE, RECORDED];
 
 /// What is known of the world in which a run has ended, beside the records.
 #[derive(Default)]
@@ -85,6 +108,7 @@ pub(crate) struct InMemory {
     pub results: Results,
     pub trace: Trace,
     pub track: Track,
+    pub recorded: Recorded,
     pub notices: Notices,
 }
 
@@ -95,8 +119,16 @@ impl InMemory {
             results: Results::new(plan, seed, start),
             trace: Trace::new(plan, seed, measurements),
             track: Track::new(plan, measurements),
+            recorded: Recorded::new(plan, measurements),
             notices: Notices::default(),
         }
+    }
+
+    /// The result; `wall_s` is measured by who ran it.
+    pub fn summary(&self, wall_s: f64) -> Summary {
+        let (rows, left_out) = self.recorded.rows();
+        let recorded_rows = self.recorded.is_wanted().then_some(rows);
+        Summary { recorded_rows, recorded_rows_left_out: left_out, ..self.results.summary(wall_s) }
     }
 }
 
@@ -105,6 +137,7 @@ impl Recorder for InMemory {
         self.results.take(record);
         self.trace.take(record);
         self.track.take(record);
+        self.recorded.take(record);
         self.notices.take(record);
     }
 
@@ -112,13 +145,14 @@ impl Recorder for InMemory {
         self.results.miss(steps, tick);
         self.trace.miss(steps, tick);
         self.track.miss(steps, tick);
+        self.recorded.miss(steps, tick);
         self.notices.miss(steps, tick);
     }
 }
 
 /// What is said of steps that were not taken in.
 fn missed(steps: u64) -> String {
-    format!("{steps} ticks before this are not in trace and picture: the host was too slow")
+    format!("{steps} ticks before this are not in trace, picture and what is recorded: the host was too slow")
 }
 
 /// A measurement of the vehicle by its name.

@@ -8,7 +8,7 @@ mod queue;
 
 use crate::plan::{Plan, PlanError};
 use crate::recorders::journal::Journal;
-use crate::recorders::{InMemory, Recorder, RunFile, WorldAtEnd};
+use crate::recorders::{InMemory, RUN_FILES, Recorder, RunFile, WorldAtEnd};
 use crate::run_vehicle::RunVehicle;
 use crate::summary::Summary;
 use albacore_geometry::Point;
@@ -167,13 +167,18 @@ impl Run {
 
     /// The result; `wall_s` is measured by who ran it.
     pub fn summary(&self, wall_s: f64) -> Summary {
-        let summary = self.memory.results.summary(wall_s);
+        let summary = self.memory.summary(wall_s);
         Summary { digest: format!("{:016x}", self.driver.digest()), ..summary }
     }
 
     /// The behavior trace so far.
     pub fn trace(&self) -> &BehaviorTrace {
         self.memory.trace.lines()
+    }
+
+    /// The files that it leaves, in the order in which they are written.
+    pub fn files(&self) -> impl Iterator<Item = &'static RunFile> {
+        RUN_FILES.iter().filter(|file| (file.is_left)(&self.memory))
     }
 
     /// One of the files that a run leaves, of the run so far.

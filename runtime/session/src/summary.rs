@@ -34,6 +34,12 @@ pub struct Summary {
     /// How many reports there were beside those that are listed: of very many only the first are.
     #[serde(skip_serializing_if = "is_zero")]
     pub more_reports: u64,
+    /// How many rows were recorded, by a mission that records anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recorded_rows: Option<u64>,
+    /// How many rows there were beyond what is kept of them.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub recorded_rows_left_out: u64,
     /// The digest of the full-rate run.
     pub digest: String,
 }

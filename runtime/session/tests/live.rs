@@ -3,7 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot set up its own run has failed")]
 
 use albacore_machine::Machine;
-use albacore_session::{LiveOptions, LiveRun, LiveUpdate, Outcome, PICTURE, Plan, Run, Sink, WAITING_BYTES, load};
+use albacore_session::{
+    LiveOptions, LiveRun, LiveUpdate, Outcome, PICTURE, Plan, RECORDED, Run, Sink, Source, WAITING_BYTES, load_text,
+};
 use albacore_sim::Simulator;
 use albacore_trace::journal::{Ending, Journal};
 use albacore_vehicle::{Command, Measurement, Snapshot, Vehicle, VehicleError};
@@ -14,7 +16,12 @@ use std::sync::{Arc, Condvar, Mutex};
 
 fn plan() -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions/box.alb");
-    let script = load(&path, None, &[]).unwrap();
+    let text = std::fs::read_to_string(path).unwrap().replacen(
+        "    limits {",
+        "    record depth, heading at 2 Hz\n    limits {",
+        1,
+    );
+    let script = load_text(Source { name: "box.alb".into(), text: text.into() });
     Plan::new(&script, "box.alb", None, None).unwrap()
 }
 
@@ -164,6 +171,8 @@ fn a_live_run_leaves_the_same_bytes_as_one_that_is_stepped() {
     assert_eq!(lived.run.trace().to_string(), by_step.trace().to_string());
     assert_eq!(lived.run.summary(0.0), by_step.summary(0.0));
     assert_eq!(lived.run.file(&PICTURE), by_step.file(&PICTURE));
+    assert_eq!(lived.run.file(&RECORDED), by_step.file(&RECORDED));
+    assert!(lived.run.summary(0.0).recorded_rows.is_some_and(|rows| rows > 100));
 }
 
 #[test]

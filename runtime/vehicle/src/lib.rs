@@ -6,6 +6,7 @@
 mod limits;
 pub mod measurements;
 mod quantity;
+pub mod rate;
 mod truth;
 
 pub use limits::{Beyond, LimitWatch, Limits};

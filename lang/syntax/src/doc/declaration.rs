@@ -89,8 +89,8 @@ fn activity(a: &Activity, span: Span, written: &Written, comments: &mut Comments
 
 /// What a mission says before it does anything.
 fn is_term(kind: &ClauseKind) -> bool {
-    use ClauseKind::{Area, Limits, Recovery, Requires};
-    matches!(kind, Area { .. } | Limits(_) | Requires(_) | Recovery { .. })
+    use ClauseKind::{Area, Limits, Recording, Recovery, Requires};
+    matches!(kind, Area { .. } | Limits(_) | Requires(_) | Recovery { .. } | Recording { .. })
 }
 
 fn behaviors(body: &Block, comments: &mut Comments) -> Vec<Behavior> {

@@ -158,6 +158,8 @@ impl Results {
             switches: self.switches,
             reports: self.reports.listed.clone(),
             more_reports: self.reports.more,
+            recorded_rows: None,
+            recorded_rows_left_out: 0,
             digest: self.ending.as_ref().map(|ending| format!("{:016x}", ending.digest)).unwrap_or_default(),
         }
     }

@@ -12,6 +12,7 @@ mod library;
 mod noise;
 mod profiler;
 mod recorded;
+mod recording;
 mod sounding;
 mod station;
 mod watch;

@@ -12,7 +12,6 @@ mod fluorometer;
 mod onboard;
 mod positioning;
 mod pressure;
-mod rate;
 mod sounder;
 
 pub use adcp::{Adcp, Looks};

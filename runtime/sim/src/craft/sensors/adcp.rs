@@ -1,13 +1,13 @@
 //! The acoustic Doppler current profiler, which looks up and down by turns, and the flow estimate fed by it.
 
 use super::delay::Delay;
-use super::rate::{is_due, sample};
 use super::{Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
 use albacore_geometry::{Heading, Vector};
 use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::FLOW;
+use albacore_vehicle::rate::{is_due, sample};
 use serde::Deserialize;
 
 /// The flow sensor: an acoustic Doppler current profiler that looks up and down by turns. Its defaults are those of the

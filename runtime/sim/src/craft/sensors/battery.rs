@@ -1,10 +1,10 @@
 //! The battery: what it says is left in it.
 
-use super::rate::is_due;
 use super::{Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::BATTERY;
+use albacore_vehicle::rate::is_due;
 use serde::Deserialize;
 
 /// The gauge of the battery's charge.

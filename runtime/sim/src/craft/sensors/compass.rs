@@ -2,10 +2,10 @@
 
 use super::EVERY_TICK;
 use super::delay::Delay;
-use super::rate::is_due;
 use crate::noise::{Noise, Stream};
 use albacore_geometry::Heading;
 use albacore_geometry::math::cos;
+use albacore_vehicle::rate::is_due;
 use serde::Deserialize;
 
 /// The compass: its error turns heading, course, dead reckoning and the flow estimate alike.

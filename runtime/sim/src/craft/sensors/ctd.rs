@@ -1,11 +1,11 @@
 //! The CTD: the temperature of the water about the vehicle, and its salinity.
 
 use super::delay::Delay;
-use super::rate::is_due;
 use super::{Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::{SALINITY, TEMPERATURE};
+use albacore_vehicle::rate::is_due;
 use serde::Deserialize;
 
 /// The CTD: conductivity and temperature, and the practical salinity that is derived from them and the pressure.

@@ -2,9 +2,9 @@
 
 use super::EVERY_TICK;
 use super::delay::Delay;
-use super::rate::is_due;
 use crate::noise::{Noise, Stream};
 use albacore_geometry::{Heading, Vector};
+use albacore_vehicle::rate::is_due;
 use serde::Deserialize;
 
 /// The Doppler log, which tells speed and course over ground.

@@ -1,10 +1,10 @@
 //! The pressure gauge: how deep the vehicle is, by the weight of the water over it.
 
 use super::delay::Delay;
-use super::rate::is_due;
 use super::{EVERY_TICK, Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
 use albacore_vehicle::measurements::DEPTH;
+use albacore_vehicle::rate::is_due;
 use albacore_vehicle::{Snapshot, Truth};
 use serde::Deserialize;
 

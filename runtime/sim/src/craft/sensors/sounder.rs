@@ -1,12 +1,12 @@
 //! The echo sounder: how far the bottom is, where it hears an echo.
 
 use super::delay::Delay;
-use super::rate::is_due;
 use super::{EVERY_TICK, Instrument, InstrumentSetup, Surroundings};
 use crate::noise::{Noise, Stream};
 use crate::scenario::{ScenarioIssues, number};
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::{ALTITUDE, DEPTH, WATER_DEPTH};
+use albacore_vehicle::rate::is_due;
 use serde::Deserialize;
 
 /// The echo sounder: the height above the bottom, and with the vehicle's depth that of the water.

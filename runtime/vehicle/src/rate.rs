@@ -1,17 +1,17 @@
-//! When an instrument takes its samples.
+//! When something is done that is done so many times a second: an instrument's samples, the rows of what is recorded.
 
-use albacore_vehicle::TICK_S;
+use crate::TICK_S;
 
 /// A sample that falls on a tick belongs to it, whatever the rounding of its time.
 const TOLERANCE: f64 = 1e-9;
 
 /// How manieth sample it is that falls on a tick or between it and the one before.
-pub(super) fn sample(rate: f64, tick: u64) -> u64 {
+pub fn sample(rate: f64, tick: u64) -> u64 {
     (tick as f64 * (rate * TICK_S) + TOLERANCE).floor() as u64
 }
 
 /// Whether a sample of an instrument with so many a second, ten at most, falls on a tick or between it and the one before.
-pub(super) fn is_due(rate: f64, tick: u64) -> bool {
+pub fn is_due(rate: f64, tick: u64) -> bool {
     tick == 0 || sample(rate, tick) > sample(rate, tick - 1)
 }
 

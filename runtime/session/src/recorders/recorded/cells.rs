@@ -1,0 +1,102 @@
+//! The cells of a table of what is recorded: numbers in the units that its head names. None begins with what a spreadsheet would compute.
+
+use albacore_geometry::{Heading, Point, TangentFrame};
+use albacore_program::{Input, Shape, calendar, number, senses};
+use albacore_vehicle::{Reading, measurements};
+
+/// Digits of a degree of latitude and longitude behind the point: a centimetre.
+const GLOBE_DECIMALS: u8 = 7;
+/// Digits of a metre of a position.
+const PLACE_DECIMALS: u8 = 2;
+
+/// The head of the columns that every table has.
+pub fn standing(has_utc: bool, on_globe: bool) -> String {
+    let utc = if has_utc { ",utc" } else { "" };
+    let globe = if on_globe { ",latitude (deg),longitude (deg)" } else { "" };
+    format!("time (s){utc},north (m),east (m){globe},depth (m)")
+}
+
+/// Adds the head of an input's columns; `labels` are those of its further fields. What stands beside every row is not told twice: of a
+/// position only its fields are added.
+pub fn head(line: &mut String, input: &Input, labels: &[String], on_globe: bool) {
+    if !is_beside(&input.name) {
+        names(line, &input.name, &input.shape, on_globe);
+    }
+    for (label, shape) in labels.iter().zip(&input.fields) {
+        names(line, &format!("{}.{label}", input.name), shape, on_globe);
+    }
+}
+
+/// Adds the cells of an input's columns, which are empty without a sample.
+pub fn cells(line: &mut String, input: &Input, sample: Option<Reading>, frame: Option<TangentFrame>) {
+    let own = (!is_beside(&input.name)).then_some(&input.shape);
+    let mut at = if own.is_some() { 0 } else { input.shape.words() as usize };
+    for shape in own.into_iter().chain(&input.fields) {
+        let words = sample.as_ref().and_then(|reading| reading.get(at..at + shape.words() as usize));
+        values(line, shape, words, frame);
+        at += shape.words() as usize;
+    }
+}
+
+/// Adds a place, where it is known.
+pub fn place(line: &mut String, place: Option<Point>, frame: Option<TangentFrame>) {
+    let told = |number: Option<f64>, decimals| number.map(|x| number::fixed(x, decimals)).unwrap_or_default();
+    put(line, &told(place.map(|p| p.north), PLACE_DECIMALS));
+    put(line, &told(place.map(|p| p.east), PLACE_DECIMALS));
+    if let Some(frame) = frame {
+        let globe = place.map(|p| frame.to_geodetic(p));
+        put(line, &told(globe.map(|g| g.latitude_deg()), GLOBE_DECIMALS));
+        put(line, &told(globe.map(|g| g.longitude_deg()), GLOBE_DECIMALS));
+    }
+}
+
+/// Adds a cell that holds no comma.
+pub fn put(line: &mut String, cell: &str) {
+    line.push(',');
+    line.push_str(cell);
+}
+
+/// The time of a tick, s.
+pub fn seconds(tick: u64) -> String {
+    number::seconds(tick).trim_end_matches(" s").trim_start().to_string()
+}
+
+/// Whether an input stands beside every row.
+fn is_beside(name: &str) -> bool {
+    [senses::POSITION, senses::DEPTH, measurements::name(measurements::UTC)].contains(&name)
+}
+
+fn names(line: &mut String, name: &str, shape: &Shape, on_globe: bool) {
+    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    match shape {
+        Shape::Quantity(display) => put(line, &format!("{name}{}", unit(&display.unit))),
+        Shape::Heading => put(line, &format!("{name} (deg)")),
+        Shape::Depth | Shape::Altitude => put(line, &format!("{name} (m)")),
+        Shape::Vector(display) => {
+            ["north", "east"].iter().for_each(|axis| put(line, &format!("{name}.{axis}{}", unit(&display.unit))));
+        }
+        Shape::Point => {
+            ["north", "east"].iter().for_each(|axis| put(line, &format!("{name}.{axis} (m)")));
+            let globe: &[&str] = if on_globe { &["latitude", "longitude"] } else { &[] };
+            globe.iter().for_each(|axis| put(line, &format!("{name}.{axis} (deg)")));
+        }
+        _ => put(line, name),
+    }
+}
+
+fn values(line: &mut String, shape: &Shape, words: Option<&[f64]>, frame: Option<TangentFrame>) {
+    let count = if matches!(shape, Shape::Vector(_)) { 2 } else { 1 };
+    let cells = match (shape, words) {
+        (Shape::Point, words) => return place(line, words.map(|words| Point::new(words[0], words[1])), frame),
+        (_, None) => vec![String::new(); count],
+        (Shape::Quantity(display) | Shape::Vector(display), Some(words)) => {
+            words.iter().map(|x| number::digits(x / display.scale)).collect()
+        }
+        (Shape::Heading, Some(words)) => vec![number::digits(Heading::from_radians(words[0]).degrees())],
+        (Shape::Depth | Shape::Altitude | Shape::Int, Some(words)) => vec![number::digits(words[0])],
+        (Shape::Date, Some(words)) => vec![calendar::written_to_tenths(words[0])],
+        (Shape::Bool | Shape::Enum(_), Some(words)) => vec![number::value(shape, words)],
+        (_, Some(words)) => vec![format!("\"{}\"", number::value(shape, words).replace('"', "\"\""))],
+    };
+    cells.iter().for_each(|cell| put(line, cell));
+}

@@ -1,0 +1,87 @@
+use super::*;
+use albacore_program::{Display, Mission, Recording, Shape};
+use albacore_trace::Step;
+use albacore_vehicle::{Sample, Snapshot};
+
+/// A mission, activity 0, that records warmth and depth at 1 Hz, and a behavior in it, activity 1, that records warmth at 5 Hz.
+fn recorded(most: usize) -> Recorded {
+    let degrees = Shape::Quantity(Display { unit: "degC".to_string(), scale: 1.0, decimals: 2 });
+    let input = |name: &str, shape: Shape| {
+        let width = shape.words();
+        Input { name: name.to_string(), at: 0, width, kept: 0, shape, fields: Vec::new() }
+    };
+    let program = Program {
+        inputs: vec![input("depth", Shape::Depth), input("temperature", degrees)],
+        recordings: vec![
+            Recording { activity: 0, inputs: vec![(1, Vec::new()), (0, Vec::new())], rate: 1.0 },
+            Recording { activity: 1, inputs: vec![(1, Vec::new())], rate: 5.0 },
+        ],
+        mission: Mission { activity: 0, ..Mission::default() },
+        ..Program::default()
+    };
+    let measurement = |name: &str| Measurement { name: name.to_string(), width: 1 };
+    Recorded::of(Arc::new(program), None, &[measurement("depth"), measurement("temperature")], most)
+}
+
+/// A tick with these samples: each a measurement and its number.
+fn tick(tick: u64, active: &[ActivityId], samples: &[(u16, f64)]) -> TickRecord {
+    let samples = samples.iter().map(|&(measurement, x)| Sample { measurement, reading: [x, 0.0, 0.0, 0.0] });
+    let snapshot = Snapshot { samples: samples.collect(), ..Snapshot::default() };
+    TickRecord { tick, step: Step::Tick, snapshot, active: active.to_vec(), ..TickRecord::default() }
+}
+
+const HEAD: &str = "time (s),north (m),east (m),depth (m),temperature (degC)\n";
+
+#[test]
+fn a_cell_holds_what_came_since_it_was_due_last() {
+    let mut recorded = recorded(1000);
+    // Nothing is recorded before the mission has begun; the sensor falls silent after 1 s.
+    for at in 0..=30 {
+        let warmth = if at <= 10 { vec![(0, 2.0), (1, at as f64 / 10.0)] } else { vec![(0, 2.0)] };
+        recorded.take(&tick(at, if at == 0 { &[] } else { &[0] }, &warmth));
+    }
+    assert_eq!(recorded.text(), format!("{HEAD}1.0,,,2,1\n2.0,,,2,\n3.0,,,2,\n"));
+}
+
+#[test]
+fn what_is_recorded_at_two_rates_stands_in_one_row() {
+    let mut recorded = recorded(1000);
+    (0..=10).for_each(|at| recorded.take(&tick(at, &[0, 1], &[(1, at as f64)])));
+    let rows = "0.0,,,,0\n0.2,,,,2\n0.4,,,,4\n0.6,,,,6\n0.8,,,,8\n1.0,,,,10\n";
+    assert_eq!(recorded.text(), format!("{HEAD}{rows}"));
+}
+
+#[test]
+fn a_mission_records_in_its_recovery_too_and_a_behavior_while_it_is_active() {
+    let mut recorded = recorded(1000);
+    (1..=10).for_each(|at| recorded.take(&tick(at, &[2], &[(1, at as f64)])));
+    assert_eq!(recorded.text(), format!("{HEAD}1.0,,,,10\n"));
+}
+
+/// A sample that is withheld, or that no value of its input can be, has not come: as for the mission.
+#[test]
+fn what_no_input_takes_is_not_recorded() {
+    let mut recorded = recorded(1000);
+    let mut record = tick(10, &[0], &[(1, 7.0), (1, 1e200), (1, f64::NAN), (1, 9.0), (9, 9.0)]);
+    record.snapshot.samples[3].withhold();
+    recorded.take(&record);
+    assert_eq!(recorded.text(), format!("{HEAD}1.0,,,,7\n"));
+}
+
+/// Place and depth are as old as limits take them to be, at most.
+#[test]
+fn a_depth_beside_a_row_grows_old() {
+    let mut recorded = recorded(1000);
+    recorded.take(&tick(5, &[0], &[(0, 3.5)]));
+    (6..=60).for_each(|at| recorded.take(&tick(at, &[0], &[])));
+    let rows: Vec<&str> = recorded.text().lines().skip(1).collect();
+    assert_eq!(rows, ["1.0,,,3.5,", "2.0,,,3.5,", "3.0,,,3.5,", "4.0,,,3.5,", "5.0,,,3.5,", "6.0,,,,"]);
+}
+
+#[test]
+fn a_full_table_says_how_many_rows_it_lacks() {
+    let rows = "1.0,,,,\n2.0,,,,\n";
+    let mut recorded = recorded(HEAD.len() + rows.len());
+    (1..=50).for_each(|at| recorded.take(&tick(at, &[0], &[])));
+    assert_eq!((recorded.text(), recorded.rows()), (&*format!("{HEAD}{rows}"), (2, 3)));
+}
