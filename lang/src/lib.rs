@@ -291,6 +291,11 @@ impl Script {
         recorded.into_iter().map(|(input, span)| (self.hir.inputs[input].name.as_str(), span)).collect()
     }
 
+    /// What a mission asks of payloads, such as `camera.start`, each with the place where it does so first.
+    pub fn asked(&self, mission: &str) -> Vec<(String, source::Span)> {
+        self.mission_id(mission).map(|id| self.hir.asks(id)).unwrap_or_default().into_iter().collect()
+    }
+
     /// The checked program, its types, and where a mission stands in it.
     pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
         let id = self.mission_id(mission)?;

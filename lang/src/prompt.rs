@@ -455,7 +455,12 @@ fn declared(item: &tree::Item) -> Vec<String> {
     match item {
         Use(paths) => paths.iter().filter_map(|p| p.parts.last()).map(|p| p.node.clone()).collect(),
         Const(c) => vec![c.name.node.clone()],
-        Enum { name, .. } | Record { name, .. } | Unit { name, .. } | Input { name, .. } | Clause { name, .. } => {
+        Enum { name, .. }
+        | Record { name, .. }
+        | Unit { name, .. }
+        | Input { name, .. }
+        | Clause { name, .. }
+        | Payload { name, .. } => {
             vec![name.node.clone()]
         }
         Signal { name, .. } | Scenario { name, .. } | Vehicle { name, .. } => vec![name.node.clone()],

@@ -49,6 +49,9 @@ pub fn compare(script: &Script, mission: &str, vehicle: &mut dyn Vehicle, ticks_
             run.difference = Some(format!("tick {}: {steps} steps, and at most {most} were foretold", run.ticks));
             return run;
         }
+        for (id, action) in machine.requests() {
+            vehicle.ask(id, action).expect("a question taken");
+        }
         run.events.extend(events);
         if let Some(command) = command {
             vehicle.command(&command).expect("a command taken");

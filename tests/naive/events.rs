@@ -1,7 +1,7 @@
 //! What the machine says of a tick, in the words of the evaluator: names for numbers, and values to the last bit.
 
 use crate::evaluator::exactly;
-use albacore_machine::Event;
+use albacore_machine::{Event, Heard};
 use albacore_program::{Body, Program, Shape};
 
 /// One line an event.
@@ -66,6 +66,10 @@ fn line(p: &Program, event: &Event) -> String {
         Event::BottomFound => "bottom found".to_string(),
         Event::Restless(rule) => format!("restless {}", p.rules[*rule as usize].place),
         Event::Settled => "settled".to_string(),
+        Event::Asked(action) => format!("ask {}", p.asks[*action as usize]),
+        Event::Answered(action, Heard::Value(value)) => format!("answer {} {value}", p.asks[*action as usize]),
+        Event::Answered(action, Heard::Refused) => format!("answer {} refused", p.asks[*action as usize]),
+        Event::Answered(action, Heard::Nothing) => format!("answer {} none", p.asks[*action as usize]),
         Event::Ended(outcome) => format!("end {}", outcome.name()),
     }
 }

@@ -3,7 +3,7 @@
 use crate::random::Random;
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::{
-    Command, Control, Measurement, Snapshot, TICK_S, Vehicle, VehicleError, Vertical, measurements,
+    Answer, Command, Control, Measurement, Snapshot, TICK_S, Vehicle, VehicleError, Vertical, measurements,
 };
 
 /// So much faster than life: what takes minutes at sea takes some dozens of ticks.
@@ -46,6 +46,9 @@ pub struct Chance {
     /// How it ends, if by the vehicle, and when.
     end: Option<(u64, Control)>,
     first_driven: u64,
+    /// What its payload will answer, and in which tick.
+    answers: Vec<(u64, Answer)>,
+    whim: Random,
 }
 
 impl Chance {
@@ -77,6 +80,8 @@ impl Chance {
             suspended: 0,
             end,
             first_driven: 1 + random.bits() % 3,
+            answers: Vec::new(),
+            whim: Random::new(seed, 3),
             random,
         }
     }
@@ -110,6 +115,9 @@ impl Vehicle for Chance {
 
     fn sense(&mut self, snapshot: &mut Snapshot) -> Result<(), VehicleError> {
         snapshot.samples.clear();
+        snapshot.answers.clear();
+        let come = self.answers.iter().filter(|(tick, _)| *tick == self.tick);
+        snapshot.answers.extend(come.map(|(_, answer)| *answer));
         self.live();
         let mut say = |vehicle: &mut Self, measurement: u16, numbers: &[f64]| {
             if vehicle.tick >= vehicle.silent[usize::from(measurement)] {
@@ -164,6 +172,19 @@ impl Vehicle for Chance {
 
     fn command(&mut self, command: &Command) -> Result<(), VehicleError> {
         self.command = *command;
+        Ok(())
+    }
+
+    /// One in five is never answered, and some are answered twice, or by what nobody asked.
+    fn ask(&mut self, id: u64, _: &str) -> Result<(), VehicleError> {
+        let value = [Some(true), Some(false), None][self.whim.below(3)];
+        let at = self.tick + self.whim.bits() % 12;
+        match self.whim.below(10) {
+            0 | 1 => {}
+            2 => self.answers.extend([(at, Answer { id, value }), (at + 1, Answer { id, value: None })]),
+            3 => self.answers.extend([(at, Answer { id: id + 7, value }), (at, Answer { id, value })]),
+            _ => self.answers.push((at, Answer { id, value })),
+        }
         Ok(())
     }
 

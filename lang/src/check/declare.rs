@@ -185,6 +185,7 @@ impl<'t> Checker<'t> {
                 self.hir.inputs.push(hir::Input { name: name.node.clone(), ty: Type::Unknown, fields, places });
                 self.define(m, name, Def::Input(self.hir.inputs.len() - 1));
             }
+            Item::Payload { name, actions } => self.declare_payload(m, name, actions),
             Item::Clause { name, result, of_vehicle, .. } => {
                 let kind = result.as_ref().and_then(|ty| match &ty.kind {
                     TyKind::Named { path, .. } => Some(path.text()),
@@ -268,6 +269,7 @@ impl<'t> Checker<'t> {
                     self.hir.inputs[id].places = places;
                 }
             }
+            Item::Payload { actions, .. } => self.payload_answers(m, actions),
             _ => {}
         }
     }

@@ -106,7 +106,9 @@ fn finishes(block: &Block, hir: &Hir, known: &mut Known) -> bool {
 fn endless(timed: &Timed, hir: &Hir, known: &mut Known) -> bool {
     match &timed.action {
         _ if timed.duration.is_some() || timed.until.is_some() || timed.within.is_some() => false,
-        Action::Guide(..) | Action::Keep(..) | Action::Watch | Action::Override(_) => flow::endless(timed),
+        Action::Guide(..) | Action::Keep(..) | Action::Watch | Action::Override(_) | Action::Ask(..) => {
+            flow::endless(timed)
+        }
         Action::Call(id, _) => !can_end(*id, hir, known),
     }
 }

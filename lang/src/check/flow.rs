@@ -101,7 +101,7 @@ pub(super) fn endless(timed: &Timed) -> bool {
     }
     match &timed.action {
         Action::Guide(guide, args) => !guidance_ends(*guide, args),
-        Action::Call(..) => false,
+        Action::Call(..) | Action::Ask(..) => false,
         Action::Keep(..) | Action::Watch => true,
         // Whoever reads its end hears that control was taken back, and goes on.
         Action::Override(o) => timed.result.is_none() && leaves(&o.block),

@@ -22,7 +22,9 @@ impl<'t> Checker<'t> {
     fn hides_nothing(&mut self, item: &Item) {
         match item {
             Item::Const(c) => self.hides_no_value(&c.name),
-            Item::Input { name, .. } | Item::Signal { name, .. } => self.hides_no_value(name),
+            Item::Input { name, .. } | Item::Signal { name, .. } | Item::Payload { name, .. } => {
+                self.hides_no_value(name)
+            }
             Item::Enum { name, variants } => {
                 self.hides_no_type(name);
                 variants.iter().for_each(|variant| self.hides_no_value(variant));

@@ -29,6 +29,7 @@ mod names;
 mod operators;
 mod overlay;
 mod params;
+mod payload;
 mod plausibility;
 mod recording;
 mod records;
@@ -106,6 +107,7 @@ enum Def {
     Activity(usize),
     Scenario(usize),
     Vehicle(usize),
+    Payload(usize),
 }
 
 impl Def {
@@ -115,7 +117,7 @@ impl Def {
 
     /// A value may have the same name: one before `(` is looked up among what can be called, any other among values.
     fn shares_its_name(&self) -> bool {
-        self.can_be_called() || matches!(self, Def::Scenario(_) | Def::Vehicle(_))
+        self.can_be_called() || matches!(self, Def::Scenario(_) | Def::Vehicle(_) | Def::Payload(_))
     }
 
     fn what(&self) -> &'static str {
@@ -132,6 +134,7 @@ impl Def {
             Def::Activity(_) => "a behavior, strategy, overlay or mission",
             Def::Scenario(_) => "a scenario",
             Def::Vehicle(_) => "a vehicle",
+            Def::Payload(_) => "a payload",
         }
     }
 }

@@ -296,9 +296,9 @@ impl<'t> Checker<'t> {
         let module = self.scope.module;
         let modules = (0..self.modules.len()).filter(move |&m| m == module || self.modules[m].prelude);
         let values = modules.flat_map(|m| {
-            self.names[m]
-                .iter()
-                .filter(|(_, d)| !matches!(d, Def::Scenario(_) | Def::Vehicle(_) | Def::Clause(_) | Def::Unit(_)))
+            self.names[m].iter().filter(|(_, d)| {
+                !matches!(d, Def::Scenario(_) | Def::Vehicle(_) | Def::Payload(_) | Def::Clause(_) | Def::Unit(_))
+            })
         });
         self.scope.visible.names().chain(values.map(|(n, _)| n.as_str()))
     }

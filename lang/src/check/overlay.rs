@@ -18,9 +18,18 @@ impl<'t> Checker<'t> {
         let mut foreign = BTreeMap::new();
         let mut aborts = First::new(hir, own_abort);
         let mut firsts = Firsts::default();
+        let mut records = First::new(hir, own_record);
         for &id in &self.overlay_ids.clone() {
             let overlay = &hir.activities[id];
             let kind = overlay.kind;
+            if let Some(place) = records.of(id) {
+                let finding = Diagnostic::error(Code::MissionsRecord, place, "what an overlay calls records nothing");
+                self.report(
+                    finding
+                        .label(overlay.span, "this overlay")
+                        .help("move it to the mission, or to the behavior beside which the overlay runs"),
+                );
+            }
             let known =
                 foreign.entry(kind).or_insert_with(|| First::new(hir, move |activity| first_foreign(activity, kind)));
             let has_foreign = self.foreign_in(hir, id, known);
@@ -179,6 +188,11 @@ fn own_abort(activity: &hir::Activity) -> Option<Span> {
     rule.or_else(|| activity.body.first(|stmt| matches!(stmt.kind, StmtKind::Abort(_))))
 }
 
+/// The first place where an activity says by itself what is recorded.
+fn own_record(activity: &hir::Activity) -> Option<Span> {
+    activity.recordings.iter().find_map(|recording| recording.inputs.first()).map(|(_, span)| *span)
+}
+
 /// What comes first of what takes time.
 #[derive(Clone, Copy)]
 enum FirstTimed {
@@ -269,7 +283,7 @@ fn is_foreign(stmt: &hir::Stmt, kind: Kind) -> bool {
     let is_foreign = match &timed.action {
         hir::Action::Keep(kept, _) => kind != Kind::Sets(kept.row().axis),
         hir::Action::Guide(guide, _) => !guide.law().is_for_overlays,
-        hir::Action::Call(..) => false,
+        hir::Action::Call(..) | hir::Action::Ask(..) => false,
         hir::Action::Watch | hir::Action::Override(_) => true,
     };
     is_foreign || !timed.at.is_empty()

@@ -62,7 +62,10 @@ impl<'t> Checker<'t> {
                     .help("write `until X` with `within T` to cut it off, or `until X or after T`"),
             );
         }
-        let (action, ends, result_ty) = self.action(&timed.action, timed.span)?;
+        let (action, ends, result_ty) = match &timed.action {
+            tree::Action::Ask(ask) => (self.ask(ask, timed)?, true, None),
+            action => self.action(action, timed.span)?,
+        };
         let duration = timed.duration.as_ref().map(|e| self.duration(e, "the time after `for`"));
         let within = timed.within.as_ref().map(|e| self.duration(e, "the time after `within`"));
         if let (tree::Action::Wait | tree::Action::Watch, Some(first)) = (&timed.action, timed.at.first()) {
@@ -82,11 +85,12 @@ impl<'t> Checker<'t> {
                 (Action::Call(..), Some(ty)) if is_bounded => ty.optional(),
                 (Action::Call(..), Some(ty)) => ty,
                 (Action::Override(_), _) => self.override_end(),
+                (Action::Ask(..), _) => self.answer_type(),
                 _ => Type::Bool,
             };
             self.bound_outcome(name, ty, found)
         });
-        if within.is_some() && result.is_none() && !matches!(action, Action::Override(_)) {
+        if within.is_some() && result.is_none() && !matches!(action, Action::Override(_) | Action::Ask(..)) {
             self.report(
                 Diagnostic::warning(Code::TimeUnread, timed.span, "nobody learns whether this was cut off")
                     .help("write `let ok = …`, or `until after T` when either end will do"),
@@ -168,6 +172,8 @@ impl<'t> Checker<'t> {
                 self.scope.driving = outer;
                 (Action::Override(hir::Override { offered: o.offered, answer, block }), true, None)
             }
+            // Its modifiers are its own.
+            tree::Action::Ask(_) => return None,
             tree::Action::Expr(e) => {
                 let id = self.called_activity(e)?;
                 let tree::ExprKind::Call(_, args) = &e.kind else { return None };

@@ -397,6 +397,7 @@ impl<'a> Work<'a> {
             }
             Action::Call(callee, args) => (self.exprs(args), 0, Some(self.activity(*callee))),
             Action::Watch => (0, 0, None),
+            Action::Ask(..) => (1, 1, None),
             Action::Override(o) => {
                 let answer = self.exprs(&o.answer);
                 // The block begins on the tick of the answer.

@@ -40,6 +40,8 @@ pub struct Hir {
     pub activities: Vec<Activity>,
     /// Inputs.
     pub inputs: Vec<Input>,
+    /// Payloads.
+    pub payloads: Vec<Payload>,
     /// Scenarios.
     pub scenarios: Vec<Scenario>,
     /// Tests.
@@ -411,6 +413,24 @@ pub enum Action {
     Watch,
     /// Takes control, does what its block says, and gives control back however that ends.
     Override(Override),
+    /// Asks a payload for one of its actions, by their places, and waits for the answer.
+    Ask(usize, usize),
+}
+
+/// Something aboard that a mission asks to do things.
+#[derive(Clone, Debug)]
+pub struct Payload {
+    /// Its name.
+    pub name: String,
+    /// What it does, by name, and where that is declared.
+    pub actions: Vec<(String, Span)>,
+}
+
+impl Payload {
+    /// One of its actions as vehicles know it: `camera.start`.
+    pub fn action(&self, action: usize) -> String {
+        self.actions.get(action).map_or_else(String::new, |(name, _)| format!("{}.{name}", self.name))
+    }
 }
 
 /// `override when offered within T { … }` (rule 18).

@@ -4,6 +4,7 @@ use super::{
     Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Stmt, StmtKind, Target,
     TextPart, With,
 };
+use crate::source::Span;
 use crate::types::Type;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,6 +26,21 @@ impl Hir {
         let mut types = BTreeMap::<String, Vec<Type>>::new();
         self.each_report(mission, &mut |name, value| types.entry(name.to_string()).or_default().push(value.ty.clone()));
         types
+    }
+
+    /// What a mission and all that it calls ask of payloads, each with the first place where they do.
+    pub fn asks(&self, mission: ActivityId) -> BTreeMap<String, Span> {
+        let mut asks = BTreeMap::new();
+        for block in self.called_from(mission).into_iter().flat_map(|id| self.activities[id].blocks()) {
+            block.each(&mut |stmt| {
+                if let StmtKind::Timed(timed) = &stmt.kind
+                    && let Action::Ask(payload, action) = timed.action
+                {
+                    asks.entry(self.payloads[payload].action(action)).or_insert(stmt.span);
+                }
+            });
+        }
+        asks
     }
 
     /// Calls `f` on the name and the value of every report of a mission and of all that it calls.
@@ -325,7 +341,7 @@ pub fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
                 match &timed.action {
                     Action::Guide(_, args) | Action::Call(_, args) => args.iter().for_each(&mut *f),
                     Action::Keep(_, e) => f(e),
-                    Action::Watch => {}
+                    Action::Watch | Action::Ask(..) => {}
                     Action::Override(o) => {
                         o.answer.iter().for_each(&mut *f);
                         block_children(&o.block, f);

@@ -5,8 +5,8 @@ use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed, With};
 use crate::types::Type;
 use albacore_arithmetic::Operator;
 use albacore_program::{
-    CallSite, Cause, Channel, Compute, GUIDANCE_WORDS, Guide, ListOp, Mark, Op, OverlaySite, OverrideEnd, ReportSite,
-    Slot, header, setpoints,
+    ANSWER_WORDS, CallSite, Cause, Channel, Compute, GUIDANCE_WORDS, Guide, ListOp, Mark, Op, OverlaySite, OverrideEnd,
+    ReportSite, Slot, header, setpoints,
 };
 
 impl<'a> Lowering<'a> {
@@ -246,8 +246,11 @@ impl<'a> Lowering<'a> {
         };
         let cut = timed.duration.is_some() || timed.until.is_some() || timed.within.is_some();
         self.land(done.remove(0));
+        if let (Some(to), Running::Ask { answer, .. }) = (result, &action) {
+            self.copy(to, *answer, ANSWER_WORDS);
+        }
         if let Some(to) = result
-            && !matches!(action, Running::Override { .. })
+            && !matches!(action, Running::Override { .. } | Running::Ask { .. })
         {
             self.outcome_of_end(&action, has_value.as_ref(), cut, to);
         }
@@ -291,6 +294,14 @@ impl<'a> Lowering<'a> {
         if let Running::Override { end, .. } = *action {
             let value = if is_normal { OverrideEnd::Completed } else { OverrideEnd::TimedOut };
             self.emit(Compute::Const { to: end, value: value.number() });
+            return;
+        }
+        if let Running::Ask { id, .. } = *action {
+            self.emit(Op::Unanswered { id });
+            if let Some(to) = result {
+                self.emit(Compute::Clear { to: to + 1, words: ANSWER_WORDS - 1 });
+                self.emit(Compute::Const { to, value: OverrideEnd::NoAnswer.number() });
+            }
             return;
         }
         match (result, value) {
@@ -375,7 +386,24 @@ impl<'a> Lowering<'a> {
             }
             Action::Watch => Running::Watch,
             Action::Override(o) => self.begin_override(o, setpoints),
+            Action::Ask(payload, action) => {
+                let action = self.asked(*payload, *action);
+                let (id, answer) = (self.lasting(1), self.lasting(ANSWER_WORDS));
+                self.emit(Op::AskPayload { action, id });
+                Running::Ask { id, answer }
+            }
         }
+    }
+
+    /// The place of what is asked of a payload among all that the program asks.
+    fn asked(&mut self, payload: usize, action: usize) -> u32 {
+        let action = self.hir.payloads[payload].action(action);
+        let asks = &mut self.program.asks;
+        let known = asks.iter().position(|other| *other == action);
+        known.unwrap_or_else(|| {
+            asks.push(action);
+            asks.len() - 1
+        }) as u32
     }
 
     /// Every later tick: what tells whether it has come to its own end.
@@ -390,6 +418,7 @@ impl<'a> Lowering<'a> {
             (Running::Keep { .. }, Action::Keep(_, e)) => self.keep(running, e, setpoints, ended),
             (Running::Call { call, .. }, _) => _ = self.emit(Op::Step { call: *call, ended }),
             (Running::Override { call, end }, _) => self.step_override(*call, *end, ended),
+            (Running::Ask { id, answer }, _) => _ = self.emit(Op::Heard { id: *id, answer: *answer, ended }),
             _ => {}
         }
     }
@@ -413,4 +442,5 @@ pub(super) enum Running {
     Call { call: u32, result: Slot },
     Watch,
     Override { call: u32, end: Slot },
+    Ask { id: Slot, answer: Slot },
 }

@@ -200,7 +200,7 @@ impl Walk<'_> {
                 return;
             }
             Action::Override(inner) => return self.block(&inner.block, owners),
-            Action::Watch => (false, false),
+            Action::Watch | Action::Ask(..) => (false, false),
             Action::Guide(guide, _) => (guide.law().needs_vertical, guide.law().needs_speed),
             // What is kept is its own setpoint. In an overlay nothing else is needed.
             Action::Keep(channel, e) => {

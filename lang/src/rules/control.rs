@@ -94,7 +94,7 @@ impl Walk<'_> {
                         .help("this is called from an `override` or a recovery: call it outside, or leave this out"),
                 ),
                 Action::Override(inner) => self.block(&inner.block, true),
-                Action::Watch => {}
+                Action::Watch | Action::Ask(..) => {}
                 // A pause sends nothing that was not sent before.
                 Action::Guide(guide, _) if matches!(guide.law().steering, Steering::Nothing) => {}
                 Action::Guide(..) | Action::Keep(..) if driving => {}

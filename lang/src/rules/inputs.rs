@@ -237,7 +237,7 @@ impl Walk<'_> {
                     self.guidance(*guide, stmt.span);
                 }
                 Action::Keep(..) => self.guidance(Guide::Keep, stmt.span),
-                Action::Watch | Action::Override(_) => {}
+                Action::Watch | Action::Override(_) | Action::Ask(..) => {}
             },
             _ => {}
         });

@@ -154,6 +154,9 @@ fn item(b: &mut Builder, node: Node) -> Option<Item> {
             base: take(&mut inner, Rule::derived_from).and_then(|p| p.parts().next()).map(path),
             body: block(b, inner.next()?),
         },
+        Rule::payload_item => {
+            Item::Payload { name: name(inner.next()?), actions: inner.filter_map(|p| payload_action(b, p)).collect() }
+        }
         Rule::test_item => {
             Item::Test(Test { name: text(b, inner.next()?), clauses: test_block(b, inner.next()?), span })
         }
@@ -191,6 +194,11 @@ fn field(b: &mut Builder, node: Node) -> Option<Field> {
     }
     let mut inner = node.inner();
     Some(Field { name: name(inner.next()?), ty: ty(b, inner.next()?) })
+}
+
+fn payload_action(b: &mut Builder, node: Node) -> Option<PayloadAction> {
+    let mut inner = node.parts();
+    Some(PayloadAction { name: name(inner.next()?), result: ty(b, inner.next()?) })
 }
 
 pub(super) fn params(b: &mut Builder, node: Node) -> Vec<Param> {

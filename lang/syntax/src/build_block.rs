@@ -209,9 +209,17 @@ fn guided(b: &mut Builder, node: Node) -> Option<Timed> {
         Rule::kw_hold => Action::Hold,
         Rule::kw_wait => Action::Wait,
         Rule::watch => Action::Watch,
+        Rule::ask => Action::Ask(ask(first.parts().next()?)?),
         _ => Action::Override(override_block(b, first)?),
     };
     Some(modified(b, action, inner, span))
+}
+
+fn ask(node: Node) -> Option<Ask> {
+    let Path { mut parts, span } = super::build_expr::path(node);
+    let action = parts.pop()?;
+    let end = parts.last()?.span.end;
+    Some(Ask { payload: Path { parts, span: Span { end, ..span } }, action })
 }
 
 fn override_block(b: &mut Builder, node: Node) -> Option<Override> {

@@ -203,6 +203,7 @@ codes! {
     }
     time {
         TimeAmbiguous = "ambiguous",
+        TimeAsk = "ask",
         TimeBody = "body",
         TimeCall = "call",
         TimeControl = "control",

@@ -293,6 +293,8 @@ fn kind(rule: Rule) -> String {
         target => "a behavior, `finish` or `abort`",
         overlay_kind => "`amends` or `sets`",
         require => "an input",
+        asked => "what is asked, `PAYLOAD.ACTION()`",
+        action => "an action, `NAME() -> Bool`",
         other => return words::of_rule(other).map(|word| format!("`{word}`")).unwrap_or_default(),
     };
     kind.to_string()

@@ -125,6 +125,7 @@ pub(super) fn nothing_inside(before: &str, rest: &str) -> Option<&'static str> {
     let (head, _) = before.rsplit_once('{').filter(|(_, inside)| inside.trim().is_empty() && rest.starts_with('}'))?;
     match word(head.rsplit('\n').next()?.trim_start()) {
         "record" => Some("a record has a field at least: `record NAME { field: TYPE }`"),
+        "payload" => Some("a payload has an action at least: `payload NAME { ACTION() -> Bool }`"),
         "enum" => Some("an enum has a word at least: `enum NAME { ONE, OTHER }`"),
         _ => None,
     }
@@ -144,6 +145,7 @@ fn unfinished(before: &str, rest: &str) -> Option<Habit> {
         ("every", _, "") if rest.starts_with('{') => {
             "beside a body it is a reaction, which stands before that: `on every 10 min { … }`; a body does it in a loop: `loop { wait for 10 min; … }`"
         }
+        ("ask", _, _) => "write `ask PAYLOAD.ACTION() within 10 s`; a payload takes no arguments",
         ("record", _, "every") => "how often is a rate: `record temperature at 0.1 Hz` is every ten seconds",
         ("record", _, "") if rest.starts_with('.') => "an input is recorded whole: with all that it tells",
         ("record", last, "") if last != "at" => "say how often: `record temperature, salinity at 1 Hz`",

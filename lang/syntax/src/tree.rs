@@ -50,6 +50,7 @@ pub enum Item {
     Activity(Activity),
     Scenario { name: Name, params: Vec<Param>, base: Option<Path>, body: Block },
     Vehicle { name: Name, base: Option<Path>, body: Block },
+    Payload { name: Name, actions: Vec<PayloadAction> },
     Test(Test),
 }
 
@@ -62,6 +63,15 @@ pub struct Const {
     pub ty: Option<Ty>,
     /// Its value.
     pub value: Expr,
+}
+
+/// `start() -> Bool` of a payload.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PayloadAction {
+    /// Its name.
+    pub name: Name,
+    /// The type of what it is answered with.
+    pub result: Ty,
 }
 
 /// `label: type` of a record or an input.
@@ -385,7 +395,17 @@ pub enum Action {
     Wait,
     Watch,
     Override(Override),
+    Ask(Ask),
     Expr(Expr),
+}
+
+/// `ask camera.start()`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ask {
+    /// The payload.
+    pub payload: Path,
+    /// What it is asked to do.
+    pub action: Name,
 }
 
 /// `override when offered within T { … }`.

@@ -41,7 +41,7 @@ const CALLED: u16 = 1 << 10;
 const ARGUMENTS: u16 = 1 << 11;
 
 /// Every word that means something somewhere, but for those that guidance laws begin with: these are in the table of laws.
-const WORDS: [Word; 78] = [
+const WORDS: [Word; 80] = [
     // Declarations.
     word("use", RESERVED | ITEM | FRESH),
     word("const", RESERVED | ITEM | FRESH | NAMES),
@@ -57,6 +57,7 @@ const WORDS: [Word; 78] = [
     word("mission", RESERVED | ITEM | FRESH | NAMES),
     word("scenario", RESERVED | ITEM | FRESH | NAMES),
     word("vehicle", ITEM),
+    word("payload", ITEM | NAMES),
     word("test", RESERVED | ITEM | FRESH),
     word("clause", ITEM | LOCAL | NAMES),
     // Clauses of a block.
@@ -71,6 +72,7 @@ const WORDS: [Word; 78] = [
     word("requires", CLAUSE),
     word("recovery", CLAUSE),
     word("amend", CLAUSE),
+    word("ask", CLAUSE),
     word("abort", RESERVED | CLAUSE),
     word("finish", RESERVED | CLAUSE),
     word("report", RESERVED | CLAUSE | FRESH),

@@ -334,6 +334,7 @@ impl Controller {
         let tick = self.next_tick;
         self.next_tick += 1;
         snapshot.samples.clear();
+        snapshot.answers.clear();
         self.notices.extend(self.allowance.tick(tick));
         let until = self.heard.iter().take_while(|heard| heard.tick <= tick).count();
         let heard: Vec<Heard> = self.heard.drain(..until).collect();

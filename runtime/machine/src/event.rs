@@ -81,6 +81,21 @@ pub enum Event {
     Restless(u32),
     /// They no longer do.
     Settled,
+    /// A payload is asked: index into the program's `asks`.
+    Asked(u32),
+    /// What became of that.
+    Answered(u32, Heard),
+}
+
+/// What a payload has answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Heard {
+    /// Its value.
+    Value(bool),
+    /// That it will not.
+    Refused,
+    /// Nothing, for as long as it was awaited.
+    Nothing,
 }
 
 /// How a mission ended.

@@ -128,6 +128,10 @@ impl Run {
                     }
                 }
 
+                Op::AskPayload { action, id } => self.ask_payload(action, b(id)),
+                Op::Heard { id, answer, ended } => self.hear(b(id), b(answer), b(ended)),
+                Op::Unanswered { id } => self.unanswered(b(id)),
+
                 Op::Report { site } => self.report(p, site, base),
                 Op::Log { text } => self.log(p, text, base),
                 Op::Changed { memory } => self.remember(p, memory, base),

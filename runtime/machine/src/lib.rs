@@ -20,6 +20,7 @@ mod least;
 mod lift;
 mod lists;
 mod mission;
+mod payload;
 mod requirements;
 mod rest;
 mod sinking;
@@ -29,7 +30,7 @@ mod trig;
 
 pub use allowance::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX, TEXT_BYTES_MAX};
 pub use bottom::Chart;
-pub use event::{Event, Outcome};
+pub use event::{Event, Heard, Outcome};
 pub use execute::Evaluation;
 pub use inputs::MissingInput;
 pub use mission::Machine;

@@ -65,6 +65,7 @@ impl Run {
             way_back: None,
             allowance: Allowance::new(p.reports.len()),
             rest: Rest::default(),
+            questions: Vec::new(),
         };
         Run {
             state,
@@ -74,6 +75,7 @@ impl Run {
             abort: None,
             deserted: None,
             asks: false,
+            requests: Vec::new(),
             senses: senses(p),
             chart: None,
             trig: Trig::new(),
@@ -117,6 +119,7 @@ impl Machine {
         self.run.abort = None;
         self.run.deserted = None;
         self.run.asks = false;
+        self.run.requests.clear();
     }
 
     /// What the mission wants of its vehicle from here on.
@@ -141,6 +144,12 @@ impl Machine {
         self.run.hear_control(Control::InControl);
         self.run.tell_elapsed();
         self.run.events.clear();
+    }
+
+    /// What is asked of payloads in the last tick: the number of each question, and the action.
+    pub fn requests(&self) -> impl Iterator<Item = (u64, &str)> {
+        let name = |action: u32| self.program.asks.get(action as usize).map_or("", String::as_str);
+        self.run.requests.iter().map(move |request| (request.id, name(request.action)))
     }
 
     /// Puts a value in place.
@@ -192,12 +201,14 @@ impl Machine {
         let p = program.as_ref();
         run.events.clear();
         run.asks = false;
+        run.requests.clear();
         run.state.overridden = Overridden::default();
         run.state.way_back = None;
         run.events.extend(run.state.allowance.tick());
         run.state.lag = snapshot.lag;
         run.take_in(p, wiring, &snapshot.samples);
         run.hear_control(snapshot.control);
+        run.hear_answers(&snapshot.answers);
         run.tell_elapsed();
         run.feel_bottom(snapshot.aground);
         let command = run.live(p);

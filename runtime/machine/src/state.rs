@@ -4,6 +4,7 @@ use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
 use crate::lift::Lift;
+use crate::payload::{Question, Request};
 use crate::rest::Rest;
 use crate::sinking::Sinking;
 use crate::trig::Trig;
@@ -78,6 +79,8 @@ pub struct State {
     pub(crate) allowance: Allowance,
     /// How often rules have fired of late.
     pub(crate) rest: Rest,
+    /// What payloads have been asked, and who asked has not taken the answer yet.
+    pub(crate) questions: Vec<Question>,
 }
 
 /// Where a mission is in its life.
@@ -230,6 +233,8 @@ pub(crate) struct Run {
     pub deserted: Option<Outcome>,
     /// In this tick an override asks for control.
     pub asks: bool,
+    /// What payloads are asked in this tick.
+    pub requests: Vec<Request>,
     pub senses: Senses,
     /// What is known of the water's depth beforehand.
     pub chart: Option<Chart>,

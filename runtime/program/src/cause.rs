@@ -25,7 +25,10 @@ pub enum Cause {
     TakenBack,
 }
 
-/// How an override ended; in code its number, in this order.
+/// Words of the answer to an `ask`: how it ended, and its value.
+pub const ANSWER_WORDS: u32 = 2;
+
+/// How an override, or an `ask`, ended; in code its number, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OverrideEnd {
     /// Its block came to its end, or `for` or `until` ended it.

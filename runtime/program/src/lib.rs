@@ -21,7 +21,7 @@ pub use activity::{
     Abort, Activity, ActivityId, ActivityKind, Body, CallSite, Entry, Exit, OverlaySite, ReportSite, Rule, Table,
     Target, Text, TextPart, Valued, Watched, WatchedCode, header,
 };
-pub use cause::{Cause, OverrideEnd};
+pub use cause::{ANSWER_WORDS, Cause, OverrideEnd};
 pub use guide::{Ends, GUIDANCE_WORDS, GuidanceLaw, Guide, Omitted, Param, ParamKind, Steering};
 pub use op::{AreaOp, Compute, ListOp, Op, When};
 pub use setpoint::{Axis, Channel, Mark, Setpoint, SetpointKind, setpoints};
@@ -53,6 +53,8 @@ pub struct Program {
     pub rules: Vec<Rule>,
     /// What is recorded.
     pub recordings: Vec<Recording>,
+    /// What it asks of payloads, such as `camera.start`.
+    pub asks: Vec<String>,
     /// Places that report.
     pub reports: Vec<ReportSite>,
     /// Texts with their holes: of `log` and `abort`.

@@ -56,6 +56,12 @@ pub enum Op {
     Driven { suspended: Slot, lost: Slot },
     /// The run ends if an override that nobody reads ended otherwise than by itself: its end, as [`crate::OverrideEnd`] numbers them.
     Desert { end: Slot },
+    /// Asks a payload for what is at an index into [`crate::Program::asks`]; `id` gets the number of the question.
+    AskPayload { action: u32, id: Slot },
+    /// Whether the answer has come. Then `answer` gets its end, as [`crate::OverrideEnd`] numbers it, and its value.
+    Heard { id: Slot, answer: Slot, ended: Slot },
+    /// It is awaited no longer.
+    Unanswered { id: Slot },
     /// Puts an overlay on.
     PutOn { overlay: u32 },
     /// Takes it off.

@@ -27,6 +27,7 @@ pub(crate) struct Held<'a> {
 pub(crate) fn findings(script: &Script, mission: &str, held: &Held) -> Vec<Diagnostic> {
     let (name, world) = (held.name, held.world);
     let mut findings = unsensed(script, mission, name, world);
+    findings.extend(unanswered(script, mission, name, world));
     findings.extend(unmeasured(script, mission, name, world));
     match elsewhere(script, mission, held) {
         Some(finding) => findings.push(finding),
@@ -126,6 +127,17 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
     let is_required = |input: &str| required.iter().any(|(other, _)| *other == input);
     let recorded = script.recorded(mission).into_iter().filter(|(input, _)| !is_required(input));
     required.iter().copied().chain(recorded).filter(|(input, _)| !is_told(input)).map(finding).collect()
+}
+
+/// What the mission asks, and no payload of the vehicle answers.
+fn unanswered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
+    let finding = |(action, span): (String, Span)| {
+        let message = format!("the vehicle of `{scenario}` has no payload that answers `{action}`");
+        let help = format!("give `{scenario}` the clause `payload(\"{action}\", after: 1 s)`");
+        Diagnostic::error(Code::ScenariosWorld, span, message).help(help)
+    };
+    let has = |action: &str| world.payloads.iter().any(|payload| payload.is_of(action));
+    script.asked(mission).into_iter().filter(|(action, _)| !has(action)).map(finding).collect()
 }
 
 /// A flow that the mission requires, and that the profiler takes for an error.

@@ -137,6 +137,12 @@ impl Plan {
                 "give a corner or the center of its area as latitude and longitude, such as `36°10.8'N 75°44.4'W`";
             return Err(PlanError::Asked(message, Some(help.into())));
         }
+        if let Some(action) = program.asks.first() {
+            let message = format!("the mission `{name}` asks `{action}` of a payload, and no link carries that");
+            let help =
+                "run it in a scenario, or leave the `ask` out: a dialect has messages for what drives a vehicle alone";
+            return Err(PlanError::Asked(message, Some(help.into())));
+        }
         let own = script.own_scenario(&name).map(str::to_string);
         let survey = match own {
             Some(own) => survey(&scenario::named(script, &own, program.mission.origin)?.1.world),

@@ -3,6 +3,7 @@
 pub(crate) mod fault;
 pub mod hull;
 pub(crate) mod incidents;
+pub(crate) mod payload;
 pub(crate) mod sensors;
 pub(crate) mod setup;
 pub(crate) mod start;

@@ -14,6 +14,7 @@ mod world;
 
 pub use craft::fault::{Fault, FaultKind, Sensor, SensorFault};
 pub use craft::hull;
+pub use craft::payload::Payload;
 pub use craft::sensors::{
     Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, InstrumentSetting, InstrumentSetup, Lbl, Looks, Navigation,
     Pressure, Sounder,

@@ -8,6 +8,7 @@ pub use issues::{IssueCause, ScenarioError, ScenarioIssue};
 pub use setting::Setting;
 
 use crate::craft::fault::{self, Fault};
+use crate::craft::payload::{self, Payload};
 use crate::craft::sensors::InstrumentSetup;
 use crate::craft::setup::{self, OwnMission, VehicleSetup};
 use crate::world::{self, Environment};
@@ -32,6 +33,8 @@ pub struct Scenario {
     pub own_mission: Option<OwnMission>,
     /// How it answers who asks to drive; none: it gives way at once.
     pub handover: Option<Handover>,
+    /// How its payload answers.
+    pub payloads: Vec<Payload>,
     /// Its instruments.
     pub instruments: InstrumentSetup,
     /// What goes wrong. Default nothing.
@@ -59,7 +62,9 @@ impl Scenario {
     /// Each of them is looked at whenever the vehicle senses.
     fn check_counts(&self, objections: &mut ScenarioIssues) {
         let counts = self.environment.counts();
-        for (clause, count) in counts.into_iter().chain([("fault", self.faults.len())]) {
+        for (clause, count) in
+            counts.into_iter().chain([("fault", self.faults.len()), ("payload", self.payloads.len())])
+        {
             objections.nth(clause, CLAUSES_MAX.min(count.saturating_sub(1))).unless(
                 None,
                 count <= CLAUSES_MAX,
@@ -80,6 +85,7 @@ impl Scenario {
         world::check(self, &mut objections);
         setup::check(self, &mut objections);
         self.instruments.check(&mut objections);
+        payload::check(self, &mut objections);
         fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }
     }

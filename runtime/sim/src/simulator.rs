@@ -3,6 +3,7 @@
 use crate::craft::fault::Faults;
 use crate::craft::hull::Hull;
 use crate::craft::incidents::Incidents;
+use crate::craft::payload::PayloadBay;
 use crate::craft::sensors::{Instruments, Surroundings};
 use crate::scenario::{Scenario, ScenarioError};
 use crate::world::World;
@@ -44,6 +45,7 @@ pub struct Simulator {
     truth: Truth,
     incidents: Incidents,
     faults: Faults,
+    payload: PayloadBay,
     /// The tick last sensed; none before the first.
     tick: Option<u64>,
 }
@@ -78,6 +80,7 @@ impl Simulator {
             truth: Truth::default(),
             incidents: Incidents::new(&scenario.environment.no_go),
             faults: Faults::new(&scenario.faults, seed),
+            payload: PayloadBay::new(&scenario.payloads, seed),
             tick: None,
         };
         simulator.observe();
@@ -283,6 +286,8 @@ impl Vehicle for Simulator {
             self.control = self.front_seat.answer(tick as f64 * TICK_S, self.known().position);
         }
         snapshot.samples.clear();
+        snapshot.answers.clear();
+        self.payload.answer(tick, &mut snapshot.answers);
         snapshot.control = self.control;
         snapshot.aground = self.incidents.is_aground();
         self.told = self.control;
@@ -314,6 +319,14 @@ impl Vehicle for Simulator {
         }
         if !self.faults.ailing().deaf {
             self.command = Some(*command);
+        }
+        Ok(())
+    }
+
+    fn ask(&mut self, id: u64, action: &str) -> Result<(), VehicleError> {
+        // One that gives up has let go of all else.
+        if !self.gives_up() {
+            self.payload.ask(self.tick.unwrap_or_default(), id, action);
         }
         Ok(())
     }

@@ -90,6 +90,11 @@ impl Names {
         is_overlay(&self.program, id)
     }
 
+    /// What is asked of a payload.
+    pub fn ask(&self, action: u32) -> &str {
+        self.program.asks.get(action as usize).map_or("?", String::as_str)
+    }
+
     /// An input's name.
     pub fn input(&self, id: u32) -> &str {
         self.program.inputs.get(id as usize).map_or("?", |input| &input.name)

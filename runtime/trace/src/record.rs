@@ -90,7 +90,8 @@ impl TickRecord {
     pub fn bytes(&self) -> usize {
         let events: usize = self.events.iter().map(|event| size_of::<Event>() + said(event)).sum();
         let notices: usize = self.notices.iter().map(|notice| size_of::<String>() + notice.len()).sum();
-        size_of::<Self>() + size_of_val(self.snapshot.samples.as_slice()) + events + notices
+        let Snapshot { samples, answers, .. } = &self.snapshot;
+        size_of::<Self>() + size_of_val(samples.as_slice()) + size_of_val(answers.as_slice()) + events + notices
     }
 
     /// How the run ended, if this is its end.

@@ -4,7 +4,7 @@ use crate::active::Active;
 use crate::names::Names;
 use crate::words::{INDENT, cause_name, control_name, indented};
 use albacore_geometry::{Point, TangentFrame};
-use albacore_machine::{Event, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
+use albacore_machine::{Event, Heard, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::number;
 use albacore_program::seen::one_line;
 use albacore_program::{ActivityId, Cause, Program, ReportSite, Rule, Setpoint, Shape};
@@ -99,6 +99,15 @@ impl Wording {
             }
             Event::Settled => ("rules", "no longer switch without rest".to_string()),
             Event::Ended(outcome) => ("end", outcome.name().to_string()),
+            Event::Asked(action) => ("ask", indented(inner, self.names.ask(*action))),
+            Event::Answered(action, heard) => {
+                let heard = match heard {
+                    Heard::Value(value) => value.to_string(),
+                    Heard::Refused => "refused".to_string(),
+                    Heard::Nothing => "no answer".to_string(),
+                };
+                ("answer", indented(inner, &format!("{}  {heard}", self.names.ask(*action))))
+            }
             of_vehicle => return Self::of_vehicle(of_vehicle),
         })
     }
@@ -149,6 +158,8 @@ impl Wording {
             | Event::Silenced
             | Event::Unwritten(_)
             | Event::Restless(_)
+            | Event::Asked(_)
+            | Event::Answered(..)
             | Event::Settled => return None,
         })
     }

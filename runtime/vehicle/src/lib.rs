@@ -119,6 +119,15 @@ impl Sample {
     }
 }
 
+/// What became of something that a payload was asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Answer {
+    /// The number of the question.
+    pub id: u64,
+    /// Its value; none where the payload has refused.
+    pub value: Option<bool>,
+}
+
 /// All that came from the vehicle in one tick.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
@@ -130,6 +139,8 @@ pub struct Snapshot {
     pub lag: Lag,
     /// Whether the vehicle lies on the bottom, and says so.
     pub aground: bool,
+    /// What its payload has answered since the last tick.
+    pub answers: Vec<Answer>,
 }
 
 impl Snapshot {
@@ -200,6 +211,12 @@ pub trait Vehicle {
 
     /// Gives a command, in force until the next.
     fn command(&mut self, command: &Command) -> Result<(), VehicleError>;
+
+    /// Asks its payload for an action, such as `camera.start`, by a number: [`Snapshot::answers`] tells what became of it. One that carries no
+    /// such questions never answers.
+    fn ask(&mut self, _id: u64, _action: &str) -> Result<(), VehicleError> {
+        Ok(())
+    }
 
     /// An override has ended: the vehicle is to drive itself again, and we listen on. It may be asked again.
     fn give_back(&mut self) -> Result<(), VehicleError>;

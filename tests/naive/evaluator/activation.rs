@@ -245,6 +245,9 @@ impl<'p> Activation<'p> {
 
     fn end_statement(&mut self, w: &mut World<'p>, mut underway: Underway<'p>, end: &End) {
         let outcome = underway.outcome(w, end);
+        if let (Doing::Ask(action, ..), End::Cut(_)) = (&underway.doing, end) {
+            w.say(format!("answer {action} none"));
+        }
         if let Doing::Call(called) = &mut underway.doing {
             called.leave(w, if let End::Cut(cause) = end { *cause } else { Cause::Done });
         }

@@ -121,6 +121,8 @@ impl<'p> Evaluator<'p> {
         self.w.way_back = None;
         self.w.earn();
         self.w.sense(self.sensors, &snapshot.samples);
+        self.w.questions = 0;
+        self.w.hear(&snapshot.answers);
         self.w.tell_elapsed(if self.phase == Phase::Waiting { 0 } else { self.w.tick - self.began });
         let asked = self.w.asked.vertical;
         self.bottom.hear(&self.w, asked);

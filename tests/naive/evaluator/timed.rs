@@ -8,7 +8,7 @@ use super::world::{World, ticks};
 use albacore_geometry::Heading;
 use albacore_guidance::{Guidance, LawOverWords, Start, Station, Whereabouts, turning_radius_in_flow};
 use albacore_lang::hir::{Action, Expr, Timed};
-use albacore_program::{Cause, Channel, Guide, ParamKind, Steering};
+use albacore_program::{Cause, Channel, Guide, OverrideEnd, ParamKind, Steering};
 use albacore_vehicle::Vertical;
 
 /// The vertical and the speed in force; none where nobody has set them.
@@ -43,6 +43,8 @@ pub enum Doing<'p> {
     Guide(Guide, Vec<Value>, Law),
     Keep(Channel, &'p Expr),
     Call(Box<Activation<'p>>),
+    /// What is asked, the number of the question once it is, and the answer once it has come.
+    Ask(String, Option<u64>, Option<Option<bool>>),
 }
 
 /// A guidance law that has begun.
@@ -79,6 +81,7 @@ impl<'p> Underway<'p> {
                 Doing::Guide(*guide, args, law)
             }
             Action::Keep(channel, e) => Doing::Keep(*channel, e),
+            Action::Ask(payload, action) => Doing::Ask(w.hir.payloads[*payload].action(*action), None, None),
             Action::Watch | Action::Override(_) => panic!("rule 18 is not covered"),
             Action::Call(id, args) => {
                 let activity = &w.hir.activities[*id];
@@ -130,6 +133,17 @@ impl<'p> Underway<'p> {
         let (position, course) = (w.position(), w.course());
         let guidance: Guidance = match &mut self.doing {
             Doing::Call(called) => return called.step(w),
+            Doing::Ask(action, asked, answer) => {
+                let Some(id) = asked else {
+                    *asked = Some(w.question());
+                    w.say(format!("ask {action}"));
+                    return Ok(false);
+                };
+                *answer = w.answers.get(id).copied();
+                let said = answer.map(|value| value.map_or("refused".to_string(), |value| value.to_string()));
+                said.iter().for_each(|said| w.say(format!("answer {action} {said}")));
+                return Ok(said.is_some());
+            }
             Doing::Keep(channel, e) => {
                 let kept = number(w, Scope::of(frame), e);
                 if in_overlay {
@@ -173,6 +187,15 @@ impl<'p> Underway<'p> {
     /// What `let x = …` gets: of a call with a result that result, or none when it was cut; else whether `within` did not
     /// cut it off (rule 5).
     pub fn outcome(&self, w: &World<'p>, end: &End) -> Value {
+        if let Doing::Ask(_, _, answer) = &self.doing {
+            let end = match answer {
+                Some(Some(_)) => OverrideEnd::Completed,
+                Some(None) => OverrideEnd::Refused,
+                None => OverrideEnd::NoAnswer,
+            };
+            let value = Value::truth(*answer == Some(Some(true)));
+            return Value::Parts(vec![Value::Number(end.number()), value]);
+        }
         let Doing::Call(called) = &self.doing else { return Value::truth(!matches!(end, End::Cut(Cause::TimedOut))) };
         let Some(ty) = &called.activity.result else {
             return Value::truth(!matches!(end, End::Cut(Cause::TimedOut)));

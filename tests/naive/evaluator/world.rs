@@ -9,7 +9,8 @@ use albacore_lang::source::Sources;
 use albacore_lang::types::{Type, TypeTable};
 use albacore_machine::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::{Shape, Text, TextPart};
-use albacore_vehicle::{Measurement, Sample, TICK_S, Vertical};
+use albacore_vehicle::{Answer, Measurement, Sample, TICK_S, Vertical};
+use std::collections::BTreeMap;
 
 /// What a statement asks for.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +61,9 @@ pub struct World<'p> {
     pub lines: i64,
     pub unwritten: u64,
     pub reported: Vec<*const Stmt>,
+    /// How many questions were put to payloads in this tick, and the first answer to each question of the run.
+    pub questions: u64,
+    pub answers: BTreeMap<u64, Option<bool>>,
 }
 
 /// Rule 1: whole ticks, rounded up, at least one; a hair above a whole number is rounding.
@@ -95,6 +99,8 @@ impl<'p> World<'p> {
             lines: LINES_AT_ONCE_MAX,
             unwritten: 0,
             reported: Vec::new(),
+            questions: 0,
+            answers: BTreeMap::new(),
         }
     }
 
@@ -105,6 +111,21 @@ impl<'p> World<'p> {
             self.texts.push(text);
             self.texts.len() - 1
         })
+    }
+
+    /// The number of a new question: its tick, and how manieth of that it is.
+    pub fn question(&mut self) -> u64 {
+        self.questions += 1;
+        self.tick * 65536 + self.questions - 1
+    }
+
+    /// Takes in what payloads have answered. What nobody has asked by then is no answer.
+    pub fn hear(&mut self, answers: &[Answer]) {
+        for answer in answers {
+            if answer.id < self.tick * 65536 {
+                self.answers.entry(answer.id).or_insert(answer.value);
+            }
+        }
     }
 
     pub fn say(&mut self, line: String) {

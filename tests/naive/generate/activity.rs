@@ -5,6 +5,7 @@ use super::{Callable, Generator, Name, Ty};
 impl Generator {
     pub(super) fn file(&mut self) {
         self.line("enum Mode { calm, eager, wild }");
+        self.line("payload camera { start() -> Bool, stop() -> Bool }");
         self.line("const shallow: Depth = 2 m");
         self.line("const middling: Depth = 6 m");
         self.line("const deep: Depth = 11 m");

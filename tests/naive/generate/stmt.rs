@@ -41,6 +41,7 @@ impl Generator {
             8..11 => self.simple(),
             11 | 12 => self.branch(Self::statements_within),
             13 | 14 => self.repeat(),
+            15 if self.random.percent(50) => self.ask(),
             15 => self.with_block(),
             16 | 17 if !self.behaviors.is_empty() => self.call(),
             18 if self.random.percent(40) && self.finish.is_some() => {
@@ -146,6 +147,21 @@ impl Generator {
             _ => ("wait", false, "wait"),
         };
         (feature, ends, self.filled(pattern, 2))
+    }
+
+    /// A payload is asked, and what it says is read or not.
+    fn ask(&mut self) {
+        self.count("ask");
+        let action = self.random.clone().of(&["start", "stop"]);
+        let text = format!("ask camera.{action}() within {}", self.time());
+        if self.random.percent(30) {
+            return self.line(&text);
+        }
+        let (name, ok) = (self.fresh("answer"), self.fresh("said"));
+        self.line(&format!("let {name} = {text}"));
+        let value = ["NAME.value", "NAME.end == refused", "NAME.end == no_answer"][self.random.below(3)];
+        self.line(&format!("let {ok} = {}", value.replace("NAME", &name)));
+        self.declare(&ok, Ty::Bool, false);
     }
 
     fn call(&mut self) {

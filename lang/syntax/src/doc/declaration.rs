@@ -23,6 +23,10 @@ pub fn declaration(item: &Item, span: Span, written: &Written, comments: &mut Co
             fields.iter().for_each(|field| drop(comments.above(field.name.span.start)));
             whole("record", name, span, written)
         }
+        Item::Payload { name, actions } => {
+            actions.iter().for_each(|action| drop(comments.above(action.name.span.start)));
+            whole("payload", name, span, written)
+        }
         Item::Input { name, fields, .. } => {
             fields.iter().for_each(|field| drop(comments.above(field.name.span.start)));
             whole("input", name, span, written)

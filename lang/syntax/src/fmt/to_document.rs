@@ -143,7 +143,7 @@ impl<'a> Builder<'a> {
     /// A sign that the grammar has no rule for.
     fn sign(&mut self, docs: &mut Vec<Doc<'a>>, sign: Node<'a>, of: Rule) {
         let tight = match sign.text() {
-            "(" | "[" if of == Rule::index => BOTH,
+            "(" | "[" if matches!(of, Rule::index | Rule::ask | Rule::action) => BOTH,
             "(" | "[" => RIGHT,
             "." | "^" | "°" | "'" => BOTH,
             ")" | "]" | "," | ":" | ";" => LEFT,
@@ -257,7 +257,7 @@ impl<'a> Builder<'a> {
     /// `{ … }`.
     fn block(&mut self, docs: &mut Vec<Doc<'a>>, start: usize, parts: Vec<Node<'a>>, end: usize, rule: Rule) {
         let separator = match rule {
-            Rule::enum_item | Rule::record_item | Rule::input_item | Rule::limits => ",",
+            Rule::enum_item | Rule::record_item | Rule::input_item | Rule::payload_item | Rule::limits => ",",
             _ => ";",
         };
         self.lead(docs, start);

@@ -4,7 +4,7 @@ use super::Unsound;
 use super::known::{Implications, Known, Word, widened};
 use super::ranges::{PATIENCE, Ranges, Results};
 use super::written::written;
-use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, Op, Param, Slot};
+use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, Op, OverrideEnd, Param, Slot};
 use albacore_arithmetic::{Div, Interval, Operation, Operator, counted};
 use albacore_geometry::AREA_WIDTH_MIN_M;
 
@@ -18,6 +18,15 @@ impl Ranges<'_> {
             Op::Compute(computed) => self.compute(at, op, computed, known),
             Op::List(list) => self.on_list(op, list, known),
             Op::Area(_) | Op::Keep { .. } | Op::Answer { .. } | Op::Driven { .. } => self.unknown(op, known),
+            Op::AskPayload { .. } => self.unknown(op, known),
+            Op::Heard { answer, ended, .. } => {
+                self.set(
+                    known,
+                    answer,
+                    Word { range: Interval::new(0.0, OverrideEnd::NoAnswer.number()), is_whole: true },
+                );
+                [answer + 1, ended].into_iter().for_each(|slot| self.set(known, slot, Word::TRUTH));
+            }
             Op::IsNew { to, .. } => self.set(known, to, Word::TRUTH),
             Op::Age { to, .. } => self.set(known, to, Word::of(Operator::Age.rule(&[]))),
             Op::Hits { to, of, .. } => self.set(known, to, Word { range: counted(of), is_whole: true }),
@@ -33,6 +42,7 @@ impl Ranges<'_> {
             | Op::TakeOff { .. }
             | Op::Ask { .. }
             | Op::Take
+            | Op::Unanswered { .. }
             | Op::Desert { .. }
             | Op::End
             | Op::Finish

@@ -1,6 +1,8 @@
 //! Where code leads and what it writes.
 
-use crate::{AREA_WORDS, AreaOp, Compute, EDGE_WORDS, GUIDANCE_WORDS, Guide, ListOp, Op, ROWS_WORDS, Slot, When};
+use crate::{
+    ANSWER_WORDS, AREA_WORDS, AreaOp, Compute, EDGE_WORDS, GUIDANCE_WORDS, Guide, ListOp, Op, ROWS_WORDS, Slot, When,
+};
 
 /// Whether the next instruction may be executed after this one, in the same tick or a later one.
 pub(super) fn goes_on(op: &Op) -> bool {
@@ -25,7 +27,10 @@ pub(super) fn written(op: &Op) -> impl Iterator<Item = (Slot, u32)> {
         Op::Step { ended, .. } => one((ended, 1)),
         Op::Answer { ours, refused, .. } => both((ours, 1), (refused, 1)),
         Op::Driven { suspended, lost } => both((suspended, 1), (lost, 1)),
+        Op::AskPayload { id, .. } => one((id, 1)),
+        Op::Heard { answer, ended, .. } => both((answer, ANSWER_WORDS), (ended, 1)),
         Op::Call { .. }
+        | Op::Unanswered { .. }
         | Op::Return
         | Op::Yield
         | Op::Enter { .. }

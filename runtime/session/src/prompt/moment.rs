@@ -195,6 +195,9 @@ impl Moment {
         let mut command = None;
         if let Some(task) = &mut self.task {
             command = task.machine.step(&self.snapshot);
+            for (id, action) in task.machine.requests() {
+                self.vehicle.ask(id, action)?;
+            }
             task.print_events(self.tick, say);
             task.assign(&mut self.names);
             if task.machine.outcome().is_some() {

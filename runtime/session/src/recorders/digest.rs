@@ -1,5 +1,5 @@
-//! The digest of the full-rate run: of each tick its number, how the link lags, every sample, what the vehicle was told last, and every
-//! event, in the form that `Digest::value_of` states. Notices are no part of it, for when they come is no matter of the run.
+//! The digest of the full-rate run: of each tick its number, how the link lags, every sample, what the vehicle was told last, every
+//! event, and every answer of its payload, in the form that `Digest::value_of` states. Notices are no part of it, for when they come is no matter of the run.
 
 use super::Recorder;
 use albacore_trace::Digest;
@@ -32,5 +32,10 @@ impl Recorder for RunDigest {
         let TickRecord { tick, snapshot, events, .. } = record;
         let known = self.digest.value_of(&(tick, snapshot.lag, &snapshot.samples, self.command, events));
         debug_assert!(known.is_ok(), "all of it has a length");
+        // A run whose payload says nothing is the run that it is without one.
+        if !snapshot.answers.is_empty() {
+            let known = self.digest.value_of(&snapshot.answers);
+            debug_assert!(known.is_ok(), "all of it has a length");
+        }
     }
 }

@@ -31,6 +31,8 @@ pub(crate) struct Recorded {
     most: usize,
     rows: u64,
     left_out: u64,
+    /// Steps are missing: what has become active in them is not known.
+    is_blind: bool,
 }
 
 /// The measurements that stand beside every row.
@@ -105,6 +107,7 @@ impl Recorded {
             most,
             rows: 0,
             left_out: 0,
+            is_blind: false,
             program,
         }
     }
@@ -180,7 +183,8 @@ impl Recorded {
 
     /// Whether what a clause belongs to is active. What a mission records it does to the end, through its recovery.
     fn is_active(&self, clause: &Clause, active: &[ActivityId]) -> bool {
-        active.contains(&clause.activity) || (clause.activity == self.program.mission.activity && !active.is_empty())
+        let is_of_mission = clause.activity == self.program.mission.activity;
+        active.contains(&clause.activity) || is_of_mission && (self.is_blind || !active.is_empty())
     }
 }
 
@@ -198,6 +202,10 @@ impl Recorder for Recorded {
             self.row(record.tick, &due);
         }
         self.clauses.iter_mut().filter(|clause| is_due(clause)).for_each(|clause| clause.since = record.tick + 1);
+    }
+
+    fn miss(&mut self, _: u64, _: u64) {
+        self.is_blind = true;
     }
 }
 

@@ -171,7 +171,8 @@ impl Driver {
         let doubts = self.trust.look(record.tick, &mut record.snapshot, self.machine.state().command.as_ref());
         record.command = self.machine.step(&record.snapshot);
         let sent = record.command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
-        let sent = sent.and_then(|()| self.ask_anew()).and_then(|()| self.follow_wish());
+        let sent =
+            sent.and_then(|()| self.ask_payload()).and_then(|()| self.ask_anew()).and_then(|()| self.follow_wish());
         record.step = Step::Tick;
         self.note_events(record);
         self.digest.take(record);
@@ -205,6 +206,11 @@ impl Driver {
         }
         self.asked_for_control = false;
         self.vehicle.port().give_back()
+    }
+
+    /// Hands on what the mission asks of payloads.
+    fn ask_payload(&mut self) -> Result<(), VehicleError> {
+        self.machine.requests().try_for_each(|(id, action)| self.vehicle.port().ask(id, action))
     }
 
     /// Ends the run. The release is always the last act; then it is only written down.

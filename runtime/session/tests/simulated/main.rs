@@ -10,6 +10,7 @@ mod journal;
 #[path = "../library/mod.rs"]
 mod library;
 mod noise;
+mod payload;
 mod profiler;
 mod recorded;
 mod recording;

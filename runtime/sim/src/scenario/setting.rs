@@ -2,6 +2,7 @@
 
 use super::Scenario;
 use crate::craft::fault::Fault;
+use crate::craft::payload::Payload;
 use crate::craft::sensors::InstrumentSetting;
 use crate::craft::setup::VehicleSetup;
 use crate::craft::setup::{OwnRows, OwnWaypoints};
@@ -20,6 +21,7 @@ pub enum Setting {
     Rows(OwnRows),
     Waypoints(OwnWaypoints),
     Handover(Handover),
+    Payload(Payload),
     Fault(Fault),
     /// A clause of the environment, which the register of the world names.
     #[serde(skip)]
@@ -38,6 +40,7 @@ impl Scenario {
             Setting::Rows(rows) => self.own_mission = Some(rows.into()),
             Setting::Waypoints(waypoints) => self.own_mission = Some(waypoints.into()),
             Setting::Handover(handover) => self.handover = Some(handover),
+            Setting::Payload(payload) => self.payloads.push(payload),
             Setting::Fault(fault) => self.faults.push(fault),
             Setting::Environment(environment) => self.environment.set(environment),
             Setting::Instrument(instrument) => self.instruments.set(instrument),

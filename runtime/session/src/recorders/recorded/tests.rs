@@ -85,3 +85,13 @@ fn a_full_table_says_how_many_rows_it_lacks() {
     (1..=50).for_each(|at| recorded.take(&tick(at, &[0], &[])));
     assert_eq!((recorded.text(), recorded.rows()), (&*format!("{HEAD}{rows}"), (2, 3)));
 }
+
+/// Behind a gap in a journal nobody knows what has become active in it.
+#[test]
+fn a_mission_records_behind_a_gap() {
+    let mut recorded = recorded(1000);
+    recorded.take(&tick(5, &[0], &[(1, 5.0)]));
+    recorded.miss(10, 16);
+    (16..=20).for_each(|at| recorded.take(&tick(at, &[], &[(1, at as f64)])));
+    assert_eq!(recorded.text(), format!("{HEAD}2.0,,,,20\n"));
+}
