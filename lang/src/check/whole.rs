@@ -196,6 +196,7 @@ fn derive(base: &Activity, own: &Activity) -> Activity {
     let named: Option<BTreeSet<&str>> =
         (!my_table.is_empty()).then(|| my_table.iter().flat_map(|clause| named_in_table(clause)).collect());
     let owned: Vec<&str> = mine.iter().flat_map(|clause| channels(clause)).collect();
+    let recorded: Vec<&str> = mine.iter().flat_map(|clause| recorded(clause)).collect();
     let mut places: BTreeMap<(&str, bool), usize> = BTreeMap::new();
     for (at, clause) in theirs.iter().enumerate() {
         places.extend(subject(clause).map(|subject| (subject, at)));
@@ -222,7 +223,7 @@ fn derive(base: &Activity, own: &Activity) -> Activity {
         match instead {
             Some(mine) => clauses.push(mine.clone()),
             None if is_left_out(their, named.as_ref()) => {}
-            None => clauses.extend(without(their, &owned)),
+            None => clauses.extend(without(their, &owned, &recorded)),
         }
     }
     clauses.extend(new.into_iter().chain(new_behaviors).cloned());
@@ -289,13 +290,26 @@ fn axis(item: &WithItem) -> Option<&'static str> {
     }
 }
 
-/// A clause but for what others hold: a `with` keeps what is not on their axes.
-fn without(clause: &Clause, held: &[&str]) -> Option<Clause> {
+/// The inputs that a clause records.
+fn recorded(clause: &Clause) -> Vec<&str> {
+    match &clause.kind {
+        ClauseKind::Recording { inputs, .. } => inputs.iter().map(|input| input.node.as_str()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// A clause but for what others say: a `with` keeps what is not on the axes that they hold, a `record` what they do not record.
+fn without(clause: &Clause, held: &[&str], recorded: &[&str]) -> Option<Clause> {
     match &clause.kind {
         ClauseKind::With(items) => {
             let left: Vec<WithItem> =
                 items.iter().filter(|item| axis(item).is_none_or(|axis| !held.contains(&axis))).cloned().collect();
             (!left.is_empty()).then_some(Clause { kind: ClauseKind::With(left), span: clause.span })
+        }
+        ClauseKind::Recording { inputs, rate } => {
+            let left = inputs.iter().filter(|input| !recorded.contains(&input.node.as_str()));
+            let (inputs, rate): (Vec<_>, _) = (left.cloned().collect(), rate.clone());
+            (!inputs.is_empty()).then_some(Clause { kind: ClauseKind::Recording { inputs, rate }, span: clause.span })
         }
         _ => Some(clause.clone()),
     }

@@ -92,3 +92,37 @@ fn a_mission_records_in_its_recovery() {
     let late: Vec<f64> = times.filter(|time| *time > 181.0).collect();
     assert!(late.len() > 3 && late.windows(2).all(|pair| (pair[1] - pair[0] - 10.0).abs() < 1e-6), "{late:?}");
 }
+
+/// A strategy that is derived records what its base does, but for what it records itself.
+#[test]
+fn a_derived_strategy_records_its_own_in_place_of_its_bases() {
+    let text = "
+        strategy survey(row: Line) {
+            record temperature, salinity at 1 Hz
+            behavior drive { follow row }
+            start drive
+            drive -> finish on done
+        }
+        strategy closer = survey with { record temperature at 5 Hz }
+        mission both in shelf_front within 2 h {
+            area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 200 m)
+            limits { altitude >= 3 m, speed <= 2 m/s }
+            requires { position, course, heading fresh 5 s, else abort }
+            recovery within 10 min { goto op.center }
+            with depth 5 m, speed 1.5 m/s
+            survey(line(op.center, op.center + 50 m toward north))
+            closer(line(op.center, op.center + 50 m toward north))
+        }
+        scenario shelf_front = still_water with { ctd(); vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 5 m) }";
+    let (run, plan, _) = run(text);
+    let program = &plan.program;
+    let mut recorded: Vec<(&str, f64, Vec<&str>)> = Vec::new();
+    for recording in &program.recordings {
+        let inputs = recording.inputs.iter().map(|(input, _)| program.inputs[*input as usize].name.as_str());
+        recorded.push((&program.activities[recording.activity as usize].name, recording.rate, inputs.collect()));
+    }
+    recorded.sort_by_key(|(of, rate, _)| (*of, *rate as u64));
+    let of_base = ("survey", 1.0, vec!["temperature", "salinity"]);
+    assert_eq!(recorded, [("closer", 1.0, vec!["salinity"]), ("closer", 5.0, vec!["temperature"]), of_base]);
+    assert!(run.file(&RECORDED).lines().count() > 6 * 30, "five rows a second on the second leg");
+}
