@@ -126,3 +126,31 @@ fn a_derived_strategy_records_its_own_in_place_of_its_bases() {
     assert_eq!(recorded, [("closer", 1.0, vec!["salinity"]), ("closer", 5.0, vec!["temperature"]), of_base]);
     assert!(run.file(&RECORDED).lines().count() > 6 * 30, "five rows a second on the second leg");
 }
+
+/// What an overlay does by turns is no matter of what is recorded beside it.
+#[test]
+fn an_overlay_beside_a_record_changes_nothing_when_a_journal_is_read_back() {
+    let text = "
+        overlay phases {
+            behavior slow { wait }
+            behavior quick { wait for 2 s }
+            start slow
+            slow -> quick on every 5 s then back
+        }
+        behavior drive(row: Line) {
+            record altitude, heading at 2 Hz
+            follow row
+        }
+        mission beside in calm within 2 h {
+            area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 200 m)
+            limits { altitude >= 3 m, speed <= 2 m/s }
+            requires { position, course, heading fresh 5 s, else abort }
+            recovery within 10 min { goto op.center }
+            with depth 5 m, speed 1.5 m/s, phases()
+            drive(line(op.center, op.center + 50 m toward north))
+        }";
+    let (run, plan, journal) = run(text);
+    let past = PastRun::read(&plan, &journal).unwrap();
+    assert!(run.file(&RECORDED).lines().count() > 60, "{}", run.trace());
+    assert_eq!(past.file(&RECORDED), run.file(&RECORDED));
+}
