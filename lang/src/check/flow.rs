@@ -32,7 +32,7 @@ fn least_time_of(timed: &Timed) -> f64 {
     let ends_by_itself = match &timed.action {
         Action::Guide(guide, args) => guidance_ends(*guide, args),
         Action::Keep(..) | Action::Watch => false,
-        Action::Call(..) | Action::Override(_) => true,
+        Action::Call(..) | Action::Override(_) | Action::Ask(..) => true,
     };
     if ends_by_itself || timed.until.is_some() {
         return 0.0;
