@@ -1,7 +1,7 @@
 //! Behaviors, strategies, overlays and missions: their declarations, and what each kind may hold.
 
 use super::expr::article;
-use super::{Checker, Driving, Scope, Setting, Temporal, flow};
+use super::{Checker, Driving, Setting, Temporal, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Builtin, Decl, Expr, ExprKind, Kind, Mission, VarKind};
@@ -25,23 +25,7 @@ impl<'t> Checker<'t> {
         if self.baseless.contains(&a.name.span) {
             return;
         }
-        let signature = self.activity_signatures[id].clone();
-        let scope = Scope { derived: self.derived(a), ..Scope::new(m, Setting::Body) };
-        let ((mut activity, params), scope) = self.within(scope, |c| {
-            c.declare_params(&a.params, &signature.params);
-            let params = c.scope.vars.len();
-            for known in c.modules[m].known.iter().flatten() {
-                let id = c.declare_hidden(known.name.clone(), known.kind(), known.ty.clone(), signature.span);
-                c.scope.vars[id].range = known.range;
-            }
-            (c.activity(id, a, None), params)
-        });
-        activity.name = a.name.node.clone();
-        activity.full_name = signature.name.clone();
-        activity.vars = scope.vars;
-        activity.params = params;
-        activity.defaults = signature.params.into_iter().map(|p| p.default).collect();
-        self.hir.activities[id] = activity;
+        self.declared_activity(m, id, a);
     }
 
     /// An activity whose parameters are declared; `owner` is the strategy in which a behavior is nested.
@@ -49,7 +33,7 @@ impl<'t> Checker<'t> {
         let kind = self.kind(a);
         let result = match owner {
             Some(_) => None,
-            None => self.activity_signatures[id].result.clone(),
+            None => self.activity_signature(id).result.clone(),
         };
         self.scope.finish = match kind {
             Kind::Behavior | Kind::Mission => Some(result.clone()),

@@ -31,8 +31,22 @@ struct Outline {
 impl Checker<'_> {
     pub(super) fn area_file(&mut self, args: &[tree::Arg], span: Span) -> Expr {
         let unnamed = self.make(ExprKind::None, Type::None, span);
-        let text = |name: &str, default| ParamInfo { name: name.into(), ty: Type::Text, default, range: None, span };
-        let hole = ParamInfo { name: "hole".into(), ty: Type::Int, default: Some(unnamed.clone()), range: None, span };
+        let text = |name: &str, default| ParamInfo {
+            name: name.into(),
+            ty: Type::Text,
+            default,
+            range: None,
+            behavior: None,
+            span,
+        };
+        let hole = ParamInfo {
+            name: "hole".into(),
+            ty: Type::Int,
+            default: Some(unnamed.clone()),
+            range: None,
+            behavior: None,
+            span,
+        };
         let params = [text("file", None), text("named", Some(unnamed)), hole];
         let Some(values) = self.arguments("area_file", &params, args, span, None) else { return self.unknown(span) };
         let [file, named, hole] = values.as_slice() else { return self.unknown(span) };

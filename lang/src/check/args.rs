@@ -208,7 +208,14 @@ impl<'t> Checker<'t> {
     ) -> Option<Vec<Expr>> {
         let infos: Vec<ParamInfo> = params
             .iter()
-            .map(|(name, ty)| ParamInfo { name: (*name).to_string(), ty: ty.clone(), default: None, range: None, span })
+            .map(|(name, ty)| ParamInfo {
+                name: (*name).to_string(),
+                ty: ty.clone(),
+                default: None,
+                range: None,
+                behavior: None,
+                span,
+            })
             .collect();
         self.arguments(what, &infos, args, span, None)
     }
@@ -279,7 +286,7 @@ impl<'t> Checker<'t> {
                 }
             }
             Def::Activity(id) => {
-                let name = self.activity_signatures[*id].name.clone();
+                let name = self.activity_signature(*id).name.clone();
                 self.report(
                     Diagnostic::error(Code::TimeCall, callee.span, format!("`{name}` takes time: it is no value"))
                         .help(format!("call it as a statement, `{name}(…)`, or `let x = {name}(…)`")),

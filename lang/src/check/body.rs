@@ -52,7 +52,7 @@ impl<'t> Checker<'t> {
 
     pub(super) fn declare_params(&mut self, params: &[tree::Param], infos: &[super::ParamInfo]) {
         let mut names = BTreeSet::new();
-        for (param, info) in params.iter().zip(infos) {
+        for (param, info) in params.iter().zip(infos).filter(|(_, info)| info.behavior.is_none()) {
             // That two have one name has been told.
             let is_second = !names.insert(&param.name.node);
             let id = if is_second {

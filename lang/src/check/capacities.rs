@@ -12,10 +12,10 @@ use crate::syntax::tree::{self, TyKind};
 use crate::types::Type;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The functions that are made of those of any capacity at most, by all scripts together.
-const INSTANCES_MAX: usize = 256;
+/// The functions that are made of those of any capacity at most, by all scripts together; and the behaviors that are made of others.
+pub(super) const INSTANCES_MAX: usize = 256;
 /// The capacity with which such a function is checked though nobody calls it.
-const NOMINAL: u32 = 8;
+pub(super) const NOMINAL: u32 = 8;
 
 /// Names of capacities, and what they are.
 pub(super) type Capacities = Vec<(String, u32)>;
@@ -41,14 +41,7 @@ pub(super) struct Templates<'t> {
 impl<'t> Checker<'t> {
     /// The names in a function's parameters that are no constants, and stand for the capacities of lists.
     pub(super) fn take_capacities(&mut self, id: usize, m: usize, function: &'t tree::Function) -> Capacities {
-        let params: BTreeSet<&str> = function.params.iter().map(|param| param.name.node.as_str()).collect();
-        let mut names: Vec<String> = Vec::new();
-        for name in function.params.iter().filter_map(|param| capacity(&param.ty)) {
-            let is_new = !names.iter().any(|known| known == name) && !params.contains(name);
-            if is_new && self.lookup(m, name).is_none() {
-                names.push(name.to_string());
-            }
-        }
+        let names = self.capacity_names(m, &function.params);
         if names.is_empty() {
             return Vec::new();
         }
@@ -56,6 +49,27 @@ impl<'t> Checker<'t> {
         self.templates.made.insert((id, nominal.clone()), id);
         self.templates.of.insert(id, Template { module: m, function, names: names.clone() });
         names.into_iter().zip(nominal).collect()
+    }
+
+    /// The names in parameters that are no constants, in the order in which they come.
+    pub(super) fn capacity_names(&self, m: usize, params: &[tree::Param]) -> Vec<String> {
+        let declared: BTreeSet<&str> = params.iter().map(|param| param.name.node.as_str()).collect();
+        let mut names: Vec<String> = Vec::new();
+        for name in params.iter().filter_map(|param| capacity(&param.ty)) {
+            let is_new = !names.iter().any(|known| known == name) && !declared.contains(name);
+            if is_new && self.lookup(m, name).is_none() {
+                names.push(name.to_string());
+            }
+        }
+        names
+    }
+
+    /// A list that is given for one of any capacity, and how many it may hold.
+    pub(super) fn list_of_any(&mut self, written: &tree::Expr, inner: &Type) -> (Expr, u32) {
+        // One that is written out may hold any number, until it is known what it is written for.
+        let value = self.expr(written, Some(&Type::List(Box::new(inner.clone()), LIST_CAPACITY_MAX)));
+        let capacity = if let Type::List(_, capacity) = value.ty { capacity } else { 1 };
+        (value, capacity)
     }
 
     /// The capacities in the body of a function that is checked as it is declared.
@@ -86,11 +100,8 @@ impl<'t> Checker<'t> {
                 given.push(written.map(Given::Written));
                 continue;
             };
-            // A list that is written out may hold any number, until it is known what it is written for.
-            let value = self.expr(written, Some(&Type::List(inner.clone(), LIST_CAPACITY_MAX)));
-            if let Type::List(_, capacity) = value.ty {
-                capacities[place] = capacities[place].max(capacity);
-            }
+            let (value, capacity) = self.list_of_any(written, inner);
+            capacities[place] = capacities[place].max(capacity);
             given.push(Some(Given::Known(value)));
         }
         let Some(made) = self.made_of(id, &template, capacities, span) else { return self.unknown(span) };
@@ -160,12 +171,12 @@ impl<'t> Checker<'t> {
 }
 
 /// The name that stands for the capacity of a list.
-fn capacity(ty: &tree::Ty) -> Option<&str> {
+pub(super) fn capacity(ty: &tree::Ty) -> Option<&str> {
     match &ty.kind {
         TyKind::List { capacity, .. } => match &capacity.kind {
             tree::ExprKind::Name(name) => Some(name),
             _ => None,
         },
-        TyKind::Named { .. } => None,
+        TyKind::Named { .. } | TyKind::Behavior(_) => None,
     }
 }

@@ -100,6 +100,7 @@ impl<'t> Checker<'t> {
                 }
             }
         }
+        self.check_made_activities();
         self.check_made_functions();
         self.holes_are_read();
         if self.recursion() || self.calls_too_deep() {
@@ -189,7 +190,7 @@ impl<'t> Checker<'t> {
             Item::Clause { name, result, of_vehicle, .. } => {
                 let kind = result.as_ref().and_then(|ty| match &ty.kind {
                     TyKind::Named { path, .. } => Some(path.text()),
-                    TyKind::List { .. } => None,
+                    TyKind::List { .. } | TyKind::Behavior(_) => None,
                 });
                 let (signature, of_vehicle) = (Signature::named(name), *of_vehicle);
                 let (nested, otherwise) = (Vec::new(), Vec::new());
@@ -336,7 +337,7 @@ impl<'t> Checker<'t> {
         match item {
             Item::Activity(a) => {
                 if let Some(&Def::Activity(id)) = self.names[m].get(&a.name.node) {
-                    let params = self.params(m, &a.params, Some(&a.name.node));
+                    let params = self.activity_params(id, m, a);
                     let result = a.result.as_ref().map(|ty| self.written_type(self.home(ty.span, m), ty));
                     if let ActivityKind::Strategy { base: Some(base) } = &a.kind {
                         self.resolve(m, base);

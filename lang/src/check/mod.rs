@@ -18,6 +18,7 @@ mod facts;
 mod flow;
 mod foregone;
 mod formulas;
+mod given_behaviors;
 mod globe;
 mod hidden;
 mod lazy;
@@ -153,6 +154,8 @@ struct ParamInfo {
     ty: Type,
     default: Option<hir::Expr>,
     range: Option<Interval>,
+    /// Of one that is a behavior the types of what that is called with.
+    behavior: Option<Vec<Type>>,
     span: Span,
 }
 
@@ -243,6 +246,8 @@ struct Scope {
     tail: Option<Span>,
     /// A strategy that is derived: what it says itself, and the modules in which its parts stand.
     derived: Option<whole::Derived>,
+    /// The parameters that are behaviors.
+    behaviors: Vec<given_behaviors::GivenBehavior>,
     /// What names of capacities stand for, in a function of lists of any.
     capacities: capacities::Capacities,
 }
@@ -263,6 +268,7 @@ impl Scope {
             value_from: None,
             tail: None,
             derived: None,
+            behaviors: Vec::new(),
             capacities: Vec::new(),
         }
     }
@@ -301,6 +307,7 @@ pub struct Checker<'t> {
     fitted: Vec<hir::ClauseUse>,
     fn_signatures: Vec<Signature>,
     templates: capacities::Templates<'t>,
+    tours: given_behaviors::Tours<'t>,
     /// Units whose turn comes yet.
     units_ahead: UnitsAhead<'t>,
     /// The functions whose signatures are not read yet.
@@ -321,8 +328,9 @@ pub struct Checker<'t> {
     findings: Vec<Diagnostic>,
     /// By the places of their names, where strategies that are derived stand, and where they name their bases.
     derived_strategies: BTreeMap<Span, (Span, Span)>,
-    /// What is wrong with parts of a base where another strategy has them.
-    inherited_findings: Vec<(Diagnostic, Span)>,
+    /// What is wrong with parts of a base where another strategy has them, or with a behavior by what it is given; where that is, and what to
+    /// say there.
+    inherited_findings: Vec<(Diagnostic, Span, &'static str)>,
     /// What was declared, and what of it was read.
     names_used: unused::NamesUsed,
 }
@@ -372,6 +380,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         fitted: Vec::new(),
         fn_signatures: Vec::new(),
         templates: capacities::Templates::default(),
+        tours: given_behaviors::Tours::default(),
         units_ahead: UnitsAhead::default(),
         fns_ahead: BTreeMap::new(),
         activity_signatures: Vec::new(),

@@ -95,7 +95,8 @@ impl<'t> Checker<'t> {
                 .here("nothing can be shadowed")
                 .help("choose another name")
         };
-        if let Some(span) = earlier {
+        let given = self.given_behavior(&name.node).map(|given| given.span());
+        if let Some(span) = earlier.or(given) {
             self.report(finding("something").label(span, "declared here"));
         } else if self.capacity_named(&name.node).is_some() {
             self.report(finding("a capacity"));
@@ -132,6 +133,13 @@ impl<'t> Checker<'t> {
             self.names_used.read(declared);
             self.names_used.refer(span, declared);
             return self.variable(id, span);
+        }
+        if self.use_given(name, span).is_some() {
+            let finding = Diagnostic::error(Code::TypesBehavior, span, format!("`{name}` is a behavior, no value"));
+            self.report(
+                finding.help(format!("call it as a statement, `{name}(…)`, or give it to a behavior that takes one")),
+            );
+            return self.unknown(span);
         }
         if let Some(capacity) = self.capacity_named(name) {
             return self.make(ExprKind::Number(f64::from(capacity)), Type::Int, span);

@@ -63,6 +63,11 @@ impl<'t> Checker<'t> {
             }
             // That of another strategy is written in the module of that.
             let home = self.home(param.name.span, m);
+            if let Some(behavior) = owner.and_then(|_| self.behavior_param(home, param)) {
+                let (name, span, behavior) = (param.name.node.clone(), param.name.span, Some(behavior));
+                infos.push(ParamInfo { name, ty: Type::Unknown, default: None, range: None, behavior, span });
+                continue;
+            }
             let ty = self.written_type(home, &param.ty);
             let written = param.range.as_ref().and_then(|r| self.constant_range(home, r, &ty));
             let replaced = owner.and_then(|owner| self.take_override(m, owner, &param.name.node));
@@ -77,7 +82,8 @@ impl<'t> Checker<'t> {
                     self.in_range(default, range, &param.name.node, param.name.span);
                 }
             }
-            infos.push(ParamInfo { name: param.name.node.clone(), ty, default, range, span: param.name.span });
+            let (name, span) = (param.name.node.clone(), param.name.span);
+            infos.push(ParamInfo { name, ty, default, range, behavior: None, span });
         }
         infos
     }

@@ -37,7 +37,7 @@ impl<'t> Checker<'t> {
                     let name = path.text();
                     self.clauses.iter().any(|c| c.kind.as_ref() == Some(&name)).then_some(name)
                 }
-                TyKind::List { .. } => None,
+                TyKind::List { .. } | TyKind::Behavior(_) => None,
             };
             nested.push(kind);
         }
@@ -49,6 +49,7 @@ impl<'t> Checker<'t> {
                     name: param.name.node.clone(),
                     ty: Type::Unknown,
                     default: None,
+                    behavior: None,
                     range: None,
                     span: param.name.span,
                 });

@@ -20,6 +20,11 @@ impl<'t> Checker<'t> {
     /// The behavior or strategy that an expression calls.
     pub(super) fn called_activity(&self, e: &tree::Expr) -> Option<usize> {
         let tree::ExprKind::Call(callee, _) = &e.kind else { return None };
+        if let tree::ExprKind::Name(name) = &callee.kind
+            && let Some(given) = self.given_behavior(name)
+        {
+            return Some(given.id());
+        }
         match self.find(callee) {
             Found::Def(Def::Activity(id)) => Some(id),
             _ => None,
@@ -176,8 +181,11 @@ impl<'t> Checker<'t> {
             tree::Action::Ask(_) => return None,
             tree::Action::Expr(e) => {
                 let id = self.called_activity(e)?;
-                let tree::ExprKind::Call(_, args) = &e.kind else { return None };
-                let signature = self.activity_signatures[id].clone();
+                let tree::ExprKind::Call(callee, args) = &e.kind else { return None };
+                if let tree::ExprKind::Name(name) = &callee.kind {
+                    self.use_given(name, callee.span);
+                }
+                let signature = self.activity_signature(id).clone();
                 if self.overlay_ids.contains(&id) || self.mission_ids.contains(&id) {
                     let (what, help) = if self.overlay_ids.contains(&id) {
                         ("an overlay", format!("put it on: `with {}(…)`", signature.name))
@@ -195,8 +203,8 @@ impl<'t> Checker<'t> {
                     );
                     return None;
                 }
-                let values = self.arguments(&signature.name, &signature.params, args, e.span, Some(signature.span))?;
-                (Action::Call(id, values), true, signature.result)
+                let (call, result) = self.call_of_activity(id, args, e.span)?;
+                (call, true, result)
             }
         })
     }
@@ -301,7 +309,7 @@ impl<'t> Checker<'t> {
                         if let Found::Def(Def::Activity(id)) = self.find(e)
                             && self.overlay_ids.contains(&id)
                         {
-                            let name = &self.activity_signatures[id].name;
+                            let name = &self.activity_signature(id).name;
                             let message = format!("the arguments of `{name}` are missing");
                             let help = format!("write them behind it, `{name}(…)`, or `{name}()` if there are none");
                             self.report(Diagnostic::error(Code::TypesOverlay, e.span, message).help(help));
@@ -318,7 +326,7 @@ impl<'t> Checker<'t> {
                         continue;
                     };
                     let tree::ExprKind::Call(_, args) = &e.kind else { continue };
-                    let signature = self.activity_signatures[id].clone();
+                    let signature = self.activity_signature(id).clone();
                     if !self.overlay_ids.contains(&id) {
                         self.report(
                             Diagnostic::error(
@@ -357,7 +365,7 @@ fn param_info(param: &Param, place: Span, statement: Span) -> ParamInfo {
         let range = if ty == Type::Bool { Interval::ANY } else { Interval::exactly(value) };
         hir::Expr { kind: ExprKind::Number(value), ty: ty.clone(), span: statement, range }
     });
-    ParamInfo { name: param.name.to_string(), ty, default, range: param.range, span: place }
+    ParamInfo { name: param.name.to_string(), ty, default, range: param.range, behavior: None, span: place }
 }
 
 /// Whether guidance comes to an end of its own.

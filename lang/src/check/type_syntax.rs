@@ -110,6 +110,14 @@ impl<'t> Checker<'t> {
                 }
             }
             TyKind::Named { path, factors } => self.named_type(m, path, factors),
+            TyKind::Behavior(_) => {
+                let message = "a behavior is no value";
+                let finding = Diagnostic::error(Code::TypesBehavior, ty.span, message);
+                self.report(
+                    finding.help("only a parameter of a behavior or a strategy can be one: `at_each: behavior(Point)`"),
+                );
+                Type::Unknown
+            }
         };
         if ty.optional { inner.optional() } else { inner }
     }

@@ -15,6 +15,8 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+/// What is said where a strategy names its base, of what is wrong with that only here.
+const OF_BASE: &str = "with what this strategy says itself";
 /// Bytes of text that strategies have of others, in all of a script.
 const INHERITED_MAX: usize = 1 << 20;
 
@@ -353,7 +355,7 @@ impl<'t> Checker<'t> {
         let result = work(self);
         self.names_used.inherit(was_inherited);
         self.scope.module = outer;
-        self.inherited_findings.extend(self.findings.drain(before..).map(|finding| (finding, base)));
+        self.inherited_findings.extend(self.findings.drain(before..).map(|finding| (finding, base, OF_BASE)));
         result
     }
 
@@ -366,26 +368,26 @@ impl<'t> Checker<'t> {
         for finding in found {
             match own.holds(finding.span()) {
                 true => self.findings.push(finding),
-                false => self.inherited_findings.push((finding, base)),
+                false => self.inherited_findings.push((finding, base, OF_BASE)),
             }
         }
     }
 
-    /// Tells what is wrong with what a strategy has of its base, unless the base has been told the same.
+    /// Tells what is wrong with what was declared elsewhere only as it is used here, unless that has been told the same.
     pub(super) fn tell_inherited(&mut self) {
         let told: BTreeSet<(Span, &str)> = self.findings.iter().map(|f| (f.span(), f.message.as_str())).collect();
         let inherited = std::mem::take(&mut self.inherited_findings);
-        let new = inherited.into_iter().filter(|(finding, _)| !told.contains(&(finding.span(), &finding.message)));
-        let new: Vec<Diagnostic> = new.map(|(finding, base)| at_base(finding, base)).collect();
+        let new = inherited.into_iter().filter(|(finding, ..)| !told.contains(&(finding.span(), &finding.message)));
+        let new: Vec<Diagnostic> = new.map(|(finding, place, with)| told_at(finding, place, with)).collect();
         self.findings.extend(new);
     }
 }
 
-/// A finding of a part of a base, told where the base is named.
-fn at_base(mut finding: Diagnostic, base: Span) -> Diagnostic {
+/// A finding of a part of something declared elsewhere, told where that is named.
+fn told_at(mut finding: Diagnostic, place: Span, with: &str) -> Diagnostic {
     if let Some((_, said)) = finding.labels.first_mut().filter(|(_, said)| said.is_empty()) {
         *said = "in this part of it".to_string();
     }
-    finding.labels.insert(0, (base, "with what this strategy says itself".to_string()));
+    finding.labels.insert(0, (place, with.to_string()));
     finding
 }

@@ -235,6 +235,7 @@ pub(super) fn ty(b: &mut Builder, node: Node) -> Ty {
         match part.rule() {
             Rule::maybe => optional = true,
             Rule::list_ty => kind = list_ty(b, part).unwrap_or(kind),
+            Rule::behavior_ty => kind = TyKind::Behavior(part.parts().map(|p| ty(b, p)).collect()),
             _ => kind = name_ty(part),
         }
     }

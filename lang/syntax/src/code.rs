@@ -219,6 +219,7 @@ codes! {
         TimeWith = "with",
     }
     types {
+        TypesBehavior = "behavior",
         TypesCapacity = "capacity",
         TypesComparison = "comparison",
         TypesCondition = "condition",

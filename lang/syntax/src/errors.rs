@@ -277,7 +277,7 @@ fn kind(rule: Rule) -> String {
         params => "`(`",
         arrow => "`->`",
         range | range_op => "`..`",
-        ty | name_ty | list_ty => "a type",
+        ty | name_ty | list_ty | behavior_ty => "a type",
         param | clause_param => "a parameter, `NAME: TYPE`",
         field => "a field, `NAME: TYPE`",
         labelled => "a field, `NAME: VALUE`",

@@ -141,6 +141,8 @@ pub enum TyKind {
         /// Further names with their powers.
         factors: Vec<(Name, f64)>,
     },
+    /// `behavior(Point)`, with the types of what it is called with.
+    Behavior(Vec<Ty>),
     /// `[Point; 6] by most KEY`.
     List {
         /// What it holds.
