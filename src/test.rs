@@ -377,10 +377,12 @@ fn told(at: &Named, failure: &Failure) -> Vec<String> {
     // Without the last bits of a product.
     let digits = |w: f64| (w * 1e12).round() / 1e12;
     let wanted = failure.wanted.filter(|w| *w < 100.0).map(|w| format!(", {} % wanted", digits(w))).unwrap_or_default();
-    let mut lines = vec![
-        format!("        {}  {}", at.place(&failure.place), failure.text),
-        format!("        held in {held} of {runs} runs{wanted}"),
-    ];
+    let how_often = match runs {
+        0 => "this behavior was active in none of the runs".to_string(),
+        _ => format!("held in {held} of {runs} runs{wanted}"),
+    };
+    let mut lines =
+        vec![format!("        {}  {}", at.place(&failure.place), failure.text), format!("        {how_often}")];
     lines.extend(failure.examples.iter().map(|(seed, found)| example(*seed, found)));
     lines
 }

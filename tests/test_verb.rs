@@ -319,6 +319,21 @@ fn how_it_ended_and_what_was_reported_last_can_be_asked_for() {
     insta::assert_snapshot!(said);
 }
 
+/// What `albacore test` says of the tests of a script that hold, and of those that fail.
+fn held_and_failed(name: &str, script: &str) -> [(Option<i32>, String); 2] {
+    let project = Project::new(name, "10 s", "5 m");
+    std::fs::write(project.0.join("north.alb"), script).unwrap();
+    ["holds", "fails"].map(|tests| project.test(&["--filter", tests]))
+}
+
+#[test]
+fn what_holds_while_a_behavior_is_active_is_looked_at_then_alone() {
+    let [held, failed] = held_and_failed("while", include_str!("test_verb/while_active.alb"));
+    assert_eq!((held.0, held.1.contains("2 passed, 0 failed")), (Some(0), true), "{}", held.1);
+    assert_eq!(failed.0, Some(1), "{}", failed.1);
+    insta::assert_snapshot!(failed.1);
+}
+
 #[test]
 fn what_was_reported_and_when_is_known_behind_a_has_reported_too() {
     let project = Project::new("reports", "10 s", "5 m");

@@ -7,7 +7,7 @@ use crate::syntax::{Unread, words};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Findings that nothing has a name: what could not be read may have declared it.
-const NAMES: [Code; 9] = [
+const NAMES: [Code; 10] = [
     Code::NamesUnknown,
     Code::NamesMember,
     Code::TypesUnknown,
@@ -16,6 +16,7 @@ const NAMES: [Code; 9] = [
     Code::ScenariosUnknown,
     Code::ScenariosClause,
     Code::MissionsRequires,
+    Code::TestsBehavior,
     Code::TestsMission,
 ];
 

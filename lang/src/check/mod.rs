@@ -47,6 +47,7 @@ mod unused;
 mod value;
 mod vehicle;
 mod visible;
+mod while_active;
 mod whole;
 
 pub use ends::never_ends;

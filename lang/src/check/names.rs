@@ -52,7 +52,7 @@ impl<'t> Checker<'t> {
     }
 
     /// Where an imported name leads.
-    fn import(&self, module: usize, name: &str, at: Span) -> Option<usize> {
+    pub(super) fn import(&self, module: usize, name: &str, at: Span) -> Option<usize> {
         let imported = *self.modules[module].imports.get(name)?;
         self.names_used.import(module, name);
         if let Some(place) = self.import_places[module].get(name) {

@@ -154,6 +154,11 @@ impl<'t> Checker<'t> {
         let when = match mode {
             ExpectMode::EveryRun => When::AtTheEnd(1.0),
             ExpectMode::Always => When::Always,
+            ExpectMode::While(behavior) => {
+                self.asks_no_ending(&holds);
+                // One that is not understood has been told: the test is not run.
+                self.behavior_of_the_tested(behavior).map_or(When::Always, When::While)
+            }
             ExpectMode::ShareOfRuns(share) => {
                 let value = self.expr_as(share, &Type::Quantity(Dimension::NONE), "a share of the runs");
                 match value.range.constant() {

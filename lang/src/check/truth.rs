@@ -36,7 +36,7 @@ pub(super) type Reports = BTreeMap<String, Vec<Type>>;
 /// The test whose expectations are being checked.
 pub(super) struct TestScope {
     /// The mission that it runs.
-    mission: usize,
+    pub mission: usize,
     /// The types of what that reports, by name.
     reports: Rc<Reports>,
     /// The variables that hold what is asked of a report, by its name.

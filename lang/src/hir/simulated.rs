@@ -115,7 +115,7 @@ pub enum ReportPart {
 #[derive(Clone, Debug)]
 pub struct Expect {
     /// When it must hold.
-    pub when: When,
+    pub when: When<ActivityId>,
     /// The condition.
     pub holds: Expr,
     /// What it takes for granted: variables that may be absent, and what to say when they are.
@@ -124,13 +124,15 @@ pub struct Expect {
     pub span: Span,
 }
 
-/// When an expectation must hold.
+/// When an expectation must hold; `A` stands for an activity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum When {
+pub enum When<A> {
     /// At the end of this share of the runs.
     AtTheEnd(f64),
     /// At every tick of every run.
     Always,
+    /// At every tick in which a behavior or a strategy is active.
+    While(A),
 }
 
 impl<T: Copy> TestNames<T> {

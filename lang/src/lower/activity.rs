@@ -194,7 +194,9 @@ impl<'a> Lowering<'a> {
             overlays,
             result,
         });
-        self.recorded(&activity.recordings)
+        let index = self.recorded(&activity.recordings);
+        self.activities.insert(id, index);
+        index
     }
 
     /// What is recorded while the activity is active that was lowered last; gives the index of that.

@@ -30,7 +30,7 @@ use crate::source::{Sources, Span};
 use crate::types::Type;
 use crate::types::TypeTable;
 use albacore_geometry::{Geodetic, Point, TangentFrame};
-use albacore_program::{ABSOLUTE, Addr, Claims, Input, Op, Program, Shape, Slot};
+use albacore_program::{ABSOLUTE, ActivityId, Addr, Claims, Input, Op, Program, Shape, Slot};
 use std::collections::BTreeMap;
 
 /// A lowered function.
@@ -85,6 +85,8 @@ pub struct Lowered {
     pub units: BTreeMap<usize, (u64, u64)>,
     /// The instructions of each function that is called.
     pub fns: BTreeMap<usize, u64>,
+    /// Where each activity stands among the program's.
+    pub activities: BTreeMap<usize, ActivityId>,
 }
 
 /// Lowers one mission and what it needs.
@@ -97,6 +99,8 @@ struct Lowering<'a> {
     origin: Option<Geodetic>,
     fns: BTreeMap<usize, FnCode>,
     units: BTreeMap<usize, UnitCode>,
+    /// Where each activity stands among the program's.
+    activities: BTreeMap<usize, ActivityId>,
     /// The variables of what is being lowered: a function's or a unit's.
     vars: &'a [hir::Var],
     frame: Frame,
@@ -143,7 +147,7 @@ struct Frame {
 
 /// Lowers a mission. The findings are errors that only the whole program shows.
 pub fn mission(hir: &Hir, types: &TypeTable, sources: &Sources, mission: usize) -> Result<Program, Vec<Diagnostic>> {
-    within_limits(Lowering::new(hir, types, sources), mission)
+    Ok(within_limits(Lowering::new(hir, types, sources), mission)?.program)
 }
 
 /// Lowers a mission however large it is, and tells what it is made of.
@@ -164,7 +168,7 @@ pub fn line(
     mission: usize,
     origin: Option<Geodetic>,
 ) -> Result<Program, Vec<Diagnostic>> {
-    within_limits(Lowering { origin, ..Lowering::new(hir, types, sources) }, mission)
+    Ok(within_limits(Lowering { origin, ..Lowering::new(hir, types, sources) }, mission)?.program)
 }
 
 /// The same with arguments in place of the parameters' defaults.
@@ -174,12 +178,12 @@ fn mission_with(
     sources: &Sources,
     mission: usize,
     args: Option<&[hir::Expr]>,
-) -> Result<Program, Vec<Diagnostic>> {
+) -> Result<Lowered, Vec<Diagnostic>> {
     within_limits(Lowering { mission_args: args, ..Lowering::new(hir, types, sources) }, mission)
 }
 
 /// A program that a machine can hold, and whose ticks end in time.
-fn within_limits(lowering: Lowering<'_>, mission: usize) -> Result<Program, Vec<Diagnostic>> {
+fn within_limits(lowering: Lowering<'_>, mission: usize) -> Result<Lowered, Vec<Diagnostic>> {
     let (hir, types, sources) = (lowering.hir, lowering.types, lowering.sources);
     // Steps first: they are counted without any code.
     if let Some(finding) = limits::steps(hir, types, sources, mission) {
@@ -193,7 +197,7 @@ fn within_limits(lowering: Lowering<'_>, mission: usize) -> Result<Program, Vec<
     // What the checker has let through is looked through again, in every test.
     debug_assert_eq!(lowered.program.verify(), Ok(()));
     debug_assert_eq!(lowered.program.verify_ranges(&lowered.claims), Ok(()));
-    Ok(lowered.program)
+    Ok(lowered)
 }
 
 impl<'a> Lowering<'a> {
@@ -207,6 +211,7 @@ impl<'a> Lowering<'a> {
             origin: None,
             fns: BTreeMap::new(),
             units: BTreeMap::new(),
+            activities: BTreeMap::new(),
             vars: &[],
             frame: Frame::default(),
             findings: Vec::new(),
@@ -230,6 +235,7 @@ impl<'a> Lowering<'a> {
             instructions: self.emitted,
             units: self.units.into_iter().map(|(id, unit)| (id, (unit.words, unit.ops))).collect(),
             fns: self.fns.into_iter().map(|(id, code)| (id, code.ops)).collect(),
+            activities: self.activities,
         })
     }
 

@@ -1,13 +1,13 @@
 //! Tests to code: each expectation, and what is printed of it when it fails.
 
-use super::{Lowering, slot};
+use super::{Lowered, Lowering, slot};
 use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children, test_file_name};
 use crate::source::Sources;
 use crate::types::Type;
 use crate::types::TypeTable;
-use albacore_program::{Code, Program, Shape, Slot};
+use albacore_program::{ActivityId, Code, Program, Shape, Slot};
 
 /// A test, ready to run.
 #[derive(Clone, Debug)]
@@ -44,8 +44,8 @@ pub struct ExpectProgram {
     pub text: String,
     /// `file:line`.
     pub place: String,
-    /// When it must hold; at the end in this share of the runs, or always.
-    pub share: Option<f64>,
+    /// When it must hold.
+    pub when: When<ActivityId>,
     /// The points whose true water depth it asks for, in order, and where the answers go.
     pub depths: Vec<(Code, Slot)>,
     /// The condition.
@@ -99,7 +99,8 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     if let Some(finding) = limits::test_steps(hir, types, index) {
         return Err(vec![finding]);
     }
-    let mission = super::mission_with(hir, types, sources, test.mission, Some(&test.args))?;
+    let Lowered { program: mission, activities, .. } =
+        super::mission_with(hir, types, sources, test.mission, Some(&test.args))?;
     let mut lowering = Lowering::new(hir, types, sources);
     lowering.origin = mission.mission.origin;
     for expect in &test.expects {
@@ -125,9 +126,11 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                 ExpectProgram {
                     text: l.sources.text(expect.span).to_string(),
                     place: l.sources.place(expect.span),
-                    share: match expect.when {
-                        When::AtTheEnd(share) => Some(share),
-                        When::Always => None,
+                    when: match expect.when {
+                        When::AtTheEnd(share) => When::AtTheEnd(share),
+                        When::Always => When::Always,
+                        // What is not lowered with the mission is never entered.
+                        When::While(id) => When::While(activities.get(&id).copied().unwrap_or(ActivityId::MAX)),
                     },
                     depths: asked.into_iter().map(|(point, to)| (l.code(point), l.frame.vars[*to])).collect(),
                     holds: l.code(&expect.holds),

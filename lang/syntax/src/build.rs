@@ -303,6 +303,9 @@ fn test_clause(b: &mut Builder, node: Node) -> Option<TestClause> {
         },
         Rule::expect_clause => {
             let always = node.inner().any(|word| word.rule() == Rule::w_always);
+            if let Some(behavior) = take(&mut inner, Rule::path).map(path) {
+                return Some(TestClause::Expect { mode: ExpectMode::While(behavior), holds: expr(b, inner.next()?) });
+            }
             let first = expr(b, inner.next()?);
             let (mode, holds) = match inner.next() {
                 Some(holds) => (ExpectMode::ShareOfRuns(first), expr(b, holds)),

@@ -192,6 +192,7 @@ codes! {
         SyntaxText = "text",
     }
     tests {
+        TestsBehavior = "behavior",
         TestsMission = "mission",
         TestsName = "name",
         TestsNothing = "nothing",

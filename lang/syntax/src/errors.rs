@@ -276,6 +276,7 @@ fn kind(rule: Rule) -> String {
         block | test_block => "`{`",
         params => "`(`",
         arrow => "`->`",
+        colon => "`:`",
         range | range_op => "`..`",
         ty | name_ty | list_ty | behavior_ty => "a type",
         param | clause_param => "a parameter, `NAME: TYPE`",

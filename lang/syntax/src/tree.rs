@@ -459,4 +459,6 @@ pub enum ExpectMode {
     ShareOfRuns(Expr),
     /// At every tick of every run.
     Always,
+    /// At every tick in which a behavior is active.
+    While(Path),
 }

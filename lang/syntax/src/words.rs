@@ -227,7 +227,7 @@ pub(super) fn of_tests() -> impl Iterator<Item = &'static str> {
 
 /// Whether a rule of the grammar is a word or a sign that means nothing by itself: a tree has no place for it.
 pub(super) fn is_mark(rule: Rule) -> bool {
-    rule == Rule::arrow || word_of(rule).is_some_and(|(_, mark)| mark)
+    matches!(rule, Rule::arrow | Rule::colon) || word_of(rule).is_some_and(|(_, mark)| mark)
 }
 
 /// The word that a rule of the grammar stands for: `kw_goto` for `goto`, `w_fresh` for `fresh`, `v_true` for `true`.

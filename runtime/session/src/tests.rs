@@ -6,6 +6,7 @@ use crate::recorders::expectations::Expectations;
 use crate::recorders::trace::Trace;
 use crate::run::Driver;
 use crate::threads::pool;
+use albacore_lang::hir::When;
 use albacore_lang::{Script, TestProgram};
 use albacore_vehicle::TICK_S;
 use rayon::prelude::*;
@@ -42,9 +43,10 @@ pub struct Failure {
     pub text: String,
     /// `file:line`.
     pub place: String,
-    /// In how many of how many runs it held; for `always` how many runs were without a breach.
+    /// In how many of how many runs it held, from first to last for `always` and `while`; for `while` of those alone in which its behavior
+    /// was active.
     pub held: (usize, usize),
-    /// The share that was asked for, in per cent; none for `always`.
+    /// The share that was asked for, in per cent; none for `always` and `while`.
     pub wanted: Option<f64>,
     /// The first runs in which it did not hold: the seed, when, and what was found.
     pub examples: Vec<(u64, String)>,
@@ -68,20 +70,22 @@ pub fn run_test(script: &Script, test: &TestProgram, faults: &Faults) -> Result<
     let mut failures = Vec::new();
     for (i, expect) in test.expects.iter().enumerate() {
         let broken: Vec<&Judged> = runs.iter().filter(|r| r.breaches[i].is_some()).collect();
-        let held = runs.len() - broken.len();
-        let enough = match expect.share {
-            // A share of whole runs, of one at least: no run is missing for the last bits of a product.
-            Some(share) => held > 0 && held as f64 >= share * runs.len() as f64 - 1e-6,
-            None => broken.is_empty(),
+        let looked = runs.iter().filter(|r| r.looked[i]).count();
+        let held = looked - broken.len();
+        let share = match expect.when {
+            When::AtTheEnd(share) => Some(share),
+            When::Always | When::While(_) => None,
         };
+        // A share of whole runs, of one at least: no run is missing for the last bits of a product. What was never looked at does not hold.
+        let enough = held > 0 && held as f64 >= share.unwrap_or(1.0) * looked as f64 - 1e-6;
         if !enough {
             let examples =
                 broken.iter().filter_map(|r| Some((r.seed, r.breaches[i].clone()?))).take(EXAMPLES_MAX).collect();
             failures.push(Failure {
                 text: expect.text.clone(),
                 place: expect.place.clone(),
-                held: (held, runs.len()),
-                wanted: expect.share.map(|s| s * 100.0),
+                held: (held, looked),
+                wanted: share.map(|s| s * 100.0),
                 examples,
             });
         }
@@ -109,6 +113,8 @@ struct Judged {
     seed: u64,
     /// How long, s.
     lasted: f64,
+    /// For each expectation whether there was a moment to look at it.
+    looked: Vec<bool>,
     /// For each expectation what was found where it first did not hold.
     breaches: Vec<Option<String>>,
     /// Why it could not go on, and when.
@@ -127,6 +133,7 @@ fn judge(plan: &Plan, test: &TestProgram, seed: u64) -> Result<Judged, PlanError
     Ok(Judged {
         seed,
         lasted,
+        looked: expectations.looked,
         breaches: expectations.breaches,
         failed,
         trace: trace.map(|trace| trace.lines().to_string()),

@@ -176,7 +176,7 @@ impl<'a> Builder<'a> {
         let tight = match node.rule() {
             Rule::range_op | Rule::dim_op => BOTH,
             Rule::neg | Rule::pos => RIGHT,
-            Rule::maybe | Rule::north_south | Rule::east_west => LEFT,
+            Rule::maybe | Rule::colon | Rule::north_south | Rule::east_west => LEFT,
             _ => NEITHER,
         };
         let mut docs = Vec::new();

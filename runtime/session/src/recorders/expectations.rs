@@ -4,14 +4,14 @@ use super::Recorder;
 use super::results::{Reported, Results};
 use crate::plan::Plan;
 use albacore_geometry::Point;
-use albacore_lang::hir::{OUTCOMES, ReportPart};
+use albacore_lang::hir::{OUTCOMES, ReportPart, When};
 use albacore_lang::{ExpectProgram, NamedValue, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
-use albacore_program::{AREA_WORDS, number};
+use albacore_program::{AREA_WORDS, ActivityId, number};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::TICK_S;
 
-/// Looks at what is expected always on each tick, and at the rest when the run is over.
+/// Looks on each tick at what is expected always or while a behavior is active, and at the rest when the run is over.
 pub(crate) struct Expectations<'t> {
     test: &'t TestProgram,
     results: Results,
@@ -20,6 +20,10 @@ pub(crate) struct Expectations<'t> {
     position: Point,
     /// The words of the mission's area.
     area: Vec<f64>,
+    /// The names of the active activities within the mission, as the trace tells them.
+    active: String,
+    /// For each expectation whether there was a moment to look at it.
+    pub looked: Vec<bool>,
     /// For each expectation what was found where it first did not hold.
     pub breaches: Vec<Option<String>>,
 }
@@ -33,6 +37,8 @@ impl<'t> Expectations<'t> {
             evaluation: Evaluation::new(&test.program),
             position: start,
             area: vec![0.0; AREA_WORDS as usize],
+            active: String::new(),
+            looked: vec![false; test.expects.len()],
             breaches: vec![None; test.expects.len()],
         }
     }
@@ -43,10 +49,11 @@ impl<'t> Expectations<'t> {
         failed.then(|| format!("{} ({})", self.results.reason(), self.time()))
     }
 
-    /// Looks at those that are expected always, or at the others.
-    fn look(&mut self, always: bool) {
+    /// Looks at those that are expected now.
+    fn look(&mut self, is_due: impl Fn(When<ActivityId>) -> bool) {
         let test = self.test;
-        for (i, expect) in test.expects.iter().enumerate().filter(|(_, expect)| expect.share.is_none() == always) {
+        for (i, expect) in test.expects.iter().enumerate().filter(|(_, expect)| is_due(expect.when)) {
+            self.looked[i] = true;
             if self.breaches[i].is_none() {
                 self.breaches[i] = self.breach(expect);
             }
@@ -65,8 +72,13 @@ impl<'t> Expectations<'t> {
 
     /// What was found, when an expectation does not hold.
     fn breach(&mut self, expect: &ExpectProgram) -> Option<String> {
-        let ending = expect.share.and_then(|_| self.ending());
-        let when = ending.map_or_else(|| self.time(), |ending| format!("{}, {ending}", self.time()));
+        let when = match (expect.when, self.ending()) {
+            (When::AtTheEnd(_), Some(ending)) => format!("{}, {ending}", self.time()),
+            (When::Always | When::While(_), _) if !self.active.is_empty() => {
+                format!("{}, in {}", self.time(), self.active)
+            }
+            _ => self.time(),
+        };
         let (test, evaluation) = (self.test, &mut self.evaluation);
         for (need, without) in &expect.needs {
             if evaluation.words(*need, 1)[0] == 0.0 {
@@ -153,21 +165,21 @@ impl Recorder for Expectations<'_> {
         if !record.area.is_empty() {
             self.area.clone_from(&record.area);
         }
-        match record.step {
-            Step::Wait => {}
+        // What has been left with the end is not active in its tick any more.
+        let within = record.active.get(1..).unwrap_or_default();
+        let due = |when| match (&record.step, when) {
+            (Step::Wait, _) | (Step::Tick, When::AtTheEnd(_)) | (Step::End(_), When::While(_)) => false,
             // On the first tick nothing has happened yet, and the last one is looked at with the end.
-            Step::Tick if record.tick == 0 || record.is_last => {}
-            Step::Tick => {
-                if self.test.expects.iter().any(|expect| expect.share.is_none()) {
-                    self.set_slots();
-                    self.look(true);
-                }
-            }
-            Step::End(_) => {
-                self.set_slots();
-                self.look(true);
-                self.look(false);
-            }
+            (Step::Tick, When::Always) => record.tick > 0 && !record.is_last,
+            (Step::Tick, When::While(id)) => within.contains(&id),
+            (Step::End(_), When::Always | When::AtTheEnd(_)) => true,
+        };
+        if self.test.expects.iter().any(|expect| due(expect.when)) {
+            let activities = &self.results.plan.program.activities;
+            let name = |id: &ActivityId| activities.get(*id as usize).map_or("?", |activity| activity.name.as_str());
+            self.active = within.iter().map(name).collect::<Vec<_>>().join(" > ");
+            self.set_slots();
+            self.look(due);
         }
     }
 }
