@@ -335,6 +335,14 @@ fn what_holds_while_a_behavior_is_active_is_looked_at_then_alone() {
 }
 
 #[test]
+fn how_the_vehicle_truly_moves_is_held_to_tolerances() {
+    let [held, failed] = held_and_failed("control", include_str!("test_verb/control.alb"));
+    assert_eq!((held.0, held.1.contains("1 passed, 0 failed")), (Some(0), true), "{}", held.1);
+    assert_eq!(failed.0, Some(1), "{}", failed.1);
+    insta::assert_snapshot!(failed.1);
+}
+
+#[test]
 fn what_was_reported_and_when_is_known_behind_a_has_reported_too() {
     let project = Project::new("reports", "10 s", "5 m");
     std::fs::write(project.0.join("north.alb"), REPORTS).unwrap();

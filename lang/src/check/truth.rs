@@ -5,7 +5,7 @@ use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, VarKind};
+use crate::hir::{Builtin, Expr, ExprKind, Interval, Motion, OUTCOMES, ReportPart, TestNames, VarKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
@@ -13,7 +13,7 @@ use albacore_wording::listed;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// What stands after `truth`.
+/// What stands after `truth`, beside how the vehicle moves.
 const TRUTHS: [&str; 6] = ["position", "nearest_source", "source", "start", "deepest", "depth_at"];
 /// The questions for a report.
 const QUESTIONS: [&str; 6] =
@@ -21,6 +21,9 @@ const QUESTIONS: [&str; 6] =
 
 /// No run lasts longer, s: three years.
 const RUN_MAX_S: f64 = 1e8;
+
+/// Nothing moves faster, m/s.
+const SPEED_MAX: f64 = 1e4;
 
 /// No run reports more often: so many lines in each of its ticks.
 const REPORTS_MAX: f64 = 1e12;
@@ -56,6 +59,7 @@ impl<'t> Checker<'t> {
         let var = |c: &mut Self, name: &str, ty: Type| c.declare_hidden(name.to_string(), VarKind::Signal, ty, span);
         let vars = TestNames {
             position: var(self, "truth.position", Type::Point),
+            motion: Motion::ALL.map(|motion| var(self, &format!("truth.{}", motion.name()), motion.ty())),
             nearest_source: var(self, "truth.nearest_source", Type::Point.optional()),
             start: var(self, "truth.start", Type::Point),
             deepest: var(self, "truth.deepest", Type::Point.optional()),
@@ -67,6 +71,7 @@ impl<'t> Checker<'t> {
         };
         // It has run for no time yet, or for some.
         self.scope.vars[vars.time].range = Interval::new(0.0, RUN_MAX_S);
+        self.scope.vars[vars.motion[Motion::Speed as usize]].range = Interval::new(0.0, SPEED_MAX);
         self.test = Some(TestScope {
             mission,
             reports: self.reports_of(mission),
@@ -107,19 +112,25 @@ impl<'t> Checker<'t> {
             ("truth", "deepest") => {
                 return Some(self.taken_for_granted(test.names.deepest, NO_DEEPEST.to_string(), span));
             }
-            ("truth", other) => {
-                let finding =
-                    Diagnostic::error(Code::TestsTruth, member.span, format!("there is no `truth.{other}` to ask for"));
-                let finding = match self.nearest(other, TRUTHS) {
-                    Some(near) => finding.help(format!("did you mean `truth.{near}`?")),
-                    None => finding.help(format!("there is {}", listed(&TRUTHS))),
-                };
-                self.report(finding);
-                return Some(self.unknown(span));
-            }
+            ("truth", other) => match Motion::ALL.iter().position(|motion| motion.name() == other) {
+                Some(motion) => test.names.motion[motion],
+                None => return Some(self.no_truth(other, member.span, span)),
+            },
             _ => return None,
         };
         Some(self.variable(id, span))
+    }
+
+    /// Says that there is no such member of `truth`.
+    fn no_truth(&mut self, asked: &str, named: Span, span: Span) -> Expr {
+        let known: Vec<&str> = TRUTHS.into_iter().chain(Motion::ALL.map(Motion::name)).collect();
+        let finding = Diagnostic::error(Code::TestsTruth, named, format!("there is no `truth.{asked}` to ask for"));
+        let finding = match self.nearest(asked.trim_end_matches("(…)"), known.iter().copied()) {
+            Some(near) => finding.help(format!("did you mean `truth.{near}`?")),
+            None => finding.help(format!("there is {}", listed(&known))),
+        };
+        self.report(finding);
+        self.unknown(span)
     }
 
     /// The mission that is named: `box`, or `surveys.box` of a module that is imported. The name alone is that of the one which is run.
@@ -183,8 +194,11 @@ impl<'t> Checker<'t> {
         if is_truth && member.node == "source" {
             return Some(self.true_source(args, span));
         }
-        if !is_truth || member.node != "depth_at" {
+        if !is_truth {
             return None;
+        }
+        if member.node != "depth_at" {
+            return Some(self.no_truth(&format!("{}(…)", member.node), member.span, span));
         }
         let Some(given) = self.simple_args("depth_at", &[("point", Type::Point)], args, span) else {
             return Some(self.unknown(span));

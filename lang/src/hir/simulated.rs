@@ -1,7 +1,9 @@
 //! Scenarios and tests: the world of a simulated run, and what must hold in it.
 
 use super::{ActivityId, Expr, Var, VarId};
+use crate::dimension::Dimension;
 use crate::source::Span;
+use crate::types::Type;
 
 /// A scenario: clauses with their arguments.
 #[derive(Clone, Debug)]
@@ -75,6 +77,8 @@ pub struct Test {
 pub struct TestNames<T> {
     /// The vehicle's true position.
     pub position: T,
+    /// How it truly moves, for each of [`Motion::ALL`].
+    pub motion: [T; Motion::ALL.len()],
     /// The true source nearest to the latest report, else to the vehicle, if there are any.
     pub nearest_source: T,
     /// Where the vehicle started.
@@ -95,6 +99,42 @@ pub struct TestNames<T> {
 
 /// How a run of a test may have ended, by the names of the outcomes. One that has failed holds to nothing.
 pub const OUTCOMES: [&str; 6] = ["completed", "timed_out", "aborted", "refused", "released_by_vehicle", "aground"];
+
+/// What a test asks of how the vehicle truly lies and moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "each variant is what it says")]
+pub enum Motion {
+    Depth,
+    Altitude,
+    Heading,
+    Course,
+    Speed,
+}
+
+impl Motion {
+    /// All of them.
+    pub const ALL: [Motion; 5] = [Motion::Depth, Motion::Altitude, Motion::Heading, Motion::Course, Motion::Speed];
+
+    /// As it stands after `truth`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Motion::Depth => "depth",
+            Motion::Altitude => "altitude",
+            Motion::Heading => "heading",
+            Motion::Course => "course",
+            Motion::Speed => "speed",
+        }
+    }
+
+    /// The type of its value.
+    pub const fn ty(self) -> Type {
+        match self {
+            Motion::Depth | Motion::Altitude => Type::Quantity(Dimension::LENGTH),
+            Motion::Heading | Motion::Course => Type::Heading,
+            Motion::Speed => Type::Quantity(Dimension::SPEED),
+        }
+    }
+}
 
 /// What a test asks of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -141,6 +181,7 @@ impl<T: Copy> TestNames<T> {
         let report = |(part, name, x): &(ReportPart, String, T)| (*part, name.clone(), f(*x));
         TestNames {
             position: f(self.position),
+            motion: self.motion.map(&f),
             nearest_source: f(self.nearest_source),
             start: f(self.start),
             deepest: f(self.deepest),

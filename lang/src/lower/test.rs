@@ -121,7 +121,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                 let mut asked = Vec::new();
                 depths(&expect.holds, &test.depths, &mut asked);
                 let mut sides = Vec::new();
-                compared(&expect.holds, &mut sides);
+                compared(&expect.holds, sources, &mut sides);
                 let watched = sides.into_iter().map(|e| named(l, e)).collect();
                 ExpectProgram {
                     text: l.sources.text(expect.span).to_string(),
@@ -183,18 +183,22 @@ fn depths<'e>(e: &Expr, known: &'e [(Expr, VarId)], out: &mut Vec<&'e (Expr, Var
     children(e, &mut |child| depths(child, known, out));
 }
 
-/// Both sides of the comparisons of a condition, constants left out.
-fn compared<'e>(e: &'e Expr, out: &mut Vec<&'e Expr>) {
+/// Both sides of the comparisons of a condition, but for numbers that it spells out.
+fn compared<'e>(e: &'e Expr, sources: &Sources, out: &mut Vec<&'e Expr>) {
+    let is_spelt_out = |side: &Expr| {
+        let text = sources.text(side.span).trim_start_matches(['-', '+', ' ']);
+        side.range.constant().is_some() && text.starts_with(|c: char| c.is_ascii_digit())
+    };
     match &e.kind {
         // A comparison that is written as one value, such as `area.contains(place)`.
         ExprKind::Do(Builtin::Lt | Builtin::Le | Builtin::Eq, sides) if sides.iter().any(|s| s.span == e.span) => {
             out.push(e);
         }
         ExprKind::Do(Builtin::Lt | Builtin::Le | Builtin::Eq, sides) => {
-            out.extend(sides.iter().filter(|s| s.range.constant().is_none()));
+            out.extend(sides.iter().filter(|side| !is_spelt_out(side)));
         }
         // Whether the mission has ended so.
         ExprKind::Var(_) if e.ty == Type::Bool => out.push(e),
-        _ => children(e, &mut |child| compared(child, out)),
+        _ => children(e, &mut |child| compared(child, sources, out)),
     }
 }

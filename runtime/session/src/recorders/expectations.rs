@@ -4,20 +4,20 @@ use super::Recorder;
 use super::results::{Reported, Results};
 use crate::plan::Plan;
 use albacore_geometry::Point;
-use albacore_lang::hir::{OUTCOMES, ReportPart, When};
+use albacore_lang::hir::{Motion, OUTCOMES, ReportPart, When};
 use albacore_lang::{ExpectProgram, NamedValue, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
-use albacore_program::{AREA_WORDS, ActivityId, number};
+use albacore_program::{AREA_WORDS, ActivityId, Display, Shape, number};
 use albacore_trace::{Step, TickRecord};
-use albacore_vehicle::TICK_S;
+use albacore_vehicle::{TICK_S, Truth};
 
 /// Looks on each tick at what is expected always or while a behavior is active, and at the rest when the run is over.
 pub(crate) struct Expectations<'t> {
     test: &'t TestProgram,
     results: Results,
     evaluation: Evaluation,
-    /// Where the vehicle truly is.
-    position: Point,
+    /// How the vehicle truly lies and moves.
+    truth: Truth,
     /// The words of the mission's area.
     area: Vec<f64>,
     /// The names of the active activities within the mission, as the trace tells them.
@@ -35,7 +35,7 @@ impl<'t> Expectations<'t> {
             test,
             results: Results::new(plan, seed, Some(start)),
             evaluation: Evaluation::new(&test.program),
-            position: start,
+            truth: Truth { position: start, ..Truth::default() },
             area: vec![0.0; AREA_WORDS as usize],
             active: String::new(),
             looked: vec![false; test.expects.len()],
@@ -102,8 +102,7 @@ impl<'t> Expectations<'t> {
                 continue;
             }
             evaluation.run(&test.program, code.entry);
-            let value = number::value(shape, evaluation.words(code.value, shape.words()));
-            found.push(format!("{name} = {value}"));
+            found.push(format!("{name} = {}", told(shape, evaluation.words(code.value, shape.words()))));
         }
         let found = if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") };
         Some(format!("{found} ({when})"))
@@ -119,12 +118,16 @@ impl<'t> Expectations<'t> {
 
     /// Puts what is true now where the expectations look for it.
     fn set_slots(&mut self) {
-        let (slots, results, position, time) = (&self.test.slots, &self.results, self.position, self.time_s());
+        let (slots, results, truth, time) = (&self.test.slots, &self.results, self.truth, self.time_s());
+        let position = truth.position;
         let start = results.start.unwrap_or(Point::ORIGIN);
         let outcome = results.outcome().map(Outcome::name);
         let nearest = results.nearest_source(results.reports.latest.unwrap_or(position));
         let evaluation = &mut self.evaluation;
         evaluation.set(slots.position, &[position.north, position.east]);
+        for (motion, slot) in Motion::ALL.into_iter().zip(slots.motion) {
+            evaluation.set(slot, &[of(motion, &truth)]);
+        }
         evaluation.set(slots.start, &[start.north, start.east]);
         evaluation.set(slots.deepest, &if_any(results.deepest));
         evaluation.set(slots.time, &[time]);
@@ -161,7 +164,7 @@ impl<'t> Expectations<'t> {
 impl Recorder for Expectations<'_> {
     fn take(&mut self, record: &TickRecord) {
         self.results.take(record);
-        self.position = record.here().unwrap_or(self.position);
+        self.truth = record.truth.unwrap_or(self.truth);
         if !record.area.is_empty() {
             self.area.clone_from(&record.area);
         }
@@ -181,6 +184,28 @@ impl Recorder for Expectations<'_> {
             self.set_slots();
             self.look(due);
         }
+    }
+}
+
+/// A value as it is told, one below its unit with more decimals: it may be held to some hundredths.
+fn told(shape: &Shape, words: &[f64]) -> String {
+    match (shape, words) {
+        (Shape::Quantity(display), [x]) if x.abs() < display.scale && display.unit != "%" => {
+            let finer = Display { decimals: display.decimals + 2, ..display.clone() };
+            number::value(&Shape::Quantity(finer), words)
+        }
+        _ => number::value(shape, words),
+    }
+}
+
+/// A part of the truth, in metres, radians and metres a second.
+fn of(motion: Motion, truth: &Truth) -> f64 {
+    match motion {
+        Motion::Depth => truth.depth,
+        Motion::Altitude => truth.altitude,
+        Motion::Heading => truth.heading.radians(),
+        Motion::Course => truth.course.radians(),
+        Motion::Speed => truth.speed_over_ground,
     }
 }
 
