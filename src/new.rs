@@ -124,8 +124,8 @@ fn accept(script: &Script, path: &Path) -> io::Result<()> {
         if !result.failures.is_empty() {
             continue;
         }
-        for (seed, trace) in &result.traces {
-            let file = snapshot_file(path, &result, *seed);
+        for (run, trace) in &result.traces {
+            let file = snapshot_file(path, &result, run);
             file.parent().map_or(Ok(()), fs::create_dir_all)?;
             whole(&file, trace)?;
         }

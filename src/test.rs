@@ -7,8 +7,8 @@ use crate::output::Lines;
 use crate::plan::Faults;
 use albacore_session::seen::is_unseen;
 use albacore_session::{
-    Digest, Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, Unread, first_difference, first_foreign_line,
-    read_file, run_test,
+    Digest, Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, TestRun, Unread, first_difference,
+    first_foreign_line, read_file, run_test,
 };
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -133,7 +133,9 @@ impl Test {
                 }
             };
             let problems = self.problems(at, &result, faults);
-            let (place, seeds) = (at.place(&result.place), format!("seeds {}..{}", result.seeds.0, result.seeds.1));
+            let rows = if result.rows > 1 { format!(" of {} rows", result.rows) } else { String::new() };
+            let (place, (first, last)) = (at.place(&result.place), result.seeds);
+            let seeds = format!("seeds {first}..{last}{rows}");
             let untested = match () {
                 () if !problems.is_empty() || faults.is_empty() => None,
                 () if test.expects.is_empty() => {
@@ -163,7 +165,7 @@ impl Test {
         let mut problems = failed_runs(result);
         problems.extend(result.failures.iter().flat_map(|failure| told(at, failure)));
         // A snapshot is of a run in which only the scenario's own faults were.
-        let traces: &[(u64, String)] = if faults.is_empty() { &result.traces } else { &[] };
+        let traces: &[(TestRun, String)] = if faults.is_empty() { &result.traces } else { &[] };
         if self.accept && !problems.is_empty() {
             // What is not as it was expected to be is never what is right.
             if !traces.is_empty() {
@@ -172,15 +174,15 @@ impl Test {
             return problems;
         }
         let fails = !problems.is_empty();
-        for (seed, trace) in traces {
-            problems.extend(self.compare(at.path, result, *seed, trace, fails));
+        for (run, trace) in traces {
+            problems.extend(self.compare(at.path, result, run, trace, fails));
         }
         problems
     }
 
     /// Compares a trace with its snapshot, of a test that `fails` or does not; gives what is wrong, in lines.
-    fn compare(&self, script: &Path, result: &TestResult, seed: u64, trace: &str, fails: bool) -> Vec<String> {
-        let file = snapshot_file(script, result, seed);
+    fn compare(&self, script: &Path, result: &TestResult, run: &TestRun, trace: &str, fails: bool) -> Vec<String> {
+        let file = snapshot_file(script, result, run);
         let stored = match stored(&file, trace) {
             Ok(stored) => stored,
             Err(error) if !self.accept => {
@@ -213,7 +215,7 @@ impl Test {
         }
         let Some(stored) = stored else {
             return vec![
-                format!("        seed {seed}: there is no snapshot `{}`", file.display()),
+                format!("        {run}: there is no snapshot `{}`", file.display()),
                 self.advice("look at the run, then", fails),
             ];
         };
@@ -226,7 +228,7 @@ impl Test {
                 None if without_lines(&stored) == without_lines(trace) => "same behavior, by rules on other lines",
                 None => "numerically different, same behavior",
             };
-            told.push(format!("        seed {seed}: {verdict}  ({})", file.display()));
+            told.push(format!("        {run}: {verdict}  ({})", file.display()));
             let lines = behavior.map_or_else(|| first_lines(&stored, trace), |d| (d.left, d.right));
             for (sign, line) in [("-", lines.0), ("+", lines.1)] {
                 let line = line.as_deref().unwrap_or("(nothing more)");
@@ -235,7 +237,7 @@ impl Test {
         }
         match foreign {
             Some(line) => {
-                told.push(format!("        seed {seed}: line {line} of `{}` is none of a trace", file.display()));
+                told.push(format!("        {run}: line {line} of `{}` is none of a trace", file.display()));
                 let text = stored.lines().nth(line - 1).unwrap_or_default();
                 told.extend([format!("          {text}"), THEIRS.to_string()]);
             }
@@ -330,10 +332,11 @@ fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
     }
 }
 
-/// `missions/snapshots/duck_single-one_source-1.trace`.
-pub fn snapshot_file(script: &Path, test: &TestResult, seed: u64) -> PathBuf {
+/// `missions/snapshots/duck_single-one_source-1.trace`; of the second of several rows `…-one_source-2-1.trace`.
+pub fn snapshot_file(script: &Path, test: &TestResult, run: &TestRun) -> PathBuf {
     let stem = disk::stem(script);
-    let name = short(format!("{stem}-{}-{seed}", test.file_name));
+    let row = run.row.map_or(String::new(), |row| format!("-{row}"));
+    let name = short(format!("{stem}-{}{row}-{}", test.file_name, run.seed));
     script.with_file_name("snapshots").join(format!("{name}.trace"))
 }
 
@@ -362,13 +365,13 @@ fn failed_runs(result: &TestResult) -> Vec<String> {
         return Vec::new();
     }
     let mut lines = vec![format!("        {failed} of {runs} runs failed: nothing is known of what came after")];
-    lines.extend(result.failed.iter().map(|(seed, why)| example(*seed, why)));
+    lines.extend(result.failed.iter().map(|(run, why)| example(run, why)));
     lines
 }
 
 /// A run that is told of as one of several.
-fn example(seed: u64, found: &str) -> String {
-    format!("          seed {seed}: {found}")
+fn example(run: &impl std::fmt::Display, found: &str) -> String {
+    format!("          {run}: {found}")
 }
 
 /// A failed expectation as a person reads it, in lines.
@@ -377,13 +380,14 @@ fn told(at: &Named, failure: &Failure) -> Vec<String> {
     // Without the last bits of a product.
     let digits = |w: f64| (w * 1e12).round() / 1e12;
     let wanted = failure.wanted.filter(|w| *w < 100.0).map(|w| format!(", {} % wanted", digits(w))).unwrap_or_default();
+    let with = if failure.with.is_empty() { String::new() } else { format!(" {}", failure.with) };
     let how_often = match runs {
-        0 => "this behavior was active in none of the runs".to_string(),
-        _ => format!("held in {held} of {runs} runs{wanted}"),
+        0 => format!("this behavior was active in none of the runs{with}"),
+        _ => format!("held in {held} of {runs} runs{with}{wanted}"),
     };
     let mut lines =
         vec![format!("        {}  {}", at.place(&failure.place), failure.text), format!("        {how_often}")];
-    lines.extend(failure.examples.iter().map(|(seed, found)| example(*seed, found)));
+    lines.extend(failure.examples.iter().map(|(seed, found)| example(&format!("seed {seed}"), found)));
     lines
 }
 

@@ -343,6 +343,35 @@ fn how_the_vehicle_truly_moves_is_held_to_tolerances() {
 }
 
 #[test]
+fn each_row_of_a_table_is_held_to_all_that_is_expected() {
+    let [held, failed] = held_and_failed("rows", include_str!("test_verb/rows.alb"));
+    assert_eq!((held.0, held.1.contains("2 passed, 0 failed")), (Some(0), true), "{}", held.1);
+    assert_eq!(failed.0, Some(1), "{}", failed.1);
+    insta::assert_snapshot!(failed.1);
+}
+
+/// Each row has its snapshots.
+#[test]
+fn the_snapshots_of_rows_are_told_apart() {
+    let project = Project::new("rows-kept", "10 s", "5 m");
+    let with_rows = |rows: &str| {
+        let script = include_str!("test_verb/rows.alb");
+        let test =
+            format!("test \"kept\" {{\n    run legs in still seeds 1..1\n{rows}    snapshot switches of seed 1\n}}\n");
+        std::fs::write(project.0.join("north.alb"), script.split("test ").next().unwrap().to_string() + &test).unwrap();
+    };
+    with_rows("    with lasting: 10 s\n    with lasting: 20 s\n");
+    assert_eq!(project.test(&["--accept"]).0, Some(0));
+    let kept =
+        |row: &str| std::fs::read_to_string(project.0.join(format!("snapshots/north-kept-{row}-1.trace"))).unwrap();
+    assert_ne!(kept("1"), kept("2"));
+    assert_eq!(project.test(&[]).0, Some(0));
+    with_rows("    with lasting: 10 s\n    with lasting: 30 s\n");
+    let (code, said) = project.test(&[]);
+    assert_eq!((code, said.contains("seed 1 with lasting: 30 s: numerically different")), (Some(1), true), "{said}");
+}
+
+#[test]
 fn what_was_reported_and_when_is_known_behind_a_has_reported_too() {
     let project = Project::new("reports", "10 s", "5 m");
     std::fs::write(project.0.join("north.alb"), REPORTS).unwrap();

@@ -21,8 +21,8 @@ pub mod types;
 pub use albacore_syntax as syntax;
 pub use albacore_syntax::{code, diagnostic, doc, fmt, source};
 pub use lower::{
-    ExpectProgram, NamedValue, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, TestProgram,
-    TestSlots,
+    ExpectProgram, NamedValue, RowProgram, SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue,
+    TestProgram, TestSlots,
 };
 pub use prelude::Prelude;
 pub use rules::{FAR_M, hemisphere};

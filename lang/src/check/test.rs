@@ -1,17 +1,17 @@
 //! Tests: a mission run in a scenario over seeds, and what must hold of it.
 
 use super::foregone::{Empty, Expectations};
-use super::{Checker, Def, Scope, Setting};
+use super::{Checker, Def, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Expect, Expr, Test, When, test_file_name};
+use crate::hir::{Expect, Expr, Row, Test, When, test_file_name};
 use crate::source::Span;
 use crate::syntax::tree::{self, ExpectMode, TestClause};
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
 
-/// A test runs this many seeds at most.
+/// A test runs this many seeds at most, those of all its rows together.
 const SEEDS_MAX: f64 = 1_000_000.0;
 
 impl<'t> Checker<'t> {
@@ -35,7 +35,7 @@ impl<'t> Checker<'t> {
                 Diagnostic::error(Code::TestsRun, again.span, "a test runs one mission").label(run_span, "the first"),
             );
         }
-        if !test.clauses.iter().any(|c| !matches!(c.node, TestClause::Run { .. })) {
+        if !test.clauses.iter().any(|c| !matches!(c.node, TestClause::Run { .. } | TestClause::Row { .. })) {
             self.report(
                 Diagnostic::error(Code::TestsNothing, test.name.span, format!("the test \"{name}\" expects nothing"))
                     .help("write what must hold, such as `expect completed`"),
@@ -44,13 +44,13 @@ impl<'t> Checker<'t> {
         let Some(id) = self.mission_named(m, mission) else { return };
         let signature = self.activity_signatures[id].clone();
         let (setup, _) = self.within(Scope::new(m, Setting::Constant), |c| {
-            let args = c.arguments(&signature.name, &signature.params, args, run_span, Some(signature.span));
+            let rows = c.rows(test, &signature, args, run_span);
             let first = c.expr_as(&seeds.first, &Type::Int, "a seed");
             let last = c.expr_as(&seeds.last, &Type::Int, "a seed");
-            (args, c.scenario_named(scenario), first, last)
+            (rows, c.scenario_named(scenario), first, last)
         });
-        let (args, scenario, first, last) = setup;
-        let Some(seeds) = self.seeds(&first, &last, seeds.inclusive) else { return };
+        let (rows, scenario, first, last) = setup;
+        let Some(seeds) = self.seeds(&first, &last, seeds.inclusive, rows.as_ref().map_or(1, Vec::len)) else { return };
         let (checked, scope) = self.within(Scope::new(m, Setting::Constant), |c| {
             c.test_scope(id);
             let mut expects = Vec::new();
@@ -65,7 +65,7 @@ impl<'t> Checker<'t> {
                         let finding = Diagnostic::error(Code::TestsSeeds, clause.span, "a seed is a whole number");
                         c.report(finding.help("for example `snapshot switches of seed 1`"));
                     }
-                    TestClause::Run { .. } => {}
+                    TestClause::Run { .. } | TestClause::Row { .. } => {}
                 }
             }
             (expects, snapshots, c.test.take())
@@ -76,12 +76,13 @@ impl<'t> Checker<'t> {
             let finding = Diagnostic::error(Code::TestsSeeds, test.name.span, message);
             self.report(finding.help("take the snapshot of a seed that `run` names"));
         }
-        let (Some(args), Some(scenario), Some(known)) = (args, scenario, known) else { return };
+        let (Some(rows), Some(scenario), Some(known)) = (rows, scenario, known) else { return };
         self.hir.tests.push(Test {
             name,
             span: test.name.span,
             mission: id,
-            args,
+            rows,
+            params: known.params,
             scenario,
             seeds,
             expects,
@@ -92,11 +93,38 @@ impl<'t> Checker<'t> {
         });
     }
 
-    /// The first seed and the last.
-    fn seeds(&mut self, first: &Expr, last: &Expr, is_inclusive: bool) -> Option<(u64, u64)> {
+    /// What the mission is given in each row, or at once where there is no table. The row's values come beside those of `run`.
+    fn rows(&mut self, test: &tree::Test, of: &Signature, given: &[tree::Arg], run: Span) -> Option<Vec<Row>> {
+        let mut checked = |args: &[tree::Arg], span: Option<Span>| {
+            let args = self.arguments(&of.name, &of.params, args, span.unwrap_or(run), Some(of.span))?;
+            Some(Row { span, args })
+        };
+        let rows = test.clauses.iter().filter_map(|clause| match &clause.node {
+            TestClause::Row { args } => Some((args, clause.span)),
+            _ => None,
+        });
+        // Each is looked at, whatever is wrong with another.
+        let rows: Vec<Option<Row>> =
+            rows.map(|(args, span)| checked(&[given, args.as_slice()].concat(), Some(span))).collect();
+        match rows.is_empty() {
+            true => Some(vec![checked(given, None)?]),
+            false => rows.into_iter().collect(),
+        }
+    }
+
+    /// The first seed and the last, of each of so many rows.
+    fn seeds(&mut self, first: &Expr, last: &Expr, is_inclusive: bool, rows: usize) -> Option<(u64, u64)> {
         let without_last = if is_inclusive { 0.0 } else { 1.0 };
         match (first.range.constant(), last.range.constant().map(|last| last - without_last)) {
-            (Some(a), Some(b)) if a >= 0.0 && a <= b && b - a < SEEDS_MAX => Some((a as u64, b as u64)),
+            (Some(a), Some(b)) if a >= 0.0 && a <= b && (b - a + 1.0) * rows as f64 <= SEEDS_MAX => {
+                Some((a as u64, b as u64))
+            }
+            (Some(a), Some(b)) if a >= 0.0 && a <= b => {
+                let message = "a test has a million runs at most, those of all its rows together";
+                let finding = Diagnostic::error(Code::TestsSeeds, first.span.to(last.span), message);
+                self.report(finding.help("take fewer seeds, or fewer rows"));
+                None
+            }
             _ => {
                 let message = "seeds are two whole numbers, the smaller first";
                 let finding = Diagnostic::error(Code::TestsSeeds, first.span.to(last.span), message);

@@ -44,6 +44,8 @@ pub(super) struct TestScope {
     reports: Rc<Reports>,
     /// The variables that hold what is asked of a report, by its name.
     report_vars: BTreeMap<(ReportPart, String), usize>,
+    /// The parameters of the mission that are spoken of, and the variables of their values.
+    pub params: Vec<(usize, usize)>,
     /// What its expectations speak of.
     pub names: TestNames<usize>,
     /// The points whose true water depth they ask for, and the variables of the answers.
@@ -59,7 +61,6 @@ impl<'t> Checker<'t> {
         let var = |c: &mut Self, name: &str, ty: Type| c.declare_hidden(name.to_string(), VarKind::Signal, ty, span);
         let vars = TestNames {
             position: var(self, "truth.position", Type::Point),
-            motion: Motion::ALL.map(|motion| var(self, &format!("truth.{}", motion.name()), motion.ty())),
             nearest_source: var(self, "truth.nearest_source", Type::Point.optional()),
             start: var(self, "truth.start", Type::Point),
             deepest: var(self, "truth.deepest", Type::Point.optional()),
@@ -68,14 +69,15 @@ impl<'t> Checker<'t> {
             area: var(self, "the mission's area", Type::Area),
             reports: Vec::new(),
             sources: Vec::new(),
+            motion: Vec::new(),
         };
         // It has run for no time yet, or for some.
         self.scope.vars[vars.time].range = Interval::new(0.0, RUN_MAX_S);
-        self.scope.vars[vars.motion[Motion::Speed as usize]].range = Interval::new(0.0, SPEED_MAX);
         self.test = Some(TestScope {
             mission,
             reports: self.reports_of(mission),
             report_vars: BTreeMap::new(),
+            params: Vec::new(),
             names: vars,
             depths: Vec::new(),
             needs: Vec::new(),
@@ -98,7 +100,7 @@ impl<'t> Checker<'t> {
     pub(super) fn test_member(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let test = self.test.as_ref()?;
         match self.mission_meant(base) {
-            Some(id) if id == test.mission => return self.area_of_the_tested(base, member, span),
+            Some(id) if id == test.mission => return self.member_of_the_tested(base, member, span),
             Some(_) if self.module_named(base).is_none() => return Some(self.not_run(base, span)),
             _ => {}
         }
@@ -112,13 +114,29 @@ impl<'t> Checker<'t> {
             ("truth", "deepest") => {
                 return Some(self.taken_for_granted(test.names.deepest, NO_DEEPEST.to_string(), span));
             }
-            ("truth", other) => match Motion::ALL.iter().position(|motion| motion.name() == other) {
-                Some(motion) => test.names.motion[motion],
+            ("truth", other) => match Motion::ALL.into_iter().find(|motion| motion.name() == other) {
+                Some(motion) => self.motion_var(motion, span),
                 None => return Some(self.no_truth(other, member.span, span)),
             },
             _ => return None,
         };
         Some(self.variable(id, span))
+    }
+
+    /// The variable that holds how the vehicle truly lies or moves: one for each of these.
+    fn motion_var(&mut self, motion: Motion, span: Span) -> usize {
+        let known = self.test.as_ref().and_then(|test| test.names.motion.iter().find(|(known, _)| *known == motion));
+        if let Some(&(_, id)) = known {
+            return id;
+        }
+        let id = self.declare_hidden(format!("truth.{}", motion.name()), VarKind::Signal, motion.ty(), span);
+        if motion == Motion::Speed {
+            self.scope.vars[id].range = Interval::new(0.0, SPEED_MAX);
+        }
+        if let Some(test) = &mut self.test {
+            test.names.motion.push((motion, id));
+        }
+        id
     }
 
     /// Says that there is no such member of `truth`.
@@ -157,28 +175,52 @@ impl<'t> Checker<'t> {
         self.unknown(span)
     }
 
-    /// `box.op`: the area of the mission that a test runs.
-    fn area_of_the_tested(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
+    /// `box.op`: the area of the mission that a test runs; `box.size`: a parameter of it, with the value that it is given.
+    fn member_of_the_tested(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let test = self.test.as_ref()?;
         let mission = &self.hir.activities[test.mission];
+        let params = &mission.vars[..mission.params];
+        if let Some(param) = params.iter().position(|var| var.name == member.node)
+            && self.module_named(base).is_none()
+        {
+            self.names_used.refer(base.span, mission.span);
+            self.names_used.refer(member.span, mission.vars[param].span);
+            return Some(self.param_of_the_tested(test.mission, param, span));
+        }
         let area = mission.vars.iter().find(|var| var.kind == VarKind::Area);
         let Some(area) = area.filter(|area| area.name == member.node) else {
             // A module may have the name of its mission.
             if self.module_named(base).is_some() {
                 return None;
             }
-            let message = format!("the mission has no area `{}`", member.node);
+            let message = format!("the mission has no area or parameter `{}`", member.node);
             let finding = Diagnostic::error(Code::NamesUnknown, member.span, message);
-            self.report(match area {
-                Some(area) => finding.help(format!("its area is `{}`", area.name)),
-                None => finding.help("`truth.position` and the like tell where the vehicle truly was"),
-            });
+            let known = params.iter().chain(area).map(|var| var.name.as_str());
+            let help = self.suggestion(&member.node, known);
+            let otherwise = || "`truth.position` and the like tell where the vehicle truly was".to_string();
+            self.report(finding.help(help.unwrap_or_else(otherwise)));
             return Some(self.unknown(span));
         };
         let id = test.names.area;
         self.names_used.refer(base.span, mission.span);
         self.names_used.refer(member.span, area.span);
         Some(self.variable(id, span))
+    }
+
+    /// The value that the mission is given for a parameter. It is the same whatever the mission does.
+    fn param_of_the_tested(&mut self, mission: usize, param: usize, span: Span) -> Expr {
+        let known = self.test.as_ref().and_then(|test| test.params.iter().find(|(known, _)| *known == param));
+        if let Some(&(_, id)) = known {
+            return self.variable(id, span);
+        }
+        let var = &self.hir.activities[mission].vars[param];
+        let (ty, range) = (var.ty.clone(), var.range);
+        let id = self.declare_hidden(format!("parameter {}", var.name), VarKind::Param, ty, span);
+        self.scope.vars[id].range = range;
+        if let Some(test) = &mut self.test {
+            test.params.push((param, id));
+        }
+        self.variable(id, span)
     }
 
     /// `truth.depth_at(p)`: how deep the water truly is at a point.

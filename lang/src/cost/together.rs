@@ -22,8 +22,11 @@ pub(crate) fn check(hir: &Hir, script: FileId, missions: &[(ActivityId, Option<&
     let in_scenario = |scenario: Option<&Scenario>| scenario.map_or(0, |s| s.clauses.iter().map(of_clause).sum());
     let own_tests = hir.tests.iter().filter(|test| test.span.file == script);
     let missions = missions.iter().map(|(id, scenario)| (hir.activities[*id].span, *id, in_scenario(*scenario)));
-    let tests = own_tests.map(|test| (test.span, test.mission, of_test(test)));
-    let (span, ..) = missions.chain(tests).find(|(_, mission, own)| over(own + known.reached(hir, *mission)))?;
+    let once = |(span, id, own)| (span, id, own, 1);
+    let tests = own_tests.map(|test| (test.span, test.mission, of_test(test), test.rows.len()));
+    let mut reached = |id, times: usize| known.reached(hir, id).saturating_mul(times);
+    let (span, ..) =
+        missions.map(once).chain(tests).find(|(_, mission, own, times)| over(own + reached(*mission, *times)))?;
     let message = "the missions and tests of this script are too much to check";
     Some(
         Diagnostic::error(Code::LimitsMissions, span, message)
@@ -104,7 +107,8 @@ impl Own {
 fn of_test(test: &Test) -> usize {
     let expects = test.expects.iter().map(|expect| expect.holds.parts());
     let depths = test.depths.iter().map(|(point, _)| point.parts());
-    1 + test.vars.len() + test.args.iter().map(Expr::parts).sum::<usize>() + expects.chain(depths).sum::<usize>()
+    let args = test.rows.iter().flat_map(|row| &row.args).map(Expr::parts);
+    1 + test.vars.len() + expects.chain(depths).chain(args).sum::<usize>()
 }
 
 fn of_clause(clause: &ClauseUse) -> usize {

@@ -45,6 +45,15 @@ pub enum ClauseArg {
     Nested(ClauseUse),
 }
 
+/// What a test gives the mission.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Where it stands, in a table.
+    pub span: Option<Span>,
+    /// The mission's arguments.
+    pub args: Vec<Expr>,
+}
+
 /// A test.
 #[derive(Clone, Debug)]
 pub struct Test {
@@ -54,8 +63,10 @@ pub struct Test {
     pub span: Span,
     /// The mission that it runs.
     pub mission: ActivityId,
-    /// The mission's arguments.
-    pub args: Vec<Expr>,
+    /// What the mission is given: once, or for each row of a table of parameters.
+    pub rows: Vec<Row>,
+    /// The parameters of the mission that expectations speak of, by their places, and the variables of their values.
+    pub params: Vec<(usize, VarId)>,
     /// The scenario, by its index.
     pub scenario: usize,
     /// The seeds, both ends included.
@@ -77,8 +88,6 @@ pub struct Test {
 pub struct TestNames<T> {
     /// The vehicle's true position.
     pub position: T,
-    /// How it truly moves, for each of [`Motion::ALL`].
-    pub motion: [T; Motion::ALL.len()],
     /// The true source nearest to the latest report, else to the vehicle, if there are any.
     pub nearest_source: T,
     /// Where the vehicle started.
@@ -95,6 +104,8 @@ pub struct TestNames<T> {
     pub reports: Vec<(ReportPart, String, T)>,
     /// The true place of a source, by its name, if there is one.
     pub sources: Vec<(String, T)>,
+    /// How the vehicle truly lies and moves, where that is asked for.
+    pub motion: Vec<(Motion, T)>,
 }
 
 /// How a run of a test may have ended, by the names of the outcomes. One that has failed holds to nothing.
@@ -181,7 +192,6 @@ impl<T: Copy> TestNames<T> {
         let report = |(part, name, x): &(ReportPart, String, T)| (*part, name.clone(), f(*x));
         TestNames {
             position: f(self.position),
-            motion: self.motion.map(&f),
             nearest_source: f(self.nearest_source),
             start: f(self.start),
             deepest: f(self.deepest),
@@ -190,6 +200,7 @@ impl<T: Copy> TestNames<T> {
             area: f(self.area),
             reports: self.reports.iter().map(report).collect(),
             sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
+            motion: self.motion.iter().map(|(motion, x)| (*motion, f(*x))).collect(),
         }
     }
 }

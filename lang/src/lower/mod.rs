@@ -18,7 +18,7 @@ mod table;
 mod test;
 mod watch;
 
-pub use test::{ExpectProgram, NamedValue, TestProgram, TestSlots, test};
+pub use test::{ExpectProgram, NamedValue, RowProgram, TestProgram, TestSlots, test};
 
 pub use scenario::{SAME_PLANE_M, ScenarioArg, ScenarioClause, ScenarioProgram, ScenarioValue, scenario};
 

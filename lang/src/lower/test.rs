@@ -3,7 +3,7 @@
 use super::{Lowered, Lowering, slot};
 use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, TestNames, VarId, When, children, test_file_name};
+use crate::hir::{Builtin, Expr, ExprKind, Hir, Row, TestNames, VarId, When, children, test_file_name};
 use crate::source::Sources;
 use crate::types::Type;
 use crate::types::TypeTable;
@@ -18,8 +18,8 @@ pub struct TestProgram {
     pub file_name: String,
     /// `file:line`.
     pub place: String,
-    /// The mission that it runs.
-    pub mission: Program,
+    /// What it runs: the mission once, or for each row of its table.
+    pub rows: Vec<RowProgram>,
     /// The scenario, by the name that the script calls it.
     pub scenario: String,
     /// The seeds, both ends included.
@@ -32,6 +32,17 @@ pub struct TestProgram {
     pub program: Program,
     /// Where the expectations find what they speak of.
     pub slots: TestSlots,
+}
+
+/// The mission as a test runs it.
+#[derive(Clone, Debug)]
+pub struct RowProgram {
+    /// Its row of the table as it is written, `with leg: 30 s`; empty without a table.
+    pub text: String,
+    /// The mission, with what it is given.
+    pub mission: Program,
+    /// The values of the parameters that expectations speak of, where they are put, and their words.
+    pub params: Vec<(Code, Slot, u32)>,
 }
 
 /// Where expectations find what they speak of. Positions are two words; what was reported begins with its presence.
@@ -99,17 +110,22 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     if let Some(finding) = limits::test_steps(hir, types, index) {
         return Err(vec![finding]);
     }
-    let Lowered { program: mission, activities, .. } =
-        super::mission_with(hir, types, sources, test.mission, Some(&test.args))?;
+    let run = |row: &Row| super::mission_with(hir, types, sources, test.mission, Some(&row.args));
+    let missions: Vec<Lowered> = test.rows.iter().map(run).collect::<Result<_, _>>()?;
     let mut lowering = Lowering::new(hir, types, sources);
-    lowering.origin = mission.mission.origin;
+    lowering.origin = missions.first().and_then(|mission| mission.program.mission.origin);
+    // What the mission is given changes no activity's place.
+    let place = |id| missions.first().and_then(|mission| mission.activities.get(&id).copied());
     for expect in &test.expects {
         lowering.prepare(&expect.holds);
     }
     for (point, _) in &test.depths {
         lowering.prepare(point);
     }
-    let lowered = std::cell::RefCell::new((Vec::new(), None));
+    for (param, _) in &test.params {
+        test.rows.iter().for_each(|row| lowering.prepare(&row.args[*param]));
+    }
+    let lowered = std::cell::RefCell::new((Vec::new(), Vec::new(), None));
     let words = lowering.twice(&test.vars, |l| {
         let at = |id: usize| l.frame.vars[id];
         let known = &test.known;
@@ -130,7 +146,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                         When::AtTheEnd(share) => When::AtTheEnd(share),
                         When::Always => When::Always,
                         // What is not lowered with the mission is never entered.
-                        When::While(id) => When::While(activities.get(&id).copied().unwrap_or(ActivityId::MAX)),
+                        When::While(id) => When::While(place(id).unwrap_or(ActivityId::MAX)),
                     },
                     depths: asked.into_iter().map(|(point, to)| (l.code(point), l.frame.vars[*to])).collect(),
                     holds: l.code(&expect.holds),
@@ -139,11 +155,19 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
                 }
             })
             .collect();
-        lowered.replace((expects, Some(slots)));
+        let given = |l: &mut Lowering<'_>, row: &Row| -> Vec<(Code, Slot, u32)> {
+            let value = |(param, to): &(usize, VarId)| {
+                let e = &row.args[*param];
+                (l.code(e), l.frame.vars[*to], l.words(&e.ty))
+            };
+            test.params.iter().map(value).collect()
+        };
+        let params: Vec<_> = test.rows.iter().map(|row| given(l, row)).collect();
+        lowered.replace((expects, params, Some(slots)));
     });
     let mut findings = std::mem::take(&mut lowering.findings);
     findings.extend(limits::of_values(test.span, "the test", &test.name, words, lowering.emitted));
-    let (expects, slots) = lowered.into_inner();
+    let (expects, params, slots) = lowered.into_inner();
     let Some(slots) = slots.filter(|_| findings.is_empty()) else {
         crate::diagnostic::settle(&mut findings);
         return Err(findings);
@@ -156,13 +180,20 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         let watched = expect.watched.iter().map(|value| &value.code);
         claims.pieces.extend(depths.chain(watched).chain([&expect.holds]).map(|code| code.entry));
     }
+    claims.pieces.extend(params.iter().flatten().map(|(code, ..)| code.entry));
     debug_assert_eq!(program.verify(), Ok(()));
     debug_assert_eq!(program.verify_ranges(&claims), Ok(()));
+    let text =
+        |row: &Row| row.span.map_or("", |span| sources.text(span)).split_whitespace().collect::<Vec<_>>().join(" ");
+    let rows = test.rows.iter().zip(missions).zip(params);
+    let rows =
+        rows.map(|((row, Lowered { program: mission, .. }), params)| RowProgram { text: text(row), mission, params });
+    let rows = rows.collect();
     Ok(TestProgram {
         name: test.name.clone(),
         file_name: test_file_name(&test.name),
         place: sources.place(test.span),
-        mission,
+        rows,
         scenario: hir.scenarios[test.scenario].path.clone(),
         seeds: test.seeds,
         expects,

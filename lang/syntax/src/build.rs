@@ -301,6 +301,14 @@ fn test_clause(b: &mut Builder, node: Node) -> Option<TestClause> {
             scenario: path(inner.next()?),
             seeds: range(b, inner.next()?)?,
         },
+        Rule::row_clause => TestClause::Row {
+            args: inner
+                .filter_map(|labelled| {
+                    let mut parts = labelled.inner();
+                    Some(Arg { label: Some(name(parts.next()?)), value: expr(b, parts.next()?) })
+                })
+                .collect(),
+        },
         Rule::expect_clause => {
             let always = node.inner().any(|word| word.rule() == Rule::w_always);
             if let Some(behavior) = take(&mut inner, Rule::path).map(path) {

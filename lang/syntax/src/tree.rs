@@ -445,9 +445,23 @@ pub struct Test {
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "each variant is the clause of its name")]
 pub enum TestClause {
-    Run { mission: Path, args: Vec<Arg>, scenario: Path, seeds: Range },
-    Expect { mode: ExpectMode, holds: Expr },
-    SnapshotSwitches { seed: f64 },
+    Run {
+        mission: Path,
+        args: Vec<Arg>,
+        scenario: Path,
+        seeds: Range,
+    },
+    /// A row of the table of the mission's parameters.
+    Row {
+        args: Vec<Arg>,
+    },
+    Expect {
+        mode: ExpectMode,
+        holds: Expr,
+    },
+    SnapshotSwitches {
+        seed: f64,
+    },
 }
 
 /// In which runs and when an expectation must hold.

@@ -61,7 +61,7 @@ const WORDS: [Word; 80] = [
     word("test", RESERVED | ITEM | FRESH),
     word("clause", ITEM | LOCAL | NAMES),
     // Clauses of a block.
-    word("with", RESERVED | CLAUSE | FRESH),
+    word("with", RESERVED | CLAUSE | TEST | FRESH),
     word("memory", RESERVED | CLAUSE | FRESH | LOCAL | NAMES),
     word("let", RESERVED | CLAUSE | FRESH | LOCAL | NAMES),
     word("var", RESERVED | CLAUSE | FRESH | LOCAL | NAMES),

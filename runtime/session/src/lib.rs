@@ -56,5 +56,5 @@ pub use run::{LiveOptions, LiveRun, LiveUpdate, Run, Running, WAITING_BYTES};
 pub use served_vehicle::{FarEnd, ServedVehicle};
 pub use shown::{Shown, ShownClause, ValueSource};
 pub use summary::{Report, Summary};
-pub use tests::{Failure, TestResult, run_test};
+pub use tests::{Failure, TestResult, TestRun, run_test};
 pub use wanted::Wanted;

@@ -5,7 +5,7 @@ use super::results::{Reported, Results};
 use crate::plan::Plan;
 use albacore_geometry::Point;
 use albacore_lang::hir::{Motion, OUTCOMES, ReportPart, When};
-use albacore_lang::{ExpectProgram, NamedValue, TestProgram};
+use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{AREA_WORDS, ActivityId, Display, Shape, number};
 use albacore_trace::{Step, TickRecord};
@@ -29,12 +29,18 @@ pub(crate) struct Expectations<'t> {
 }
 
 impl<'t> Expectations<'t> {
-    /// Of a run with a seed, that starts there.
-    pub fn new(plan: &Plan, test: &'t TestProgram, seed: u64, start: Point) -> Self {
+    /// Of a run of a row with a seed, that starts there.
+    pub fn new(plan: &Plan, test: &'t TestProgram, row: &RowProgram, seed: u64, start: Point) -> Self {
+        let mut evaluation = Evaluation::new(&test.program);
+        for (code, to, words) in &row.params {
+            evaluation.run(&test.program, code.entry);
+            let value = evaluation.words(code.value, *words).to_vec();
+            evaluation.set(*to, &value);
+        }
         Expectations {
             test,
             results: Results::new(plan, seed, Some(start)),
-            evaluation: Evaluation::new(&test.program),
+            evaluation,
             truth: Truth { position: start, ..Truth::default() },
             area: vec![0.0; AREA_WORDS as usize],
             active: String::new(),
@@ -125,8 +131,8 @@ impl<'t> Expectations<'t> {
         let nearest = results.nearest_source(results.reports.latest.unwrap_or(position));
         let evaluation = &mut self.evaluation;
         evaluation.set(slots.position, &[position.north, position.east]);
-        for (motion, slot) in Motion::ALL.into_iter().zip(slots.motion) {
-            evaluation.set(slot, &[of(motion, &truth)]);
+        for (motion, slot) in &slots.motion {
+            evaluation.set(*slot, &[of(*motion, &truth)]);
         }
         evaluation.set(slots.start, &[start.north, start.east]);
         evaluation.set(slots.deepest, &if_any(results.deepest));
