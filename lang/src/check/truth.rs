@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// What stands after `truth`, beside how the vehicle moves.
-const TRUTHS: [&str; 6] = ["position", "nearest_source", "source", "start", "deepest", "depth_at"];
+const TRUTHS: [&str; 7] = ["position", "nearest_source", "source", "start", "deepest", "depth_at", "beacon"];
 /// The questions for a report.
 const QUESTIONS: [&str; 6] =
     ["reported", "reported_at", "has_reported", "last_reported", "last_reported_at", "times_reported"];
@@ -30,6 +30,8 @@ const REPORTS_MAX: f64 = 1e12;
 
 /// What is said without a source.
 const NO_SOURCE: &str = "the scenario has no source";
+/// What is said without a beacon.
+const NO_BEACON: &str = "the scenario has no beacon";
 /// What is said without a deepest point.
 const NO_DEEPEST: &str = "no point of the mission's area is the deepest";
 
@@ -69,6 +71,7 @@ impl<'t> Checker<'t> {
             area: var(self, "the mission's area", Type::Area),
             reports: Vec::new(),
             sources: Vec::new(),
+            beacon: None,
             motion: Vec::new(),
         };
         // It has run for no time yet, or for some.
@@ -114,6 +117,10 @@ impl<'t> Checker<'t> {
             ("truth", "deepest") => {
                 return Some(self.taken_for_granted(test.names.deepest, NO_DEEPEST.to_string(), span));
             }
+            ("truth", "beacon") => {
+                let id = self.beacon_var(span);
+                return Some(self.taken_for_granted(id, NO_BEACON.to_string(), span));
+            }
             ("truth", other) => match Motion::ALL.into_iter().find(|motion| motion.name() == other) {
                 Some(motion) => self.motion_var(motion, span),
                 None => return Some(self.no_truth(other, member.span, span)),
@@ -121,6 +128,18 @@ impl<'t> Checker<'t> {
             _ => return None,
         };
         Some(self.variable(id, span))
+    }
+
+    /// The variable that holds where the beacon truly is.
+    fn beacon_var(&mut self, span: Span) -> usize {
+        if let Some(id) = self.test.as_ref().and_then(|test| test.names.beacon) {
+            return id;
+        }
+        let id = self.declare_hidden("truth.beacon".into(), VarKind::Signal, Type::Point.optional(), span);
+        if let Some(test) = &mut self.test {
+            test.names.beacon = Some(id);
+        }
+        id
     }
 
     /// The variable that holds how the vehicle truly lies or moves: one for each of these.

@@ -104,6 +104,8 @@ pub struct TestNames<T> {
     pub reports: Vec<(ReportPart, String, T)>,
     /// The true place of a source, by its name, if there is one.
     pub sources: Vec<(String, T)>,
+    /// Where the beacon truly is, if there is one and that is asked for.
+    pub beacon: Option<T>,
     /// How the vehicle truly lies and moves, where that is asked for.
     pub motion: Vec<(Motion, T)>,
 }
@@ -200,6 +202,7 @@ impl<T: Copy> TestNames<T> {
             area: f(self.area),
             reports: self.reports.iter().map(report).collect(),
             sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
+            beacon: self.beacon.map(&f),
             motion: self.motion.iter().map(|(motion, x)| (*motion, f(*x))).collect(),
         }
     }

@@ -3,7 +3,7 @@
 use super::{Lowered, Lowering, slot};
 use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, Hir, Row, TestNames, VarId, When, children, test_file_name};
+use crate::hir::{Builtin, Expect, Expr, ExprKind, Hir, Row, Test, TestNames, VarId, When, children, test_file_name};
 use crate::source::Sources;
 use crate::types::Type;
 use crate::types::TypeTable;
@@ -130,39 +130,8 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         let at = |id: usize| l.frame.vars[id];
         let known = &test.known;
         let slots = known.map(at);
-        let expects = test
-            .expects
-            .iter()
-            .map(|expect| {
-                let mut asked = Vec::new();
-                depths(&expect.holds, &test.depths, &mut asked);
-                let mut sides = Vec::new();
-                compared(&expect.holds, sources, &mut sides);
-                let watched = sides.into_iter().map(|e| named(l, e)).collect();
-                ExpectProgram {
-                    text: l.sources.text(expect.span).to_string(),
-                    place: l.sources.place(expect.span),
-                    when: match expect.when {
-                        When::AtTheEnd(share) => When::AtTheEnd(share),
-                        When::Always => When::Always,
-                        // What is not lowered with the mission is never entered.
-                        When::While(id) => When::While(place(id).unwrap_or(ActivityId::MAX)),
-                    },
-                    depths: asked.into_iter().map(|(point, to)| (l.code(point), l.frame.vars[*to])).collect(),
-                    holds: l.code(&expect.holds),
-                    needs: expect.needs.iter().map(|(id, without)| (l.frame.vars[*id], without.clone())).collect(),
-                    watched,
-                }
-            })
-            .collect();
-        let given = |l: &mut Lowering<'_>, row: &Row| -> Vec<(Code, Slot, u32)> {
-            let value = |(param, to): &(usize, VarId)| {
-                let e = &row.args[*param];
-                (l.code(e), l.frame.vars[*to], l.words(&e.ty))
-            };
-            test.params.iter().map(value).collect()
-        };
-        let params: Vec<_> = test.rows.iter().map(|row| given(l, row)).collect();
+        let expects = test.expects.iter().map(|expect| expectation(l, test, expect, &place)).collect();
+        let params: Vec<_> = test.rows.iter().map(|row| given(l, test, row)).collect();
         lowered.replace((expects, params, Some(slots)));
     });
     let mut findings = std::mem::take(&mut lowering.findings);
@@ -183,11 +152,11 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     claims.pieces.extend(params.iter().flatten().map(|(code, ..)| code.entry));
     debug_assert_eq!(program.verify(), Ok(()));
     debug_assert_eq!(program.verify_ranges(&claims), Ok(()));
-    let text =
-        |row: &Row| row.span.map_or("", |span| sources.text(span)).split_whitespace().collect::<Vec<_>>().join(" ");
-    let rows = test.rows.iter().zip(missions).zip(params);
-    let rows =
-        rows.map(|((row, Lowered { program: mission, .. }), params)| RowProgram { text: text(row), mission, params });
+    let rows = test.rows.iter().zip(missions).zip(params).map(|((row, mission), params)| RowProgram {
+        text: row.span.map_or(String::new(), |span| on_one_line(sources.text(span))),
+        mission: mission.program,
+        params,
+    });
     let rows = rows.collect();
     Ok(TestProgram {
         name: test.name.clone(),
@@ -201,6 +170,49 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         program,
         slots,
     })
+}
+
+/// An expectation; `place` tells where an activity stands among the mission's.
+fn expectation<'a>(
+    l: &mut Lowering<'a>,
+    test: &'a Test,
+    expect: &'a Expect,
+    place: &impl Fn(usize) -> Option<ActivityId>,
+) -> ExpectProgram {
+    let mut asked = Vec::new();
+    depths(&expect.holds, &test.depths, &mut asked);
+    let mut sides = Vec::new();
+    compared(&expect.holds, l.sources, &mut sides);
+    let watched = sides.into_iter().map(|e| named(l, e)).collect();
+    ExpectProgram {
+        text: l.sources.text(expect.span).to_string(),
+        place: l.sources.place(expect.span),
+        when: match expect.when {
+            When::AtTheEnd(share) => When::AtTheEnd(share),
+            When::Always => When::Always,
+            // What is not lowered with the mission is never entered.
+            When::While(id) => When::While(place(id).unwrap_or(ActivityId::MAX)),
+        },
+        depths: asked.into_iter().map(|(point, to)| (l.code(point), l.frame.vars[*to])).collect(),
+        holds: l.code(&expect.holds),
+        needs: expect.needs.iter().map(|(id, without)| (l.frame.vars[*id], without.clone())).collect(),
+        watched,
+    }
+}
+
+/// The values that a row gives to the parameters which expectations speak of.
+fn given<'a>(l: &mut Lowering<'a>, test: &'a Test, row: &'a Row) -> Vec<(Code, Slot, u32)> {
+    let value = |(param, to): &(usize, VarId)| {
+        let e = &row.args[*param];
+        (l.code(e), l.frame.vars[*to], l.words(&e.ty))
+    };
+    test.params.iter().map(value).collect()
+}
+
+/// What is written on several lines, without their comments.
+fn on_one_line(text: &str) -> String {
+    let words = text.lines().filter_map(|line| line.split("//").next()).flat_map(str::split_whitespace);
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// The true depths that an expression asks for, those that they are asked with before them.

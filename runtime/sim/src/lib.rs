@@ -17,12 +17,13 @@ pub use craft::hull;
 pub use craft::payload::Payload;
 pub use craft::sensors::{
     Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, InstrumentSetting, InstrumentSetup, Lbl, Looks, Navigation,
-    Pressure, Sounder,
+    Pressure, Sounder, Usbl,
 };
 pub use craft::setup::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 pub use noise::{Noise, Stream};
 pub use scenario::{IssueCause, Scenario, ScenarioError, ScenarioIssue, Setting};
 pub use simulator::Simulator;
+pub use world::beacon::Beacon;
 pub use world::bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use world::plume::{Patch, Plume, Source, Times};
 pub use world::recorded::{Playback, RecordedPlume, Still};

@@ -10,6 +10,7 @@ use crate::world::World;
 use crate::world::survey::Survey;
 use albacore_front_seat::{FrontSeat, Known};
 use albacore_geometry::{Point, Vector};
+use albacore_navigation::Estimate;
 use albacore_vehicle::measurements::VEHICLE_MODE;
 use albacore_vehicle::{
     Beyond, Command, Control, LimitWatch, Limits, Measurement, REQUEST_TICKS, Snapshot, TICK_S, Truth, Vehicle,
@@ -240,6 +241,7 @@ impl Simulator {
             current: self.faults.ailing().current,
             charge: (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0),
             compass: self.truth.heading,
+            believed: Estimate { position: self.truth.position, sigma: 0.0 },
         };
         self.instruments.measure(&mut around, snapshot);
         if tick.is_multiple_of(MODE_TICKS)

@@ -1,6 +1,7 @@
 //! The world: all that is there without the vehicle, in time. Water that flows, what is dissolved in it, a chemical plume, a bottom.
 //! For each of them what a scenario says of it, what of that cannot be, and its physics.
 
+pub(crate) mod beacon;
 pub(crate) mod bottom;
 pub(crate) mod deepest;
 pub(crate) mod plume;
@@ -11,6 +12,7 @@ pub(crate) mod survey;
 pub(crate) mod water;
 
 use crate::scenario::{Scenario, ScenarioIssues};
+use crate::world::beacon::Beacon;
 use crate::world::bottom::{Bottom, Ground, NoGo, Pit, Plane};
 use crate::world::plume::{Leak, Patch, Plume, Source};
 use crate::world::recorded::{Playback, RecordedPlume};
@@ -37,6 +39,8 @@ pub struct Environment {
     pub bottom: Bottom,
     /// Where the vehicle must not be.
     pub no_go: Vec<NoGo>,
+    /// A beacon; none: there is none to be heard.
+    pub beacon: Option<Beacon>,
     /// How the chemical spreads; none: the chemical sensor reads only its noise.
     pub plume: Option<Plume>,
     /// What releases chemical.
@@ -85,6 +89,7 @@ clauses! {
     "bottom" Bottom(Plane) => |of, plane| of.bottom.ground = Ground::Plane(plane);
     "pit" Pit(Pit) => |of, pit| of.bottom.pits.push(pit);
     "no_go" NoGo(NoGo) => |of, zone| of.no_go.push(zone);
+    "beacon" Beacon(Beacon) => |of, beacon| of.beacon = Some(beacon);
     "plume" Plume(Plume) => |of, plume| of.plume = Some(plume);
     "source" Source(Source) => |of, source| of.sources.push(source);
     "leak" Leak(Leak) => |of, leak| of.sources.push(leak.into());
@@ -118,6 +123,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     water::check(scenario, objections);
     stratification::check(scenario, objections);
     bottom::check(scenario, objections);
+    beacon::check(scenario, objections);
     // An area that was read from a file has not met its constructor.
     if let Some(Err(error)) = scenario.environment.region.as_ref().map(|region| Area::polygon(region.corners())) {
         let mut of = objections.of("region");
@@ -146,6 +152,7 @@ pub struct World {
     sea: Option<Sea>,
     stratification: Stratification,
     bottom: Bottom,
+    beacon: Option<Beacon>,
 }
 
 /// The flow and the plume that it carries.
@@ -167,7 +174,9 @@ impl World {
         let (upper, bottom) = (scenario.environment.flow.upper.clone(), scenario.environment.bottom.clone());
         let depth = bottom.depth_at(scenario.vehicle.start);
         let sea = scenario.environment.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
-        World { carrier, upper, sea, stratification: scenario.environment.stratification.clone(), bottom }
+        let (stratification, beacon) =
+            (scenario.environment.stratification.clone(), scenario.environment.beacon.clone());
+        World { carrier, upper, sea, stratification, bottom, beacon }
     }
 
     /// Why the world cannot go on to a tick, if it cannot.
@@ -212,6 +221,11 @@ impl World {
     /// Its temperature and salinity.
     pub fn stratification(&self) -> &Stratification {
         &self.stratification
+    }
+
+    /// Where its beacon is at a time, s of the run, if it has one.
+    pub fn beacon(&self, time: f64) -> Option<Point> {
+        self.beacon.as_ref().map(|beacon| beacon.position(time))
     }
 
     /// The water's depth, m.

@@ -132,6 +132,8 @@ measurements! {
     SALINITY: MeasurementInfo::of("salinity", Quantity::Salinity).of_instrument("ctd");
     /// The date, by the vehicle's clock.
     UTC: MeasurementInfo::of("utc", Quantity::Date).of_instrument("date");
+    /// Where a beacon is that the vehicle hears: as far from where it believes to be as it hears it.
+    BEACON: MeasurementInfo::of("beacon", Quantity::Position).of_instrument("usbl");
 }
 
 /// A measurement of ours by its number.

@@ -131,6 +131,10 @@ impl<'t> Expectations<'t> {
         let nearest = results.nearest_source(results.reports.latest.unwrap_or(position));
         let evaluation = &mut self.evaluation;
         evaluation.set(slots.position, &[position.north, position.east]);
+        if let Some(slot) = slots.beacon {
+            let beacon = results.plan.scenario.environment.beacon.as_ref().map(|beacon| beacon.position(time));
+            evaluation.set(slot, &if_any(beacon));
+        }
         for (motion, slot) in &slots.motion {
             evaluation.set(*slot, &[of(*motion, &truth)]);
         }

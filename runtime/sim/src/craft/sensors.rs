@@ -13,6 +13,7 @@ mod onboard;
 mod positioning;
 mod pressure;
 mod sounder;
+mod usbl;
 
 pub use adcp::{Adcp, Looks};
 pub use battery::Battery;
@@ -24,12 +25,14 @@ pub use fluorometer::Fluorometer;
 pub use positioning::{Gps, Lbl, Navigation};
 pub use pressure::Pressure;
 pub use sounder::Sounder;
+pub use usbl::Usbl;
 
 use crate::craft::hull::Motion;
 use crate::scenario::ScenarioIssues;
 use crate::world::World;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
+use albacore_navigation::Estimate;
 use albacore_vehicle::{Measurement, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use clock::Clock;
@@ -39,6 +42,7 @@ use onboard::OnboardNavigation;
 use pressure::PressureGauge;
 use serde::Deserialize;
 use sounder::EchoSounder;
+use usbl::UsblReceiver;
 
 /// Samples a second of what is read at every tick.
 const EVERY_TICK: f64 = 1.0 / TICK_S;
@@ -68,6 +72,8 @@ pub struct InstrumentSetup {
     pub battery: Battery,
     /// The date on which runs begin; none: the vehicle tells none.
     pub date: Option<Date>,
+    /// The receiver of beacons; none: the vehicle has none.
+    pub usbl: Option<Usbl>,
 }
 
 /// Whether a vehicle has an instrument: one that it may lack is an `Option`.
@@ -124,6 +130,7 @@ clauses! {
     "ctd" Ctd => ctd in Some;
     "battery" Battery => battery;
     "date" Date => date in Some;
+    "usbl" Usbl => usbl in Some;
 }
 
 impl InstrumentSetup {
@@ -151,6 +158,7 @@ pub(crate) struct Instruments {
     ctd: Option<CtdProbe>,
     battery: BatteryGauge,
     clock: Option<Clock>,
+    usbl: Option<UsblReceiver>,
 }
 
 impl Instruments {
@@ -165,11 +173,12 @@ impl Instruments {
             ctd: setup.ctd.as_ref().map(|ctd| CtdProbe::new(ctd, seed)),
             battery: BatteryGauge::new(&setup.battery, seed),
             clock: setup.date.clone().map(Clock),
+            usbl: setup.usbl.as_ref().map(|usbl| UsblReceiver::new(usbl, seed)),
         }
     }
 
     /// All of them, in the order in which a snapshot holds what they tell: a part of every recorded run.
-    fn in_order(&mut self) -> [&mut dyn Instrument; 8] {
+    fn in_order(&mut self) -> [&mut dyn Instrument; 9] {
         [
             &mut self.navigation,
             &mut self.pressure,
@@ -179,6 +188,7 @@ impl Instruments {
             &mut self.ctd,
             &mut self.battery,
             &mut self.clock,
+            &mut self.usbl,
         ]
     }
 
@@ -190,6 +200,7 @@ impl Instruments {
     /// Adds what they tell at a tick.
     pub fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
         around.compass = self.navigation.compass(around.tick, around.truth.heading);
+        around.believed = self.navigation.belief(around.truth.position);
         self.in_order().into_iter().for_each(|instrument| instrument.measure(around, snapshot));
     }
 
@@ -237,6 +248,8 @@ pub(crate) struct Surroundings<'a> {
     pub charge: f64,
     /// Where the compass says that the nose points: others turn by it.
     pub compass: Heading,
+    /// Where the vehicle believes to be.
+    pub believed: Estimate,
 }
 
 impl Surroundings<'_> {
