@@ -88,6 +88,33 @@ fn a_machine_fed_with_the_journal_does_the_same_again() {
     assert!(per_tick < BYTES_A_TICK, "{per_tick} bytes a tick");
 }
 
+/// A beacon is in the journal as each other input is, with a digest of its own for each seed.
+#[test]
+fn what_was_heard_of_a_beacon_is_in_the_journal() {
+    let plan = plan("gallery/docking");
+    let heard = |seed: u64| {
+        let sink = Sink::default();
+        let mut run = Run::new(&plan, seed).unwrap();
+        run.with_journal(Box::new(sink.clone()), &[]);
+        assert_eq!(run.to_end(), Outcome::Completed);
+        (read(&sink), run.summary(0.0).digest)
+    };
+    let (journal, digest) = heard(1);
+    let number = journal.header.measurements.iter().position(|m| m.name == "beacon").unwrap();
+    let is_beacon = |sample: &&Sample| usize::from(sample.input_measurement()) == number;
+    let samples = journal.ticks.iter().flat_map(|record| &record.snapshot.samples).filter(is_beacon).count();
+    // One a second, of which one in ten is lost.
+    let (least, most) = (journal.ticks.len() * 8 / 100, journal.ticks.len() * 98 / 1000);
+    assert!((least..most).contains(&samples), "{samples} in {} ticks", journal.ticks.len());
+    let mut machine = Machine::new(Arc::clone(&plan.program), &journal.header.measurements).unwrap();
+    for record in &journal.ticks {
+        assert_eq!(machine.step(&record.snapshot), record.command, "tick {}", record.tick);
+        assert_eq!(machine.events(), record.events, "tick {}", record.tick);
+    }
+    assert_eq!(heard(1).1, digest);
+    assert_ne!(heard(2).1, digest);
+}
+
 /// What was not believed is in the journal, and marked.
 #[test]
 fn a_machine_fed_with_a_wrong_sample_withholds_it_again() {
