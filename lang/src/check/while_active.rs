@@ -6,13 +6,13 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::hir::{ActivityId, Expr, ExprKind, Kind};
 use crate::syntax::tree;
 use albacore_wording::listed;
+use std::collections::BTreeSet;
 
 impl Checker<'_> {
     /// The behavior or strategy of the tested mission that a path names: `find`, or `cpt_2005.find` where several have the name.
     pub(super) fn behavior_of_the_tested(&mut self, path: &tree::Path) -> Option<ActivityId> {
         let mission = self.test.as_ref()?.mission;
-        let is_ours = |id: &ActivityId| matches!(self.hir.activities[*id].kind, Kind::Behavior | Kind::Strategy);
-        let reached: Vec<ActivityId> = self.hir.called_from(mission).into_iter().filter(is_ours).collect();
+        let reached = self.entered_by(mission);
         let meant: Vec<ActivityId> = reached.iter().copied().filter(|&id| self.is_named(id, path)).collect();
         // What the file itself declares by a name goes before what has that name in something else.
         let whole = meant.iter().copied().find(|&id| self.qualified(id) == path.text());
@@ -33,6 +33,21 @@ impl Checker<'_> {
                 None
             }
         }
+    }
+
+    /// The behaviors and strategies that a mission enters, itself or by what it calls; not those in its overlays, which run beside them.
+    fn entered_by(&self, mission: ActivityId) -> Vec<ActivityId> {
+        let mut entered = BTreeSet::new();
+        let mut ahead = vec![mission];
+        while let Some(id) = ahead.pop() {
+            let activity = &self.hir.activities[id];
+            let is_overlay = matches!(activity.kind, Kind::AmendsCourse | Kind::Beside | Kind::Sets(_));
+            if !is_overlay && entered.insert(id) {
+                ahead.extend(activity.calls());
+            }
+        }
+        entered.remove(&mission);
+        entered.into_iter().collect()
     }
 
     /// Its name with that of the strategy or mission that holds it, and of its module: `cpt.cpt_2005.find`.
@@ -70,9 +85,12 @@ impl Checker<'_> {
         let at = |message: String| Diagnostic::error(Code::TestsBehavior, path.span, message);
         let always = "write `expect always`, or name a behavior that the mission enters";
         let other = (0..self.hir.activities.len()).find(|&id| self.is_named(id, path));
-        match other.map(|id| self.hir.activities[id].kind) {
+        // What stands in an overlay is of it.
+        let outer = other.map(|id| self.hir.activities[id].owner.unwrap_or(id));
+        match outer.map(|id| self.hir.activities[id].kind) {
             Some(Kind::AmendsCourse | Kind::Beside | Kind::Sets(_)) => {
-                let message = format!("`{name}` is an overlay: it runs beside the behavior that is active");
+                let is = if outer == other { "is" } else { "stands in" };
+                let message = format!("`{name}` {is} an overlay: that runs beside the behavior that is active");
                 self.report(at(message).help(always));
             }
             Some(Kind::Mission) if other == Some(mission) => {
