@@ -83,7 +83,7 @@ pub struct NamedValue {
 /// A value as it is written, with what it takes.
 fn named<'a>(l: &mut Lowering<'a>, e: &'a Expr) -> NamedValue {
     NamedValue {
-        name: l.sources.text(e.span).to_string(),
+        name: on_one_line(l.sources.text(e.span)),
         code: l.code(e),
         shape: l.shape(&e.ty),
         needs: taken_for_present(e).into_iter().map(|id| l.frame.vars[id]).collect(),
@@ -185,7 +185,7 @@ fn expectation<'a>(
     compared(&expect.holds, l.sources, &mut sides);
     let watched = sides.into_iter().map(|e| named(l, e)).collect();
     ExpectProgram {
-        text: l.sources.text(expect.span).to_string(),
+        text: on_one_line(l.sources.text(expect.span)),
         place: l.sources.place(expect.span),
         when: match expect.when {
             When::AtTheEnd(share) => When::AtTheEnd(share),
@@ -211,8 +211,11 @@ fn given<'a>(l: &mut Lowering<'a>, test: &'a Test, row: &'a Row) -> Vec<(Code, S
 
 /// What is written on several lines, without their comments.
 fn on_one_line(text: &str) -> String {
-    let words = text.lines().filter_map(|line| line.split("//").next()).flat_map(str::split_whitespace);
-    words.collect::<Vec<_>>().join(" ")
+    // In a text between quotes nothing is a comment.
+    let is_open = |before: &str| before.matches('"').count() % 2 == 1;
+    let said = |line: &'_ str| line.match_indices("//").map(|(at, _)| at).find(|at| !is_open(&line[..*at]));
+    let lines = text.lines().map(|line| said(line).map_or(line, |end| &line[..end]));
+    lines.map(str::trim).collect::<Vec<_>>().join(" ")
 }
 
 /// The true depths that an expression asks for, those that they are asked with before them.
