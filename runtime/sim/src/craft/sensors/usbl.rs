@@ -2,13 +2,13 @@
 //! of its own position that is a place.
 
 use super::delay::Delay;
-use super::rate::is_due;
 use super::{Instrument, Surroundings};
 use crate::noise::Noise;
 use albacore_geometry::{Point, Vector};
 use albacore_navigation::Estimate;
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::BEACON;
+use albacore_vehicle::rate::is_due;
 use serde::Deserialize;
 
 /// The receiver.
