@@ -128,11 +128,19 @@ pub(super) fn of_bad_stretch(file: FileId, text: &str, callable: &BTreeSet<&str>
         };
     }
     match error {
-        Some(error) if bad.place == Place::TestClause && word == "with" => finding(file, stretch, start, &error)
-            .help("a row of the table names parameters of the mission: `with NAME: VALUE, NAME: VALUE`"),
-        Some(error) => finding(file, stretch, start, &error),
+        Some(error) => in_row(bad.place, &word, finding(file, stretch, start, &error)),
         None => Diagnostic::error(Code::SyntaxClause, bad.span, "this cannot stand here")
             .help("one statement a line: separate two with a newline or `;`"),
+    }
+}
+
+/// What is wrong with a row of a test's table is told with how one is written.
+fn in_row(place: Place, word: &str, finding: Diagnostic) -> Diagnostic {
+    match place {
+        Place::TestClause if word == "with" => {
+            finding.help("a row of the table names parameters of the mission: `with NAME: VALUE, NAME: VALUE`")
+        }
+        _ => finding,
     }
 }
 
