@@ -324,7 +324,39 @@ impl<'t> Checker<'t> {
                 }
             }
         }
+        self.comes_back(hir, known_ends, behaviors, rules, &leaving);
         self.shadowed(rules, &leaving, &names);
+    }
+
+    /// `then back` comes back when what it led to is done: not from what never ends, nor from what a rule leads on from when it is done.
+    fn comes_back(
+        &mut self,
+        hir: &hir::Hir,
+        known_ends: &mut Known,
+        behaviors: &[usize],
+        rules: &[Rule],
+        leaving: &[Vec<usize>],
+    ) {
+        for rule in rules.iter().filter(|rule| rule.back) {
+            let Target::Behavior(to) = rule.target else { continue };
+            let behavior = &hir.activities[behaviors[to]];
+            let done = leaving[to].iter().map(|&rule| &rules[rule]).find(|rule| Self::is_just_done(&rule.on));
+            let warning = |at, message| Diagnostic::warning(Code::RulesBack, at, message);
+            let finding = match done {
+                _ if !can_end(behaviors[to], hir, known_ends) => {
+                    warning(rule.span, format!("`{}` never ends: nothing comes back from it", behavior.name))
+                        .label(behavior.span, "declared here")
+                }
+                Some(on) => {
+                    warning(on.span, format!("when `{}` is done this leads on: nothing comes back", behavior.name))
+                        .label(rule.span, "to what waits here")
+                }
+                None => continue,
+            };
+            self.report(finding.help(
+                "a rule that leads on leaves for good what waits: leave out `then back`, or make a strategy of all that comes between",
+            ));
+        }
     }
 
     /// A rule after one of the same source that holds whenever it does is never reached. One with `done` is tried at other times than one

@@ -19,6 +19,7 @@ pub(super) fn statement(before: &str, rest: &str, expected: &str) -> Option<Habi
         .or_else(|| tables::crossing(before, rest))
         .or_else(|| tables::unbraced(before, rest))
         .or_else(|| tables::requirements(before, rest))
+        .or_else(|| tables::field(before, rest))
         .or_else(|| counted(before, rest))
         .or_else(|| result(before, rest, expected))
         .or_else(|| block(before, rest, expected))

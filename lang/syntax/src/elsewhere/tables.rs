@@ -1,4 +1,4 @@
-//! Rules of switching tables, what a mission says before its body, and what is derived from others.
+//! Rules of switching tables, what a mission says before its body, what is derived from others, and fields that are assigned.
 
 use super::{Habit, last_word, line_end, word, write};
 
@@ -114,6 +114,21 @@ pub(super) fn derived(before: &str, rest: &str) -> Option<Habit> {
     }
     let base = line_end(&rest[word(rest).len()..]).trim_start_matches(':').trim();
     said("what something is derived from stands after `=`", format!("write `{head} = {base} with {{ … }}`"))
+}
+
+/// `best.at = position`, `regions[0].visits = 3`.
+pub(super) fn field(before: &str, rest: &str) -> Option<Habit> {
+    let (record, field) = before.trim().rsplit_once('.')?;
+    let is_name = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || c == '_');
+    let value = line_end(rest.strip_prefix('=').filter(|rest| !rest.starts_with('='))?).trim();
+    let help = match record.split_once('[') {
+        None if is_name(record) => format!("write `{record} = {record} with ({field}: {value})`"),
+        Some((list, _)) if is_name(list) && record.ends_with(']') => {
+            format!("write `if let one = {record} {{ {record} = one with ({field}: …) }}`: it may hold nothing there")
+        }
+        _ => return None,
+    };
+    is_name(field).then(|| Habit { message: Some("a record is given anew, not a field of it".to_string()), help })
 }
 
 /// `requires { depth fresh 5 s, heading fresh 5 s }`.
