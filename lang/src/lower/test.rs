@@ -8,6 +8,7 @@ use crate::source::Sources;
 use crate::types::Type;
 use crate::types::TypeTable;
 use albacore_program::{ActivityId, Code, Program, Shape, Slot};
+use std::collections::BTreeSet;
 
 /// A test, ready to run.
 #[derive(Clone, Debug)]
@@ -183,6 +184,9 @@ fn expectation<'a>(
     depths(&expect.holds, &test.depths, &mut asked);
     let mut sides = Vec::new();
     compared(&expect.holds, l.sources, &mut sides);
+    // What is compared twice is told once.
+    let mut told = BTreeSet::new();
+    sides.retain(|e| told.insert(l.sources.text(e.span)));
     let watched = sides.into_iter().map(|e| named(l, e)).collect();
     ExpectProgram {
         text: on_one_line(l.sources.text(expect.span)),
@@ -243,8 +247,9 @@ fn compared<'e>(e: &'e Expr, sources: &Sources, out: &mut Vec<&'e Expr>) {
         ExprKind::Do(Builtin::Lt | Builtin::Le | Builtin::Eq, sides) => {
             out.extend(sides.iter().filter(|side| !is_spelt_out(side)));
         }
-        // Whether the mission has ended so.
+        // Whether the mission has ended so, or something was reported.
         ExprKind::Var(_) if e.ty == Type::Bool => out.push(e),
+        ExprKind::IsPresent(_) => out.push(e),
         _ => children(e, &mut |child| compared(child, sources, out)),
     }
 }
