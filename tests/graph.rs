@@ -51,7 +51,8 @@ mission edges within 5 min {
     go       -> end   on done
     go       -> end   on after 1 min
     end      -> abort "\"far\" & <deep> #1" on tries > 3
-    look,end -> finish on done
+    look,end -> finish on tries > 5
+    end      -> finish on done
     any      -> end   on after 2 min
 }
 "#;

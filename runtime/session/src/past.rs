@@ -4,11 +4,9 @@ use crate::plan::Plan;
 use crate::recorders::{InMemory, Recorder, RunFile, WorldAtEnd};
 use crate::summary::Summary;
 use albacore_geometry::Point;
-use albacore_machine::Event;
-use albacore_program::{ActivityId, Body, Program, senses};
+use albacore_program::{Program, senses};
 use albacore_trace::journal::{Ending, Entry, JournalHeader, Reader, Unreadable};
 use albacore_trace::{Active, BehaviorTrace, Step, TickRecord};
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A run that is over.
@@ -82,8 +80,6 @@ struct Derived {
     program: Arc<Program>,
     position: Option<usize>,
     active: Active,
-    /// Overlays, and the behaviors of their tables: they run beside what is active.
-    beside: BTreeSet<ActivityId>,
     believed: Option<Point>,
 }
 
@@ -93,7 +89,6 @@ impl Derived {
             program: Arc::clone(&plan.program),
             position: header.measurements.iter().position(|measurement| measurement.name == senses::POSITION),
             active: Active::default(),
-            beside: beside(&plan.program),
             believed: None,
         }
     }
@@ -104,14 +99,7 @@ impl Derived {
                 self.believed = Some(Point::new(sample.reading[0], sample.reading[1]));
             }
         }
-        let is_beside = |event: &&Event| match event {
-            Event::Entered(id) | Event::Left(id, _) | Event::Suspended(id) | Event::Resumed(id) => {
-                self.beside.contains(id)
-            }
-            _ => false,
-        };
-        let of_chain = record.events.iter().filter(|event| !is_beside(event));
-        of_chain.for_each(|event| self.active.follow(event, &self.program));
+        record.events.iter().for_each(|event| self.active.follow(event, &self.program));
         if !matches!(record.step, Step::Wait) {
             record.believed = self.believed;
             record.active = self.active.chain().to_vec();
@@ -122,18 +110,4 @@ impl Derived {
     fn lose(&mut self) {
         self.active = Active::default();
     }
-}
-
-/// The activities that overlays are, and those of their tables.
-fn beside(program: &Program) -> BTreeSet<ActivityId> {
-    let mut beside = BTreeSet::new();
-    let mut ahead: Vec<ActivityId> = program.overlays.iter().map(|site| site.activity).collect();
-    while let Some(id) = ahead.pop() {
-        if beside.insert(id)
-            && let Some(Body::Table(table)) = program.activities.get(id as usize).map(|activity| &activity.body)
-        {
-            ahead.extend(table.behaviors.iter().map(|behavior| behavior.activity));
-        }
-    }
-    beside
 }

@@ -1,6 +1,6 @@
 //! Which activities are active, outermost first, as the events of a run tell it.
 
-use crate::names::is_overlay;
+use crate::names::runs_beside;
 use albacore_machine::Event;
 use albacore_program::{ActivityId, Program};
 
@@ -26,7 +26,9 @@ impl Active {
     /// Takes in what happened.
     pub fn follow(&mut self, event: &Event, program: &Program) {
         match event {
-            Event::Entered(id) if !is_overlay(program, *id) => self.enter(*id),
+            Event::Entered(id) | Event::Left(id, _) | Event::Suspended(id) | Event::Resumed(id)
+                if runs_beside(program, *id) => {}
+            Event::Entered(id) => self.enter(*id),
             Event::Left(id, _) => self.leave(*id),
             Event::Suspended(id) => self.suspend(*id),
             Event::Resumed(id) => self.resume(*id),

@@ -103,7 +103,18 @@ impl Names {
 
 /// Whether an activity runs beside the chain rather than in it.
 pub fn is_overlay(program: &Program, id: ActivityId) -> bool {
-    use ActivityKind::{AmendsCourse, Sets};
+    use ActivityKind::{AmendsCourse, Beside, Sets};
     let kind = program.activities.get(id as usize).map(|activity| activity.kind);
-    matches!(kind, Some(AmendsCourse | Sets(_)))
+    matches!(kind, Some(AmendsCourse | Beside | Sets(_)))
+}
+
+/// Whether an activity is an overlay, or a behavior in the table of one: what runs beside the chain.
+pub fn runs_beside(program: &Program, id: ActivityId) -> bool {
+    let table = |of: ActivityId| match &program.activities.get(of as usize)?.body {
+        Body::Table(table) => Some(table),
+        _ => None,
+    };
+    let is_in =
+        |of: ActivityId| table(of).is_some_and(|table| table.behaviors.iter().any(|entry| entry.activity == id));
+    is_overlay(program, id) || program.overlays.iter().any(|site| is_in(site.activity))
 }
