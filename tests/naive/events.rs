@@ -61,7 +61,7 @@ fn line(p: &Program, event: &Event) -> String {
         Event::Unwritten(lines) => format!("unwritten {lines}"),
         Event::BottomLost(deepest) => format!("bottom lost {:?}", deepest + 0.0),
         Event::Lifted(speed) => format!("lifted {speed:?}"),
-        Event::LiftedInVain => "lifted in vain".to_string(),
+        Event::LiftedInVain => "lifted_in_vain".to_string(),
         Event::Risen => "risen".to_string(),
         Event::BottomFound => "bottom found".to_string(),
         Event::Restless(rule) => format!("restless {}", p.rules[*rule as usize].place),

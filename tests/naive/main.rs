@@ -13,12 +13,14 @@ mod compare;
 mod evaluator;
 mod events;
 mod generate;
+mod heavy;
 mod random;
 mod vehicle;
 
 use albacore_lang::{FileFault, Library, Prelude};
 use albacore_session::{Plan, Severity, Source, load};
 use albacore_sim::Simulator;
+use heavy::Heavy;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -172,6 +174,54 @@ fn absurd_samples() {
         let run = compare::compare(&script, "absurd", &mut Chance::absurd(seed), 200);
         assert!(run.difference.is_none(), "seed {seed}: {}", run.difference.unwrap_or_default());
     }
+}
+
+/// Vehicles that sink make way by both sides alike: under each kind of limit some are lifted and rise, and some make it in vain.
+#[test]
+fn lifts() {
+    let limits = [
+        "altitude >= 2 m, depth <= 11.5 m, speed <= 1.8 m/s",
+        "altitude >= 5 m",
+        "altitude >= 4 m, depth >= 1 m, speed <= 1 m/s",
+        "depth <= 8 m",
+        "speed <= 2 m/s",
+    ];
+    let count = from_environment("NAIVE_COUNT", FEW);
+    let (mut differences, mut in_vain) = (Vec::new(), 0);
+    for limits in limits {
+        let text = format!(
+            "mission sinks within 95 s {{
+                area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+                limits {{ {limits} }}
+                requires {{ heading fresh 5 s, else abort; depth fresh 5 s, else hold for 30 s then abort }}
+                recovery within 10 s {{ steer north at speed 1 m/s, depth 2 m }}
+                loop {{
+                    wait for 20 s
+                    steer north for 4 s at speed 0.3 m/s, depth 7 m
+                    wait for 6 s
+                    steer west for 5 s at speed 0.3 m/s, altitude 6 m
+                    steer south for 3 s at speed 1 m/s, depth depth + 5 m
+                }}
+            }}"
+        );
+        let script = albacore_lang::load(Source { name: "sinks.alb".into(), text: text.into() }, &Inputs, None, &[]);
+        let said: Vec<String> = script.findings.iter().map(|finding| finding.message.clone()).collect();
+        assert!(script.is_sound(), "{said:#?}");
+        let mut had = BTreeMap::new();
+        for seed in 0..count {
+            let run = compare::compare(&script, "sinks", &mut Heavy::new(seed), TICKS_MAX);
+            differences.extend(run.difference.map(|difference| format!("{limits}, seed {seed}: {difference}")));
+            for event in run.events {
+                *had.entry(event.split(' ').next().unwrap_or_default().to_string()).or_insert(0) += 1;
+            }
+        }
+        println!("{limits}: {had:?}");
+        assert!(count < FEW || ["lifted", "risen"].iter().all(|event| had.contains_key(*event)), "{limits}: {had:?}");
+        in_vain += had.get("lifted_in_vain").copied().unwrap_or(0);
+    }
+    assert!(count < FEW || in_vain > 0, "no way was made in vain");
+    differences.sort_by_key(String::len);
+    assert!(differences.is_empty(), "{} differ; the shortest:\n{}", differences.len(), differences[0]);
 }
 
 /// What is written too fast is left out by both sides alike, and counted.

@@ -55,21 +55,9 @@ impl Evaluator<'_> {
     pub(super) fn vertical(&mut self, asked: Vertical) -> Vertical {
         let (low, high) = self.limits[Channel::Depth as usize];
         let (lowest, highest) = self.limits[Channel::Altitude as usize];
-        let names = ["altitude", "water_depth"];
-        let own = self.required.iter().filter(|r| names.contains(&&*self.w.hir.inputs[r.input].name)).map(|r| r.fresh);
-        let fresh = own.fold(FRESH_TICKS, u64::min);
-        let young = self.w.tick - *self.bottom.begun.get_or_insert(self.w.tick) <= FRESH_TICKS;
+        self.bottom.begun.get_or_insert(self.w.tick);
+        let (known, young) = (self.known(), self.is_young());
         let echo = self.bottom.echo.filter(|echo| echo.agrees);
-        let lone = fresh.min(LONE_TICKS);
-        let known = self.bottom.echo.filter(|echo| {
-            (echo.agrees || young) && self.w.tick - echo.tick <= if echo.confirmed { fresh } else { lone }
-        });
-        let known = known.map(|echo| match self.bottom.other {
-            Some((other, _)) if self.w.tick - other.tick <= LONE_TICKS && other.water < echo.water => {
-                Echo { water: other.water, sum: other.sum.min(echo.sum), ..echo }
-            }
-            _ => echo,
-        });
         let floor = match (known, echo) {
             (Some(echo), _) => {
                 let (elsewhere, least) = self.bottom.least;
@@ -92,11 +80,12 @@ impl Evaluator<'_> {
         // What the vehicle does not keep to leads up.
         let depth = self.w.depth().unwrap_or(0.0);
         let is_lost = known.is_none() && lowest > 0.0;
-        let is_low = self.is_low(lowest) || (deepest < high || is_lost) && depth > deepest + 1.0;
+        let is_low = self.is_low() || (deepest < high || is_lost) && depth > deepest + 1.0;
+        let up = if self.lift.leads_to_the_surface() { 0.0 } else { low.min(deepest) };
         let least = self.bottom.rise.least(self.w.tick).filter(|_| known.is_some());
         let deepest = least.map_or(deepest, |least| deepest.min((least - self.ahead(lowest)).max(0.0)));
         let given = match asked {
-            Vertical::Depth(_) if is_low => Vertical::Depth(low.min(deepest)),
+            Vertical::Depth(_) if is_low => Vertical::Depth(up),
             Vertical::Altitude(asked) => {
                 let given = self.clamped(Channel::Altitude, asked);
                 match known {
@@ -110,15 +99,13 @@ impl Evaluator<'_> {
                         if self.bottom.deep.max(echo.sum) + self.bottom.hidden(&self.w) - given + self.bottom.below
                             > high
                         {
-                            Vertical::Depth(if is_low { low.min(deepest) } else { goal.min(deepest).max(0.0) })
+                            Vertical::Depth(if is_low { up } else { goal.min(deepest).max(0.0) })
                         } else {
                             self.bottom.below = 0.0;
                             Vertical::Altitude(given)
                         }
                     }
-                    None if lowest > 0.0 || high < f64::MAX => {
-                        Vertical::Depth(if is_low { low.min(deepest) } else { deepest })
-                    }
+                    None if lowest > 0.0 || high < f64::MAX => Vertical::Depth(if is_low { up } else { deepest }),
                     None => Vertical::Altitude(given),
                 }
             }
@@ -132,8 +119,55 @@ impl Evaluator<'_> {
         given
     }
 
+    /// For 5 s an echo may be on its way.
+    fn is_young(&self) -> bool {
+        self.w.tick - self.bottom.begun.unwrap_or(self.w.tick) <= FRESH_TICKS
+    }
+
+    /// The echo that both limits are held by, if there is one.
+    fn known(&self) -> Option<Echo> {
+        let names = ["altitude", "water_depth"];
+        let own = self.required.iter().filter(|r| names.contains(&&*self.w.hir.inputs[r.input].name)).map(|r| r.fresh);
+        let fresh = own.fold(FRESH_TICKS, u64::min);
+        let lone = fresh.min(LONE_TICKS);
+        let age = |echo: &Echo| self.w.tick - echo.tick;
+        let counts =
+            |echo: &Echo| (echo.agrees || self.is_young()) && age(echo) <= if echo.confirmed { fresh } else { lone };
+        let echo = self.bottom.echo.filter(counts)?;
+        let other = self.bottom.other.map(|(other, _)| other);
+        Some(match other.filter(|other| age(other) <= LONE_TICKS && other.water < echo.water) {
+            Some(other) => Echo { water: other.water, sum: other.sum.min(echo.sum), ..echo },
+            None => echo,
+        })
+    }
+
+    /// By how much the vehicle is deeper than its limits allow, m: by an altitude, by `depth <= D`, and where the altitude is lost by the
+    /// way since. Where the depth is lost it is as deep as it last was, and the altitude tells the rest.
+    pub(super) fn too_deep(&self) -> Option<f64> {
+        let lowest = self.limits[Channel::Altitude as usize].0;
+        let high = self.limits[Channel::Depth as usize].1;
+        let high = self.shoal().map_or(high, |shoal| high.min(shoal));
+        let is_fresh = self.w.lately("depth", FRESH_TICKS).is_some();
+        let depth = match (self.w.depth(), self.bottom.told(&self.w)) {
+            (None, altitude) => return altitude.map(|altitude| lowest - altitude),
+            (Some(depth), Some(altitude)) if !is_fresh => return Some((lowest - altitude).max(depth - high)),
+            (Some(depth), _) => depth,
+        };
+        let allowed = match (self.known(), self.bottom.echo.filter(|echo| echo.agrees)) {
+            (Some(echo), _) => echo.water - self.ahead(lowest),
+            (None, _) if lowest == 0.0 => high,
+            (None, Some(echo)) => echo.water - self.ahead(lowest) - 0.25 * self.bottom.gone(&self.w),
+            (None, None) if self.is_young() => depth,
+            (None, None) => 0.0,
+        };
+        let by = depth - allowed.min(high).max(0.0);
+        let low = self.bottom.altitude(&self.w).filter(|_| self.is_low()).map(|altitude| lowest - altitude);
+        Some(low.map_or(by, |low| by.max(low)))
+    }
+
     /// What is measured too low leads up, whatever the depth is told to be.
-    fn is_low(&self, lowest: f64) -> bool {
+    pub(super) fn is_low(&self) -> bool {
+        let lowest = self.limits[Channel::Altitude as usize].0;
         let low_by = (0.25 * lowest).min(0.5);
         self.bottom.altitude(&self.w).is_some_and(|altitude| altitude < lowest - low_by)
     }
@@ -173,9 +207,7 @@ impl Bottom {
     fn rises(&self, w: &World, asked: Vertical) -> bool {
         match asked {
             Vertical::Depth(asked) => asked < w.depth().unwrap_or(0.0) - 2.0,
-            Vertical::Altitude(asked) => {
-                self.altitude.is_some_and(|(tick, altitude, _)| w.tick - tick <= FRESH_TICKS && asked > altitude + 2.0)
-            }
+            Vertical::Altitude(asked) => self.told(w).is_some_and(|altitude| asked > altitude + 2.0),
         }
     }
 
@@ -185,11 +217,16 @@ impl Bottom {
         0.25 * apart(w, place).max(way)
     }
 
-    /// The altitude, if it was told lately, less by what the vehicle has sunk since.
+    /// The altitude, if it was told lately.
+    pub fn told(&self, w: &World) -> Option<f64> {
+        self.altitude.filter(|(tick, ..)| w.tick - tick <= FRESH_TICKS).map(|(_, altitude, _)| altitude)
+    }
+
+    /// The same, less by what the vehicle has sunk since.
     fn altitude(&self, w: &World) -> Option<f64> {
-        let (tick, altitude, depth) = self.altitude?;
+        let (_, altitude, depth) = self.altitude.filter(|_| self.told(w).is_some())?;
         let sunk = (w.depth().unwrap_or(0.0) - depth).max(0.0);
-        (w.tick - tick <= FRESH_TICKS).then_some(altitude - sunk)
+        Some(altitude - sunk)
     }
 
     pub fn hear(&mut self, w: &World, asked: Vertical) {

@@ -3,6 +3,7 @@
 use super::activation::{Aborted, Activation};
 use super::bottom::Bottom;
 use super::expr::{Frame, Scope, number, value};
+use super::lift::Lift;
 use super::origin;
 use super::rest::Rest;
 use super::timed::Setpoints;
@@ -59,6 +60,7 @@ pub struct Evaluator<'p> {
     pub(super) limited: [bool; 3],
     filter: CommandFilter,
     pub(super) bottom: Bottom,
+    pub(super) lift: Lift,
     /// Since when the vehicle has lain on the bottom, and for how many ticks in all, and while it drove.
     aground: Option<u64>,
     lain: u64,
@@ -97,6 +99,7 @@ impl<'p> Evaluator<'p> {
             limited: [false; 3],
             filter: CommandFilter::new(w.heading()),
             bottom: Bottom::default(),
+            lift: Lift::default(),
             aground: None,
             lain: 0,
             lain_driven: 0,
@@ -445,13 +448,15 @@ impl<'p> Evaluator<'p> {
         let speed = self.limit(Channel::Speed, asked.speed);
         let vertical = self.vertical(asked.vertical);
         let course = self.filter.step(amended, self.w.turn_rate, TICK_S);
-        if (asked.over_ground || amended != asked.course) && speed > 0.0 {
-            let fastest = self.limits[Channel::Speed as usize].1;
+        let fastest = self.limits[Channel::Speed as usize].1;
+        let (heading, speed) = if (asked.over_ground || amended != asked.course) && speed > 0.0 {
             let water = through_water(course, speed, self.w.flow(), fastest);
-            let command = Command { heading: water.heading, speed: water.speed, vertical };
-            return *self.bottom.commanded.insert(command);
-        }
-        *self.bottom.commanded.insert(Command { heading: course, speed: speed.max(0.0), vertical })
+            (water.heading, water.speed)
+        } else {
+            (course, speed.max(0.0))
+        };
+        let speed = self.lift(speed, vertical);
+        *self.bottom.commanded.insert(Command { heading, speed, vertical })
     }
 
     pub(super) fn limit(&mut self, channel: Channel, asked: f64) -> f64 {
