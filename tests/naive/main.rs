@@ -179,16 +179,16 @@ fn absurd_samples() {
 /// Vehicles that sink make way by both sides alike: under each kind of limit some are lifted and rise, and some make it in vain.
 #[test]
 fn lifts() {
-    let limits = [
+    let kinds = [
         "altitude >= 2 m, depth <= 11.5 m, speed <= 1.8 m/s",
         "altitude >= 5 m",
         "altitude >= 4 m, depth >= 1 m, speed <= 1 m/s",
         "depth <= 8 m",
         "speed <= 2 m/s",
     ];
-    let count = from_environment("NAIVE_COUNT", FEW);
+    let (first, count) = (from_environment("NAIVE_SEED", 1), from_environment("NAIVE_COUNT", FEW));
     let (mut differences, mut in_vain) = (Vec::new(), 0);
-    for limits in limits {
+    for (kind, limits) in (0..).zip(kinds) {
         let text = format!(
             "mission sinks within 95 s {{
                 area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
@@ -208,14 +208,14 @@ fn lifts() {
         let said: Vec<String> = script.findings.iter().map(|finding| finding.message.clone()).collect();
         assert!(script.is_sound(), "{said:#?}");
         let mut had = BTreeMap::new();
-        for seed in 0..count {
+        // The last once differed: a vehicle that was too deep in its first tick counted as sinking from the surface.
+        for seed in (first + kind..first + count).step_by(kinds.len()).chain([497]) {
             let run = compare::compare(&script, "sinks", &mut Heavy::new(seed), TICKS_MAX);
             differences.extend(run.difference.map(|difference| format!("{limits}, seed {seed}: {difference}")));
             for event in run.events {
                 *had.entry(event.split(' ').next().unwrap_or_default().to_string()).or_insert(0) += 1;
             }
         }
-        println!("{limits}: {had:?}");
         assert!(count < FEW || ["lifted", "risen"].iter().all(|event| had.contains_key(*event)), "{limits}: {had:?}");
         in_vain += had.get("lifted_in_vain").copied().unwrap_or(0);
     }

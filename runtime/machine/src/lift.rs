@@ -61,8 +61,8 @@ impl Run {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
         let (tick, depth) = (self.state.tick, self.depth());
-        // Somebody else drove since: what way has done or not is not ours.
-        let is_anew = tick > self.state.lift_tick + 1;
+        // Nobody or somebody else drove before: what way has done or not is not ours.
+        let is_anew = self.state.command.is_none() || tick > self.state.lift_tick + 1;
         self.state.lift_tick = tick;
         // Who dives as told does not sink.
         let sinks = match vertical {
